@@ -1,0 +1,37 @@
+#include "cli/command.h"
+
+#include "weft/session.h"
+
+#include <iostream>
+
+namespace weft::cli {
+
+Command add_check(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("check", "every problem of a scene, each with its place");
+    auto scene = std::make_shared<std::string>();
+    command->add_option("scene", *scene, "scene file")->required();
+    command->footer("Example:\n  weft check scenes/hanging_bunny.json");
+    return [scene] {
+        auto session = Session::open(*scene, {});
+        if (!session) {
+            print_errors(session.errors());
+            return exit_usage;
+        }
+        for (const std::string& note : session->notes()) print_warning(note);
+        for (const ClothFrame& cloth : session->world().frame().cloths) {
+            const ClothModel& model = *cloth.model;
+            std::cout << *scene << ": cloth '" << model.name << "': " << model.particle_count << " particles ("
+                      << model.pinned_count << " pinned), " << model.topology.triangles.size() << " triangles";
+            for (const ConstraintTable& table : model.constraints) {
+                std::cout << ", " << table.rows << ' ' << constraint_info(table.kind).name << " rows in "
+                          << table.batches.size() << " batches";
+                if (table.overflow()) std::cout << " (" << table.overflow() << " rows in the overflow)";
+            }
+            std::cout << '\n';
+        }
+        std::cout << *scene << ": ok\n";
+        return exit_done;
+    };
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,29 @@
+// What the subcommands share.
+#pragma once
+
+#include <weft/result.h>
+#include <weft/simulation.h>
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace weft::cli {
+
+enum ExitCode : int { exit_done = 0, exit_failed = 1, exit_usage = 2 };
+
+/// `weft: error: …`, a line each, on stderr.
+void print_errors(const Errors& errors);
+void print_warning(const std::string& text);
+
+/// --backend, --threads, … with their checks.
+void add_common_options(CLI::App& command, Options& options);
+
+/// A subcommand: adds itself to the program and returns what to run if it is the one chosen.
+using Command = std::function<int()>;
+Command add_run(CLI::App& program);
+Command add_check(CLI::App& program);
+Command add_info(CLI::App& program);
+
+}  // namespace weft::cli

@@ -1,0 +1,126 @@
+#include "cli/command.h"
+
+#include "cpu/cpu_backend.h"
+#include "io/exporter.h"
+#include "io/mesh_file.h"
+#include "scene/fabric.h"
+
+#include <weft/weft.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+
+namespace weft::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json value_json(const Parameter& parameter, const void* base) {
+    const auto* at = static_cast<const char*>(base) + parameter.offset;
+    if (parameter.kind == ParameterKind::flag) return *reinterpret_cast<const bool*>(at);
+    const auto* numbers = reinterpret_cast<const float*>(at);
+    if (parameter.kind == ParameterKind::angle_or_mesh && std::isnan(*numbers)) return "mesh";
+    // Through text, so that 0.14f reads 0.14 and not 0.14000000059604645.
+    const auto number = [](float x) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.7g", static_cast<double>(x));
+        return Json::parse(text);
+    };
+    if (parameter.count == 1) return number(*numbers);
+    Json list = Json::array();
+    for (unsigned i = 0; i < parameter.count; ++i) list.push_back(number(numbers[i]));
+    return list;
+}
+
+Json fabric_json(const FabricPreset& preset) {
+    Json fabric = {{"name", preset.name}, {"source", preset.source}};
+    for (const FabricTable& table : fabric_tables()) {
+        for (const Parameter& parameter : table.parameters) {
+            fabric[std::string(parameter.key)] =
+                value_json(parameter, reinterpret_cast<const char*>(&preset.fabric) + table.offset);
+        }
+    }
+    return fabric;
+}
+
+Json gather() {
+    Json info;
+    info["version"] = version();
+    info["backends"] = {"cpu"};
+    info["instruction_sets"] = cpu_instruction_sets();
+    info["hardware_threads"] = std::thread::hardware_concurrency();
+    for (std::string_view ending : mesh_formats()) info["mesh_formats"].push_back(ending);
+    for (const ExportFormat& format : export_formats()) {
+        info["export_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
+    }
+    Json units;
+    for (const FabricTable& table : fabric_tables()) {
+        for (const Parameter& parameter : table.parameters) {
+            if (!parameter.unit.empty()) units[std::string(parameter.key)] = parameter.unit;
+        }
+    }
+    info["fabric_units"] = units;
+    for (const FabricPreset& preset : fabric_presets()) info["fabrics"].push_back(fabric_json(preset));
+    return info;
+}
+
+std::string joined(const Json& list) {
+    std::string text;
+    for (const Json& item : list) text += (text.empty() ? "" : ", ") + item.get<std::string>();
+    return text;
+}
+
+std::string triple(const Json& values, double scale, const char* format) {
+    std::string text;
+    for (const Json& value : values) {
+        char number[32];
+        std::snprintf(number, sizeof number, format, value.get<double>() * scale);
+        text += (text.empty() ? "" : "/") + std::string(number);
+    }
+    return text;
+}
+
+void print_text(const Json& info) {
+    std::cout << "weft " << info["version"].get<std::string>() << '\n'
+              << "backends          " << joined(info["backends"]) << '\n'
+              << "instruction sets  " << joined(info["instruction_sets"]) << " (the first is used)\n"
+              << "hardware threads  " << info["hardware_threads"] << '\n'
+              << "reads meshes      " << joined(info["mesh_formats"]) << '\n'
+              << "writes\n";
+    for (const Json& format : info["export_formats"]) {
+        std::printf("  %-6s %s\n", format["ending"].get<std::string>().c_str(),
+                    format["what"].get<std::string>().c_str());
+    }
+    std::printf("fabrics\n  %-12s %8s  %-11s %8s  %-15s  %s\n", "name", "kg/m²", " stretch N/m", "shear N/m",
+                "bend µN·m", "source");
+    std::printf("  %-12s %7s  %-11s %9s  %-15s\n", "", "", "warp/weft", "", "warp/bias/weft");
+    for (const Json& fabric : info["fabrics"]) {
+        std::printf("  %-12s %7.4f  %-11s %9.0f  %-15s  %s\n", fabric["name"].get<std::string>().c_str(),
+                    fabric["density"].get<double>(), triple(fabric["stretch"], 1, "%.0f").c_str(),
+                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(),
+                    fabric["source"].get<std::string>().c_str());
+    }
+}
+
+}  // namespace
+
+Command add_info(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("info", "instruction sets, threads, formats, fabrics with their values");
+    auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "as JSON");
+    return [json] {
+        const Json info = gather();
+        if (*json) {
+            std::cout << info.dump(2) << '\n';
+        } else {
+            print_text(info);
+        }
+        return exit_done;
+    };
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,91 @@
+#include "cli/command.h"
+
+#include <weft/weft.h>
+
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <new>
+
+namespace weft::cli {
+
+void print_errors(const Errors& errors) {
+    for (const Error& error : errors) std::cerr << "weft: error: " << error.message() << '\n';
+}
+
+void print_warning(const std::string& text) {
+    std::cerr << "weft: warning: " << text << '\n';
+}
+
+void add_common_options(CLI::App& command, Options& options) {
+    command.add_option("--backend", options.backend, "auto or cpu")->capture_default_str();
+    command.add_option("--threads", options.threads, "threads in all, 1 to 256; never changes the result")
+        ->capture_default_str();
+    command.add_option("--isa", options.isa, "instruction set, see weft info; never changes the result");
+    command.add_option("--substeps", options.substeps, "per frame, instead of the scene's");
+    command.add_option("--iterations", options.iterations, "per substep, instead of the scene's");
+}
+
+namespace {
+
+// CLI11 answers a wrong word with several lines; the house says one.
+int usage_error(const CLI::App& program, const CLI::ParseError& error) {
+    std::string text = error.what();
+    for (char& c : text) {
+        if (c == '\n') c = ' ';
+    }
+    std::string command = "weft";
+    for (const CLI::App* chosen : program.get_subcommands()) command += ' ' + chosen->get_name();
+    std::cerr << "weft: error: " << text << "; see " << command << " --help\n";
+    return exit_usage;
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App program{"weft: real-time cloth. Simulates a scene, exports it, and says how well it did.", "weft"};
+    program.set_version_flag("--version", std::string("weft ") + version());
+    program.require_subcommand(1);
+    program.footer(
+        "Examples:\n"
+        "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb\n"
+        "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.obj --stats stats.json\n"
+        "  weft check scenes/hanging_bunny.json\n"
+        "  weft info\n"
+        "Exit status: 0 done, 1 failed while running, 2 wrong input or usage.");
+
+    std::map<std::string, Command> commands;
+    commands["run"] = add_run(program);
+    commands["check"] = add_check(program);
+    commands["info"] = add_info(program);
+
+    if (argc > 1 && argv[1][0] != '-' && !commands.count(argv[1])) {
+        std::string known;
+        for (const auto& [name, command] : commands) known += (known.empty() ? "" : ", ") + name;
+        std::cerr << "weft: error: unknown command '" << argv[1] << "'; there are " << known << '\n';
+        return exit_usage;
+    }
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+        return usage_error(program, error);
+    }
+    return commands.at(program.get_subcommands().front()->get_name())();
+}
+
+}  // namespace
+}  // namespace weft::cli
+
+int main(int argc, char** argv) {
+    // A file past the system's size limit is an error to report, not a reason to die.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return weft::cli::run_program(argc, argv);
+    } catch (const std::bad_alloc&) {
+        weft::cli::print_errors({{"", "out of memory"}});
+    } catch (const std::exception& error) {
+        weft::cli::print_errors({{"", error.what()}});
+    }
+    return weft::cli::exit_failed;
+}

@@ -1,0 +1,25 @@
+// How far a run is: a bar on a terminal, plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace weft::cli {
+
+class Progress {
+  public:
+    /// On stderr. `quiet` says nothing at all.
+    Progress(std::string what, std::uint64_t total, bool quiet);
+    ~Progress();
+    void update(std::uint64_t done);
+
+  private:
+    std::string what_;
+    std::uint64_t total_;
+    bool quiet_, terminal_, drawn_ = false;
+    std::uint64_t next_line_ = 0;
+    std::chrono::steady_clock::time_point begin_, last_draw_;
+};
+
+}  // namespace weft::cli

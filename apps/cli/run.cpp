@@ -1,0 +1,153 @@
+#include "cli/command.h"
+
+#include "cli/progress.h"
+#include "cli/stats.h"
+#include "io/exporter.h"
+#include "weft/session.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace weft::cli {
+namespace {
+
+constexpr double default_seconds = 2;
+constexpr double max_frames = 1e6;
+
+struct RunOptions {
+    std::string scene;
+    std::optional<double> frames, seconds;
+    std::vector<std::string> outputs;
+    std::string stats;
+    bool quiet = false;
+    Options common;
+};
+
+using Exporters = std::vector<std::unique_ptr<Exporter>>;
+
+Result<std::uint64_t> frame_count(const RunOptions& options, const Session& session) {
+    double frames = std::round(options.seconds.value_or(default_seconds) / session.frame_seconds());
+    if (options.frames) {
+        frames = *options.frames;
+        if (frames != std::floor(frames)) return Error{"--frames", "must be a whole number"};
+    }
+    const std::string name = options.frames ? "--frames" : "--seconds";
+    if (!(frames >= 1 && frames <= max_frames)) {
+        char text[96];
+        std::snprintf(text, sizeof text, "must come to 1 to %.0f frames, got %g", max_frames, frames);
+        return Error{name, text};
+    }
+    return static_cast<std::uint64_t>(frames);
+}
+
+Result<Exporters> open_exporters(const RunOptions& options) {
+    Exporters exporters;
+    Errors errors;
+    for (const std::string& path : options.outputs) {
+        auto exporter = make_exporter(path);
+        if (exporter) {
+            exporters.push_back(std::move(*exporter));
+        } else {
+            errors.insert(errors.end(), exporter.errors().begin(), exporter.errors().end());
+        }
+    }
+    if (!errors.empty()) return errors;
+    return exporters;
+}
+
+Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
+                      bool quiet) {
+    for (auto& exporter : exporters) {
+        if (auto begun = exporter->begin({session.scene().name, session.scene().frame_rate, frames + 1}); !begun) {
+            return begun;
+        }
+    }
+    DrawnFrame drawn;
+    const auto write = [&]() -> Result<Done> {
+        if (exporters.empty()) return Done{};
+        const Frame& frame = session.world().frame();
+        drawn.update(frame);
+        for (auto& exporter : exporters) {
+            if (auto written = exporter->write({frame.index, frame.time, drawn.surfaces()}); !written) return written;
+        }
+        return Done{};
+    };
+    if (auto written = write(); !written) return written;
+
+    Progress progress("simulating", frames, quiet);
+    bool warned = false;
+    for (std::uint64_t i = 1; i <= frames; ++i) {
+        const Frame& frame = session.step();
+        statistics.add(frame);
+        for (const ClothFrame& cloth : frame.cloths) {
+            if (warned || !(cloth.reports & report_non_finite)) continue;
+            print_warning("frame " + std::to_string(i) + ": cloth '" + cloth.model->name +
+                          "' is held where the frame began: " + cloth.detail);
+            warned = true;
+        }
+        if (auto written = write(); !written) return written;
+        progress.update(i);
+    }
+    for (auto& exporter : exporters) {
+        if (auto finished = exporter->finish(); !finished) return finished;
+    }
+    return Done{};
+}
+
+int run(const RunOptions& options) {
+    const auto wrong = [](const Errors& errors) {
+        print_errors(errors);
+        return exit_usage;
+    };
+    auto exporters = open_exporters(options);
+    if (!exporters) return wrong(exporters.errors());
+    auto session = Session::open(options.scene, options.common);
+    if (!session) return wrong(session.errors());
+    const auto frames = frame_count(options, *session);
+    if (!frames) return wrong(frames.errors());
+    for (const std::string& note : session->notes()) print_warning(note);
+
+    RunStatistics statistics(*session, *frames);
+    if (auto done = simulate(*session, *frames, *exporters, statistics, options.quiet); !done) {
+        print_errors(done.errors());
+        return exit_failed;
+    }
+    if (options.quiet && options.stats.empty()) return exit_done;
+    const auto stats = statistics.gather(*session, options.scene);
+    if (!options.stats.empty()) {
+        if (auto written = write_stats(stats, options.stats); !written) {
+            print_errors(written.errors());
+            return exit_failed;
+        }
+    }
+    if (!options.quiet) {
+        print_summary(stats);
+        for (const std::string& path : options.outputs) std::printf("wrote %s\n", path.c_str());
+        if (!options.stats.empty()) std::printf("wrote %s\n", options.stats.c_str());
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+Command add_run(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("run", "simulates a scene, exports it, measures it");
+    auto options = std::make_shared<RunOptions>();
+    command->add_option("scene", options->scene, "scene file")->required();
+    auto* frames = command->add_option("--frames", options->frames, "how many frames to simulate");
+    command->add_option("--seconds", options->seconds, "how many seconds instead (default 2)")->excludes(frames);
+    command
+        ->add_option("--out", options->outputs,
+                     ".glb (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
+        ->allow_extra_args(false);
+    command->add_option("--stats", options->stats, "write the run's figures to this JSON file");
+    command->add_flag("--quiet", options->quiet, "no progress, no summary");
+    add_common_options(*command, options->common);
+    command->footer(
+        "Examples:\n"
+        "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb --stats stats.json\n"
+        "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.ply --threads 2");
+    return [options] { return run(*options); };
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,42 @@
+// The figures of a run: gathered frame by frame, written as JSON, summed up for a human.
+#pragma once
+
+#include "weft/session.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace weft::cli {
+
+class RunStatistics {
+  public:
+    /// `frames` steps are going to be run.
+    RunStatistics(const Session& session, std::uint64_t frames);
+
+    /// After every step.
+    void add(const Frame& frame);
+
+    /// After the last one: everything that --stats writes. Counting intersections takes a while on large meshes.
+    nlohmann::ordered_json gather(const Session& session, const std::string& scene_file) const;
+
+  private:
+    double mean_speed(const Frame& frame) const;
+
+    double frame_seconds_;
+    std::uint64_t snapshot_frame_;
+    std::vector<Vec3> snapshot_;  ///< positions a second before the end
+    double snapshot_time_ = 0;
+    std::vector<double> step_ms_;
+    std::array<double, stage_count> stage_ms_{};
+    std::uint32_t reports_ = report_none;
+};
+
+Result<Done> write_stats(const nlohmann::ordered_json& stats, const std::filesystem::path& file);
+
+/// A few lines on stdout.
+void print_summary(const nlohmann::ordered_json& stats);
+
+}  // namespace weft::cli

@@ -1,0 +1,73 @@
+// Nanoseconds per row and iteration of every constraint, on a square sheet, for every instruction set of this machine.
+
+#include "cpu/cloth_state.h"
+#include "cpu/passes.h"
+#include "mesh/procedural.h"
+
+#include <benchmark/benchmark.h>
+
+#include <map>
+#include <string>
+
+namespace {
+
+using namespace weft;
+
+std::shared_ptr<const ClothModel> sheet(std::uint32_t side) {
+    static std::map<std::uint32_t, std::shared_ptr<const ClothModel>> made;
+    auto& model = made[side];
+    if (!model) {
+        TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
+        auto topology = build_topology(mesh, {.reorder = false});
+        model = *build_cloth_model(
+            {.name = "sheet", .mesh = std::move(mesh), .fabric = {}, .pinned_particles = {0, side - 1}},
+            std::move(*topology));
+    }
+    return model;
+}
+
+// All batches of one constraint, once per iteration, as a step does with one iteration a substep.
+void project(benchmark::State& state, const cpu::Passes* passes, ConstraintKind kind, std::uint32_t side) {
+    cpu::ClothState cloth(sheet(side));
+    const ConstraintTable& table = cloth.model->table(kind);
+    const cpu::ParticleView particles = cloth.now.view();
+    const cpu::RowView rows = cloth.rows(kind);
+    const auto index = static_cast<std::uint32_t>(kind);
+    for (auto _ : state) {
+        for (const Batch& batch : table.batches) {
+            if (batch.serial) {
+                cpu::scalar_passes().project[index](particles, rows, {batch.begin, batch.begin + batch.rows},
+                                                    1.0f / 1200, cpu::LambdaUse::discard);
+            } else {
+                passes->project[index](particles, rows, {batch.begin, batch.padded_end()}, 1.0f / 1200,
+                                       cpu::LambdaUse::discard);
+            }
+        }
+        benchmark::ClobberMemory();
+    }
+    state.counters["ns/row"] =
+        benchmark::Counter(static_cast<double>(table.rows) * 1e-9,
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["rows"] = table.rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    for (const cpu::Passes* passes : cpu::available_passes()) {
+        for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+            for (const std::uint32_t side : {64u, 256u}) {
+                const auto constraint = static_cast<ConstraintKind>(kind);
+                const std::string name = std::string(constraint_info(constraint).name) + "/" + std::to_string(side) +
+                                         "x" + std::to_string(side) + "/" + std::string(passes->isa);
+                benchmark::RegisterBenchmark(name.c_str(), project, passes, constraint, side)
+                    ->Unit(benchmark::kMicrosecond);
+            }
+        }
+    }
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

@@ -1,0 +1,52 @@
+# One static library per folder of src/, from every .cpp in it. Files named *.test.cpp go into that folder's own test
+# program. A new constraint, exporter or shape is therefore a file in its folder and nothing here.
+
+find_package(Threads REQUIRED)
+
+add_library(weft_options INTERFACE)
+target_compile_features(weft_options INTERFACE cxx_std_20)
+target_include_directories(weft_options INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+target_compile_options(weft_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+    # No silent fused multiply-add: the same source must give the same bits on every instruction set.
+    -ffp-contract=off
+    # GCC 12 sees overlaps in std::string's own code (its bug 105651).
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+target_compile_definitions(weft_options INTERFACE WEFT_VERSION="${PROJECT_VERSION}")
+if(WEFT_SANITIZE)
+    target_compile_options(weft_options INTERFACE -fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer
+        -fno-sanitize-recover=all)
+    target_link_options(weft_options INTERFACE -fsanitize=${WEFT_SANITIZE})
+endif()
+
+function(weft_test name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE ${ARG_LINK} weft_options GTest::gtest_main GTest::gmock)
+    target_compile_definitions(${name} PRIVATE WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+        WEFT_BINARY_DIR="${PROJECT_BINARY_DIR}")
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()
+
+function(weft_module name)
+    cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+    set(folder ${PROJECT_SOURCE_DIR}/src/${name})
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    set(tests ${sources})
+    list(FILTER tests INCLUDE REGEX "\\.test\\.cpp$")
+    list(FILTER sources EXCLUDE REGEX "\\.test\\.cpp$")
+
+    add_library(weft_${name} STATIC ${sources})
+    add_library(weft::${name} ALIAS weft_${name})
+    target_link_libraries(weft_${name} PUBLIC weft_options Threads::Threads)
+    foreach(floor ${ARG_DEPENDS})
+        target_link_libraries(weft_${name} PUBLIC weft::${floor})
+    endforeach()
+    if(EXISTS ${folder}/dependencies.cmake)   # third-party packages of this folder alone
+        include(${folder}/dependencies.cmake)
+    endif()
+
+    if(WEFT_TESTS AND tests)
+        weft_test(${name}_tests SOURCES ${tests} LINK weft::${name})
+    endif()
+endfunction()

@@ -1,0 +1,41 @@
+// Placement of meshes and colliders: rotation and position, angles in degrees.
+#pragma once
+
+#include <weft/vector.h>
+
+namespace weft {
+
+/// Column vectors of a rotation.
+struct Mat3 {
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    friend constexpr bool operator==(const Mat3&, const Mat3&) = default;
+};
+
+constexpr Vec3 operator*(const Mat3& m, Vec3 v) {
+    return m.x * v.x + m.y * v.y + m.z * v.z;
+}
+constexpr Mat3 operator*(const Mat3& a, const Mat3& b) {
+    return {a * b.x, a * b.y, a * b.z};
+}
+constexpr Mat3 transposed(const Mat3& m) {
+    return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
+}
+
+/// R = Rz·Ry·Rx, angles in degrees about the fixed axes. Multiples of 90° are exact.
+Mat3 rotation_from_degrees(Vec3 degrees);
+
+/// world = rotation · local + position
+struct Pose {
+    Mat3 rotation;
+    Vec3 position;
+    friend constexpr bool operator==(const Pose&, const Pose&) = default;
+};
+
+constexpr Vec3 to_world(const Pose& pose, Vec3 local) {
+    return pose.rotation * local + pose.position;
+}
+constexpr Vec3 to_local(const Pose& pose, Vec3 world) {
+    return transposed(pose.rotation) * (world - pose.position);
+}
+
+}  // namespace weft

@@ -1,0 +1,91 @@
+// A bounding volume hierarchy over boxes: which of many boxes overlap a given one, or each other.
+#pragma once
+
+#include "base/bounds.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft {
+
+/// A binary tree over numbered boxes. The same boxes give the same tree and the same order of visits. Empty boxes
+/// overlap nothing; others must be finite.
+class Bvh {
+  public:
+    Bvh() = default;
+    /// Splits at the median of the boxes' centers along the longest axis, so the depth is at most log2 of their number.
+    explicit Bvh(std::span<const Bounds> boxes);
+
+    /// Takes new boxes, one for each of the old, into the tree as it is. Right whatever the boxes, fast while those
+    /// that were close stay close.
+    void refit(std::span<const Bounds> boxes);
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
+    Bounds bounds() const { return nodes_.empty() ? Bounds{} : nodes_[0].bounds; }
+
+    /// Calls visit(i) for every box i that overlaps `box`, touching included.
+    template <class Visit>
+    void for_each_overlap(const Bounds& box, Visit&& visit) const {
+        walk(0, box, [&](const Node& leaf) {
+            for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
+                if (boxes_[k].overlaps(box)) visit(items_[k]);
+            }
+        });
+    }
+
+    /// Calls visit(i, j), i < j, once for every two boxes that overlap, touching included.
+    template <class Visit>
+    void for_each_pair(Visit&& visit) const {
+        for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+            const Node& leaf = nodes_[n];
+            if (leaf.count == 0) continue;
+            for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
+                test_pairs(k, k + 1, leaf.first + leaf.count, visit);
+            }
+            // Nodes lie depth first: all leaves that were not paired with this one before come after it.
+            walk(leaf.skip, leaf.bounds, [&](const Node& other) {
+                for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
+                    test_pairs(k, other.first, other.first + other.count, visit);
+                }
+            });
+        }
+    }
+
+  private:
+    /// Depth first: the left child is the next node, the right one follows where the left one ends. A walk that is done
+    /// with a node, or has no interest in it, goes on at `skip`, so it needs no stack.
+    struct Node {
+        Bounds bounds;
+        std::uint32_t skip = 0;
+        std::uint32_t first = 0;  // of the leaf's entries in items_ and boxes_
+        std::uint32_t count = 0;  // 0: an inner node
+    };
+
+    template <class VisitLeaf>
+    void walk(std::uint32_t from, const Bounds& box, VisitLeaf&& visit_leaf) const {
+        for (std::uint32_t n = from; n < nodes_.size();) {
+            const Node& node = nodes_[n];
+            const bool overlaps = node.bounds.overlaps(box);
+            if (overlaps && node.count > 0) visit_leaf(node);
+            n = overlaps ? n + 1 : node.skip;
+        }
+    }
+
+    template <class Visit>
+    void test_pairs(std::uint32_t k, std::uint32_t begin, std::uint32_t end, Visit& visit) const {
+        for (std::uint32_t other = begin; other < end; ++other) {
+            if (!boxes_[k].overlaps(boxes_[other])) continue;
+            visit(items_[k] < items_[other] ? items_[k] : items_[other],
+                  items_[k] < items_[other] ? items_[other] : items_[k]);
+        }
+    }
+
+    void build(std::uint32_t first, std::uint32_t count, std::span<const Bounds> boxes, std::span<const Vec3> centers);
+
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> items_;  // numbers of the boxes, leaf by leaf
+    std::vector<Bounds> boxes_;         // the boxes in that order: neighbors in space are neighbors in memory
+};
+
+}  // namespace weft

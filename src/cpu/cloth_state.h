@@ -1,0 +1,36 @@
+// What changes while a cloth moves, as the CPU backend keeps it.
+#pragma once
+
+#include "base/aligned.h"
+#include "cpu/passes.h"
+#include "solver/cloth_model.h"
+
+#include <array>
+#include <memory>
+
+namespace weft::cpu {
+
+/// The arrays that a step goes on from; what rollback restores and what the state hash covers.
+struct Particles {
+    AlignedVector<Vec4> position, start, velocity, carry;  ///< as in ParticleView
+
+    ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
+};
+
+struct ClothState {
+    explicit ClothState(std::shared_ptr<const ClothModel> cloth_model);
+
+    std::shared_ptr<const ClothModel> model;
+    Particles now;
+    Particles last_good;  ///< as the current frame found them
+    std::array<AlignedVector<float>, constraint_kind_count> lambda;
+    AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
+    AlignedVector<Vec4> face_normals, normals;
+    double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
+
+    RowView rows(ConstraintKind kind);
+    SurfaceView surface();
+    void update_normals();
+};
+
+}  // namespace weft::cpu

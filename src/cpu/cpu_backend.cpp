@@ -1,0 +1,119 @@
+#include "cpu/cpu_backend.h"
+
+#include "base/hash.h"
+#include "cpu/cloth_state.h"
+#include "cpu/executor.h"
+#include "cpu/passes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+class CpuBackend final : public Backend {
+  public:
+    CpuBackend(const cpu::Passes& passes, unsigned workers)
+        : passes_(passes), team_(workers), executor_(passes, team_) {}
+
+    std::string_view name() const override { return "cpu"; }
+    std::string device() const override {
+        return std::string(passes_.isa) + ", " + std::to_string(passes_.lanes) +
+               (passes_.lanes == 1 ? " lane" : " lanes");
+    }
+    unsigned threads() const override { return team_.ranks(); }
+
+    ClothId add_cloth(std::shared_ptr<const ClothModel> model) override {
+        cloths_.push_back(std::make_unique<cpu::ClothState>(std::move(model)));
+        return {static_cast<std::uint32_t>(cloths_.size())};
+    }
+
+    void step(ClothId id, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
+              std::array<double, stage_count>& stage_ms) override {
+        cpu::ClothState& state = cloth(id);
+        frame.reports = executor_.run(state, plan, input, stage_ms);
+        frame.detail.clear();
+        if (frame.reports & report_non_finite) {
+            state.now = state.last_good;
+            frame.detail = executor_.find_non_finite(state, plan, input);
+            state.now = state.last_good;
+            state.update_normals();
+        }
+        read(id, frame);
+    }
+
+    void read(ClothId id, ClothFrame& frame) const override {
+        const cpu::ClothState& state = cloth(id);
+        const std::uint32_t count = state.model->particle_count;
+        frame.model = state.model.get();
+        frame.positions = std::span(state.now.position).first(count);
+        frame.velocities = std::span(state.now.velocity).first(count);
+        frame.normals = std::span(state.normals).first(count);
+    }
+
+    Residual stretch_residual(ClothId id) const override {
+        const cpu::ClothState& state = cloth(id);
+        const ConstraintTable& table = state.model->table(ConstraintKind::stretch);
+        const double h2 = state.substep_seconds * state.substep_seconds;
+        Residual residual;
+        for (std::uint32_t row = 0; row < table.stride; ++row) {
+            if (table.source[row] == none) continue;
+            const Vec3 a = state.now.position[table.particles[row]].xyz();
+            const Vec3 b = state.now.position[table.particles[table.stride + row]].xyz();
+            const double rest = table.fields[row];
+            const double c = static_cast<double>(length(a - b)) - rest;
+            const double compliance = table.fields[(c > 0 ? 1 : 2) * std::size_t{table.stride} + row];
+            const double lambda = state.lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)][row];
+            // No stiffness on this side: nothing was to be solved.
+            const double left = compliance < 0 ? 0 : std::abs(c + (h2 > 0 ? compliance / h2 * lambda : 0)) / rest;
+            residual.mean += left;
+            residual.max = std::max(residual.max, left);
+        }
+        if (table.rows > 0) residual.mean /= table.rows;
+        return residual;
+    }
+
+    void hash(ClothId id, StateHash& hash) const override {
+        const cpu::ClothState& state = cloth(id);
+        for (std::uint32_t p = 0; p < state.model->particle_count; ++p) {
+            for (const Vec4& v : {state.now.position[p], state.now.velocity[p], state.now.carry[p]}) {
+                hash.add(v.x), hash.add(v.y), hash.add(v.z), hash.add(v.w);
+            }
+            hash.add(state.now.start[p].w);
+        }
+    }
+
+  private:
+    cpu::ClothState& cloth(ClothId id) const {
+        assert(id.value >= 1 && id.value <= cloths_.size());
+        return *cloths_[id.value - 1];
+    }
+
+    const cpu::Passes& passes_;
+    WorkerTeam team_;
+    cpu::Executor executor_;
+    std::vector<std::unique_ptr<cpu::ClothState>> cloths_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
+    if (options.workers > 255)
+        return Error{"threads", "must be at most 256, got " + std::to_string(options.workers + 1)};
+    const cpu::Passes* passes = options.isa.empty() ? cpu::available_passes().front() : cpu::find_passes(options.isa);
+    if (!passes) {
+        std::string known;
+        for (std::string_view isa : cpu_instruction_sets()) known += (known.empty() ? "" : ", ") + std::string(isa);
+        return Error{"instruction set '" + options.isa + "'", "this machine has " + known};
+    }
+    return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*passes, options.workers));
+}
+
+std::vector<std::string_view> cpu_instruction_sets() {
+    std::vector<std::string_view> names;
+    for (const cpu::Passes* passes : cpu::available_passes()) names.push_back(passes->isa);
+    return names;
+}
+
+}  // namespace weft

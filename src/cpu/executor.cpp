@@ -1,0 +1,257 @@
+#include "cpu/executor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+namespace weft::cpu {
+namespace {
+
+// m/s at which cloth that starts a substep inside a collider leaves it: quick for the eye, too slow to fling the cloth.
+constexpr float depenetration_speed = 1.0f;
+
+// The cap lets a particle pass this many edges (or thicknesses, if those are longer) in a substep. Beyond, no contact
+// could catch it and no constraint could tell which way back is.
+constexpr float capped_edges_per_substep = 10;
+
+class StageClock {
+  public:
+    explicit StageClock(std::array<double, stage_count>& stage_ms) : stage_ms_(stage_ms), since_(now()) {}
+
+    /// Call when a pass of `stage` begins.
+    void enter(std::uint32_t stage) {
+        if (stage == stage_) return;  // a reading costs 25 ns, a pass of a small cloth little more
+        stop();
+        stage_ = stage;
+    }
+    void stop() {
+        const auto t = now();
+        if (stage_ < stage_count) stage_ms_[stage_] += std::chrono::duration<double, std::milli>(t - since_).count();
+        since_ = t;
+    }
+
+  private:
+    static std::chrono::steady_clock::time_point now() { return std::chrono::steady_clock::now(); }
+
+    std::array<double, stage_count>& stage_ms_;
+    std::uint32_t stage_ = stage_count;
+    std::chrono::steady_clock::time_point since_;
+};
+
+bool finite4(const Vec4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+std::uint32_t first_non_finite(const ClothState& cloth) {
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+        if (!finite4(cloth.now.position[p]) || !finite4(cloth.now.velocity[p])) return p;
+    }
+    return none;
+}
+
+std::string row_at(const ClothState& cloth, const Pass& pass, std::uint32_t particle) {
+    const ConstraintTable& table = cloth.model->table(pass.constraint);
+    const Batch& batch = table.batches[pass.batch];
+    for (std::uint32_t row = batch.begin; row < batch.begin + batch.rows; ++row) {
+        for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
+            if (table.particles[std::size_t{slot} * table.stride + row] == particle) {
+                return " row " + std::to_string(table.source[row]);
+            }
+        }
+    }
+    return "";
+}
+
+std::string name_input(const ClothState& cloth, const StepInput& input) {
+    if (!finite(input.gravity)) return "gravity is not finite";
+    for (std::size_t i = 0; i < input.poses.size(); ++i) {
+        const Pose& pose = input.poses[i];
+        if (!finite(pose.position) || !finite(pose.rotation.x) || !finite(pose.rotation.y) ||
+            !finite(pose.rotation.z)) {
+            return "the pose of collider '" + input.colliders[i % input.colliders.size()].name + "' is not finite";
+        }
+    }
+    const std::uint32_t p = first_non_finite(cloth);
+    return p == none ? "" : "particle " + std::to_string(p) + " was not finite when the frame began";
+}
+
+}  // namespace
+
+struct Executor::Frame {
+    ClothState& cloth;
+    const StepPlan& plan;
+    const StepInput& input;
+    ParticleView particles;
+    float h;
+    float max_speed;
+    float viscous;  // s²: retardation time times the frame that damping acts for
+};
+
+Executor::Frame Executor::make_frame(ClothState& cloth, const StepPlan& plan, const StepInput& input) const {
+    const double h = input.dt / plan.substeps;
+    const double reach = std::max(cloth.model->fabric.contact.thickness, cloth.model->mean_edge);
+    return {.cloth = cloth,
+            .plan = plan,
+            .input = input,
+            .particles = cloth.now.view(),
+            .h = static_cast<float>(h),
+            .max_speed = static_cast<float>(std::min(capped_edges_per_substep * reach / h, 1e18)),
+            .viscous = std::max(static_cast<float>(cloth.model->fabric.body.damping * input.dt), 1e-30f)};
+}
+
+std::uint32_t Executor::run(ClothState& cloth, const StepPlan& plan, const StepInput& input,
+                            std::array<double, stage_count>& stage_ms) {
+    const std::size_t sums = plan.iterations > 1 ? input.colliders.size() * cloth.model->capacity() : 0;
+    if (cloth.contact_sums.size() != sums) cloth.contact_sums.assign(sums, Vec4{});
+
+    const Frame frame = make_frame(cloth, plan, input);
+    std::array<double, stage_count> unused{};
+    for (Rank& rank : ranks_) rank.reports = report_none;
+    team_.run([&](unsigned rank) { run_rank(frame, rank, rank == 0 ? stage_ms : unused); });
+    cloth.substep_seconds = frame.h;
+
+    std::uint32_t reports = report_none;
+    for (const Rank& rank : ranks_) reports |= rank.reports;
+    return reports;
+}
+
+void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, stage_count>& stage_ms) {
+    std::array<double, stage_count> mine{};
+    StageClock clock(mine);
+    keep_last_good(frame, rank);
+    bool last_was_particle_wise = true;  // so was the copy above
+    const auto run_list = [&](const std::vector<Pass>& passes, std::uint32_t substep) {
+        for (const Pass& pass : passes) {
+            // Each rank owns the same particles in every pass over particles: from one such pass to the next nothing
+            // crosses ranks.
+            if (!(last_was_particle_wise && pass.particle_wise())) team_.meet();
+            clock.enter(stage_of(pass));
+            run_pass(frame, pass, substep, rank);
+            last_was_particle_wise = pass.particle_wise();
+        }
+    };
+    for (std::uint32_t substep = 0; substep < frame.plan.substeps; ++substep) run_list(frame.plan.substep, substep);
+    run_list(frame.plan.frame_end, frame.plan.substeps - 1);
+    team_.meet();
+    check_finite(frame, rank);
+    clock.stop();
+    if (rank == 0) {
+        for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms[stage] += mine[stage];
+    }
+}
+
+void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
+    const ClothModel& model = *frame.cloth.model;
+    const Share mine = share_of(padded(model.particle_count), lane_padding, rank, team_.ranks());
+    const Range particles{mine.begin, mine.end};
+    bool capped = false;
+    switch (pass.kind) {
+        case PassKind::predict:
+            capped = passes_.predict(frame.particles, particles, frame.input.gravity, frame.max_speed, frame.h);
+            break;
+        case PassKind::velocities:
+            capped = passes_.velocities(frame.particles, particles, frame.max_speed, frame.h);
+            break;
+        case PassKind::project:
+        case PassKind::damp:
+            run_rows(frame, pass, substep, rank);
+            break;
+        case PassKind::contact:
+            run_contacts(frame, pass, substep, rank);
+            break;
+        case PassKind::faces: {
+            const Share share = share_of(model.face_stride, lane_padding, rank, team_.ranks());
+            passes_.faces(frame.cloth.surface(), {share.begin, share.end});
+            break;
+        }
+        case PassKind::normals:
+            passes_.normals(frame.cloth.surface(), {mine.begin, std::min(mine.end, model.particle_count)});
+            break;
+    }
+    if (capped) ranks_[rank].reports |= report_speed_capped;
+}
+
+void Executor::run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
+    const ConstraintTable& table = frame.cloth.model->table(pass.constraint);
+    const Batch& batch = table.batches[pass.batch];
+    const Passes& passes = batch.serial ? scalar_passes() : passes_;
+    Range range{batch.begin, batch.begin + batch.rows};
+    if (batch.serial) {
+        if (rank != 0) return;
+    } else {
+        const Share share = share_of(padded(batch.rows), lane_padding, rank, team_.ranks());
+        range = {batch.begin + share.begin, batch.begin + share.end};
+    }
+    const auto kind = static_cast<std::uint32_t>(pass.constraint);
+    const RowView rows = frame.cloth.rows(pass.constraint);
+    if (pass.kind == PassKind::damp) {
+        passes.damp[kind](frame.particles, rows, range, frame.viscous);
+        return;
+    }
+    // Lambda is read again by a later iteration, or by whoever asks for the residual after the last substep.
+    const bool kept = frame.plan.iterations > 1 || substep + 1 == frame.plan.substeps;
+    const LambdaUse use = !pass.first_iteration ? LambdaUse::accumulate : kept ? LambdaUse::store : LambdaUse::discard;
+    passes.project[kind](frame.particles, rows, range, frame.h, use);
+}
+
+void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
+    const ClothModel& model = *frame.cloth.model;
+    const ContactMaterial& cloth = model.fabric.contact;
+    const Share share = share_of(padded(model.particle_count), lane_padding, rank, team_.ranks());
+    const std::size_t count = frame.input.colliders.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Collider& collider = frame.input.colliders[i];
+        const ContactView view{
+            .numbers = collider.numbers,
+            .now = frame.input.poses[(substep + 1) * count + i],
+            .before = frame.input.poses[substep * count + i],
+            .static_friction = std::sqrt(cloth.friction[0] * collider.friction[0]),
+            .kinetic_friction = std::sqrt(cloth.friction[1] * collider.friction[1]),
+            .half_thickness = 0.5f * cloth.thickness,
+            .depenetration = depenetration_speed * frame.h,
+            .sums = frame.cloth.contact_sums.empty() ? nullptr : &frame.cloth.contact_sums[i * model.capacity()].x,
+            .first_iteration = pass.first_iteration,
+        };
+        passes_.contact[static_cast<std::uint32_t>(collider.shape)](frame.particles, view, {share.begin, share.end});
+    }
+}
+
+void Executor::keep_last_good(const Frame& frame, unsigned rank) {
+    const Share share = share_of(padded(frame.cloth.model->particle_count), lane_padding, rank, team_.ranks());
+    const auto copy = [&](const AlignedVector<Vec4>& from, AlignedVector<Vec4>& to) {
+        std::copy(from.begin() + share.begin, from.begin() + share.end, to.begin() + share.begin);
+    };
+    copy(frame.cloth.now.position, frame.cloth.last_good.position);
+    copy(frame.cloth.now.start, frame.cloth.last_good.start);
+    copy(frame.cloth.now.velocity, frame.cloth.last_good.velocity);
+    copy(frame.cloth.now.carry, frame.cloth.last_good.carry);
+}
+
+void Executor::check_finite(const Frame& frame, unsigned rank) {
+    const Share share = share_of(padded(frame.cloth.model->particle_count), lane_padding, rank, team_.ranks());
+    const std::size_t begin = std::size_t{4} * share.begin, end = std::size_t{4} * share.end;
+    for (const float* array : {frame.particles.position, frame.particles.velocity, frame.particles.carry}) {
+        if (!passes_.all_finite(array, begin, end)) ranks_[rank].reports |= report_non_finite;
+    }
+}
+
+std::string Executor::find_non_finite(ClothState& cloth, const StepPlan& plan, const StepInput& input) {
+    if (std::string culprit = name_input(cloth, input); !culprit.empty()) return culprit;
+    WorkerTeam alone;
+    Executor single(passes_, alone);
+    const Frame frame = make_frame(cloth, plan, input);
+    for (std::uint32_t substep = 0; substep < plan.substeps; ++substep) {
+        for (const Pass& pass : plan.substep) {
+            single.run_pass(frame, pass, substep, 0);
+            const std::uint32_t p = first_non_finite(cloth);
+            if (p == none) continue;
+            std::string where = std::string(stage_name(stage_of(pass)));
+            if (pass.kind == PassKind::project) where += row_at(cloth, pass, p);
+            return where + " made particle " + std::to_string(p) + " non-finite in substep " + std::to_string(substep);
+        }
+    }
+    return "damping or a rounding carry became non-finite at the end of the frame";
+}
+
+}  // namespace weft::cpu

@@ -1,0 +1,88 @@
+// The inner loops of the CPU backend, one table per instruction set.
+#pragma once
+
+#include "base/transform.h"
+#include "physics/constraint.h"
+#include "solver/collider.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace weft::cpu {
+
+/// A contiguous part of particles, rows or triangles. For SIMD tables both ends are multiples of lane_padding.
+struct Range {
+    std::uint32_t begin, end;
+};
+
+/// State of a cloth: blocks of four floats, one per particle. The fourth floats hold, in this order, the inverse mass
+/// and the x, y and z of the velocity that rounding dropped (integrate.kernel.h).
+struct ParticleView {
+    float* position;
+    float* start;  ///< position at the start of the substep
+    float* velocity;
+    float* carry;  ///< what rounding dropped from the position
+};
+
+struct RowView {
+    std::uint32_t stride;
+    const std::uint32_t* particles;  ///< [slot · stride + row]
+    const float* fields;             ///< [field · stride + row]
+    float* lambda;                   ///< [row]
+};
+
+/// What happens to lambda, which restarts at 0 in every substep.
+enum class LambdaUse {
+    discard,     ///< starts at 0; nobody will ask for it
+    store,       ///< starts at 0 and is kept
+    accumulate,  ///< goes on from where the last iteration left it
+};
+
+struct ContactView {
+    std::array<float, 4> numbers;  ///< of the shape
+    Pose now, before;              ///< at the end and at the start of the substep
+    float static_friction, kinetic_friction;
+    float half_thickness, depenetration;  ///< m
+    float* sums;                          ///< a ContactSum per particle, or nullptr where one iteration is all there is
+    bool first_iteration;
+};
+
+struct SurfaceView {
+    const float* position;
+    const std::uint32_t* faces;  ///< [corner · stride + triangle]
+    std::uint32_t stride;
+    float* face_normals;           ///< blocks of four
+    const std::uint32_t* offsets;  ///< triangles at each particle
+    const std::uint32_t* triangles;
+    float* normals;  ///< blocks of four
+};
+
+struct Passes {
+    std::string_view isa;
+    int lanes;
+    /// Returns whether the speed cap acted.
+    bool (*predict)(const ParticleView&, Range, Vec3 gravity, float max_speed, float h);
+    bool (*velocities)(const ParticleView&, Range, float max_speed, float h);
+    std::array<void (*)(const ParticleView&, const RowView&, Range, float h, LambdaUse), constraint_kind_count> project;
+    /// `viscous`: retardation time times time step, s².
+    std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
+    std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
+    void (*faces)(const SurfaceView&, Range);
+    void (*normals)(const SurfaceView&, Range);
+    /// Whether every float in [begin, end) is finite; both multiples of lane_padding.
+    bool (*all_finite)(const float*, std::size_t begin, std::size_t end);
+};
+
+/// Sums over each particle's own list of triangles: one particle at a time on every instruction set.
+void normals_pass(const SurfaceView&, Range);
+
+/// One lane, on any machine.
+const Passes& scalar_passes();
+/// Every table that this machine can run, the widest first; the last is scalar_passes().
+std::span<const Passes* const> available_passes();
+/// nullptr if this machine has no such instruction set.
+const Passes* find_passes(std::string_view isa);
+
+}  // namespace weft::cpu

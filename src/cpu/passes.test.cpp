@@ -1,0 +1,210 @@
+// Every instruction set against one lane, constraint by constraint, on random and degenerate input: equal to the bit.
+#include "cpu/passes.h"
+
+#include "base/aligned.h"
+#include "solver/constraint_table.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+namespace weft::cpu {
+namespace {
+
+constexpr std::uint32_t particle_count = 400;
+
+struct Fixture {
+    AlignedVector<Vec4> position, start, velocity, carry;
+    ConstraintTable table;
+    AlignedVector<float> lambda;
+
+    ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
+    RowView rows() { return {table.stride, table.particles.data(), table.fields.data(), lambda.data()}; }
+};
+
+class Numbers {
+  public:
+    explicit Numbers(unsigned seed) : engine_(seed) {}
+    float uniform(float low, float high) {
+        return low + (high - low) * static_cast<float>(static_cast<double>(engine_()) / 4294967296.0);
+    }
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine_() % n); }
+
+  private:
+    std::mt19937 engine_;
+};
+
+// `nasty`: coincident points, zero weights, huge and tiny coordinates, negative and enormous compliances.
+Fixture random_state(unsigned seed, bool nasty) {
+    Numbers random(seed);
+    Fixture f;
+    const std::uint32_t capacity = particle_capacity(particle_count);
+    for (auto* array : {&f.position, &f.start, &f.velocity, &f.carry}) array->assign(capacity, Vec4{});
+    const auto scale = [&] { return nasty && random.below(4) == 0 ? std::pow(10.0f, random.uniform(-20, 12)) : 1.0f; };
+    for (std::uint32_t p = 0; p < particle_count; ++p) {
+        const float s = scale();
+        f.position[p] = {random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s), random.uniform(0, 50)};
+        f.start[p] = {f.position[p].x + random.uniform(-0.01f, 0.01f), f.position[p].y, f.position[p].z, 1e-8f};
+        f.velocity[p] = {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3), -1e-8f};
+        f.carry[p] = {1e-9f, -1e-9f, 1e-10f, 1e-9f};
+        if (random.below(10) == 0) f.position[p].w = 0;
+        if (nasty && random.below(5) == 0 && p > 0) f.position[p] = f.position[p - 1];
+    }
+    return f;
+}
+
+void add_rows(Fixture& f, ConstraintKind kind, unsigned seed, bool nasty) {
+    Numbers random(seed);
+    RowList rows = make_rows(kind);
+    for (int r = 0; r < 300; ++r) {
+        std::vector<std::uint32_t> chosen;
+        while (chosen.size() < rows.arity) {
+            const std::uint32_t p = random.below(particle_count);
+            if (std::find(chosen.begin(), chosen.end(), p) == chosen.end()) chosen.push_back(p);
+        }
+        rows.particles.insert(rows.particles.end(), chosen.begin(), chosen.end());
+        for (std::uint32_t k = 0; k < rows.field_count; ++k) {
+            float value = random.uniform(0, k == 0 ? 1.0f : 1e-3f);
+            if (nasty && random.below(4) == 0)
+                value = random.below(2) ? -1.0f : std::pow(10.0f, random.uniform(-30, 30));
+            rows.fields.push_back(value);
+        }
+    }
+    f.table = pack_rows(kind, rows, particle_count);
+    f.lambda.assign(f.table.stride, 0.25f);
+}
+
+void expect_same(const AlignedVector<Vec4>& a, const AlignedVector<Vec4>& b, std::string_view what) {
+    for (std::uint32_t p = 0; p < particle_count; ++p) {
+        const auto bits = [](const Vec4& v) { return std::bit_cast<std::array<std::uint32_t, 4>>(v); };
+        // The bits of a NaN are the machine's affair.
+        const auto same = [&](float x, float y, int k) {
+            return bits(a[p])[k] == bits(b[p])[k] || (std::isnan(x) && std::isnan(y));
+        };
+        ASSERT_TRUE(same(a[p].x, b[p].x, 0) && same(a[p].y, b[p].y, 1) && same(a[p].z, b[p].z, 2) &&
+                    same(a[p].w, b[p].w, 3))
+            << what << ", particle " << p << ": " << a[p].x << ' ' << a[p].y << ' ' << a[p].z << " against " << b[p].x
+            << ' ' << b[p].y << ' ' << b[p].z;
+    }
+}
+
+class InstructionSet : public testing::TestWithParam<const Passes*> {
+  protected:
+    /// Runs `f` on the tested table and on the scalar one, from the same state, and compares.
+    template <class F>
+    void compare(const Fixture& from, F&& f) {
+        Fixture ours = from, theirs = from;
+        f(*GetParam(), ours);
+        f(scalar_passes(), theirs);
+        expect_same(ours.position, theirs.position, "position");
+        expect_same(ours.start, theirs.start, "start");
+        expect_same(ours.velocity, theirs.velocity, "velocity");
+        expect_same(ours.carry, theirs.carry, "carry");
+        for (std::size_t r = 0; r < ours.lambda.size(); ++r) {
+            if (ours.table.source[r] == none) continue;
+            ASSERT_TRUE(std::bit_cast<std::uint32_t>(ours.lambda[r]) ==
+                            std::bit_cast<std::uint32_t>(theirs.lambda[r]) ||
+                        (std::isnan(ours.lambda[r]) && std::isnan(theirs.lambda[r])))
+                << "lambda of row " << r;
+        }
+    }
+};
+
+TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        for (unsigned seed = 0; seed < 20; ++seed) {
+            const bool nasty = seed % 2;
+            Fixture state = random_state(seed, nasty);
+            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
+            for (const LambdaUse use : {LambdaUse::discard, LambdaUse::store, LambdaUse::accumulate}) {
+                compare(state, [&](const Passes& passes, Fixture& f) {
+                    for (const Batch& batch : f.table.batches) {
+                        if (batch.serial) continue;
+                        passes.project[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()}, 1e-3f, use);
+                    }
+                });
+            }
+            compare(state, [&](const Passes& passes, Fixture& f) {
+                for (const Batch& batch : f.table.batches) {
+                    if (!batch.serial) passes.damp[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()}, 1e-3f);
+                }
+            });
+        }
+    }
+}
+
+TEST_P(InstructionSet, padding_rows_touch_no_particle) {
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        RowList rows = make_rows(static_cast<ConstraintKind>(kind));
+        for (std::uint32_t slot = 0; slot < rows.arity; ++slot) rows.particles.push_back(slot);
+        rows.fields.assign(rows.field_count, 0.5f);
+        Fixture state = random_state(7, false);
+        state.table = pack_rows(static_cast<ConstraintKind>(kind), rows, particle_count, {.min_rows = 1});
+        state.lambda.assign(state.table.stride, 0);
+        const Fixture before = state;
+        GetParam()->project[kind](state.view(), state.rows(), {0, state.table.stride}, 1e-3f, LambdaUse::store);
+        for (std::uint32_t p = rows.arity; p < particle_count; ++p) EXPECT_EQ(state.position[p], before.position[p]);
+        for (std::uint32_t p = particle_count; p < state.position.size(); ++p) EXPECT_EQ(state.position[p], Vec4{});
+    }
+}
+
+TEST_P(InstructionSet, moves_particles_alike) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const Fixture state = random_state(seed, seed % 2);
+        compare(state, [&](const Passes& passes, Fixture& f) {
+            const Range all{0, padded(particle_count)};
+            for (int i = 0; i < 3; ++i) {
+                passes.predict(f.view(), all, {0.1f, -9.81f, 0.3f}, 20.0f, 1e-3f);
+                passes.velocities(f.view(), all, 20.0f, 1e-3f);
+            }
+        });
+    }
+}
+
+TEST_P(InstructionSet, touches_every_shape_alike) {
+    const Pose here{rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}};
+    const Pose there{rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}};
+    for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
+        for (unsigned seed = 0; seed < 20; ++seed) {
+            const Fixture state = random_state(seed, seed % 2);
+            compare(state, [&](const Passes& passes, Fixture& f) {
+                AlignedVector<Vec4> sums(f.position.size());
+                ContactView view{.numbers = {0.6f, 0.8f, 0, 0.1f},
+                                 .now = here,
+                                 .before = there,
+                                 .static_friction = 0.4f,
+                                 .kinetic_friction = 0.3f,
+                                 .half_thickness = 0.001f,
+                                 .depenetration = 0.0008f,
+                                 .sums = &sums[0].x,
+                                 .first_iteration = true};
+                const Range all{0, padded(particle_count)};
+                passes.contact[shape](f.view(), view, all);
+                view.first_iteration = false;
+                passes.contact[shape](f.view(), view, all);
+                view.sums = nullptr;
+                passes.contact[shape](f.view(), view, all);
+            });
+        }
+    }
+}
+
+TEST_P(InstructionSet, notices_what_is_not_finite) {
+    AlignedVector<float> data(64, 1.0f);
+    EXPECT_TRUE(GetParam()->all_finite(data.data(), 0, 64));
+    for (const float bad : {NAN, INFINITY, -INFINITY}) {
+        for (std::size_t i = 0; i < 64; ++i) {
+            data[i] = bad;
+            EXPECT_FALSE(GetParam()->all_finite(data.data(), 0, 64)) << bad << " at " << i;
+            data[i] = 1;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Isa, InstructionSet, testing::ValuesIn(available_passes().begin(), available_passes().end()),
+                         [](const auto& tested) { return std::string(tested.param->isa); });
+
+}  // namespace
+}  // namespace weft::cpu

@@ -1,0 +1,11 @@
+# glTF export. Debian ships tinygltf compiled, with a CMake package; imported targets count as system headers.
+find_package(TinyGLTF REQUIRED)
+target_link_libraries(weft_io PRIVATE TinyGLTF::TinyGLTF)
+
+# Scene files.
+find_package(nlohmann_json REQUIRED)
+target_link_libraries(weft_io PRIVATE nlohmann_json::nlohmann_json)
+
+# Mesh import.
+find_package(assimp REQUIRED)
+target_link_libraries(weft_io PRIVATE assimp::assimp)

@@ -1,0 +1,60 @@
+// Writing what was simulated: one interface for every format, chosen by a file name's ending.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+
+#include <weft/result.h>
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+/// One cloth as it is drawn: topology, UVs and colors from `mesh`, everything that moves from the spans (one entry per
+/// vertex of `mesh`). The mesh must stay as it is until finish; name and spans are read during write alone.
+struct ExportSurface {
+    std::string_view name;
+    const TriangleMesh* mesh = nullptr;
+    std::span<const Vec3> positions;  ///< m
+    std::span<const Vec3> normals;    ///< unit
+};
+
+/// Everything at one instant. The same cloths in the same order in every frame of a run.
+struct ExportFrame {
+    std::uint64_t index = 0;
+    double time = 0;  ///< s
+    std::span<const ExportSurface> surfaces;
+};
+
+struct ExportInfo {
+    std::string scene_name;
+    double frame_rate = 60;
+    std::uint64_t frame_count = 0;  ///< frames that will be written, the start included
+};
+
+/// begin, then write once per frame, then finish. Nothing appears under the final name before finish (a sequence:
+/// before its frame is whole); an exporter destroyed early leaves nothing behind, a sequence its whole frames. After an
+/// error an exporter is only good for being destroyed.
+class Exporter {
+  public:
+    virtual ~Exporter() = default;
+    virtual Result<Done> begin(const ExportInfo& info) = 0;
+    virtual Result<Done> write(const ExportFrame& frame) = 0;
+    virtual Result<Done> finish() = 0;
+};
+
+/// By the ending of `path`: `.glb` (animated), `.obj`, `.ply` (the last frame), or a sequence where the file name holds
+/// one `%d` or `%0Nd` (`frames/%04d.obj`). Fails on an unknown ending or a folder that cannot be made.
+Result<std::unique_ptr<Exporter>> make_exporter(const std::filesystem::path& path);
+
+struct ExportFormat {
+    std::string_view ending;  ///< with the dot
+    std::string_view what;
+};
+std::span<const ExportFormat> export_formats();
+
+}  // namespace weft

@@ -1,0 +1,383 @@
+// Animated glTF 2.0 in its binary container. The first frame is the mesh, every later one a morph target, and one
+// animation of the weights plays them. Section numbers are those of the glTF 2.0 specification (Khronos, 2021).
+//
+// The numbers go to a nameless file while the run lasts: memory stays that of one frame, and a full disk shows at the
+// frame that fills it. tinygltf writes the JSON; the container is written here, because tinygltf's own writer would
+// hold the whole film in memory twice.
+#include "io/export_format.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#ifndef WEFT_VERSION
+#define WEFT_VERSION "unknown"
+#endif
+
+namespace weft {
+std::unique_ptr<Exporter> make_glb(const std::filesystem::path& path);
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+// The header of a .glb holds the file's length in 32 bits (4.4.2).
+constexpr double byte_limit = 4294967295.0;
+
+// 4.4: "glTF" and the types of the two chunks.
+constexpr std::uint32_t glb_magic = 0x46546c67, glb_version = 2, json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
+constexpr std::uint64_t header_bytes = 12, chunk_header_bytes = 8;
+
+// What the JSON of one cloth in one frame takes: two accessors with their bounds and views, a target, a weight.
+constexpr double json_bytes_per_target = 700;
+
+struct FirstFrame {
+    std::vector<Vec3> positions, normals;
+    std::size_t triangles = 0;
+    double bytes = 0;  ///< everything of this cloth but the morph targets
+};
+
+int as_int(std::size_t value) {
+    return static_cast<int>(value);
+}
+
+/// Of each component; 3.6.2.5 asks for them in the rounding of the stored values.
+void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3> values) {
+    Vec3 low = values.front(), high = values.front();
+    for (const Vec3& v : values) {
+        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+    accessor.minValues = {low.x, low.y, low.z};
+    accessor.maxValues = {high.x, high.y, high.z};
+}
+
+tinygltf::Material fabric_material(const std::string& name, bool vertex_colors) {
+    tinygltf::Material material;
+    material.name = name;
+    material.doubleSided = true;
+    // Vertex colors are multiplied with the base color, so they need white to show as they are.
+    const double base = vertex_colors ? 1.0 : 0.8;
+    material.pbrMetallicRoughness.baseColorFactor = {base, base, base, 1.0};
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.9;
+    return material;
+}
+
+class GlbExporter : public Exporter {
+  public:
+    explicit GlbExporter(std::filesystem::path path) : path_(std::move(path)) {}
+
+    Result<Done> begin(const ExportInfo& info) override;
+    Result<Done> write(const ExportFrame& frame) override;
+    Result<Done> finish() override;
+
+  private:
+    Result<Done> add_first_frame(const ExportFrame& frame);
+    Result<Done> add_base(const ExportSurface& surface);
+    Result<Done> add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive);
+    Result<Done> add_target(std::size_t cloth, const ExportSurface& surface);
+    Result<Done> add_animation();
+    Result<Done> write_container(std::string json);
+
+    Result<Done> check_order(const ExportFrame& frame) const;
+    Result<Done> check_size(double frames) const;
+    Result<std::string> json_text() const;
+    Error error(std::string what) const { return {path_.string(), std::move(what)}; }
+
+    /// Opens a view at the end of the binary data, and an accessor on all of it. The values are to follow.
+    tinygltf::Accessor& open_accessor(int component, int type, std::size_t count, int target);
+    Result<Done> append(std::span<const std::byte> bytes) { return spool_.write(bytes); }
+    Result<int> add_vectors(std::span<const Vec3> values, bool bounds);
+    int newest_accessor() const { return as_int(model_.accessors.size()) - 1; }
+
+    std::filesystem::path path_;
+    ExportInfo info_;
+    tinygltf::Model model_;
+    BufferedFile spool_;
+    std::vector<float> times_;
+    std::vector<FirstFrame> first_;
+    std::vector<Vec3> deltas_;
+};
+
+Result<Done> GlbExporter::begin(const ExportInfo& info) {
+    info_ = info;
+    if (Result<Done> writable = check_writable(path_); !writable) return writable;
+    Result<BufferedFile> spool = BufferedFile::open_nameless(folder_of(path_), path_.string());
+    if (!spool) return spool.errors();
+    spool_ = *std::move(spool);
+    return Done{};
+}
+
+Result<Done> GlbExporter::write(const ExportFrame& frame) {
+    if (Result<Done> checked = check_frame(frame, path_.string()); !checked) return checked;
+    if (Result<Done> checked = check_order(frame); !checked) return checked;
+    if (times_.empty()) {
+        if (Result<Done> added = add_first_frame(frame); !added) return added;
+    } else {
+        if (Result<Done> checked = check_size(static_cast<double>(times_.size() + 1)); !checked) return checked;
+        for (std::size_t i = 0; i < first_.size(); ++i) {
+            if (Result<Done> added = add_target(i, frame.surfaces[i]); !added) return added;
+        }
+    }
+    times_.push_back(static_cast<float>(frame.time));
+    return Done{};
+}
+
+/// Key times must grow (3.11), and a morph target moves the vertices of the first frame and no others.
+Result<Done> GlbExporter::check_order(const ExportFrame& frame) const {
+    const std::string which = "frame " + std::to_string(frame.index) + ": ";
+    const auto time = static_cast<float>(frame.time);
+    if (!std::isfinite(time) || time < 0) return error(which + "its time is not a number of seconds from 0 up");
+    if (times_.empty()) return Done{};
+    if (!(time > times_.back())) return error(which + "its time is not after that of the frame before");
+    if (frame.surfaces.size() != first_.size()) return error(which + "it does not hold the cloths of the first frame");
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+        const ExportSurface& surface = frame.surfaces[i];
+        if (surface.positions.size() == first_[i].positions.size() &&
+            surface.mesh->triangles.size() == first_[i].triangles) {
+            continue;
+        }
+        return error(which + "cloth \"" + std::string(surface.name) +
+                     "\" has other vertices or triangles than in the first frame, which a .glb cannot animate; " +
+                     "write a sequence instead");
+    }
+    return Done{};
+}
+
+/// An estimate on the safe side, made before the bytes are written anywhere.
+Result<Done> GlbExporter::check_size(double frames) const {
+    const double targets = frames - 1;
+    double bytes = frames * frames * sizeof(float);  // the weights and their times
+    for (const FirstFrame& first : first_) {
+        const auto vertices = static_cast<double>(first.positions.size());
+        bytes += first.bytes + targets * (2 * sizeof(Vec3) * vertices + json_bytes_per_target);
+    }
+    if (bytes <= byte_limit) return Done{};
+    char gib[32];
+    std::snprintf(gib, sizeof gib, "%.1f", bytes / (1024.0 * 1024.0 * 1024.0));
+    return error("would take " + std::string(gib) + " GiB for " + std::to_string(static_cast<std::uint64_t>(frames)) +
+                 " frames, and a .glb ends at 4 GiB; write fewer frames or a sequence");
+}
+
+Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
+    model_.asset.version = "2.0";
+    model_.asset.generator = "weft " WEFT_VERSION;
+    model_.scenes.emplace_back();
+    model_.scenes.back().name = info_.scene_name;
+    model_.defaultScene = 0;
+    for (const ExportSurface& surface : frame.surfaces) {
+        FirstFrame& first = first_.emplace_back();
+        first.positions.assign(surface.positions.begin(), surface.positions.end());
+        first.normals.reserve(surface.normals.size());
+        for (const Vec3& normal : surface.normals) first.normals.push_back(unit_normal(normal));
+        first.triangles = surface.mesh->triangles.size();
+        // All of a vertex with UV and color, and names and bounds in JSON, which are small beside it.
+        first.bytes = static_cast<double>(first.positions.size()) * 48 + static_cast<double>(first.triangles) * 12 +
+                      4096 + 6.0 * static_cast<double>(surface.name.size());
+    }
+    if (Result<Done> checked = check_size(std::max(1.0, static_cast<double>(info_.frame_count))); !checked) {
+        return checked;
+    }
+    for (const ExportSurface& surface : frame.surfaces) {
+        if (Result<Done> added = add_base(surface); !added) return added;
+    }
+    return Done{};
+}
+
+Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
+    const TriangleMesh& mesh = *surface.mesh;
+    const FirstFrame& first = first_[model_.meshes.size()];
+    const std::size_t count = first.positions.size();
+    const std::string name(surface.name);
+
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.material = as_int(model_.materials.size());
+    if (Result<Done> r = add_indices(mesh, count, primitive); !r) return r;
+    const Result<int> positions = add_vectors(first.positions, true);
+    if (!positions) return positions.errors();
+    primitive.attributes["POSITION"] = *positions;
+    const Result<int> normals = add_vectors(first.normals, false);
+    if (!normals) return normals.errors();
+    primitive.attributes["NORMAL"] = *normals;
+
+    if (!mesh.uvs.empty()) {
+        std::vector<Vec2> uvs;
+        uvs.reserve(count);
+        for (const Vec2& uv : mesh.uvs) uvs.push_back({uv.x, 1 - uv.y});  // v runs downward (3.8.3)
+        open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, count, TINYGLTF_TARGET_ARRAY_BUFFER);
+        primitive.attributes["TEXCOORD_0"] = newest_accessor();
+        if (Result<Done> r = append(std::as_bytes(std::span(uvs))); !r) return r;
+    }
+    if (!mesh.colors.empty()) {
+        const auto clamped = [](float c) { return std::isnan(c) ? 0.0f : std::clamp(c, 0.0f, 1.0f); };
+        std::vector<Vec4> colors;
+        colors.reserve(count);
+        for (const Vec4& c : mesh.colors) colors.push_back({clamped(c.x), clamped(c.y), clamped(c.z), clamped(c.w)});
+        open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, count, TINYGLTF_TARGET_ARRAY_BUFFER);
+        primitive.attributes["COLOR_0"] = newest_accessor();
+        if (Result<Done> r = append(std::as_bytes(std::span(colors))); !r) return r;
+    }
+
+    tinygltf::Node& node = model_.nodes.emplace_back();
+    node.name = name;
+    node.mesh = as_int(model_.meshes.size());
+    model_.scenes.front().nodes.push_back(as_int(model_.nodes.size()) - 1);
+    model_.materials.push_back(fabric_material(name, !mesh.colors.empty()));
+    tinygltf::Mesh& gltf_mesh = model_.meshes.emplace_back();
+    gltf_mesh.name = name;
+    gltf_mesh.primitives.push_back(std::move(primitive));
+    return Done{};
+}
+
+Result<Done> GlbExporter::add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive) {
+    const std::span<const std::uint32_t> indices(mesh.triangles.front().data(), mesh.triangles.size() * 3);
+    // The highest value of either type restarts a primitive and is not allowed as an index (3.7.2.1).
+    const bool is_short = vertices <= std::numeric_limits<std::uint16_t>::max();
+    open_accessor(is_short ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                  TINYGLTF_TYPE_SCALAR, indices.size(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    primitive.indices = newest_accessor();
+    if (!is_short) return append(std::as_bytes(indices));
+
+    std::vector<std::uint16_t> narrow;
+    narrow.reserve(indices.size() + 1);
+    for (const std::uint32_t index : indices) narrow.push_back(static_cast<std::uint16_t>(index));
+    if (narrow.size() % 2 != 0) narrow.push_back(0);  // what follows is aligned to four bytes (3.6.2.4)
+    return append(std::as_bytes(std::span(narrow)));
+}
+
+Result<Done> GlbExporter::add_target(std::size_t cloth, const ExportSurface& surface) {
+    const FirstFrame& first = first_[cloth];
+    const std::size_t count = first.positions.size();
+    deltas_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) deltas_[i] = surface.positions[i] - first.positions[i];
+    const Result<int> positions = add_vectors(deltas_, true);
+    if (!positions) return positions.errors();
+    for (std::size_t i = 0; i < count; ++i) deltas_[i] = unit_normal(surface.normals[i]) - first.normals[i];
+    const Result<int> normals = add_vectors(deltas_, false);
+    if (!normals) return normals.errors();
+    model_.meshes[cloth].primitives.front().targets.push_back({{"POSITION", *positions}, {"NORMAL", *normals}});
+    return Done{};
+}
+
+/// Key i shows target i - 1 alone, key 0 the first frame; in between two neighbors blend. All cloths share the keys.
+Result<Done> GlbExporter::add_animation() {
+    const std::size_t keys = times_.size(), targets = keys - 1;
+    if (targets == 0) return Done{};
+    tinygltf::Accessor& input = open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys, 0);
+    input.minValues = {times_.front()};
+    input.maxValues = {times_.back()};
+    tinygltf::AnimationSampler sampler;
+    sampler.interpolation = "LINEAR";
+    sampler.input = newest_accessor();
+    if (Result<Done> r = append(std::as_bytes(std::span(times_))); !r) return r;
+
+    open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys * targets, 0);
+    sampler.output = newest_accessor();
+    std::vector<float> weights(targets, 0.0f);
+    for (std::size_t key = 0; key < keys; ++key) {
+        if (key > 0) weights[key - 1] = 1;
+        if (Result<Done> r = append(std::as_bytes(std::span(weights))); !r) return r;
+        if (key > 0) weights[key - 1] = 0;
+    }
+
+    tinygltf::Animation& animation = model_.animations.emplace_back();
+    animation.name = info_.scene_name;
+    animation.samplers.push_back(std::move(sampler));
+    for (std::size_t cloth = 0; cloth < first_.size(); ++cloth) {
+        model_.meshes[cloth].weights.assign(targets, 0.0);
+        tinygltf::AnimationChannel& channel = animation.channels.emplace_back();
+        channel.sampler = 0;
+        channel.target_node = as_int(cloth);
+        channel.target_path = "weights";
+    }
+    return Done{};
+}
+
+Result<Done> GlbExporter::finish() {
+    if (times_.empty()) return error("there is no frame to write");
+    if (Result<Done> r = add_animation(); !r) return r;
+    Result<std::string> json = json_text();
+    if (!json) return json.errors();
+    return write_container(*std::move(json));
+}
+
+Result<std::string> GlbExporter::json_text() const {
+    std::ostringstream stream;
+    try {
+        // A name that is not UTF-8 throws.
+        if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, stream, false, false)) {
+            return error("the description of the scene cannot be written");
+        }
+    } catch (const std::exception& exception) {
+        return error(std::string("the description of the scene cannot be written: ") + exception.what());
+    }
+    std::string json = std::move(stream).str();
+    json.erase(json.find_last_of('}') + 1);
+    // tinygltf takes the length of a buffer from bytes held in memory, and here there are none.
+    json.insert(1, "\"buffers\":[{\"byteLength\":" + std::to_string(spool_.size()) + "}],");
+    json.append((4 - json.size() % 4) % 4, ' ');
+    return json;
+}
+
+Result<Done> GlbExporter::write_container(std::string json) {
+    const std::uint64_t total = header_bytes + 2 * chunk_header_bytes + json.size() + spool_.size();
+    if (static_cast<double>(total) > byte_limit) {
+        return error("would take more than 4 GiB, where a .glb ends; write fewer frames or a sequence");
+    }
+    Result<AtomicFile> file = AtomicFile::create(path_);
+    if (!file) return file.errors();
+    const auto put = [&](std::initializer_list<std::uint64_t> numbers) -> Result<Done> {
+        std::vector<std::uint32_t> words;
+        for (const std::uint64_t number : numbers) words.push_back(static_cast<std::uint32_t>(number));
+        return file->write(std::as_bytes(std::span(words)));
+    };
+    if (Result<Done> r = put({glb_magic, glb_version, total, json.size(), json_chunk}); !r) return r;
+    if (Result<Done> r = file->write(json); !r) return r;
+    if (Result<Done> r = put({spool_.size(), binary_chunk}); !r) return r;
+    if (Result<Done> r = spool_.copy_to(file->content()); !r) return r;
+    return file->commit();
+}
+
+tinygltf::Accessor& GlbExporter::open_accessor(int component, int type, std::size_t count, int target) {
+    assert(spool_.size() % 4 == 0);
+    tinygltf::BufferView& view = model_.bufferViews.emplace_back();
+    view.buffer = 0;
+    view.byteOffset = spool_.size();
+    view.byteLength = count * static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(std::uint32_t(component))) *
+                      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(std::uint32_t(type)));
+    view.target = target;
+    tinygltf::Accessor& accessor = model_.accessors.emplace_back();
+    accessor.bufferView = as_int(model_.bufferViews.size()) - 1;
+    accessor.componentType = component;
+    accessor.type = type;
+    accessor.count = count;
+    return accessor;
+}
+
+Result<int> GlbExporter::add_vectors(std::span<const Vec3> values, bool bounds) {
+    tinygltf::Accessor& accessor =
+        open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, values.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
+    if (bounds) set_bounds(accessor, values);
+    if (Result<Done> r = append(std::as_bytes(values)); !r) return r.errors();
+    return newest_accessor();
+}
+
+}  // namespace
+
+std::unique_ptr<Exporter> make_glb(const std::filesystem::path& path) {
+    return std::make_unique<GlbExporter>(path);
+}
+
+}  // namespace weft

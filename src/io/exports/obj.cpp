@@ -1,0 +1,93 @@
+// Wavefront OBJ. Numbers are the shortest text that reads back as the same float.
+#include "io/export_format.h"
+
+#include <array>
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace weft {
+Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file);
+
+namespace {
+
+/// One line of text: a keyword and its numbers.
+class Line {
+  public:
+    explicit Line(std::string_view keyword) { text_ = keyword; }
+
+    template <class Number>
+    Line& add(Number number, char separator = ' ') {
+        std::array<char, 32> digits;
+        const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+        text_ += separator;
+        text_.append(digits.data(), end.ptr);
+        return *this;
+    }
+    Line& slash() {
+        text_ += '/';
+        return *this;
+    }
+    std::string_view end() { return text_ += '\n'; }
+
+  private:
+    std::string text_;
+};
+
+/// A name ends at white space for most readers.
+std::string object_name(std::string_view name) {
+    std::string safe(name.empty() ? "cloth" : name);
+    for (char& c : safe) {
+        if (static_cast<unsigned char>(c) <= ' ' || c == 0x7f) c = '_';
+    }
+    return safe;
+}
+
+/// Indices count from 1 through all objects of a file, for each kind of vertex data on its own.
+struct FirstIndex {
+    std::uint64_t position = 1, uv = 1;
+};
+
+Result<Done> write_vertices(const ExportSurface& surface, AtomicFile& file) {
+    for (const Vec3& p : surface.positions) {
+        if (Result<Done> r = file.write(Line("v").add(p.x).add(p.y).add(p.z).end()); !r) return r;
+    }
+    for (const Vec2& uv : surface.mesh->uvs) {
+        if (Result<Done> r = file.write(Line("vt").add(uv.x).add(uv.y).end()); !r) return r;
+    }
+    for (const Vec3& given : surface.normals) {
+        const Vec3 n = unit_normal(given);
+        if (Result<Done> r = file.write(Line("vn").add(n.x).add(n.y).add(n.z).end()); !r) return r;
+    }
+    return Done{};
+}
+
+Result<Done> write_triangles(const ExportSurface& surface, FirstIndex first, AtomicFile& file) {
+    const bool has_uvs = !surface.mesh->uvs.empty();
+    for (const Triangle& triangle : surface.mesh->triangles) {
+        Line line("f");
+        for (const std::uint32_t vertex : triangle) {
+            line.add(first.position + vertex);
+            has_uvs ? line.add(first.uv + vertex, '/') : line.slash();
+            line.add(first.position + vertex, '/');
+        }
+        if (Result<Done> r = file.write(line.end()); !r) return r;
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file) {
+    FirstIndex first;
+    for (const ExportSurface& surface : frame.surfaces) {
+        if (Result<Done> r = file.write("o " + object_name(surface.name) + "\n"); !r) return r;
+        if (Result<Done> r = write_vertices(surface, file); !r) return r;
+        if (Result<Done> r = write_triangles(surface, first, file); !r) return r;
+        first.position += surface.positions.size();
+        first.uv += surface.mesh->uvs.size();
+    }
+    return Done{};
+}
+
+}  // namespace weft

@@ -1,0 +1,105 @@
+// Binary little-endian PLY: all cloths as one mesh, since the format knows only one.
+#include "io/export_format.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace weft {
+Result<Done> write_ply(const ExportFrame& frame, AtomicFile& file);
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+struct Contents {
+    std::uint64_t vertices = 0, triangles = 0;
+    bool uvs = false, colors = false;  ///< of any cloth; the others get zeros and white
+};
+
+Contents contents_of(const ExportFrame& frame) {
+    Contents contents;
+    for (const ExportSurface& surface : frame.surfaces) {
+        contents.vertices += surface.positions.size();
+        contents.triangles += surface.mesh->triangles.size();
+        contents.uvs |= !surface.mesh->uvs.empty();
+        contents.colors |= !surface.mesh->colors.empty();
+    }
+    return contents;
+}
+
+std::string header(const Contents& contents) {
+    std::string text = "ply\nformat binary_little_endian 1.0\ncomment written by weft\n";
+    text += "element vertex " + std::to_string(contents.vertices) + "\n";
+    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) text += std::string("property float ") + name + "\n";
+    if (contents.uvs) text += "property float s\nproperty float t\n";
+    if (contents.colors) {
+        for (const char* name : {"red", "green", "blue", "alpha"}) text += std::string("property uchar ") + name + "\n";
+    }
+    text += "element face " + std::to_string(contents.triangles) + "\n";
+    text += "property list uchar uint vertex_indices\nend_header\n";
+    return text;
+}
+
+template <class Value>
+void append(std::vector<std::byte>& bytes, const Value& value) {
+    const std::span<const std::byte> raw = std::as_bytes(std::span(&value, 1));
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+/// Eight bits of the linear value itself: readers hand these numbers on without decoding, our own included.
+std::uint8_t byte_color(float value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0 : value, 0.0f, 1.0f) * 255));
+}
+
+Result<Done> write_vertices(const ExportSurface& surface, const Contents& contents, AtomicFile& file) {
+    const TriangleMesh& mesh = *surface.mesh;
+    std::vector<std::byte> record;
+    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+        record.clear();
+        append(record, surface.positions[i]);
+        append(record, unit_normal(surface.normals[i]));
+        if (contents.uvs) append(record, mesh.uvs.empty() ? Vec2{} : mesh.uvs[i]);
+        if (contents.colors) {
+            const Vec4 color = mesh.colors.empty() ? Vec4{1, 1, 1, 1} : mesh.colors[i];
+            for (const float channel : {color.x, color.y, color.z, color.w}) append(record, byte_color(channel));
+        }
+        if (Result<Done> r = file.write(record); !r) return r;
+    }
+    return Done{};
+}
+
+Result<Done> write_triangles(const ExportSurface& surface, std::uint32_t first_vertex, AtomicFile& file) {
+    std::vector<std::byte> record;
+    for (const Triangle& triangle : surface.mesh->triangles) {
+        record.clear();
+        append(record, std::uint8_t{3});
+        for (const std::uint32_t vertex : triangle) append(record, first_vertex + vertex);
+        if (Result<Done> r = file.write(record); !r) return r;
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Result<Done> write_ply(const ExportFrame& frame, AtomicFile& file) {
+    const Contents contents = contents_of(frame);
+    if (contents.vertices > std::numeric_limits<std::uint32_t>::max()) {
+        return Error{file.path().string(), "a .ply holds at most 4294967295 vertices"};
+    }
+    if (Result<Done> r = file.write(header(contents)); !r) return r;
+    for (const ExportSurface& surface : frame.surfaces) {
+        if (Result<Done> r = write_vertices(surface, contents, file); !r) return r;
+    }
+    std::uint32_t first_vertex = 0;
+    for (const ExportSurface& surface : frame.surfaces) {
+        if (Result<Done> r = write_triangles(surface, first_vertex, file); !r) return r;
+        first_vertex += static_cast<std::uint32_t>(surface.positions.size());
+    }
+    return Done{};
+}
+
+}  // namespace weft

@@ -1,0 +1,72 @@
+// Typed access to one JSON object. It knows its keys from parameter tables, and records every problem with its place
+// instead of stopping at the first.
+#pragma once
+
+#include "physics/parameter.h"
+#include "scene/problems.h"
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+/// `a number`, `"soft"`, `a list of 3`: a value for the end of a message.
+std::string json_text(const nlohmann::json& value);
+
+class ObjectReader {
+  public:
+    /// Reports a `value` that is no object and then reads as if it were empty.
+    ObjectReader(const nlohmann::json& value, std::string pointer, Problems& problems);
+
+    const std::string& pointer() const { return pointer_; }
+    Problems& problems() { return problems_; }
+
+    /// Makes the keys of `table` known and stores those with a value in the struct at `base`. A value of a wrong type
+    /// is reported and not stored; ranges are for check.h.
+    void values(std::span<const Parameter> table, void* base);
+    /// Makes keys known that the caller reads himself: objects and lists.
+    void know(std::span<const Parameter> table) { values(table, nullptr); }
+
+    /// nullptr if the object lacks the key, which must be known.
+    const nlohmann::json* find(std::string_view key) const;
+
+    /// Calls `read` for the object under `key`, if there is one, and finishes it.
+    void object(std::string_view key, const std::function<void(ObjectReader&)>& read);
+    /// Calls `read` for every object of the list under `key`, if there is one, and finishes them.
+    void objects(std::string_view key, const std::function<void(ObjectReader&)>& read);
+    /// The list of indices under `key`; what is no index is reported and left out as 0.
+    std::vector<std::uint32_t> indices(std::string_view key);
+
+    /// Which one of these keys there is; none of them or several is a problem, and the answer is then empty.
+    std::string_view one_of(std::initializer_list<std::string_view> keys);
+    /// Reports keys of `table` that stand without `companion`, to which they belong.
+    void only_with(std::string_view companion, std::span<const Parameter> table);
+
+    /// Reports every key that is not known by now.
+    void finish();
+
+  private:
+    void value(const Parameter& parameter, const nlohmann::json& value, void* base);
+    void numbers(const Parameter& parameter, const nlohmann::json& value, void* base);
+    bool number(const Parameter& parameter, const nlohmann::json& value, const std::string& place, float& result);
+    bool integer(const Parameter& parameter, const nlohmann::json& value, const std::string& place,
+                 std::uint32_t& result);
+    void choice(const Parameter& parameter, const nlohmann::json& value, void* base);
+    bool has(std::string_view key) const;
+    /// The list under `key`, or nullptr.
+    const nlohmann::json* list(std::string_view key);
+
+    const nlohmann::json* value_;
+    bool given_;  ///< whether there was an object at all
+    std::string pointer_;
+    Problems& problems_;
+    std::vector<std::string_view> known_;
+};
+
+}  // namespace weft

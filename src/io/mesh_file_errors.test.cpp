@@ -1,0 +1,150 @@
+#include "io/mesh_file.h"
+
+#include "io/mesh_fixtures.test.h"
+#include "io/temporary_folder.test.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <limits>
+#include <random>
+
+namespace weft {
+namespace {
+
+class MeshFileErrors : public testing::Test {
+  protected:
+    /// What is wrong with a file of that content; checks what holds for every error.
+    std::string problem(const std::string& name, std::string_view content) {
+        const std::filesystem::path path = folder_.write(name, content);
+        testing::internal::CaptureStderr();
+        testing::internal::CaptureStdout();
+        const Result<TriangleMesh> mesh = load_mesh(path);
+        EXPECT_EQ(testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr(), "");
+        if (mesh) return "none";
+        EXPECT_EQ(mesh.error().where, path.string());
+        EXPECT_EQ(mesh.error().what.find_first_of("\r\n"), std::string::npos) << mesh.error().what;
+        return mesh.error().what;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(MeshFileErrors, WhatIsNoFile) {
+    EXPECT_EQ(load_mesh("/no/such/file.obj").error().message(), "/no/such/file.obj: does not exist");
+    EXPECT_EQ(load_mesh(folder_.path()).error().what, "is a folder, not a file");
+    EXPECT_EQ(load_mesh("/dev/null").error().what, "is not a regular file");
+    EXPECT_EQ(problem("a.obj", ""), "is empty");
+    EXPECT_EQ(problem("a.usd", "x"), "has an ending that is none of .obj .ply .gltf .glb .fbx .stl .3ds");
+    EXPECT_EQ(problem("mesh", "x"), "has an ending that is none of .obj .ply .gltf .glb .fbx .stl .3ds");
+}
+
+TEST_F(MeshFileErrors, AFileThatMayNotBeRead) {
+    if (::geteuid() == 0) GTEST_SKIP() << "the superuser may read everything";
+    const std::filesystem::path path = folder_.write("a.obj", "v 0 0 0\n");
+    ::chmod(path.c_str(), 0);
+    EXPECT_EQ(load_mesh(path).error().what, "cannot be opened: Permission denied");
+}
+
+TEST_F(MeshFileErrors, NoTriangles) {
+    EXPECT_EQ(problem("a.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"), "has no triangles");
+    EXPECT_EQ(problem("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2\n"), "has no triangles");
+    EXPECT_EQ(problem("a.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                      "property float z\nend_header\n0 0 0\n"),
+              "has no triangles");
+}
+
+std::string obj(const std::string& last_lines) {
+    return "v 0 0 0\nv 1 0 0\nv 1 1 0\n" + last_lines + "\n";
+}
+
+TEST_F(MeshFileErrors, ObjIndicesOutOfRange) {
+    EXPECT_EQ(problem("a.obj", obj("f 1 2 999999")), "line 4: a face uses number 999999 of 3 vertices");
+    EXPECT_EQ(problem("a.obj", obj("f 1 2 0")), "line 4: a face uses number 0 of 3 vertices");
+    EXPECT_EQ(problem("a.obj", obj("f 1 2 -4")), "line 4: a face uses number -4 of 3 vertices");
+    EXPECT_EQ(problem("a.obj", obj("\n\nf 1/1 2/1 3/1")), "line 6: a face uses number 1 of 0 texture coordinates");
+    EXPECT_EQ(problem("a.obj", obj("vn 0 0 1\nf 1//1 2//1 3//2")), "line 5: a face uses number 2 of 1 normals");
+    EXPECT_EQ(problem("a.obj", obj("f 1 2 99999999999999999999")),
+              "line 4: '99999999999999999999' is not a corner of a face");
+    EXPECT_EQ(problem("a.obj", obj("f 1 2 x")), "line 4: 'x' is not a corner of a face");
+    EXPECT_EQ(problem("a.obj", obj("f 1 2 3/1/1/1")), "line 4: '3/1/1/1' is not a corner of a face");
+}
+
+TEST_F(MeshFileErrors, ObjVerticesThatAreNone) {
+    EXPECT_EQ(problem("a.obj", obj("v 0 nan 0\nf 1 2 4")), "line 4: vertex 3 is not finite");
+    EXPECT_EQ(problem("a.obj", obj("v 0 -inf 0\nf 1 2 4")), "line 4: vertex 3 is not finite");
+    EXPECT_EQ(problem("a.obj", obj("v 0 1e39 0\nf 1 2 4")), "line 4: vertex 3 is not finite");
+    EXPECT_EQ(problem("a.obj", obj("v 0 1e999 0\nf 1 2 4")), "line 4: vertex 3 is not finite");
+    EXPECT_EQ(problem("a.obj", obj("v 0 1e-999 1e-60\nf 1 2 4")), "none") << "too small for a float is zero";
+    EXPECT_EQ(problem("a.obj", obj("v 0 1\nf 1 2 3")), "line 4: a vertex needs three numbers, got 2");
+    EXPECT_EQ(problem("a.obj", obj("v 0,5 1 2\nf 1 2 3")), "line 4: '0,5' is not a number");
+    EXPECT_EQ(problem("a.obj", obj("v 0 1 2 3 4 5 6 7\nf 1 2 3")), "line 4: more than 7 numbers");
+    EXPECT_EQ(problem("a.obj", obj("vt nan 0\nf 1/1 2/1 3/1")), "line 4: texture coordinate 0 is not finite");
+}
+
+TEST_F(MeshFileErrors, PlyThatAssimpWouldCrashOn) {
+    const std::string ascii = fixtures::ply_ascii(), binary = fixtures::ply_binary(false);
+    const std::size_t header = fixtures::ply_header("ascii").size();
+    for (std::size_t size = 1; size < ascii.size() - 2; ++size) {
+        EXPECT_NE(problem("a.ply", std::string_view(ascii).substr(0, size)), "none") << "cut to " << size << " bytes";
+    }
+    for (std::size_t size = header; size < binary.size(); ++size) {
+        EXPECT_NE(problem("a.ply", std::string_view(binary).substr(0, size)), "none") << "cut to " << size << " bytes";
+    }
+    EXPECT_EQ(problem("a.ply", ascii.substr(0, header + 14)), "is cut short at vertex 2 of 5");
+    EXPECT_EQ(problem("a.ply", fixtures::ply_header("ascii") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n3 0 1 2\n0\n"),
+              "face 1 has no corners");
+    std::string huge = ascii;
+    huge.replace(huge.find("vertex 5"), 8, "vertex 4000000000");
+    EXPECT_EQ(problem("a.ply", huge), "is cut short at vertex 7 of 4000000000");
+}
+
+TEST_F(MeshFileErrors, PlyIndicesOutOfRangeAndCoordinatesThatAreNone) {
+    EXPECT_EQ(problem("a.ply", fixtures::ply_binary(false, 99999)), "face 1 uses vertex 99999 of 5");
+    EXPECT_EQ(problem("a.ply", fixtures::ply_binary(true, -1)), "face 1 uses vertex -1 of 5");
+    std::string ascii = fixtures::ply_ascii();
+    EXPECT_EQ(problem("a.ply", std::string(ascii).replace(ascii.rfind('4'), 1, "5")), "face 1 uses vertex 5 of 5");
+    EXPECT_EQ(problem("a.ply", ascii.replace(ascii.find("5 5 5"), 5, "5 nan 5")), "vertex 1 is not finite");
+}
+
+TEST_F(MeshFileErrors, GltfIndicesOutOfRangeAndCoordinatesThatAreNone) {
+    EXPECT_EQ(problem("a.gltf", fixtures::gltf({.indices = {0, 1, 2, 1, 9999, 2}})),
+              "1 of 2 triangles use vertices that do not exist");
+    EXPECT_NE(problem("a.gltf", fixtures::gltf({.indices = {7, 8, 9}})), "none");
+    EXPECT_NE(problem("a.gltf", fixtures::gltf({.indices = {0, 1, 2}, .claimed = 30000})), "none");
+    const std::string whole = fixtures::gltf({.indices = {0, 1, 2}});
+    EXPECT_EQ(problem("a.gltf", whole.substr(0, whole.size() - 30)), "is damaged, or not what its ending says");
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(problem("a.gltf", fixtures::gltf({.indices = {0, 1, 2}, .first_x = infinity})), "vertex 0 is not finite");
+}
+
+TEST_F(MeshFileErrors, OtherFormatsWithIndicesOutOfRange) {
+    EXPECT_EQ(problem("a.3ds", fixtures::three_ds({0, 1, 3})), "triangle 0 uses vertex 3 of 3");
+    EXPECT_EQ(problem("a.fbx", fixtures::fbx_ascii("0,1,30,-4")), "has no triangles");
+}
+
+TEST_F(MeshFileErrors, StlCutShort) {
+    const std::string ascii = fixtures::stl_ascii(), binary = fixtures::stl_binary();
+    for (std::size_t size = 1; size < ascii.find("endsolid"); ++size) {
+        EXPECT_NE(problem("a.stl", std::string_view(ascii).substr(0, size)), "none") << "cut to " << size << " bytes";
+    }
+    for (std::size_t size = 1; size < binary.size(); ++size) {
+        EXPECT_NE(problem("a.stl", std::string_view(binary).substr(0, size)), "none") << "cut to " << size << " bytes";
+    }
+    EXPECT_EQ(problem("a.stl", ascii.substr(0, ascii.find("endsolid"))), "is cut short: it has no endsolid");
+}
+
+TEST_F(MeshFileErrors, GarbageInEveryFormat) {
+    std::mt19937 random(1);
+    for (std::string_view format : mesh_formats()) {
+        for (std::size_t size : {1u, 17u, 5000u}) {
+            std::string garbage(size, '\0');
+            for (char& c : garbage) c = static_cast<char>(random());
+            EXPECT_NE(problem("a" + std::string(format), garbage), "none") << format;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace weft

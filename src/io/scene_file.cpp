@@ -1,0 +1,170 @@
+#include "io/scene_file.h"
+
+#include "io/json_reader.h"
+#include "io/json_text.h"
+#include "scene/check.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_keys.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace weft {
+namespace {
+
+using nlohmann::json;
+
+void read_head(ObjectReader& scene) {
+    SceneHead head;
+    scene.values(head_keys, &head);
+    if (head.weft != scene_format)
+        scene.problems().add(at(scene.pointer(), "weft"), "must be " + number_text(scene_format) +
+                                                              ", the only format this version reads, got " +
+                                                              number_text(head.weft));
+}
+
+void read_mesh(ObjectReader& mesh, std::variant<GridDesc, MeshFileDesc>& result) {
+    MeshFileDesc file;
+    mesh.know(mesh_keys);
+    mesh.values(mesh_file_keys, &file);
+    const std::string_view kind = mesh.one_of({"grid", "file"});
+    if (kind == "file") result = std::move(file);
+    if (kind == "grid") {
+        GridDesc grid;
+        mesh.object("grid", [&](ObjectReader& o) { o.values(grid_keys, &grid); });
+        result = grid;
+        mesh.only_with("file", mesh_file_keys);
+    }
+}
+
+void use_preset(const std::string& name, const std::string& place, Fabric& fabric, Problems& problems) {
+    if (const FabricPreset* preset = find_fabric(name)) {
+        fabric = preset->fabric;
+        return;
+    }
+    std::vector<std::string_view> names;
+    for (const FabricPreset& preset : fabric_presets()) names.push_back(preset.name);
+    problems.add(place, "unknown fabric " + in_quotes(name) + suggestion(name, names));
+}
+
+void read_fabric_object(ObjectReader& o, Fabric& fabric) {
+    FabricHead head;
+    o.values(fabric_keys, &head);
+    use_preset(head.preset, at(o.pointer(), "preset"), fabric, o.problems());
+    for (const FabricTable& table : fabric_tables())
+        o.values(table.parameters, reinterpret_cast<std::byte*>(&fabric) + table.offset);
+
+    // A stretch out of range is one problem, not two.
+    Problems of_stretch;
+    check_values(stretch_parameters, &fabric.stretch, "", of_stretch);
+    if (o.find("stretch") && !o.find("compression") && !of_stretch.concern("/stretch"))
+        std::ranges::copy(fabric.stretch.stretch, fabric.stretch.compression);
+}
+
+void read_fabric(ObjectReader& cloth, Fabric& fabric) {
+    const json* found = cloth.find("fabric");
+    const std::string place = at(cloth.pointer(), "fabric");
+    if (!found) return;
+    if (found->is_string())
+        use_preset(found->get<std::string>(), place, fabric, cloth.problems());
+    else if (found->is_object())
+        cloth.object("fabric", [&](ObjectReader& o) { read_fabric_object(o, fabric); });
+    else
+        cloth.problems().add(place, "must be the name of a fabric or an object, got " + json_text(*found));
+}
+
+void read_pin(ObjectReader& pin, PinDesc& result) {
+    ColorPins by_color;
+    pin.know(pin_keys);
+    pin.values(color_pin_keys, &by_color);
+    const std::string_view kind = pin.one_of({"vertices", "box", "color"});
+    if (kind == "vertices") result.select = VertexPins{pin.indices("vertices")};
+    if (kind == "box") {
+        BoxPins in_box;
+        pin.object("box", [&](ObjectReader& o) { o.values(box_keys, &in_box.box); });
+        result.select = in_box;
+    }
+    if (kind == "color") result.select = by_color;
+    if (!kind.empty()) pin.only_with("color", color_pin_keys);
+}
+
+void read_cloth(ObjectReader& o, ClothDesc& cloth) {
+    o.values(cloth_keys, &cloth);
+    o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
+    o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
+    read_fabric(o, cloth.fabric);
+    o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
+}
+
+void read_collider(ObjectReader& o, ColliderDesc& collider) {
+    o.values(collider_keys, &collider);
+    const std::string_view kind = o.one_of({"plane", "sphere"});
+    if (kind == "plane") {
+        auto& plane = collider.shape.emplace<PlaneDesc>();
+        o.object("plane", [&](ObjectReader& shape) { shape.values(plane_keys, &plane); });
+    }
+    if (kind == "sphere") {
+        auto& sphere = collider.shape.emplace<SphereDesc>();
+        o.object("sphere", [&](ObjectReader& shape) { shape.values(sphere_keys, &sphere); });
+    }
+    o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
+}
+
+SceneDesc read_scene(const json& value, Problems& problems) {
+    SceneDesc scene;
+    ObjectReader o(value, "", problems);
+    if (!value.is_object()) return scene;
+    read_head(o);
+    o.values(scene_keys, &scene);
+    o.object("solver", [&](ObjectReader& solver) { solver.values(solver_keys, &scene.solver); });
+    o.objects("cloths", [&](ObjectReader& cloth) { read_cloth(cloth, scene.cloths.emplace_back()); });
+    o.objects("colliders", [&](ObjectReader& collider) { read_collider(collider, scene.colliders.emplace_back()); });
+    o.finish();
+    return scene;
+}
+
+}  // namespace
+
+Result<SceneDesc> parse_scene(std::string_view text, std::string_view name) {
+    Problems problems;
+    const std::optional<json> value = parse_json(text, problems);
+    if (!value) return std::move(problems).take(name);
+
+    SceneDesc scene = read_scene(*value, problems);
+    // What could not be read still has its default; what the checks say about that would only puzzle.
+    Problems of_values(&problems);
+    check_scene(scene, of_values);
+    problems.append(std::move(of_values));
+    if (!problems.none()) return std::move(problems).take(name);
+
+    name_unnamed(scene);
+    return scene;
+}
+
+Result<SceneDesc> load_scene(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) return Error{name, "is a folder, not a scene file"};
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return Error{name, "cannot be opened: " + std::generic_category().message(errno)};
+
+    // Not by the size of the file: a pipe has none.
+    std::string text;
+    constexpr std::size_t piece = std::size_t{1} << 16;
+    while (file && text.size() <= max_json_bytes) {
+        const std::size_t before = text.size();
+        text.resize(before + piece);
+        file.read(text.data() + before, piece);
+        text.resize(before + static_cast<std::size_t>(file.gcount()));
+    }
+    if (file.bad()) return Error{name, "cannot be read"};
+    return parse_scene(text, name);
+}
+
+}  // namespace weft

@@ -1,0 +1,20 @@
+// Scene files: JSON with comments, as docs/scene.md describes them.
+#pragma once
+
+#include "scene/scene_desc.h"
+
+#include <weft/result.h>
+
+#include <filesystem>
+#include <string_view>
+
+namespace weft {
+
+/// Reads and checks a scene. Fails with every problem that the file has, each with its place: `scenes/flag.json:
+/// /cloths/0/fabric/density`. Names of mesh files stay as written; whether they exist is not asked here.
+Result<SceneDesc> load_scene(const std::filesystem::path& path);
+
+/// The same for a text; `name` is what errors call it.
+Result<SceneDesc> parse_scene(std::string_view text, std::string_view name);
+
+}  // namespace weft

@@ -1,0 +1,73 @@
+#include "mesh/coloring.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+
+namespace weft {
+namespace {
+
+constexpr std::uint32_t word_colors = 64;
+constexpr std::uint8_t overflow_color = word_colors;
+
+using ColorCounts = std::array<std::uint32_t, word_colors + 1>;  // the overflow last
+
+bool repeats_a_particle(std::span<const std::uint32_t> row) {
+    for (std::size_t i = 1; i < row.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (row[i] == row[j]) return true;
+    return false;
+}
+
+/// The first color that no particle of a row has yet, row by row.
+std::vector<std::uint8_t> first_fit(std::span<const std::uint32_t> particles, std::size_t arity,
+                                    std::uint32_t particle_count, std::uint32_t max_colors) {
+    const std::uint64_t closed = max_colors >= word_colors ? 0 : ~std::uint64_t{0} << max_colors;
+    std::vector<std::uint64_t> used(particle_count, closed);
+    std::vector<std::uint8_t> color(particles.size() / arity, overflow_color);
+    for (std::size_t i = 0; i < color.size(); ++i) {
+        const auto row = particles.subspan(i * arity, arity);
+        std::uint64_t taken = 0;
+        for (const std::uint32_t particle : row) {
+            assert(particle < particle_count);
+            taken |= used[particle];
+        }
+        // A row that names a particle twice would race with itself when its ends are scattered lane by lane.
+        if (taken == ~std::uint64_t{0} || repeats_a_particle(row)) continue;
+        color[i] = static_cast<std::uint8_t>(std::countr_one(taken));
+        for (const std::uint32_t particle : row) used[particle] |= std::uint64_t{1} << color[i];
+    }
+    return color;
+}
+
+}  // namespace
+
+Coloring color_rows(std::span<const std::uint32_t> particles, std::uint32_t arity, std::uint32_t particle_count,
+                    const ColoringOptions& options) {
+    assert(arity > 0 && particles.size() % arity == 0);
+    assert(options.max_colors <= word_colors);
+    const std::vector<std::uint8_t> color = first_fit(particles, arity, particle_count, options.max_colors);
+
+    ColorCounts count{};
+    for (const std::uint8_t c : color) ++count[c];
+
+    // Where each color's rows go; small colors share the place of the overflow, so that it stays in row order.
+    Coloring coloring{.order = std::vector<std::uint32_t>(color.size()), .color_begin = {0}};
+    std::array<std::uint8_t, word_colors + 1> place_of_color;
+    std::array<std::uint32_t, word_colors + 1> place{};
+    place_of_color.fill(overflow_color);
+    for (std::uint8_t c = 0; c < word_colors; ++c) {
+        if (count[c] == 0 || count[c] < options.min_rows) continue;
+        place_of_color[c] = c;
+        place[c] = coloring.color_begin.back();
+        coloring.color_begin.push_back(place[c] + count[c]);
+    }
+    place[overflow_color] = coloring.color_begin.back();
+    coloring.overflow = static_cast<std::uint32_t>(color.size()) - coloring.color_begin.back();
+    for (std::uint32_t i = 0; i < color.size(); ++i) coloring.order[place[place_of_color[color[i]]]++] = i;
+    return coloring;
+}
+
+}  // namespace weft

@@ -1,0 +1,32 @@
+// Groups rows that share no particle, so that all rows of a group may run at once and in any order with the same bits.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft {
+
+struct Coloring {
+    /// Row indices, color by color; within a color ascending.
+    std::vector<std::uint32_t> order;
+    /// Start of each color in `order`; one more entry at the end. The overflow, if any, is not among them.
+    std::vector<std::uint32_t> color_begin;
+    /// Rows at the end of `order`, from `color_begin.back()` on, that found no color: they run one after another.
+    std::uint32_t overflow = 0;
+
+    std::uint32_t color_count() const { return static_cast<std::uint32_t>(color_begin.size()) - 1; }
+};
+
+struct ColoringOptions {
+    std::uint32_t max_colors = 64;  ///< at most 64: a particle keeps its used colors in one word
+    /// A color smaller than this costs more (a barrier, half-empty lanes) than running its rows one by one.
+    std::uint32_t min_rows = 8;
+};
+
+/// Greedy, in row order, deterministic. `particles` holds `arity` indices per row, each < particle_count. A row that
+/// names a particle twice goes to the overflow.
+Coloring color_rows(std::span<const std::uint32_t> particles, std::uint32_t arity, std::uint32_t particle_count,
+                    const ColoringOptions& options = {});
+
+}  // namespace weft

@@ -1,0 +1,31 @@
+// Bend: the dihedral angle across an edge. Read by C++ and by GLSL (bend.md has the law).
+#ifndef WEFT_BEND_DATA_H
+#define WEFT_BEND_DATA_H
+
+// The numbers of one row.
+//   rest        rad      dihedral angle at ease; 0 is flat
+//   compliance  1/(N·m)  (A₁ + A₂) / (B ℓ²)
+#define WEFT_ROW_bend(FIELD) FIELD(rest) FIELD(compliance)
+
+#ifdef __cplusplus
+#include "physics/parameter.h"
+
+#include <limits>
+
+namespace weft {
+
+struct BendMaterial {
+    float bend[3] = {11.9e-6f, 9.1e-6f, 6.6e-6f};                 ///< N·m: warp, bias, weft
+    float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
+};
+
+inline constexpr Parameter bend_parameters[] = {
+    {.key = "bend", .count = 3, .offset = offsetof(BendMaterial, bend), .min = 0, .max = 1e3, .unit = "N·m",
+     .what = "bending stiffness per width for curvature along warp, bias and weft; 0 is limp"},
+    {.key = "rest_angle", .kind = ParameterKind::angle_or_mesh, .offset = offsetof(BendMaterial, rest_angle),
+     .min = -180, .max = 180, .unit = "°", .what = "dihedral angle at ease: \"mesh\" as the mesh is built, or degrees"},
+};
+
+}  // namespace weft
+#endif
+#endif

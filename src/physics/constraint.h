@@ -1,0 +1,57 @@
+// The kinds of constraint, and their rows as the builders make them.
+#pragma once
+
+#include "physics/bend/bend.data.h"
+#include "physics/rest_shape.h"
+#include "physics/stretch/stretch.data.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+enum class ConstraintKind : std::uint32_t {
+#define WEFT_CONSTRAINT(name, Name, particles) name,
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+};
+
+#define WEFT_CONSTRAINT(name, Name, particles) +1
+inline constexpr std::uint32_t constraint_kind_count = 0
+#include "physics/constraints.def"
+    ;
+#undef WEFT_CONSTRAINT
+
+struct ConstraintInfo {
+    std::string_view name;
+    std::uint32_t arity;                       ///< particles per row
+    std::span<const std::string_view> fields;  ///< names of the row's numbers
+};
+
+const ConstraintInfo& constraint_info(ConstraintKind kind);
+
+/// Rows in the order in which they were built.
+struct RowList {
+    std::uint32_t arity = 0, field_count = 0;
+    std::vector<std::uint32_t> particles;  ///< arity per row
+    std::vector<float> fields;             ///< field_count per row
+
+    std::uint32_t size() const { return arity ? static_cast<std::uint32_t>(particles.size() / arity) : 0; }
+    void add(std::initializer_list<std::uint32_t> row_particles, std::initializer_list<float> row_fields) {
+        particles.insert(particles.end(), row_particles);
+        fields.insert(fields.end(), row_fields);
+    }
+};
+
+/// An empty list for rows of that kind.
+RowList make_rows(ConstraintKind kind);
+
+// One builder per kind: build_stretch, build_bend, …
+#define WEFT_CONSTRAINT(name, Name, particles) \
+    RowList build_##name(const RestShape& rest, const Name##Material& material);
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+
+}  // namespace weft

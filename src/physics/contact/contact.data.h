@@ -1,0 +1,24 @@
+// Contact: a particle keeps half a thickness away from a collider and rubs on it (contact.md has the law).
+#ifndef WEFT_CONTACT_DATA_H
+#define WEFT_CONTACT_DATA_H
+
+#ifdef __cplusplus
+#include "physics/parameter.h"
+
+namespace weft {
+
+struct ContactMaterial {
+    float thickness = 0.002f;          ///< m
+    float friction[2] = {0.4f, 0.3f};  ///< static, kinetic
+};
+
+inline constexpr Parameter contact_parameters[] = {
+    {.key = "thickness", .count = 1, .offset = offsetof(ContactMaterial, thickness), .min = 0, .max = 1, .unit = "m",
+     .what = "thickness of the cloth: its middle surface stays half of it away from a collider"},
+    {.key = "friction", .count = 2, .offset = offsetof(ContactMaterial, friction), .min = 0, .max = 100,
+     .what = "static and kinetic friction; a pair's is the geometric mean of its two sides"},
+};
+
+}  // namespace weft
+#endif
+#endif

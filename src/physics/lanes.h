@@ -1,0 +1,169 @@
+// C++ side of the common subset, over Highway: 4, 8 or 16 lanes, one copy per instruction set. Included under
+// hwy/foreach_target.h, hence the toggled guard. GLSL's side is lanes.glsl, one lane is lanes_scalar.inl.
+//
+// Only operations that IEEE 754 rounds exactly are used (no fused multiply-add, no approximate reciprocals), so that
+// every width gives the same bits.
+
+#if defined(WEFT_PHYSICS_LANES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WEFT_PHYSICS_LANES_H
+#undef WEFT_PHYSICS_LANES_H
+#else
+#define WEFT_PHYSICS_LANES_H
+#endif
+
+#include "physics/kernel_language.h"
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace weft::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+inline constexpr int lane_count = static_cast<int>(hn::MaxLanes(D()));
+
+struct mask {
+    hn::Mask<D> m;
+};
+
+struct real {
+    V v;
+
+    real() = default;
+    WEFT_FN real(V v_) : v(v_) {}
+    WEFT_FN explicit real(float x) : v(hn::Set(D(), x)) {}
+};
+
+WEFT_FN real operator+(real a, real b) {
+    return hn::Add(a.v, b.v);
+}
+WEFT_FN real operator-(real a, real b) {
+    return hn::Sub(a.v, b.v);
+}
+WEFT_FN real operator*(real a, real b) {
+    return hn::Mul(a.v, b.v);
+}
+WEFT_FN real operator/(real a, real b) {
+    return hn::Div(a.v, b.v);
+}
+WEFT_FN real operator-(real a) {
+    return hn::Neg(a.v);
+}
+WEFT_FN mask operator<(real a, real b) {
+    return {hn::Lt(a.v, b.v)};
+}
+WEFT_FN mask operator>(real a, real b) {
+    return {hn::Gt(a.v, b.v)};
+}
+WEFT_FN mask operator&&(mask a, mask b) {
+    return {hn::And(a.m, b.m)};
+}
+WEFT_FN mask operator||(mask a, mask b) {
+    return {hn::Or(a.m, b.m)};
+}
+WEFT_FN mask operator!(mask a) {
+    return {hn::Not(a.m)};
+}
+WEFT_FN real select(mask m, real yes, real no) {
+    return hn::IfThenElse(m.m, yes.v, no.v);
+}
+WEFT_FN bool any(mask m) {
+    return !hn::AllFalse(D(), m.m);
+}
+
+WEFT_FN real sqrt(real x) {
+    return hn::Sqrt(x.v);
+}
+WEFT_FN real abs(real x) {
+    return hn::Abs(x.v);
+}
+// Spelled as comparisons: Highway leaves the order of equal and unordered operands to the machine.
+WEFT_FN real min(real a, real b) {
+    return select(a < b, a, b);
+}
+WEFT_FN real max(real a, real b) {
+    return select(a > b, a, b);
+}
+WEFT_FN real inversesqrt(real x) {
+    return real(1) / sqrt(x);
+}
+
+#include "physics/lanes_vec3.inl"
+
+WEFT_FN real load(const float* p) {
+    return hn::LoadU(D(), p);
+}
+WEFT_FN void store(real x, float* p) {
+    hn::StoreU(x.v, D(), p);
+}
+
+// Blocks of four floats: x, y, z and one more number; consecutive ones here, indexed ones below.
+WEFT_FN vec3 load_blocks(const float* p, real& fourth) {
+    V x, y, z, w;
+    hn::LoadInterleaved4(D(), p, x, y, z, w);
+    fourth = w;
+    return vec3(x, y, z);
+}
+WEFT_FN void store_blocks(vec3 v, real fourth, float* p) {
+    hn::StoreInterleaved4(v.x.v, v.y.v, v.z.v, fourth.v, D(), p);
+}
+
+// The blocks of every fourth index, side by side in one register; and back.
+template <class Tag>
+WEFT_FN hn::Vec<Tag> load_parts(Tag tag, const float* base, const std::uint32_t* index) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        return hn::Load(tag, base + 4 * std::size_t{*index});
+    } else {
+        const hn::Half<Tag> half;
+        return hn::Combine(tag, load_parts(half, base, index + hn::MaxLanes(half)), load_parts(half, base, index));
+    }
+}
+template <class Tag>
+WEFT_FN void store_parts(Tag tag, hn::Vec<Tag> v, float* base, const std::uint32_t* index) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        hn::Store(v, tag, base + 4 * std::size_t{*index});
+    } else {
+        const hn::Half<Tag> half;
+        store_parts(half, hn::LowerHalf(half, v), base, index);
+        store_parts(half, hn::UpperHalf(half, v), base, index + hn::MaxLanes(half));
+    }
+}
+
+// Transposes 4x4 numbers within each 128-bit block: rows of xyzw to columns, or back.
+WEFT_FN void transpose_blocks(V& r0, V& r1, V& r2, V& r3) {
+    const hn::Repartition<double, D> wide;
+    const auto xy01 = hn::BitCast(wide, hn::InterleaveLower(D(), r0, r1));
+    const auto zw01 = hn::BitCast(wide, hn::InterleaveUpper(D(), r0, r1));
+    const auto xy23 = hn::BitCast(wide, hn::InterleaveLower(D(), r2, r3));
+    const auto zw23 = hn::BitCast(wide, hn::InterleaveUpper(D(), r2, r3));
+    r0 = hn::BitCast(D(), hn::InterleaveLower(wide, xy01, xy23));
+    r1 = hn::BitCast(D(), hn::InterleaveUpper(wide, xy01, xy23));
+    r2 = hn::BitCast(D(), hn::InterleaveLower(wide, zw01, zw23));
+    r3 = hn::BitCast(D(), hn::InterleaveUpper(wide, zw01, zw23));
+}
+
+// Whole 128-bit blocks and a transpose in registers: several times faster than the gather instructions.
+WEFT_FN vec3 gather_blocks(const float* base, const std::uint32_t* index, real& fourth) {
+    V r0 = load_parts(D(), base, index), r1 = load_parts(D(), base, index + 1);
+    V r2 = load_parts(D(), base, index + 2), r3 = load_parts(D(), base, index + 3);
+    transpose_blocks(r0, r1, r2, r3);
+    fourth = r3;
+    return vec3(r0, r1, r2);
+}
+
+WEFT_FN void scatter_blocks(vec3 v, real fourth, float* base, const std::uint32_t* index) {
+    V r0 = v.x.v, r1 = v.y.v, r2 = v.z.v, r3 = fourth.v;
+    transpose_blocks(r0, r1, r2, r3);
+    store_parts(D(), r0, base, index), store_parts(D(), r1, base, index + 1);
+    store_parts(D(), r2, base, index + 2), store_parts(D(), r3, base, index + 3);
+}
+
+}  // namespace weft::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,37 @@
+// The common subset on one lane. Included inside a namespace that has defined `real` as float or double: the fallback
+// of the CPU backend, the reference in tests, and every place that needs one evaluation of a kernel.
+
+using mask = bool;
+inline constexpr int lane_count = 1;
+
+WEFT_FN real sqrt(real x) { return std::sqrt(x); }
+WEFT_FN real abs(real x) { return std::fabs(x); }
+// As the x86 instructions have it, so that every lane width agrees to the bit: the second operand unless the first wins.
+WEFT_FN real min(real a, real b) { return a < b ? a : b; }
+WEFT_FN real max(real a, real b) { return a > b ? a : b; }
+WEFT_FN real inversesqrt(real x) { return real(1) / sqrt(x); }
+WEFT_FN real select(mask m, real yes, real no) { return m ? yes : no; }
+WEFT_FN bool any(mask m) { return m; }
+
+#include "physics/lanes_vec3.inl"
+
+WEFT_FN real load(const real* p) { return *p; }
+WEFT_FN void store(real v, real* p) { *p = v; }
+
+// Blocks of four: x, y, z and one more number.
+WEFT_FN vec3 load_blocks(const real* p, real& fourth) {
+    fourth = p[3];
+    return vec3(p[0], p[1], p[2]);
+}
+WEFT_FN void store_blocks(vec3 v, real fourth, real* p) {
+    p[0] = v.x;
+    p[1] = v.y;
+    p[2] = v.z;
+    p[3] = fourth;
+}
+WEFT_FN vec3 gather_blocks(const real* base, const std::uint32_t* index, real& fourth) {
+    return load_blocks(base + 4 * std::size_t{*index}, fourth);
+}
+WEFT_FN void scatter_blocks(vec3 v, real fourth, real* base, const std::uint32_t* index) {
+    store_blocks(v, fourth, base + 4 * std::size_t{*index});
+}

@@ -1,0 +1,74 @@
+#include "physics/rest_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+Vec3 laid_into(Vec3 axis, Vec3 normal) {
+    return axis - normal * dot(axis, normal);
+}
+
+Vec3 warp_without_uvs(Vec3 normal) {
+    const Vec3 along_x = laid_into({1, 0, 0}, normal);
+    return normalized(dot(along_x, along_x) > 0.01f ? along_x : laid_into({0, 0, 1}, normal));
+}
+
+// Direction in which u grows and v stands still; zero if the UVs span no area.
+Vec3 warp_from_uvs(Vec3 e1, Vec3 e2, Vec2 t1, Vec2 t2) {
+    const float det = t1.x * t2.y - t2.x * t1.y;
+    const float scale = std::abs(t1.x * t2.y) + std::abs(t2.x * t1.y);
+    if (!(std::abs(det) > 1e-6f * scale)) return {};
+    return normalized((e1 * t2.y - e2 * t1.y) * (det > 0 ? 1.0f : -1.0f));
+}
+
+}  // namespace
+
+RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
+    RestShape rest{topology, {}, {}};
+    rest.area.reserve(topology.triangles.size());
+    rest.warp.reserve(topology.triangles.size());
+    for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
+        const auto [a, b, c] = topology.triangles[t];
+        const Vec3 e1 = topology.rest_positions[b] - topology.rest_positions[a];
+        const Vec3 e2 = topology.rest_positions[c] - topology.rest_positions[a];
+        const Vec3 n = cross(e1, e2);
+        rest.area.push_back(0.5f * length(n));
+
+        Vec3 warp;
+        if (!mesh.uvs.empty()) {
+            const auto [va, vb, vc] = mesh.triangles[topology.source_triangle[t]];
+            // The drawn triangle has the corners of the simulated one in the same order, with the UVs of its own side
+            // of a seam.
+            warp = warp_from_uvs(e1, e2, mesh.uvs[vb] - mesh.uvs[va], mesh.uvs[vc] - mesh.uvs[va]);
+        }
+        if (!(dot(warp, warp) > 0.5f)) warp = warp_without_uvs(normalized(n));
+        rest.warp.push_back(warp);
+    }
+    return rest;
+}
+
+float cos2_to_warp(const RestShape& rest, const Edge& edge) {
+    const Vec3 along = normalized(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
+    float sum = 0, count = 0;
+    for (std::uint32_t t : {edge.triangle0, edge.triangle1}) {
+        if (t == none) continue;
+        const float c = dot(along, rest.warp[t]);
+        sum += c * c;
+        count += 1;
+    }
+    return count > 0 ? std::min(1.0f, sum / count) : 1.0f;
+}
+
+float area_at(const RestShape& rest, const Edge& edge) {
+    return (edge.triangle0 == none ? 0.0f : rest.area[edge.triangle0]) +
+           (edge.triangle1 == none ? 0.0f : rest.area[edge.triangle1]);
+}
+
+float directional(float warp, float bias, float weft, float cos2) {
+    const float off_bias = (1 - 2 * cos2) * (1 - 2 * cos2);  // cos²(2φ), without cancellation at 45°
+    return (warp * cos2 + weft * (1 - cos2)) * off_bias + bias * (1 - off_bias);
+}
+
+}  // namespace weft

@@ -1,0 +1,30 @@
+// What every constraint builder needs to know of the cloth at rest: areas, and where warp and weft run.
+#pragma once
+
+#include "mesh/topology.h"
+
+#include <vector>
+
+namespace weft {
+
+struct RestShape {
+    const Topology& topology;
+    std::vector<float> area;  ///< per triangle, m²
+    std::vector<Vec3> warp;   ///< per triangle, unit, in its plane: the direction in which u grows
+};
+
+/// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis laid into the triangle (the z axis
+/// where the triangle faces x).
+RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology);
+
+/// cos² of the angle between an edge and the warp, the mean over the edge's triangles.
+float cos2_to_warp(const RestShape& rest, const Edge& edge);
+
+/// The area of the edge's one or two triangles, m².
+float area_at(const RestShape& rest, const Edge& edge);
+
+/// A stiffness with the given values along warp, bias (45°) and weft at an angle to the warp:
+/// (warp·cos² + weft·sin²)(1 - s) + bias·s with s = sin²(2φ).
+float directional(float warp, float bias, float weft, float cos2);
+
+}  // namespace weft

@@ -1,0 +1,26 @@
+// The kernels on one lane: `weft::scalar` in float, as the CPU backend's fallback and for single evaluations;
+// `weft::reference` in double, for tests and measurements.
+#pragma once
+
+#include "physics/bend/bend.data.h"
+#include "physics/contact/contact.data.h"
+#include "physics/kernel_language.h"
+#include "physics/stretch/stretch.data.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace weft::scalar {
+using real = float;
+#include "physics/lanes_scalar.inl"
+
+#include "physics/kernels.inl"
+}  // namespace weft::scalar
+
+namespace weft::reference {
+using real = double;
+#include "physics/lanes_scalar.inl"
+
+#include "physics/kernels.inl"
+}  // namespace weft::reference

@@ -1,0 +1,36 @@
+// Stretch: the distance along an edge. Read by C++ and by GLSL (stretch.md has the law).
+#ifndef WEFT_STRETCH_DATA_H
+#define WEFT_STRETCH_DATA_H
+
+// The numbers of one row.
+//   rest         m    length at which the edge is at ease
+//   compliance   m/N  inverse stiffness while the edge is longer than that
+//   compression  m/N  inverse stiffness while it is shorter
+#define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression)
+
+#ifdef __cplusplus
+#include "physics/parameter.h"
+
+namespace weft {
+
+struct StretchMaterial {
+    float stretch[2] = {4000, 4000};      ///< N/m, warp and weft
+    float compression[2] = {4000, 4000};  ///< N/m, warp and weft
+    float shear = 40;                     ///< N/m
+    bool inextensible = false;            ///< every edge keeps its length: all compliances 0
+};
+
+inline constexpr Parameter stretch_parameters[] = {
+    {.key = "stretch", .count = 2, .offset = offsetof(StretchMaterial, stretch), .min = 0, .max = 1e9, .unit = "N/m",
+     .what = "tensile stiffness along warp and weft; 0 leaves that direction free"},
+    {.key = "compression", .count = 2, .offset = offsetof(StretchMaterial, compression), .min = 0, .max = 1e9,
+     .unit = "N/m", .what = "stiffness against shortening along warp and weft"},
+    {.key = "shear", .count = 1, .offset = offsetof(StretchMaterial, shear), .min = 0, .max = 1e9, .unit = "N/m",
+     .what = "shear stiffness"},
+    {.key = "inextensible", .kind = ParameterKind::flag, .offset = offsetof(StretchMaterial, inextensible),
+     .what = "every edge keeps its length, whatever the stiffnesses say"},
+};
+
+}  // namespace weft
+#endif
+#endif

@@ -1,0 +1,167 @@
+#include "scene/check.h"
+
+#include "scene/scene_keys.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+namespace weft {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+SceneDesc valid_scene() {
+    SceneDesc scene;
+    scene.cloths.resize(2);
+    scene.cloths[0].pins = {{VertexPins{{0, 63}}}, {BoxPins{{{-1, -1, -1}, {1, 1, 1}}}}};
+    scene.cloths[1].mesh = MeshFileDesc{.file = "bunny.obj"};
+    scene.cloths[1].pins = {{ColorPins{.color = {1, 0, 0}}}};
+    scene.colliders = {{.name = "ground", .shape = PlaneDesc{}}, {.name = "ball", .shape = SphereDesc{}}};
+    return scene;
+}
+
+std::vector<std::string> problems_after(const std::function<void(SceneDesc&)>& change) {
+    SceneDesc scene = valid_scene();
+    change(scene);
+    std::vector<std::string> messages;
+    for (const Error& error : check_scene(scene)) messages.push_back(error.message());
+    return messages;
+}
+
+GridDesc& grid(SceneDesc& scene) {
+    return std::get<GridDesc>(scene.cloths[0].mesh);
+}
+
+TEST(CheckScene, PassesWhatIsFine) {
+    EXPECT_THAT(problems_after([](SceneDesc&) {}), ElementsAre());
+}
+
+TEST(CheckScene, NeedsACloth) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths.clear(); }),
+                ElementsAre("/cloths: must hold at least one cloth"));
+}
+
+TEST(CheckScene, HoldsEveryTableToItsRange) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.frame_rate = 0; }),
+                ElementsAre("/frame_rate: must be > 0 frames/s, got 0"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.frame_rate = 100001; }),
+                ElementsAre("/frame_rate: must be ≤ 100000 frames/s, got 100001"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.gravity.y = nan; }),
+                ElementsAre("/gravity/1: must be a finite number, got nan"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.solver = {.substeps = 0, .iterations = 10001}; }),
+                ElementsAre("/solver/substeps: must be ≥ 1, got 0", "/solver/iterations: must be ≤ 10000, got 10001"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.solver.method = static_cast<Method>(7); }),
+                ElementsAre("/solver/method: is not one of its enumerators"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[1].transform.scale = 0; }),
+                ElementsAre("/cloths/1/transform/scale: must be > 0, got 0"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.colliders[0].transform.rotation_degrees.z = infinity; }),
+                ElementsAre("/colliders/0/transform/rotation/2: must be a finite number, got infinity"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { std::get<SphereDesc>(s.colliders[1].shape).radius = -0.5f; }),
+                ElementsAre("/colliders/1/sphere/radius: must be > 0 m, got -0.5"));
+}
+
+TEST(CheckScene, HoldsFabricsToTheirRange) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].fabric.body.density = -1; }),
+                ElementsAre("/cloths/0/fabric/density: must be > 0 kg/m², got -1"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].fabric.stretch.stretch[1] = -4; }),
+                ElementsAre("/cloths/0/fabric/stretch/1: must be ≥ 0 N/m, got -4"));
+    // One number for both directions is one problem.
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[0].fabric.stretch.stretch[0] = s.cloths[0].fabric.stretch.stretch[1] = -4;
+                }),
+                ElementsAre("/cloths/0/fabric/stretch: must be ≥ 0 N/m, got -4"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].fabric.bend.rest_angle = 181; }),
+                ElementsAre("/cloths/0/fabric/rest_angle: must be ≤ 180 °, got 181"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].fabric.bend.rest_angle = nan; }), ElementsAre());
+}
+
+TEST(CheckScene, LimitsGrids) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    grid(s).resolution = {1, 4097};
+                    s.cloths[0].pins = {{VertexPins{{5000}}}};  // too many? of how many is not known
+                }),
+                ElementsAre("/cloths/0/mesh/grid/resolution/0: must be ≥ 2, got 1",
+                            "/cloths/0/mesh/grid/resolution/1: must be ≤ 4096, got 4097"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    grid(s).size = {0, nan};
+                }),
+                ElementsAre("/cloths/0/mesh/grid/size/0: must be > 0 m, got 0",
+                            "/cloths/0/mesh/grid/size/1: must be a finite number, got nan"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { grid(s).resolution = {4096, 4096}; }), ElementsAre());
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    grid(s) = {.resolution = {4096, 4096}, .diagonal = GridDiagonal::cross};
+                }),
+                ElementsAre("/cloths/0/mesh/grid/resolution: must give at most 16777216 particles, got 33546241"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    grid(s).resolution = {4096, 4096};
+                    s.cloths[1] = {};
+                }),
+                ElementsAre("/cloths: must have at most 16777216 particles together, got 16781312"));
+}
+
+TEST(CheckScene, KnowsTheParticlesOfAGrid) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[0].pins = {{VertexPins{{4095, 4096}}}};
+                }),
+                ElementsAre("/cloths/0/pins/0/vertices/1: must be less than 4096, the number of particles, got 4096"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    grid(s).diagonal = GridDiagonal::cross;
+                    s.cloths[0].pins = {{VertexPins{{8064}}}};  // 64² + 63² are 8065
+                }),
+                ElementsAre());
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].pins = {{ColorPins{}}}; }),
+                ElementsAre("/cloths/0/pins/0/color: needs a mesh with vertex colors, which a grid has not"));
+    // How many a file has is not known yet.
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[1].pins = {{VertexPins{{1000000000}}}}; }), ElementsAre());
+}
+
+TEST(CheckScene, ChecksBoxesAndNormals) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[0].pins = {{BoxPins{{{0, 2, 0}, {1, 1, 1}}}}};
+                }),
+                ElementsAre("/cloths/0/pins/0/box/min/1: must not be greater than the same element of \"max\", 1, "
+                            "got 2"));
+    EXPECT_EQ(problems_after([](SceneDesc& s) { s.cloths[0].pins = {{BoxPins{}}}; }).size(), 6u);
+    EXPECT_THAT(problems_after([](SceneDesc& s) { std::get<PlaneDesc>(s.colliders[0].shape).normal = {}; }),
+                ElementsAre("/colliders/0/plane/normal: must not be zero"));
+}
+
+TEST(CheckScene, ChecksNamesAndFiles) {
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].name = s.cloths[1].name = "sheet"; }),
+                ElementsAre("/cloths/1/name: is taken: another before it is called \"sheet\""));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.colliders[1].name = "ground"; }),
+                ElementsAre("/colliders/1/name: is taken: another before it is called \"ground\""));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].name = "ground"; }), ElementsAre());
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.name = "two\nlines"; }),
+                ElementsAre("/name: must not hold control characters, got \"two\\u000alines\""));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[1].mesh = MeshFileDesc{}; }),
+                ElementsAre("/cloths/1/mesh/file: must name a file"));
+}
+
+TEST(NameUnnamed, GivesFreeNames) {
+    SceneDesc scene = valid_scene();
+    scene.cloths.resize(4);
+    scene.cloths[1].name = "cloth 2";
+    scene.colliders.emplace_back();
+    name_unnamed(scene);
+    std::vector<std::string> names;
+    for (const ClothDesc& cloth : scene.cloths) names.push_back(cloth.name);
+    EXPECT_THAT(names, ElementsAre("cloth 0", "cloth 2", "cloth 3", "cloth 4"));
+    EXPECT_EQ(scene.colliders[0].name, "ground");
+    EXPECT_EQ(scene.colliders[2].name, "collider 2");
+    EXPECT_TRUE(check_scene(scene).empty());
+}
+
+TEST(ChoiceNames, StandInTheOrderOfTheEnum) {
+    EXPECT_THAT(choice_names(grid_keys[2]), ElementsAre("uniform", "alternating", "cross"));
+    EXPECT_THAT(choice_names({}), ElementsAre());
+}
+
+}  // namespace
+}  // namespace weft

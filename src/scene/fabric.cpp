@@ -1,0 +1,66 @@
+#include "scene/fabric.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace weft {
+namespace {
+
+constexpr bool textile = true;  // woven or knitted
+constexpr bool sheet = false;
+
+// The arguments as fabrics.def documents them; micronewton meters in, newton meters out.
+struct Row {
+    double density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft;
+};
+
+constexpr Fabric fabric_from(const Row& row) {
+    Fabric f;
+    f.body.density = static_cast<float>(row.density);
+    const float stretch[2] = {static_cast<float>(row.stretch_warp), static_cast<float>(row.stretch_weft)};
+    std::copy_n(stretch, 2, f.stretch.stretch);
+    std::copy_n(stretch, 2, f.stretch.compression);
+    f.stretch.shear = static_cast<float>(row.shear);
+    const double bend[3] = {row.bend_warp, row.bend_bias, row.bend_weft};
+    for (int i = 0; i < 3; ++i) f.bend.bend[i] = static_cast<float>(bend[i] * 1e-6);
+    return f;
+}
+
+#define WEFT_MEASURED                                                                                                  \
+    "measured by Wang, O'Brien, Ramamoorthi 2011, \"Data-Driven Elastic Models for Cloth: Modeling and Measurement\" " \
+    "(bend converted to SI): "
+#define WEFT_MEDIANS "medians by areal density over 618 measured fabrics (DrapeTester), "
+#define WEFT_MEDIAN "bend from the " WEFT_MEDIANS
+#define WEFT_TENSILE_CHOSEN "stretch and shear are chosen, not measured"
+
+constexpr FabricPreset presets[] = {
+#define WEFT_FABRIC(name, density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft, kind, source) \
+    {#name, source, fabric_from({density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft}), kind},
+#include "scene/fabrics.def"
+#undef WEFT_FABRIC
+};
+
+constexpr FabricTable tables[] = {
+    {body_parameters, offsetof(Fabric, body)},
+#define WEFT_CONSTRAINT(name, Name, particles) {name##_parameters, offsetof(Fabric, name)},
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+    {contact_parameters, offsetof(Fabric, contact)},
+};
+
+}  // namespace
+
+std::span<const FabricTable> fabric_tables() {
+    return tables;
+}
+
+std::span<const FabricPreset> fabric_presets() {
+    return presets;
+}
+
+const FabricPreset* find_fabric(std::string_view name) {
+    const auto it = std::ranges::find(presets, name, &FabricPreset::name);
+    return it != std::end(presets) ? &*it : nullptr;
+}
+
+}  // namespace weft

@@ -1,0 +1,60 @@
+// A fabric: every material value of a cloth, and the fabrics known by name.
+#pragma once
+
+#include "physics/bend/bend.data.h"
+#include "physics/contact/contact.data.h"
+#include "physics/parameter.h"
+#include "physics/stretch/stretch.data.h"
+
+#include <span>
+#include <string_view>
+
+namespace weft {
+
+/// The values that belong to no single constraint.
+struct BodyMaterial {
+    float density = 0.14f;  ///< kg/m²
+    float damping = 0.1f;   ///< s
+};
+
+// One entry is one key.
+// clang-format off
+inline constexpr Parameter body_parameters[] = {
+    {.key = "density", .count = 1, .offset = offsetof(BodyMaterial, density), .min = 0, .max = 1e4,
+     .min_excluded = true, .unit = "kg/m²", .what = "mass per area"},
+    {.key = "damping", .count = 1, .offset = offsetof(BodyMaterial, damping), .min = 0, .max = 1e4, .unit = "s",
+     .what = "retardation time of a Kelvin-Voigt solid: stress = stiffness · (strain + time · strain rate)"},
+};
+// clang-format on
+
+/// Defaults are the preset `cotton`.
+struct Fabric {
+    BodyMaterial body;
+    ContactMaterial contact;
+#define WEFT_CONSTRAINT(name, Name, particles) Name##Material name;
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+};
+
+/// One table of parameters and where its struct stands in a Fabric.
+struct FabricTable {
+    std::span<const Parameter> parameters;
+    std::size_t offset;
+};
+
+/// Every table, in the order in which documentation lists them. Address of a value: fabric + table.offset + p.offset.
+std::span<const FabricTable> fabric_tables();
+
+struct FabricPreset {
+    std::string_view name;
+    std::string_view source;  ///< where the values come from, and which of them are chosen rather than measured
+    Fabric fabric;
+    bool woven_or_knitted = true;
+};
+
+/// Every fabric known by name.
+std::span<const FabricPreset> fabric_presets();
+/// nullptr if no preset has that name.
+const FabricPreset* find_fabric(std::string_view name);
+
+}  // namespace weft

@@ -1,0 +1,49 @@
+#include "scene/nearest_name.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace weft {
+namespace {
+
+constexpr std::string_view keys[] = {"density", "damping", "stretch", "bend", "rest_angle", "friction"};
+
+TEST(NearestName, FindsWhatWasMeant) {
+    EXPECT_EQ(nearest_name("densty", keys), "density");     // missing
+    EXPECT_EQ(nearest_name("dampping", keys), "damping");   // added
+    EXPECT_EQ(nearest_name("strotch", keys), "stretch");    // changed
+    EXPECT_EQ(nearest_name("frictoin", keys), "friction");  // swapped
+    EXPECT_EQ(nearest_name("Bend", keys), "bend");          // case
+    EXPECT_EQ(nearest_name("rest-angle", keys), "rest_angle");
+    EXPECT_EQ(nearest_name("restangle", keys), "rest_angle");
+    EXPECT_EQ(nearest_name("dens", keys), "density");  // the beginning of it
+    EXPECT_EQ(nearest_name("friction_static", keys), "friction");
+    EXPECT_EQ(nearest_name("bend", keys), "bend");
+}
+
+TEST(NearestName, PrefersTheFewestErrors) {
+    constexpr std::string_view names[] = {"mask", "mass", "mast"};
+    EXPECT_EQ(nearest_name("maass", names), "mass");
+    EXPECT_EQ(nearest_name("mas", names), "mask");  // all are as near: the first
+}
+
+TEST(NearestName, FindsNothingFarAway) {
+    EXPECT_EQ(nearest_name("color", keys), "");
+    EXPECT_EQ(nearest_name("x", keys), "");
+    EXPECT_EQ(nearest_name("", keys), "");
+    EXPECT_EQ(nearest_name("bend", {}), "");
+    EXPECT_EQ(nearest_name(std::string(1 << 20, 'z'), keys), "");
+}
+
+TEST(NearestName, SuggestsOrLists) {
+    constexpr std::string_view names[] = {"plane", "sphere", "box"};
+    EXPECT_EQ(suggestion("shpere", names), "; did you mean \"sphere\"?");
+    EXPECT_EQ(suggestion("teapot", names), "; known are \"plane\", \"sphere\" and \"box\"");
+    EXPECT_EQ(suggestion("teapot", {}), "");
+    EXPECT_EQ(alternatives(names), "\"plane\", \"sphere\" or \"box\"");
+    EXPECT_EQ(alternatives(std::span(names).first(1)), "\"plane\"");
+}
+
+}  // namespace
+}  // namespace weft

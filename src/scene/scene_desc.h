@@ -1,0 +1,99 @@
+// What a scene says, as values in SI units with their defaults. No file format and no simulation lives here. The ranges
+// of the values are in scene_keys.h; check.h applies them.
+#pragma once
+
+#include "base/bounds.h"
+#include "base/transform.h"
+#include "mesh/procedural.h"
+#include "scene/fabric.h"
+
+#include <weft/result.h>
+#include <weft/vector.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace weft {
+
+enum class Method { xpbd };
+enum class Projection { gauss_seidel };
+
+struct SolverDesc {
+    std::uint32_t substeps = 20;   ///< per frame, 1…10000
+    std::uint32_t iterations = 1;  ///< per substep, 1…10000
+    Method method = Method::xpbd;
+    Projection projection = Projection::gauss_seidel;
+};
+
+struct GridDesc {
+    std::array<float, 2> size{1, 1};                  ///< m along x and z
+    std::array<std::uint32_t, 2> resolution{64, 64};  ///< particles along x and z
+    GridDiagonal diagonal = GridDiagonal::alternating;
+};
+
+enum class UpAxis { x, y, z };
+
+struct MeshFileDesc {
+    std::string file = {};  ///< as written in the scene
+    float scale = 1;        ///< m per unit of the file
+    UpAxis up = UpAxis::y;
+};
+
+struct TransformDesc {
+    Vec3 position = {};          ///< m
+    Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
+    float scale = 1;
+};
+
+struct VertexPins {
+    std::vector<std::uint32_t> vertices = {};  ///< welded vertices, numbered in order of first appearance in the file
+};
+struct BoxPins {
+    Bounds box = {};  ///< world space, after the transform
+};
+struct ColorPins {
+    Vec3 color = {};         ///< linear RGB
+    float threshold = 0.5f;  ///< largest distance from `color`, per channel
+};
+
+struct PinDesc {
+    std::variant<VertexPins, BoxPins, ColorPins> select = {};
+};
+
+struct ClothDesc {
+    std::string name = {};
+    std::variant<GridDesc, MeshFileDesc> mesh = {};
+    TransformDesc transform = {};
+    Fabric fabric = {};
+    std::vector<PinDesc> pins = {};
+};
+
+/// Half space below the plane: normal·x = offset, in the collider's own frame.
+struct PlaneDesc {
+    Vec3 normal{0, 1, 0};
+    float offset = 0;  ///< m
+};
+struct SphereDesc {
+    float radius = 0.5f;  ///< m
+};
+
+struct ColliderDesc {
+    std::string name = {};
+    std::variant<PlaneDesc, SphereDesc> shape = {};
+    TransformDesc transform = {};               ///< `scale` unused
+    std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
+};
+
+struct SceneDesc {
+    std::string name = {};
+    Vec3 gravity{0, -9.81f, 0};  ///< m/s²
+    float frame_rate = 60;       ///< frames per second, > 0
+    SolverDesc solver = {};
+    std::vector<ClothDesc> cloths = {};  ///< at least one
+    std::vector<ColliderDesc> colliders = {};
+};
+
+}  // namespace weft

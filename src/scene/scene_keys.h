@@ -1,0 +1,167 @@
+// Every key of a scene beside those of a fabric: where its value goes, its range, unit and meaning. Reader, checks and
+// documentation work through these tables, so a new value is a member in scene_desc.h and a line here.
+#pragma once
+
+#include "physics/parameter.h"
+#include "scene/scene_desc.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace weft {
+
+inline constexpr std::uint32_t scene_format = 1;
+
+/// Farther from the origin a float no longer resolves a fiber: 10⁶ m is told in steps of 6 cm.
+inline constexpr double far_away = 1e6;
+inline constexpr double any_float = std::numeric_limits<float>::max();
+
+/// Vertices of all grids of a scene together; 2²⁴ is a grid of 4096 × 4096.
+inline constexpr std::uint64_t max_grid_vertices = 1u << 24;
+
+/// What a file says and a SceneDesc does not keep.
+struct SceneHead {
+    std::uint32_t weft = scene_format;
+};
+struct FabricHead {
+    std::string preset = "cotton";
+};
+
+// One entry is one key.
+// clang-format off
+inline constexpr Parameter head_keys[] = {
+    {.key = "weft", .kind = ParameterKind::integer, .offset = offsetof(SceneHead, weft), .min = 1,
+     .what = "version of the format; this one is 1", .required = true},
+};
+
+inline constexpr Parameter scene_keys[] = {
+    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(SceneDesc, name),
+     .what = "what to call the scene"},
+    {.key = "gravity", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(SceneDesc, gravity),
+     .min = -far_away, .max = far_away, .unit = "m/s²", .what = "acceleration of free fall"},
+    {.key = "frame_rate", .offset = offsetof(SceneDesc, frame_rate), .min = 0, .max = 100000, .min_excluded = true,
+     .unit = "frames/s", .what = "frames per second of simulated time"},
+    {.key = "solver", .kind = ParameterKind::object, .what = "how motion is computed"},
+    {.key = "cloths", .kind = ParameterKind::list, .what = "the cloths, at least one", .required = true},
+    {.key = "colliders", .kind = ParameterKind::list, .what = "what the cloths fall on"},
+};
+
+inline constexpr Parameter solver_keys[] = {
+    {.key = "method", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, method),
+     .what = "`xpbd`: stiffness does not depend on substeps and iterations", .choices = "xpbd"},
+    {.key = "projection", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, projection),
+     .what = "order of projection: `gauss-seidel`, batch after batch", .choices = "gauss-seidel"},
+    {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,
+     .max = 10000, .what = "steps per frame; twice as many cost twice the time and leave about a quarter of the stretch"},
+    {.key = "iterations", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, iterations), .min = 1,
+     .max = 10000, .what = "passes over all constraints per substep; more substeps serve better than more iterations"},
+};
+
+inline constexpr Parameter cloth_keys[] = {
+    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(ClothDesc, name),
+     .what = "no two cloths share one; a cloth without is called `cloth 0`, `cloth 1`, …"},
+    {.key = "mesh", .kind = ParameterKind::object, .what = "its shape: a grid or a file"},
+    {.key = "transform", .kind = ParameterKind::object, .what = "where it starts"},
+    {.key = "fabric", .kind = ParameterKind::object, .what = "its material: the name of a preset, or an object"},
+    {.key = "pins", .kind = ParameterKind::list, .what = "particles that stay where they start"},
+};
+
+inline constexpr Parameter mesh_keys[] = {
+    {.key = "grid", .kind = ParameterKind::object, .what = "a flat sheet; instead of `file`"},
+};
+
+inline constexpr Parameter mesh_file_keys[] = {
+    {.key = "file", .kind = ParameterKind::text, .offset = offsetof(MeshFileDesc, file),
+     .what = "name of a mesh file; instead of `grid`"},
+    {.key = "scale", .offset = offsetof(MeshFileDesc, scale), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "length of the file's unit; with `file`"},
+    {.key = "up", .kind = ParameterKind::choice, .offset = offsetof(MeshFileDesc, up),
+     .what = "the file's axis that points up; with `file`", .choices = "x|y|z"},
+};
+
+inline constexpr Parameter grid_keys[] = {
+    {.key = "size", .kind = ParameterKind::vector, .count = 2, .offset = offsetof(GridDesc, size), .min = 0,
+     .max = far_away, .min_excluded = true, .unit = "m", .what = "extent along x and z"},
+    {.key = "resolution", .kind = ParameterKind::integer, .count = 2, .offset = offsetof(GridDesc, resolution),
+     .min = 2, .max = 4096, .what = "particles along x and z"},
+    {.key = "diagonal", .kind = ParameterKind::choice, .offset = offsetof(GridDesc, diagonal),
+     .what = "how cells are cut: all alike, a checkerboard, or both ways with a particle in the middle",
+     .choices = "uniform|alternating|cross"},
+};
+
+inline constexpr Parameter transform_keys[] = {
+    {.key = "position", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(TransformDesc, position),
+     .min = -far_away, .max = far_away, .unit = "m", .what = "where the origin of the shape is put"},
+    {.key = "rotation", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(TransformDesc, rotation_degrees),
+     .min = -any_float, .unit = "°", .what = "about x, then y, then z, the axes of the world: R = Rz·Ry·Rx"},
+    {.key = "scale", .offset = offsetof(TransformDesc, scale), .min = 0, .max = far_away, .min_excluded = true,
+     .what = "enlarges the shape before it is turned"},
+};
+
+inline constexpr Parameter fabric_keys[] = {
+    {.key = "preset", .kind = ParameterKind::text, .offset = offsetof(FabricHead, preset),
+     .what = "the fabric whose values stand where none is given here"},
+};
+
+inline constexpr Parameter pin_keys[] = {
+    {.key = "vertices", .kind = ParameterKind::list,
+     .what = "welded vertices, numbered in order of first appearance in the mesh"},
+    {.key = "box", .kind = ParameterKind::object, .what = "all within a box in world space, after the transform"},
+};
+
+inline constexpr Parameter color_pin_keys[] = {
+    {.key = "color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(ColorPins, color), .min = 0,
+     .max = 1, .what = "all whose vertex color (linear RGB) is near this one"},
+    {.key = "threshold", .offset = offsetof(ColorPins, threshold), .min = 0, .max = 1,
+     .what = "largest difference from `color`, per channel; with `color`"},
+};
+
+inline constexpr Parameter box_keys[] = {
+    {.key = "min", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Bounds, min), .min = -any_float,
+     .unit = "m", .what = "least x, y and z", .required = true},
+    {.key = "max", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Bounds, max), .min = -any_float,
+     .unit = "m", .what = "greatest x, y and z, none less than that of `min`", .required = true},
+};
+
+inline constexpr Parameter collider_keys[] = {
+    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(ColliderDesc, name),
+     .what = "no two colliders share one; a collider without is called `collider 0`, `collider 1`, …"},
+    {.key = "plane", .kind = ParameterKind::object, .what = "everything below a plane is solid"},
+    {.key = "sphere", .kind = ParameterKind::object, .what = "a ball around the collider's origin"},
+    {.key = "transform", .kind = ParameterKind::object, .what = "where it is"},
+    {.key = "friction", .count = 2, .offset = offsetof(ColliderDesc, friction), .min = 0, .max = 100,
+     .what = "static and kinetic friction; a pair's is the geometric mean of its two sides"},
+};
+
+inline constexpr Parameter plane_keys[] = {
+    {.key = "normal", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PlaneDesc, normal),
+     .min = -far_away, .max = far_away, .what = "points out of the solid; any length but 0"},
+    {.key = "offset", .offset = offsetof(PlaneDesc, offset), .min = -far_away, .max = far_away, .unit = "m",
+     .what = "distance of the plane from the collider's origin, along the normal"},
+};
+
+inline constexpr Parameter sphere_keys[] = {
+    {.key = "radius", .offset = offsetof(SphereDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "how far it reaches from the collider's origin"},
+};
+
+// clang-format on
+
+/// A transform without `scale`.
+inline constexpr std::span<const Parameter> pose_keys = std::span(transform_keys).first(2);
+
+/// The keys of one object of a scene file.
+struct SceneTable {
+    std::string_view place;  ///< JSON pointer of the object, `*` for any index
+    std::span<const Parameter> keys;
+    const void* defaults;  ///< the struct that the keys describe, as it is when a file says nothing
+};
+
+/// Every table, those of the fabric included, in the order of the documentation. Tables of one place stand together.
+std::span<const SceneTable> scene_tables();
+
+}  // namespace weft

@@ -1,0 +1,93 @@
+#include "solver/cloth_model.h"
+
+#include <cmath>
+#include <limits>
+
+namespace weft {
+namespace {
+
+std::vector<float> lump_masses(const RestShape& rest, float density) {
+    std::vector<double> sum(rest.topology.particle_count);
+    for (std::size_t t = 0; t < rest.topology.triangles.size(); ++t) {
+        const double third = static_cast<double>(density) * rest.area[t] / 3;
+        for (std::uint32_t p : rest.topology.triangles[t]) sum[p] += third;
+    }
+    return {sum.begin(), sum.end()};
+}
+
+Result<Done> place_particles(ClothModel& model, const std::vector<std::uint32_t>& pinned) {
+    model.start.assign(model.capacity(), Vec4{});
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+        const Vec3 x = model.topology.rest_positions[p];
+        const float weight = 1 / model.mass[p];
+        if (!(std::isfinite(weight) && weight > 0)) {
+            return Error{"particle " + std::to_string(p), "its mass of " + std::to_string(model.mass[p]) +
+                                                              " kg has no finite inverse in single precision"};
+        }
+        model.start[p] = {x.x, x.y, x.z, weight};
+    }
+    for (std::uint32_t p : pinned) {
+        if (p >= model.particle_count) {
+            return Error{"pinned particle " + std::to_string(p),
+                         "there are only " + std::to_string(model.particle_count)};
+        }
+        model.pinned_count += model.start[p].w > 0;
+        model.start[p].w = 0;
+    }
+    return Done{};
+}
+
+void lay_out_faces(ClothModel& model) {
+    const auto count = static_cast<std::uint32_t>(model.topology.triangles.size());
+    model.face_stride = padded(count);
+    model.faces.resize(std::size_t{3} * model.face_stride);
+    for (std::uint32_t t = 0; t < model.face_stride; ++t) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            model.faces[std::size_t{corner} * model.face_stride + t] =
+                t < count ? model.topology.triangles[t][corner]
+                          : first_dummy(model.particle_count) + corner * lane_padding + t % lane_padding;
+        }
+    }
+}
+
+void measure_edges(ClothModel& model, const RestShape& rest) {
+    constexpr float cos2_10_degrees = 0.9698463f;
+    double sum = 0;
+    for (const Edge& edge : model.topology.edges) {
+        const float cos2 = cos2_to_warp(rest, edge);
+        model.edge_is_axial.push_back(cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees);
+        sum += length(model.topology.rest_positions[edge.a] - model.topology.rest_positions[edge.b]);
+    }
+    model.mean_edge = static_cast<float>(sum / static_cast<double>(model.topology.edges.size()));
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
+    const float density = desc.fabric.body.density;
+    if (!(density > 0) || !std::isfinite(density)) {
+        return Error{"density", "must be > 0 kg/m², got " + std::to_string(density)};
+    }
+    auto model = std::make_shared<ClothModel>();
+    model->name = std::move(desc.name);
+    model->mesh = std::move(desc.mesh);
+    model->topology = std::move(topology);
+    model->fabric = desc.fabric;
+    model->particle_count = model->topology.particle_count;
+
+    const RestShape rest = make_rest_shape(model->mesh, model->topology);
+    model->mass = lump_masses(rest, density);
+    if (auto placed = place_particles(*model, desc.pinned_particles); !placed) return placed.errors();
+
+#define WEFT_CONSTRAINT(name, Name, particles)                             \
+    model->constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
+        pack_rows(ConstraintKind::name, build_##name(rest, model->fabric.name), model->particle_count, desc.coloring);
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+
+    lay_out_faces(*model);
+    measure_edges(*model, rest);
+    return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+}  // namespace weft

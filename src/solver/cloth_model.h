@@ -1,0 +1,52 @@
+// A cloth as it was made: everything that does not change while it moves. Shared by every cloth of its kind.
+#pragma once
+
+#include "mesh/topology.h"
+#include "scene/fabric.h"
+#include "solver/constraint_table.h"
+
+#include <weft/result.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+struct ClothModelDesc {
+    std::string name = {};
+    TriangleMesh mesh = {};  ///< in world space, m
+    Fabric fabric = {};
+    std::vector<std::uint32_t> pinned_particles = {};  ///< of `topology`; in any order, repetitions allowed
+    ColoringOptions coloring = {};
+};
+
+struct ClothModel {
+    std::string name;
+    TriangleMesh mesh;
+    Topology topology;
+    Fabric fabric;
+
+    std::uint32_t particle_count = 0;
+    std::uint32_t pinned_count = 0;
+    AlignedVector<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to particle_capacity()
+    std::vector<float> mass;    ///< kg, per particle, pinned ones included
+
+    std::array<ConstraintTable, constraint_kind_count> constraints;
+    /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
+    AlignedVector<std::uint32_t> faces;
+    std::uint32_t face_stride = 0;
+
+    std::vector<std::uint8_t> edge_is_axial;  ///< per edge: 1 if it runs along warp or weft (within 10°)
+    float mean_edge = 0;                      ///< m
+
+    std::uint32_t capacity() const { return particle_capacity(particle_count); }
+    const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
+};
+
+/// `topology` is that of `desc.mesh`. Fails where values are such that no simulation could follow: density ≤ 0 or not
+/// finite, total mass that float cannot hold, a pinned particle out of range.
+Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
+
+}  // namespace weft

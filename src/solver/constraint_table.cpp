@@ -1,0 +1,61 @@
+#include "solver/constraint_table.h"
+
+namespace weft {
+namespace {
+
+std::vector<Batch> lay_out(const Coloring& coloring) {
+    std::vector<Batch> batches;
+    std::uint32_t at = 0;
+    const auto append = [&](std::uint32_t rows, bool serial) {
+        if (rows == 0) return;
+        batches.push_back({at, rows, serial});
+        at = batches.back().padded_end();
+    };
+    for (std::uint32_t c = 0; c < coloring.color_count(); ++c) {
+        append(coloring.color_begin[c + 1] - coloring.color_begin[c], false);
+    }
+    append(coloring.overflow, true);
+    return batches;
+}
+
+}  // namespace
+
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                          const ColoringOptions& options) {
+    const Coloring coloring = color_rows(list.particles, list.arity, particle_count, options);
+    ConstraintTable table{.kind = kind,
+                          .arity = list.arity,
+                          .field_count = list.field_count,
+                          .rows = list.size(),
+                          .stride = 0,
+                          .particles = {},
+                          .fields = {},
+                          .source = {},
+                          .batches = lay_out(coloring)};
+    if (table.batches.empty()) return table;
+
+    table.stride = table.batches.back().padded_end();
+    table.particles.resize(std::size_t{table.arity} * table.stride);
+    table.fields.resize(std::size_t{table.field_count} * table.stride);
+    table.source.assign(table.stride, none);
+
+    std::uint32_t next = 0;
+    for (const Batch& batch : table.batches) {
+        for (std::uint32_t row = batch.begin; row < batch.padded_end(); ++row) {
+            const bool real_row = row < batch.begin + batch.rows;
+            if (real_row) table.source[row] = coloring.order[next++];
+            for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
+                table.particles[std::size_t{slot} * table.stride + row] =
+                    real_row ? list.particles[std::size_t{table.source[row]} * table.arity + slot]
+                             : first_dummy(particle_count) + slot * lane_padding + row % lane_padding;
+            }
+            for (std::uint32_t field = 0; real_row && field < table.field_count; ++field) {
+                table.fields[std::size_t{field} * table.stride + row] =
+                    list.fields[std::size_t{table.source[row]} * table.field_count + field];
+            }
+        }
+    }
+    return table;
+}
+
+}  // namespace weft

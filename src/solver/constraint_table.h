@@ -1,0 +1,55 @@
+// Rows of one kind of constraint, packed for backends: structure of arrays, batch by batch.
+#pragma once
+
+#include "base/aligned.h"
+#include "mesh/coloring.h"
+#include "physics/constraint.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace weft {
+
+/// Batches and particle arrays are padded to this many elements: the widest register has so many lanes, so no loop over
+/// them needs a tail.
+inline constexpr std::uint32_t lane_padding = 16;
+
+constexpr std::uint32_t padded(std::uint32_t count) {
+    return (count + lane_padding - 1) / lane_padding * lane_padding;
+}
+
+/// Rows [begin, begin + rows). Up to `padded_end` follow rows that act on particles of no weight.
+struct Batch {
+    std::uint32_t begin = 0, rows = 0;
+    bool serial = false;  ///< the overflow: rows that share particles and run one after another, in order
+
+    std::uint32_t padded_end() const { return begin + padded(rows); }
+};
+
+struct ConstraintTable {
+    ConstraintKind kind{};
+    std::uint32_t arity = 0, field_count = 0;
+    std::uint32_t rows = 0;                  ///< real rows
+    std::uint32_t stride = 0;                ///< rows with padding: length of each array below
+    AlignedVector<std::uint32_t> particles;  ///< [slot · stride + row]
+    AlignedVector<float> fields;             ///< [field · stride + row]
+    std::vector<std::uint32_t> source;       ///< row -> row of the RowList, or `none` for padding
+    std::vector<Batch> batches;
+
+    std::uint32_t overflow() const { return !batches.empty() && batches.back().serial ? batches.back().rows : 0; }
+};
+
+/// Particles that padding rows act on start here; each lane and slot has its own, so that no two lanes of a scatter
+/// write to the same place.
+constexpr std::uint32_t first_dummy(std::uint32_t particle_count) {
+    return padded(particle_count);
+}
+/// Length of a particle array, dummies included (four slots at most).
+constexpr std::uint32_t particle_capacity(std::uint32_t particle_count) {
+    return first_dummy(particle_count) + 4 * lane_padding;
+}
+
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
+                          const ColoringOptions& options = {});
+
+}  // namespace weft

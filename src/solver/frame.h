@@ -1,0 +1,50 @@
+// What a step leaves behind, to be read and never written.
+#pragma once
+
+#include "solver/cloth_model.h"
+#include "solver/step_plan.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+/// What went wrong in a step, or was held back; combined by or.
+enum Report : std::uint32_t {
+    report_none = 0,
+    report_speed_capped = 1u << 0,  ///< particles went faster than the cap and were slowed to it
+    report_non_finite = 1u << 1,    ///< a NaN or infinity arose; the cloth is back where the frame began
+};
+
+/// The names of the bits, in the order of the bits.
+std::vector<std::string_view> report_names(std::uint32_t reports);
+
+/// One cloth. Arrays hold one element per particle, in the order of the model's topology.
+struct ClothFrame {
+    const ClothModel* model = nullptr;
+    std::span<const Vec4> positions;   ///< m; w is the inverse mass, 1/kg
+    std::span<const Vec4> velocities;  ///< m/s; w is internal
+    std::span<const Vec4> normals;     ///< unit; empty if the settings leave the surface out
+    std::uint32_t reports = report_none;
+    std::string detail;  ///< the first input or constraint that produced a non-finite value
+};
+
+struct Frame {
+    std::uint64_t index = 0;  ///< 0 is the start
+    double time = 0;          ///< s
+    std::vector<ClothFrame> cloths;
+    std::array<double, stage_count> stage_ms{};  ///< time in each stage, all cloths; see stage_name()
+    double step_ms = 0;
+    std::uint32_t reports = report_none;  ///< of all cloths
+};
+
+/// Positions and normals of the drawn mesh's vertices: the same size as the model's mesh. Vertices that no triangle
+/// uses stay where the mesh has them.
+void draw_positions(const ClothFrame& cloth, std::vector<Vec3>& out);
+void draw_normals(const ClothFrame& cloth, std::vector<Vec3>& out);
+
+}  // namespace weft

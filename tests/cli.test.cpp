@@ -1,0 +1,213 @@
+// The program as a user runs it: exit status, one-line errors, files.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+struct Outcome {
+    int status;
+    std::string out, err;
+};
+
+std::string read_file(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Cli : public testing::Test {
+  protected:
+    Cli() : folder_(fs::temp_directory_path() / ("weft_cli_" + std::to_string(::getpid()))) {
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+        write("sheet.json", R"({
+            "weft": 1,  // small and quick
+            "cloths": [{ "name": "sheet", "mesh": { "grid": { "size": [1, 1], "resolution": [12, 10] } },
+                         "transform": { "position": [0, 0.4, 0] }, "pins": [{ "vertices": [0, 11] }] }],
+            "colliders": [{ "name": "ball", "sphere": { "radius": 0.3 } }]
+        })");
+    }
+    ~Cli() override { fs::remove_all(folder_); }
+
+    void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+
+    Outcome weft(const std::string& arguments, const std::string& before = "") {
+        const fs::path err = folder_ / "stderr.txt", out = folder_ / "stdout.txt";
+        const std::string command = "cd " + folder_.string() + " && " + before + " " + WEFT_PROGRAM + " " + arguments +
+                                    " >" + out.string() + " 2>" + err.string();
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+    }
+
+    /// Wrong input: status 2, and on stderr exactly one line that says this.
+    void expect_usage_error(const std::string& arguments, const std::string& says) {
+        const Outcome outcome = weft(arguments);
+        EXPECT_EQ(outcome.status, 2) << arguments;
+        EXPECT_EQ(outcome.err.rfind("weft: error: ", 0), 0u) << outcome.err;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << arguments << ": " << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+
+    Json stats(const std::string& arguments) {
+        const Outcome outcome = weft("run sheet.json --quiet --stats stats.json " + arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_EQ(outcome.out, "") << "--quiet";
+        return Json::parse(read_file(folder_ / "stats.json"));
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(Cli, run_writes_everything_it_was_asked_for) {
+    const Outcome outcome =
+        weft("run sheet.json --frames 5 --out a.glb --out b.obj --out c.ply --out seq/%03d.obj --stats s.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    for (const char* file : {"a.glb", "b.obj", "c.ply", "s.json"})
+        EXPECT_GT(fs::file_size(folder_ / file), 100u) << file;
+    for (int i = 0; i <= 5; ++i) {  // frame 0 is the start
+        EXPECT_TRUE(fs::exists(folder_ / "seq" / ("00" + std::to_string(i) + ".obj"))) << i;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "seq" / "006.obj"));
+    EXPECT_NE(outcome.out.find("state hash"), std::string::npos);
+    EXPECT_NE(outcome.err.find("simulating 5/5"), std::string::npos)
+        << "plain progress lines where there is no terminal";
+}
+
+TEST_F(Cli, stats_have_every_figure) {
+    const Json s = stats("--seconds 1");
+    EXPECT_EQ(s["scene"], "sheet.json");
+    EXPECT_EQ(s["backend"], "cpu");
+    EXPECT_EQ(s["threads"], 1);
+    EXPECT_EQ(s["frames"], 60);
+    EXPECT_EQ(s["particles"], 120);
+    EXPECT_EQ(s["triangles"], 2 * 11 * 9);
+    EXPECT_EQ(s["constraints"]["stretch"], 11 * 10 + 12 * 9 + 11 * 9);
+    EXPECT_EQ(s["constraints"]["bend"], 11 * 8 + 10 * 9 + 11 * 9);
+    for (const char* key : {"median", "p95", "max"}) EXPECT_GT(s["ms_per_frame"][key], 0);
+    EXPECT_LE(s["ms_per_frame"]["median"], s["ms_per_frame"]["max"]);
+    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities"})
+        EXPECT_GT(s["stage_ms"][stage], 0);
+    for (const char* key : {"stretch", "shear", "residual"}) {
+        EXPECT_GT(s[key]["mean"], 0);
+        EXPECT_LE(s[key]["mean"], s[key]["max"]);
+    }
+    EXPECT_GT(s["kinetic_energy"], 0);
+    EXPECT_GT(s["mean_speed"], 0.01);
+    EXPECT_GT(s["max_speed"], 0);
+    EXPECT_TRUE(s["penetration"].contains("max") && s["penetration"].contains("count"));
+    EXPECT_EQ(s["self_contacts"], 0);
+    EXPECT_TRUE(s["intersections"].contains("triangles") && s["intersections"].contains("edges"));
+    EXPECT_EQ(s["torn_edges"], 0);
+    EXPECT_EQ(s["reports"], Json::array());
+    EXPECT_EQ(s["state_hash"].get<std::string>().size(), 16u);
+    EXPECT_EQ(s["finite"], true);
+    EXPECT_TRUE(s.contains("device"));
+}
+
+TEST_F(Cli, the_state_does_not_depend_on_threads_or_instruction_set_but_on_substeps) {
+    const Json one = stats("--frames 30"), four = stats("--frames 30 --threads 4"),
+               scalar = stats("--frames 30 --isa scalar");
+    EXPECT_EQ(one["state_hash"], four["state_hash"]);
+    EXPECT_EQ(one["state_hash"], scalar["state_hash"]);
+    EXPECT_EQ(four["threads"], 4);
+    const Json finer = stats("--frames 30 --substeps 40");
+    EXPECT_NE(one["state_hash"], finer["state_hash"]);
+    EXPECT_LT(finer["residual"]["mean"], one["residual"]["mean"]);
+    EXPECT_EQ(finer["substeps"], 40);
+}
+
+TEST_F(Cli, wrong_usage_is_one_line_and_status_2) {
+    expect_usage_error("", "subcommand");
+    expect_usage_error("run", "scene");
+    expect_usage_error("fly sheet.json", "fly");
+    expect_usage_error("run sheet.json --frames 0", "--frames: must come to 1 to 1000000 frames, got 0");
+    expect_usage_error("run sheet.json --frames -3", "--frames");
+    expect_usage_error("run sheet.json --frames 1.5", "whole number");
+    expect_usage_error("run sheet.json --seconds nan", "--seconds");
+    expect_usage_error("run sheet.json --seconds 1e9", "--seconds");
+    expect_usage_error("run sheet.json --frames 5 --seconds 1", "--frames");
+    expect_usage_error("run sheet.json --threads 0", "threads: must be from 1 to 256, got 0");
+    expect_usage_error("run sheet.json --substeps 0", "substeps: must be from 1 to 10000, got 0");
+    expect_usage_error("run sheet.json --backend gpu", "backend: must be auto or cpu, got 'gpu'");
+    expect_usage_error("run sheet.json --isa mmx", "instruction set 'mmx'");
+    expect_usage_error("run sheet.json --out film.avi", ".glb");
+    expect_usage_error("run sheet.json --out %d%d.obj", "%d");
+    expect_usage_error("run nowhere.json", "nowhere.json");
+    expect_usage_error("check nowhere.json", "nowhere.json");
+}
+
+TEST_F(Cli, check_reports_every_problem_with_its_place) {
+    write("bad.json", R"({ "weft": 1, "gravty": [0, -1, 0],
+        "cloths": [{ "mesh": { "grid": {} }, "fabric": { "density": -1 } }, { "mesh": { "file": "missing.obj" } }] })");
+    const Outcome outcome = weft("check bad.json");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("weft: error: bad.json: /cloths/0/fabric/density: must be > 0 kg/m², got -1"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("did you mean \"gravity\""), std::string::npos) << outcome.err;
+    EXPECT_EQ(weft("check sheet.json").status, 0);
+}
+
+TEST_F(Cli, pins_and_meshes_are_checked_against_the_mesh) {
+    write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 5 5 5\nf 1 3 2\n");
+    const auto scene = [&](const std::string& pins) {
+        write("tri.json",
+              R"({ "weft": 1, "cloths": [{ "name": "t", "mesh": { "file": "tri.obj" }, "pins": [)" + pins + "] }] }");
+    };
+    scene(R"({ "vertices": [2] })");
+    EXPECT_EQ(weft("check tri.json").status, 0);
+    EXPECT_NE(weft("check tri.json").err.find("1 vertices that no triangle uses"), std::string::npos);
+    scene(R"({ "vertices": [2, 9] })");
+    expect_usage_error("check tri.json",
+                       "tri.json: /cloths/0/pins/0/vertices/1: must be a vertex of the mesh, 0 to 3, got 9");
+    scene(R"({ "vertices": [3] })");
+    expect_usage_error("check tri.json", "/cloths/0/pins/0/vertices/0: vertex 3 belongs to no triangle");
+    scene(R"({ "box": { "min": [7, 7, 7], "max": [8, 8, 8] } })");
+    expect_usage_error("check tri.json", "/cloths/0/pins/0/box: no vertex lies in it");
+    scene(R"({ "color": [1, 0, 0] })");
+    expect_usage_error("check tri.json", "/cloths/0/pins/0/color: the mesh has no vertex colors");
+    fs::remove(folder_ / "tri.obj");
+    expect_usage_error("check tri.json", "/cloths/0/mesh/file: ");
+}
+
+TEST_F(Cli, a_failed_export_is_status_1_and_leaves_nothing) {
+    const Outcome full = weft("run sheet.json --frames 20 --quiet --out film.glb", "ulimit -f 20;");
+    EXPECT_EQ(full.status, 1);
+    EXPECT_EQ(full.err.rfind("weft: error: ", 0), 0u) << full.err;
+    EXPECT_FALSE(fs::exists(folder_ / "film.glb"));
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+        EXPECT_EQ(entry.path().filename().string().rfind(".weft", 0), std::string::npos) << entry.path();
+    }
+}
+
+TEST_F(Cli, info_lists_what_there_is) {
+    const Outcome text = weft("info");
+    EXPECT_EQ(text.status, 0);
+    for (const char* word : {"scalar", ".glb", ".fbx", "cotton", "chiffon"}) {
+        EXPECT_NE(text.out.find(word), std::string::npos) << word;
+    }
+    const Json info = Json::parse(weft("info --json").out);
+    EXPECT_EQ(info["instruction_sets"].back(), "scalar");
+    for (const Json& fabric : info["fabrics"]) {
+        if (fabric["name"] == "cotton") {
+            EXPECT_EQ(fabric["density"], 0.14);
+        }
+    }
+    EXPECT_EQ(weft("--version").out.rfind("weft ", 0), 0u);
+    EXPECT_EQ(weft("--help").status, 0);
+    EXPECT_NE(weft("run --help").out.find("Examples:"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,115 @@
+// The house stands on its floors: a folder includes only what stands below it.
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Floors = std::map<std::string, std::set<std::string>>;
+
+// What each folder may include besides itself and <weft/...>'s vocabulary (result.h, vector.h).
+const Floors floors = {
+    {"base", {}},
+    {"mesh", {"base"}},
+    {"physics", {"base", "mesh"}},
+    {"collide", {"base", "mesh"}},
+    {"scene", {"base", "mesh", "physics"}},
+    {"solver", {"base", "mesh", "physics", "collide", "scene"}},
+    {"cpu", {"base", "mesh", "physics", "collide", "scene", "solver"}},
+    {"gpu", {"base"}},
+    {"vulkan", {"base", "mesh", "physics", "collide", "scene", "solver", "gpu"}},
+    {"bodies", {"base", "mesh", "physics", "collide", "scene", "solver"}},
+    {"io", {"base", "mesh", "physics", "collide", "scene", "solver"}},
+    {"render", {"base", "gpu"}},
+    {"view", {"base", "mesh", "physics", "collide", "scene", "solver", "render", "gpu"}},
+    {"weft", {"base", "mesh", "physics", "collide", "scene", "solver", "cpu", "gpu", "vulkan", "bodies", "io"}},
+};
+
+// Public headers that every floor may use; the rest of include/weft is for src/weft and the apps.
+const std::set<std::string> vocabulary = {"result.h", "vector.h"};
+
+// Of physics, the scene knows the parameter tables and the list of constraints, no maths.
+const std::regex scene_may_include("physics/(parameter\\.h|constraints\\.def|contact/shapes\\.def|.*\\.data\\.h)");
+
+bool is_source(const fs::path& path) {
+    const std::set<std::string> endings = {".h", ".cpp", ".inl", ".def", ".glsl", ".comp"};
+    return endings.count(path.extension().string()) > 0;
+}
+
+std::vector<std::string> violations(const fs::path& source_root) {
+    const std::regex quoted("^\\s*#\\s*include\\s+\"([^\"]+)\""), angled("^\\s*#\\s*include\\s+<weft/([^>]+)>");
+    std::vector<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(source_root)) {
+        if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+        const fs::path relative = fs::relative(entry.path(), source_root);
+        const std::string folder = relative.begin()->string();
+        std::ifstream in(entry.path());
+        int number = 0;
+        for (std::string line; std::getline(in, line);) {
+            ++number;
+            const std::string place = relative.string() + ":" + std::to_string(number) + ": ";
+            std::smatch match;
+            if (std::regex_search(line, match, quoted)) {
+                const std::string target = match[1];
+                const std::string other = target.substr(0, target.find('/'));
+                if (!floors.count(folder)) {
+                    found.push_back(place + "src/" + folder + " has no floor in tests/layers.test.cpp");
+                } else if (!floors.count(other)) {
+                    found.push_back(place + "\"" + target + "\" is not a path from src/");
+                } else if (other != folder && !floors.at(folder).count(other)) {
+                    found.push_back(place + folder + " must not include " + other);
+                } else if (folder == "scene" && other == "physics" && !std::regex_match(target, scene_may_include)) {
+                    found.push_back(place + "scene may know only the tables of physics, not " + target);
+                }
+            } else if (std::regex_search(line, match, angled)) {
+                if (folder != "weft" && !vocabulary.count(match[1])) {
+                    found.push_back(place + "only src/weft and the apps may include <weft/" + match[1].str() + ">");
+                }
+            }
+        }
+    }
+    return found;
+}
+
+TEST(Layers, no_include_runs_up_the_house) {
+    for (const std::string& violation : violations(fs::path(WEFT_SOURCE_DIR) / "src")) ADD_FAILURE() << violation;
+}
+
+TEST(Layers, public_headers_stand_on_the_standard_library_alone) {
+    const std::regex any("^\\s*#\\s*include\\s+[<\"]([^>\"]+)[>\"]");
+    for (const auto& entry : fs::directory_iterator(fs::path(WEFT_SOURCE_DIR) / "include" / "weft")) {
+        std::ifstream in(entry.path());
+        for (std::string line; std::getline(in, line);) {
+            std::smatch match;
+            if (!std::regex_search(line, match, any)) continue;
+            const std::string target = match[1];
+            const bool standard = target.find('.') == std::string::npos && target.find('/') == std::string::npos;
+            EXPECT_TRUE(standard || target.rfind("weft/", 0) == 0) << entry.path() << " includes " << target;
+        }
+    }
+}
+
+// The test itself must be able to fail.
+TEST(Layers, a_wrong_include_is_found) {
+    const fs::path root = fs::temp_directory_path() / ("weft_layers_" + std::to_string(::getpid()));
+    fs::create_directories(root / "mesh");
+    fs::create_directories(root / "scene");
+    std::ofstream(root / "mesh" / "a.h")
+        << "#include \"solver/world.h\"\n#include \"base/hash.h\"\n#include <weft/simulation.h>\n";
+    std::ofstream(root / "scene" / "b.h") << "#include \"physics/scalar.h\"\n#include \"physics/bend/bend.data.h\"\n";
+    EXPECT_EQ(violations(root).size(), 3u);
+    fs::remove_all(root);
+}
+
+}  // namespace

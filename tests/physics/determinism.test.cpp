@@ -1,0 +1,47 @@
+// The same scene gives the same bits, whatever the number of threads and the instruction set.
+
+#include "sheet.h"
+
+namespace weft::physical {
+namespace {
+
+// Changes whenever a bit of the result does. If you meant to change the physics, put the new one here and say so in the
+// changelog; if you did not, you have found a bug.
+constexpr const char* golden = "02e57f5252e40805";
+
+std::string drape(const CpuOptions& options, std::uint32_t iterations) {
+    World world = make_world({.substeps = 10, .iterations = iterations}, options);
+    world.add(make_sheet({.size = {1, 1},
+                          .resolution = {40, 37},
+                          .position = {0.01f, 0.4f, 0.02f},
+                          .fabric = find_fabric("silk")->fabric,
+                          .pinned = [](Vec3 p) { return p.x < -0.49f && p.z < -0.49f; }}));
+    world.add(make_sheet({.size = {0.4f, 0.4f},
+                          .resolution = {12, 12},
+                          .diagonal = GridDiagonal::cross,
+                          .rotation_degrees = {10, 20, 30},
+                          .position = {0, 0.6f, 0}}));
+    world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {.position = {0, 0, 0}}}));
+    world.add(make_collider({.name = "slope", .shape = PlaneDesc{{0.2f, 1, 0}, -0.3f}}));
+    run(world, 1);
+    return world.state_hash();
+}
+
+TEST(Determinism, threads_and_instruction_sets_give_the_golden_bits) {
+    for (std::string_view isa : cpu_instruction_sets()) {
+        for (const unsigned workers : {0u, 1u, 2u, 4u}) {
+            EXPECT_EQ(drape({workers, std::string(isa)}, 1), golden) << isa << " with " << workers << " workers";
+        }
+    }
+}
+
+TEST(Determinism, holds_with_iterations_too) {
+    const std::string expected = drape({0, "scalar"}, 3);
+    EXPECT_NE(expected, golden);
+    for (std::string_view isa : cpu_instruction_sets()) {
+        for (const unsigned workers : {1u, 4u}) EXPECT_EQ(drape({workers, std::string(isa)}, 3), expected);
+    }
+}
+
+}  // namespace
+}  // namespace weft::physical

@@ -1,0 +1,108 @@
+// Sheets at rest: hanging and lying.
+
+#include "sheet.h"
+
+namespace weft::physical {
+namespace {
+
+// A sheet hung by its whole upper edge. Strain at a depth is the weight below over the tensile stiffness; the tip sinks
+// by ρ_A g L²/(2K).
+TEST(HangingSheet, stretches_under_its_own_weight_as_its_stiffness_says) {
+    constexpr float density = 0.2f, stiffness = 60, side = 1;
+    constexpr std::uint32_t n = 17;
+    Fabric fabric;
+    fabric.body = {.density = density, .damping = 10};
+    fabric.stretch = {.stretch = {stiffness, stiffness}, .compression = {stiffness, stiffness}, .shear = 0};
+    fabric.bend = {.bend = {0, 0, 0}};
+    World world = make_world({.substeps = 40, .iterations = 4}, {.size = {side, side},
+                                                                 .resolution = {n, n},
+                                                                 .rotation_degrees = {90, 0, 0},
+                                                                 .position = {},
+                                                                 .fabric = fabric,
+                                                                 .pinned = [](Vec3 p) { return p.z < -0.49f; }});
+    run(world, 12);
+    const ClothFrame& cloth = world.frame().cloths[0];
+    const double g = 9.81, s = side / (n - 1);
+    const auto y = [&](std::uint32_t row) { return static_cast<double>(cloth.positions[row * n + n / 2].y); };
+    const double tip = -y(n - 1) - 0.5;  // rotated by 90°, z = +0.5 hangs at y = -0.5
+    // The pinned row carries no weight of its own and the lowest row carries half a cell less than the continuum: the
+    // discrete tip is the continuum's to second order.
+    EXPECT_NEAR(tip, density * g * side * side / (2 * stiffness), 0.01 * tip);
+    const double top_strain = (y(0) - y(1)) / s - 1;
+    EXPECT_NEAR(top_strain, density * g * (side - s / 2) / stiffness, 0.01 * top_strain);
+    EXPECT_LT(max_speed(world.frame()), 5e-3);
+    EXPECT_LT(world.stretch_residual().mean, 1e-3);
+}
+
+// Sheets on a tilted plane. They stay while μ ≥ tan θ, exactly: friction is part of the position, so nothing creeps.
+class Incline : public testing::TestWithParam<std::uint32_t> {};
+
+double slide(double degrees, float static_friction, float kinetic_friction, std::uint32_t iterations, double seconds,
+             double* speed = nullptr) {
+    const float tilt = static_cast<float>(degrees);
+    Fabric fabric;
+    fabric.contact = {.thickness = 0.002f, .friction = {static_friction, kinetic_friction}};
+    const Mat3 turn = rotation_from_degrees({0, 0, -tilt});
+    const Vec3 up = turn * Vec3{0, 1, 0}, down_hill = turn * Vec3{1, 0, 0};
+    World world = make_world({.substeps = 20, .iterations = iterations}, {.size = {0.2f, 0.2f},
+                                                                          .resolution = {7, 7},
+                                                                          .rotation_degrees = {0, 0, -tilt},
+                                                                          .position = up * 0.001f,
+                                                                          .fabric = fabric});
+    ColliderDesc plane{.name = "plane",
+                       .shape = PlaneDesc{},
+                       .transform = {.rotation_degrees = {0, 0, -tilt}},
+                       .friction = {static_friction, kinetic_friction}};
+    world.add(make_collider(plane));
+    const Vec3 from = center_of_mass(world.frame().cloths[0]);
+    run(world, seconds);
+    if (speed) *speed = max_speed(world.frame());
+    return dot(center_of_mass(world.frame().cloths[0]) - from, down_hill);
+}
+
+TEST_P(Incline, a_sheet_stays_while_friction_holds) {
+    const double holding = std::atan(0.5) * 180 / 3.14159265358979;  // 26.565°
+    double speed = 1;
+    EXPECT_LT(std::abs(slide(holding - 0.5, 0.5f, 0.5f, GetParam(), 2, &speed)), 1e-5);
+    EXPECT_LT(speed, 1e-4) << "not even in its velocities";
+    EXPECT_GT(slide(holding + 0.5, 0.5f, 0.5f, GetParam(), 2), 0.01);
+}
+
+TEST_P(Incline, beyond_it_slides_as_coulomb_says) {
+    struct Case {
+        double degrees;
+        float friction;
+        double acceleration;  // g (sin θ - μ cos θ), m/s²
+    };
+    for (const Case& c : {Case{20, 0.3f, 0.5897}, Case{30, 0.3f, 2.3563}, Case{30, 0.5f, 0.6571}}) {
+        constexpr double seconds = 1;
+        const double expected = 0.5 * c.acceleration * seconds * (seconds + 1.0 / 1200);
+        EXPECT_NEAR(slide(c.degrees, c.friction, c.friction, GetParam(), seconds), expected, 0.01 * expected)
+            << c.degrees << "° at " << c.friction;
+    }
+}
+
+TEST_P(Incline, kinetic_friction_rules_once_it_slides) {
+    const double expected = 0.5 * 9.81 * (std::sin(M_PI / 6) - 0.2 * std::cos(M_PI / 6)) * (1 + 1.0 / 1200);
+    EXPECT_NEAR(slide(30, 0.5f, 0.2f, GetParam(), 1), expected, 0.01 * expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Iterations, Incline, testing::Values(1u, 4u));
+
+// Dropped onto a ball: it lies still, does not sink in, does not slide off.
+TEST(Drape, on_a_sphere_comes_to_rest_outside_of_it) {
+    World world = make_world({.substeps = 20}, {.size = {1, 1}, .resolution = {33, 33}, .position = {0, 0.45f, 0}});
+    world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {.position = {0, 0.1f, 0}}}));
+    world.add(make_collider({.name = "ground", .shape = PlaneDesc{}, .transform = {.position = {0, -0.5f, 0}}}));
+    run(world, 4);
+    const Penetration penetration = measure_penetration(world.frame(), world.colliders());
+    EXPECT_LT(penetration.max, 0.002) << "a chord between particles dips below the ball by s²/(8R), no particle does";
+    for (const Vec4& p : world.frame().cloths[0].positions) {
+        EXPECT_GT(signed_distance(world.colliders()[0], p.xyz()), 0.001 - 1e-5);
+    }
+    EXPECT_GT(center_of_mass(world.frame().cloths[0]).y, 0.0f) << "it is still up there";
+    EXPECT_LT(measure_strain(world.frame()).stretch.mean, 0.01);
+}
+
+}  // namespace
+}  // namespace weft::physical

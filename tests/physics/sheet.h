@@ -1,0 +1,68 @@
+// Small worlds for the physical tests.
+#pragma once
+
+#include "cpu/cpu_backend.h"
+#include "mesh/procedural.h"
+#include "solver/statistics.h"
+#include "solver/world.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+
+namespace weft::physical {
+
+struct SheetDesc {
+    std::array<float, 2> size{1, 1};
+    std::array<std::uint32_t, 2> resolution{9, 9};
+    GridDiagonal diagonal = GridDiagonal::alternating;
+    Vec3 rotation_degrees = {};
+    Vec3 position = {};
+    Fabric fabric = {};
+    std::function<bool(Vec3 at_rest)> pinned = {};  ///< of the sheet as it lies flat around the origin
+};
+
+inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
+    TriangleMesh mesh = make_grid(desc.size, desc.resolution, desc.diagonal);
+    const auto flat = mesh.positions;
+    const Mat3 turn = rotation_from_degrees(desc.rotation_degrees);
+    for (Vec3& p : mesh.positions) p = turn * p + desc.position;
+    auto topology = build_topology(mesh, {.reorder = false});
+    EXPECT_TRUE(topology.ok());
+    ClothModelDesc model{.name = "sheet", .mesh = std::move(mesh), .fabric = desc.fabric};
+    for (std::uint32_t v = 0; v < flat.size(); ++v) {
+        if (desc.pinned && desc.pinned(flat[v])) model.pinned_particles.push_back(topology->vertex_to_particle[v]);
+    }
+    auto built = build_cloth_model(std::move(model), std::move(*topology));
+    EXPECT_TRUE(built.ok());
+    return *built;
+}
+
+inline World make_world(const WorldSettings& settings, const CpuOptions& options = {}) {
+    auto backend = make_cpu_backend(options);
+    EXPECT_TRUE(backend.ok());
+    return World(std::move(*backend), settings);
+}
+
+inline World make_world(const WorldSettings& settings, const SheetDesc& sheet, const CpuOptions& options = {}) {
+    World world = make_world(settings, options);
+    world.add(make_sheet(sheet));
+    return world;
+}
+
+inline void run(World& world, double seconds, double frame_rate = 60) {
+    for (int i = 0; i < static_cast<int>(std::lround(seconds * frame_rate)); ++i) world.step(1 / frame_rate);
+}
+
+/// Mass-weighted, pinned particles included.
+inline Vec3 center_of_mass(const ClothFrame& cloth) {
+    double x = 0, y = 0, z = 0, m = 0;
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+        const double mass = cloth.model->mass[p];
+        x += mass * cloth.positions[p].x, y += mass * cloth.positions[p].y, z += mass * cloth.positions[p].z, m += mass;
+    }
+    return {static_cast<float>(x / m), static_cast<float>(y / m), static_cast<float>(z / m)};
+}
+
+}  // namespace weft::physical
