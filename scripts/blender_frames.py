@@ -105,7 +105,7 @@ def main(arguments):
             raise ValueError(f'{path}: no frame {frame} among {len(times)}')
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.import_scene.gltf(filepath=path)
+    bpy.ops.import_scene.gltf(filepath=path, import_shading='SMOOTH')
     scene = bpy.context.scene
     step = max(1, len(times) // FIT_FRAMES)
     add_camera(scene, corners_over(scene, times[::step] + [times[frame] for frame in frames]))
