@@ -16,8 +16,12 @@ target_compile_definitions(weft_options INTERFACE WEFT_VERSION="${PROJECT_VERSIO
 if(WEFT_SANITIZE)
     target_compile_options(weft_options INTERFACE -fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer
         -fno-sanitize-recover=all
-        -Wno-maybe-uninitialized)   # instrumented code confuses this one, in the standard library's own headers
+        # Instrumented code confuses this one, in the standard library's own headers.
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(weft_options INTERFACE -fsanitize=${WEFT_SANITIZE})
+endif()
+if(WEFT_FUZZ)   # every file counts the paths taken; the fuzzers alone have the loop that tries inputs
+    target_compile_options(weft_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 function(weft_test name)

@@ -192,10 +192,41 @@ TEST_F(Cli, a_failed_export_is_status_1_and_leaves_nothing) {
     }
 }
 
+TEST_F(Cli, a_point_cache_comes_with_its_mesh_and_both_are_named) {
+    const Outcome outcome = weft("run sheet.json --frames 5 --out film.pc2");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(fs::file_size(folder_ / "film.pc2"), 32u + 6 * 120 * 12);
+    EXPECT_NE(outcome.out.find("wrote film.pc2\nwrote film.obj\n"), std::string::npos) << outcome.out;
+    expect_usage_error("run sheet.json --frames 5 --out film.pc2 --out ./film.obj",
+                       "./film.obj: would write ./film.obj, and so would film.pc2");
+}
+
+TEST_F(Cli, large_exports_are_announced_and_impossible_ones_refused_before_the_run) {
+    expect_usage_error("run sheet.json --frames 1000000 --out film.glb", "GiB for 1000001 frames");
+    // 12 KiB a frame and more frames than any test would wait for: it must answer at once.
+    const auto free_bytes = fs::space(folder_).available;
+    if (free_bytes < (std::uint64_t{10} << 30)) {
+        expect_usage_error("run sheet.json --frames 1000000 --out f/%d.obj", " are free there");
+    } else {
+        write("large.json", R"({ "weft": 1, "cloths": [{ "mesh": { "grid": { "resolution": [200, 200] } } }] })");
+        // 40,000 vertices: 6 MiB of text a frame, 6 TiB in all.
+        if (free_bytes < (std::uint64_t{5} << 40)) {
+            expect_usage_error("run large.json --frames 1000000 --out f/%d.obj", " are free there");
+        }
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "film.glb"));
+
+    // 3,000 frames of a 1.4 KB cache are nothing; a million of them are. Killed as soon as it has said so.
+    EXPECT_EQ(weft("run sheet.json --frames 3 --quiet --out film.pc2").err, "");
+    const Outcome announced = weft("run sheet.json --frames 1000000 --quiet --out film.pc2", "timeout 2");
+    EXPECT_NE(announced.err.find("weft: warning: the exports will take about 1.3 GiB: film.pc2"), std::string::npos)
+        << announced.err;
+}
+
 TEST_F(Cli, info_lists_what_there_is) {
     const Outcome text = weft("info");
     EXPECT_EQ(text.status, 0);
-    for (const char* word : {"scalar", ".glb", ".fbx", "cotton", "chiffon"}) {
+    for (const char* word : {"scalar", ".glb", ".pc2", ".fbx", "cotton", "chiffon"}) {
         EXPECT_NE(text.out.find(word), std::string::npos) << word;
     }
     const Json info = Json::parse(weft("info --json").out);
@@ -205,6 +236,8 @@ TEST_F(Cli, info_lists_what_there_is) {
             EXPECT_EQ(fabric["density"], 0.14);
         }
     }
+    EXPECT_EQ(Json::parse(weft("info --schema").out)["title"], "weft scene");
+    expect_usage_error("info --schema --json", "--schema");
     EXPECT_EQ(weft("--version").out.rfind("weft ", 0), 0u);
     EXPECT_EQ(weft("--help").status, 0);
     EXPECT_NE(weft("run --help").out.find("Examples:"), std::string::npos);

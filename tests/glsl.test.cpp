@@ -29,6 +29,7 @@ class Glsl : public testing::Test {
                                  "layout(local_size_x = 64) in;\n"
                                  "#include \"physics/lanes.glsl\"\n"
                                  "#include \"physics/stretch/stretch.data.h\"\n"
+                                 "#include \"physics/tether/tether.data.h\"\n"
                                  "#include \"physics/bend/bend.data.h\"\n"
                                  "#include \"physics/kernels.inl\"\n"
                                  "layout(std430, binding = 0) buffer Particles { vec4 x[]; };\n"
@@ -80,7 +81,7 @@ std::string shader_for(const ConstraintInfo& info, const std::string& type) {
 }
 
 TEST_F(Glsl, every_constraint_compiles) {
-#define WEFT_CONSTRAINT(name, Name, particles) \
+#define WEFT_CONSTRAINT(name, Name, particles, moved) \
     EXPECT_EQ(compile(shader_for(constraint_info(ConstraintKind::name), #Name)), "") << #name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT

@@ -3,6 +3,8 @@
 #include "cpu/cpu_backend.h"
 #include "io/exporter.h"
 #include "io/mesh_file.h"
+#include "io/scene_schema.h"
+#include "scene/check.h"
 #include "scene/fabric.h"
 
 #include <weft/weft.h>
@@ -22,6 +24,8 @@ using Json = nlohmann::ordered_json;
 Json value_json(const Parameter& parameter, const void* base) {
     const auto* at = static_cast<const char*>(base) + parameter.offset;
     if (parameter.kind == ParameterKind::flag) return *reinterpret_cast<const bool*>(at);
+    if (parameter.kind == ParameterKind::choice)
+        return choice_names(parameter).at(static_cast<std::size_t>(*reinterpret_cast<const int*>(at)));
     const auto* numbers = reinterpret_cast<const float*>(at);
     if (parameter.kind == ParameterKind::angle_or_mesh && std::isnan(*numbers)) return "mesh";
     // Through text, so that 0.14f reads 0.14 and not 0.14000000059604645.
@@ -111,8 +115,14 @@ void print_text(const Json& info) {
 Command add_info(CLI::App& program) {
     CLI::App* command = program.add_subcommand("info", "instruction sets, threads, formats, fabrics with their values");
     auto json = std::make_shared<bool>(false);
-    command->add_flag("--json", *json, "as JSON");
-    return [json] {
+    auto schema = std::make_shared<bool>(false);
+    auto* as_json = command->add_flag("--json", *json, "as JSON");
+    command->add_flag("--schema", *schema, "instead, the JSON Schema of scene files")->excludes(as_json);
+    return [json, schema] {
+        if (*schema) {
+            std::cout << scene_schema();
+            return exit_done;
+        }
         const Json info = gather();
         if (*json) {
             std::cout << info.dump(2) << '\n';

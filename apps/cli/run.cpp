@@ -2,7 +2,7 @@
 
 #include "cli/progress.h"
 #include "cli/stats.h"
-#include "io/exporter.h"
+#include "io/export_plan.h"
 #include "weft/session.h"
 
 #include <cmath>
@@ -55,12 +55,20 @@ Result<Exporters> open_exporters(const RunOptions& options) {
     return exporters;
 }
 
+ExportInfo export_info(const Session& session, std::uint64_t frames) {
+    return {session.scene().name, session.scene().frame_rate, frames + 1};  // the start is a frame too
+}
+
+Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const Session& session, std::uint64_t frames) {
+    DrawnFrame drawn;
+    if (!exporters.empty()) drawn.update(session.world().frame());
+    return plan_exports(exporters, export_info(session, frames), drawn.surfaces());
+}
+
 Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
                       bool quiet) {
     for (auto& exporter : exporters) {
-        if (auto begun = exporter->begin({session.scene().name, session.scene().frame_rate, frames + 1}); !begun) {
-            return begun;
-        }
+        if (auto begun = exporter->begin(export_info(session, frames)); !begun) return begun;
     }
     DrawnFrame drawn;
     const auto write = [&]() -> Result<Done> {
@@ -105,7 +113,10 @@ int run(const RunOptions& options) {
     if (!session) return wrong(session.errors());
     const auto frames = frame_count(options, *session);
     if (!frames) return wrong(frames.errors());
+    const auto estimates = plan(*exporters, *session, *frames);
+    if (!estimates) return wrong(estimates.errors());
     for (const std::string& note : session->notes()) print_warning(note);
+    if (const auto note = large_export_note(*estimates)) print_warning(*note);
 
     RunStatistics statistics(*session, *frames);
     if (auto done = simulate(*session, *frames, *exporters, statistics, options.quiet); !done) {
@@ -122,7 +133,9 @@ int run(const RunOptions& options) {
     }
     if (!options.quiet) {
         print_summary(stats);
-        for (const std::string& path : options.outputs) std::printf("wrote %s\n", path.c_str());
+        for (const ExportEstimate& written : *estimates) {
+            for (const auto& file : written.files) std::printf("wrote %s\n", file.c_str());
+        }
         if (!options.stats.empty()) std::printf("wrote %s\n", options.stats.c_str());
     }
     return exit_done;
@@ -138,7 +151,7 @@ Command add_run(CLI::App& program) {
     command->add_option("--seconds", options->seconds, "how many seconds instead (default 2)")->excludes(frames);
     command
         ->add_option("--out", options->outputs,
-                     ".glb (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
+                     ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
         ->allow_extra_args(false);
     command->add_option("--stats", options->stats, "write the run's figures to this JSON file");
     command->add_flag("--quiet", options->quiet, "no progress, no summary");

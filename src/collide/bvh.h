@@ -3,8 +3,12 @@
 
 #include "base/bounds.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -52,7 +56,51 @@ class Bvh {
         }
     }
 
+    /// Calls visit(i) for boxes not farther from `point` than the root of `limit` (m²), the nearer parts of the tree
+    /// first, and takes what it returns as the new limit if that is less. Boxes right at the limit are visited too, so
+    /// that the caller sees every tie.
+    template <class Visit>
+    void for_each_nearest(Vec3 point, double limit, Visit&& visit) const {
+        struct Pending {
+            std::uint32_t node;
+            double distance;
+        };
+        std::array<Pending, max_depth + 1> pending;  // one sibling for each level above, and the node itself
+        std::size_t count = 0;
+        const auto put = [&](std::uint32_t node) {
+            pending[count++] = {node, squared_distance(nodes_[node].bounds, point)};
+        };
+        if (!nodes_.empty()) put(0);
+        while (count > 0) {
+            const auto [n, distance] = pending[--count];
+            if (distance > limit) continue;
+            const Node& node = nodes_[n];
+            for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+                if (boxes_[k].empty() || squared_distance(boxes_[k], point) > limit) continue;
+                limit = std::min(limit, visit(items_[k]));
+            }
+            if (node.count > 0) continue;
+            put(n + 1), put(nodes_[n + 1].skip);
+            if (pending[count - 1].distance > pending[count - 2].distance) {
+                std::swap(pending[count - 1], pending[count - 2]);
+            }
+        }
+    }
+
   private:
+    /// Boxes are halved in number at each level, and their number has 32 bits.
+    static constexpr std::size_t max_depth = 32;
+
+    /// m², exact but for the rounding of doubles; infinite to an empty box.
+    static double squared_distance(const Bounds& box, Vec3 p) {
+        const auto gap = [](float min, float max, float x) {
+            return std::max({double{min} - double{x}, 0.0, double{x} - double{max}});
+        };
+        const double x = gap(box.min.x, box.max.x, p.x), y = gap(box.min.y, box.max.y, p.y),
+                     z = gap(box.min.z, box.max.z, p.z);
+        return x * x + y * y + z * z;
+    }
+
     /// Depth first: the left child is the next node, the right one follows where the left one ends. A walk that is done
     /// with a node, or has no interest in it, goes on at `skip`, so it needs no stack.
     struct Node {

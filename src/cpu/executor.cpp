@@ -72,6 +72,9 @@ std::string name_input(const ClothState& cloth, const StepInput& input) {
             return "the pose of collider '" + input.colliders[i % input.colliders.size()].name + "' is not finite";
         }
     }
+    for (const Pose& pose : input.mover_poses) {
+        if (!finite(pose.position)) return "the motion of a pin is not finite";
+    }
     const std::uint32_t p = first_non_finite(cloth);
     return p == none ? "" : "particle " + std::to_string(p) + " was not finite when the frame began";
 }
@@ -150,6 +153,9 @@ void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t subs
         case PassKind::predict:
             capped = passes_.predict(frame.particles, particles, frame.input.gravity, frame.max_speed, frame.h);
             break;
+        case PassKind::hold:
+            run_holds(frame, substep, mine);
+            break;
         case PassKind::velocities:
             capped = passes_.velocities(frame.particles, particles, frame.max_speed, frame.h);
             break;
@@ -193,6 +199,16 @@ void Executor::run_rows(const Frame& frame, const Pass& pass, std::uint32_t subs
     const bool kept = frame.plan.iterations > 1 || substep + 1 == frame.plan.substeps;
     const LambdaUse use = !pass.first_iteration ? LambdaUse::accumulate : kept ? LambdaUse::store : LambdaUse::discard;
     passes.project[kind](frame.particles, rows, range, frame.h, use);
+}
+
+void Executor::run_holds(const Frame& frame, std::uint32_t substep, Share mine) {
+    const auto held = std::ranges::lower_bound(frame.input.held, mine.begin, {}, &HeldParticle::particle);
+    for (auto it = held; it != frame.input.held.end() && it->particle < mine.end; ++it) {
+        const Pose& pose = frame.input.mover_poses[std::size_t{substep + 1} * frame.input.movers + it->mover];
+        const Vec3 x = to_world(pose, it->local);
+        Vec4& position = frame.cloth.now.position[it->particle];
+        position = {x.x, x.y, x.z, position.w};
+    }
 }
 
 void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {

@@ -51,9 +51,9 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
 #define WEFT_LOAD_FIELD(field) row.field = load(next), next += stride;
 
 // What the generic loops below need to know of a constraint.
-#define WEFT_CONSTRAINT(name, Name, particles)                                                                 \
+#define WEFT_CONSTRAINT(name, Name, particles, moved)                                                                 \
     struct Name##Traits {                                                                                      \
-        static constexpr int arity = particles;                                                                \
+        static constexpr int arity = particles, moves = moved;                                                                \
         using Row = Name##Row;                                                                                 \
         WEFT_FN static Row load_row(const float* next, std::size_t stride) {                                   \
             Row row;                                                                                           \
@@ -83,7 +83,7 @@ inline void project_rows(const ParticleView& p, const RowView& rows, Range range
         if constexpr (use == LambdaUse::accumulate) lambda = load(rows.lambda + r);
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
         if constexpr (use != LambdaUse::discard) store(lambda, rows.lambda + r);
-        for (int k = 0; k < Traits::arity; ++k) {
+        for (int k = 0; k < Traits::moves; ++k) {
             scatter_blocks(x[k], w[k], p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
         }
     }
@@ -109,7 +109,7 @@ inline void damp_pass(const ParticleView& p, const RowView& rows, Range range, f
             v[k] = gather_blocks(p.velocity, index, dropped[k]);
         }
         Traits::damp(v, x, w, Traits::load_row(rows.fields + r, rows.stride), real(viscous));
-        for (int k = 0; k < Traits::arity; ++k) {
+        for (int k = 0; k < Traits::moves; ++k) {
             scatter_blocks(v[k], dropped[k], p.velocity,
                            rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
         }
@@ -184,12 +184,12 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .lanes = lane_count,
         .predict = predict_pass,
         .velocities = velocities_pass,
-#define WEFT_CONSTRAINT(name, Name, particles) project_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved) project_pass<Name##Traits>,
         .project = {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
-#define WEFT_CONSTRAINT(name, Name, particles) damp_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved) damp_pass<Name##Traits>,
         .damp = {
 #include "physics/constraints.def"
         },

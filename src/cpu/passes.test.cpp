@@ -61,7 +61,10 @@ void add_rows(Fixture& f, ConstraintKind kind, unsigned seed, bool nasty) {
     for (int r = 0; r < 300; ++r) {
         std::vector<std::uint32_t> chosen;
         while (chosen.size() < rows.arity) {
-            const std::uint32_t p = random.below(particle_count);
+            // What a row only reads is an anchor, which no row of the kind moves.
+            constexpr std::uint32_t anchors = 40;
+            const bool moved = chosen.size() < constraint_info(kind).moved;
+            const std::uint32_t p = moved ? anchors + random.below(particle_count - anchors) : random.below(anchors);
             if (std::find(chosen.begin(), chosen.end(), p) == chosen.end()) chosen.push_back(p);
         }
         rows.particles.insert(rows.particles.end(), chosen.begin(), chosen.end());

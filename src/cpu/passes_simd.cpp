@@ -10,6 +10,7 @@
 #include "cpu/passes.h"
 #include "physics/bend/bend.data.h"
 #include "physics/stretch/stretch.data.h"
+#include "physics/tether/tether.data.h"
 
 // The portable fallback among Highway's targets is slower than our own single lane.
 #if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR

@@ -48,11 +48,13 @@ AtomicFile::AtomicFile(fs::path path, fs::path temporary, BufferedFile content)
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)),
       temporary_(std::exchange(other.temporary_, {})),
+      prepared_(other.prepared_),
       content_(std::move(other.content_)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(temporary_, other.temporary_);
+    std::swap(prepared_, other.prepared_);
     std::swap(content_, other.content_);
     return *this;
 }
@@ -79,8 +81,16 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
     return AtomicFile(target, std::move(temporary), BufferedFile(descriptor, path.string()));
 }
 
-Result<Done> AtomicFile::commit() {
+Result<Done> AtomicFile::prepare() {
     if (Result<Done> closed = content_.sync_and_close(); !closed) return closed;
+    prepared_ = true;
+    return Done{};
+}
+
+Result<Done> AtomicFile::commit() {
+    if (!prepared_) {
+        if (Result<Done> prepared = prepare(); !prepared) return prepared;
+    }
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
         return Error{path_.string(), "cannot be written: " + system_reason(errno)};
     }

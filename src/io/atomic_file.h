@@ -25,6 +25,9 @@ class AtomicFile {
 
     Result<Done> write(std::span<const std::byte> bytes) { return content_.write(bytes); }
     Result<Done> write(std::string_view text) { return content_.write(std::as_bytes(std::span(text))); }
+    /// Puts all of it on the disk, so that nothing but the renaming is left to fail. For files that must appear
+    /// together: prepare all, then commit all.
+    Result<Done> prepare();
     /// Once, as the last call.
     Result<Done> commit();
 
@@ -36,6 +39,7 @@ class AtomicFile {
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;  // empty: renamed, or moved from
+    bool prepared_ = false;
     BufferedFile content_;
 };
 

@@ -158,7 +158,7 @@ TEST(AtomicFile, WritesThroughALinkAndKeepsIt) {
     EXPECT_EQ(read_text(folder / "real.txt"), "later");
 }
 
-TEST(BufferedFile, NamelessIsNeverSeenAndCopiesWhole) {
+TEST(BufferedFile, NamelessIsNeverSeenAndMovesWhole) {
     const TestFolder folder;
     Result<BufferedFile> nameless = BufferedFile::open_nameless(folder.path(), "film.glb");
     ASSERT_TRUE(nameless.ok());
@@ -168,7 +168,7 @@ TEST(BufferedFile, NamelessIsNeverSeenAndCopiesWhole) {
     ASSERT_TRUE(nameless->write(std::as_bytes(std::span(content))).ok());
     EXPECT_EQ(nameless->size(), content.size());
     Result<AtomicFile> file = AtomicFile::create(folder / "copy");
-    ASSERT_TRUE(file.ok() && nameless->copy_to(file->content()).ok() && file->commit().ok());
+    ASSERT_TRUE(file.ok() && nameless->move_to(file->content()).ok() && file->commit().ok());
     EXPECT_EQ(read_text(folder / "copy"), content);
 }
 

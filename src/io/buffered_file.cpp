@@ -88,7 +88,7 @@ Result<Done> BufferedFile::sync_and_close() {
     return Done{};
 }
 
-Result<Done> BufferedFile::copy_to(BufferedFile& target) {
+Result<Done> BufferedFile::move_to(BufferedFile& target) {
     if (Result<Done> flushed = flush(); !flushed) return flushed;
     std::vector<std::byte> block(buffer_size);
     for (std::uint64_t offset = 0; offset < size_;) {
@@ -98,6 +98,8 @@ Result<Done> BufferedFile::copy_to(BufferedFile& target) {
         if (count == 0) return failure("read back", EIO);
         const auto length = static_cast<std::size_t>(count);
         if (Result<Done> written = target.write(std::span(block).first(length)); !written) return written;
+        // May fail, as on file systems without holes: then the space is freed at the end.
+        (void)::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset), count);
         offset += length;
     }
     return Done{};

@@ -28,8 +28,9 @@ class BufferedFile {
     Result<Done> flush();
     /// On return the bytes are on the disk, not only in the system's cache.
     Result<Done> sync_and_close();
-    /// Appends all that was written here to `target`.
-    Result<Done> copy_to(BufferedFile& target);
+    /// Appends all that was written here to `target`, and frees each block here once it is there: where the file system
+    /// can do that, the two together never take much more space than one. Good for nothing afterwards.
+    Result<Done> move_to(BufferedFile& target);
 
     /// Bytes written so far, those still in the buffer included.
     std::uint64_t size() const { return size_; }

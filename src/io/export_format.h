@@ -13,6 +13,10 @@ namespace weft {
 /// A format of one instant. The caller has checked the frame and commits the file.
 using StillWriter = Result<Done> (*)(const ExportFrame& frame, AtomicFile& file);
 
+/// About how many bytes a StillWriter writes; rather too many than too few. Called before the run, when every surface
+/// is there as it will be at the start.
+using StillSize = std::uint64_t (*)(std::span<const ExportSurface> surfaces);
+
 /// A format that holds the whole run.
 using FilmMaker = std::unique_ptr<Exporter> (*)(const std::filesystem::path& path);
 

@@ -13,7 +13,9 @@
 namespace weft {
 namespace fs = std::filesystem;
 
-#define WEFT_STILL(name, ending, what) Result<Done> write_##name(const ExportFrame& frame, AtomicFile& file);
+#define WEFT_STILL(name, ending, what)                                     \
+    Result<Done> write_##name(const ExportFrame& frame, AtomicFile& file); \
+    std::uint64_t size_##name(std::span<const ExportSurface> surfaces);
 #define WEFT_FILM(name, ending, what) std::unique_ptr<Exporter> make_##name(const fs::path& path);
 #include "io/exports.def"
 #undef WEFT_STILL
@@ -23,6 +25,7 @@ namespace {
 
 struct Writers {
     StillWriter still = nullptr;
+    StillSize still_size = nullptr;
     FilmMaker film = nullptr;
 };
 
@@ -35,7 +38,7 @@ constexpr std::array formats = {
 };
 
 constexpr std::array<Writers, formats.size()> writers = {{
-#define WEFT_STILL(name, ending, what) {.still = write_##name},
+#define WEFT_STILL(name, ending, what) {.still = write_##name, .still_size = size_##name},
 #define WEFT_FILM(name, ending, what) {.film = make_##name},
 #include "io/exports.def"
 #undef WEFT_STILL
@@ -58,7 +61,12 @@ Result<Done> write_still(StillWriter writer, const ExportFrame& frame, const fs:
 /// Holds on to the newest frame, because only finish knows that it was the last.
 class LastFrameExporter : public Exporter {
   public:
-    LastFrameExporter(StillWriter writer, fs::path path) : writer_(writer), path_(std::move(path)) {}
+    LastFrameExporter(const Writers& format, fs::path path)
+        : writer_(format.still), size_(format.still_size), path_(std::move(path)) {}
+
+    Result<ExportEstimate> estimate(const ExportInfo&, std::span<const ExportSurface> surfaces) const override {
+        return ExportEstimate{{path_}, size_(surfaces)};
+    }
 
     Result<Done> begin(const ExportInfo&) override { return check_writable(path_); }
 
@@ -90,6 +98,7 @@ class LastFrameExporter : public Exporter {
     };
 
     StillWriter writer_;
+    StillSize size_;
     fs::path path_;
     std::uint64_t index_ = 0;
     double time_ = 0;
@@ -129,8 +138,16 @@ std::optional<Pattern> parse_pattern(const std::string& file_name) {
 
 class SequenceExporter : public Exporter {
   public:
-    SequenceExporter(StillWriter writer, fs::path folder, Pattern pattern)
-        : writer_(writer), folder_(std::move(folder)), pattern_(std::move(pattern)) {}
+    SequenceExporter(const Writers& format, const fs::path& path, Pattern pattern)
+        : writer_(format.still),
+          size_(format.still_size),
+          path_(path),
+          folder_(folder_of(path)),
+          pattern_(std::move(pattern)) {}
+
+    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override {
+        return ExportEstimate{{path_}, info.frame_count * size_(surfaces)};
+    }
 
     Result<Done> begin(const ExportInfo&) override { return check_writable(folder_ / pattern_.name(0)); }
 
@@ -142,7 +159,8 @@ class SequenceExporter : public Exporter {
 
   private:
     StillWriter writer_;
-    fs::path folder_;
+    StillSize size_;
+    fs::path path_, folder_;
     Pattern pattern_;
 };
 
@@ -171,8 +189,7 @@ Result<std::unique_ptr<Exporter>> make_sequence(const fs::path& path, const Writ
                                         " holds the whole animation in one file; sequences are made of " +
                                         list_endings(true)};
     }
-    return std::unique_ptr<Exporter>(
-        std::make_unique<SequenceExporter>(writer.still, folder_of(path), *std::move(pattern)));
+    return std::unique_ptr<Exporter>(std::make_unique<SequenceExporter>(writer, path, *std::move(pattern)));
 }
 
 }  // namespace
@@ -195,7 +212,7 @@ Result<std::unique_ptr<Exporter>> make_exporter(const fs::path& path) {
     } else if (writer.film != nullptr) {
         exporter = writer.film(path);
     } else {
-        exporter = std::make_unique<LastFrameExporter>(writer.still, path);
+        exporter = std::make_unique<LastFrameExporter>(writer, path);
     }
 
     std::error_code error;

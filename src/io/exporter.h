@@ -36,19 +36,27 @@ struct ExportInfo {
     std::uint64_t frame_count = 0;  ///< frames that will be written, the start included
 };
 
+/// What an export will leave on the disk.
+struct ExportEstimate {
+    std::vector<std::filesystem::path> files;  ///< a sequence: the name with its `%d`
+    std::uint64_t bytes = 0;                   ///< of all of them together; rather too many than too few
+};
+
 /// begin, then write once per frame, then finish. Nothing appears under the final name before finish (a sequence:
 /// before its frame is whole); an exporter destroyed early leaves nothing behind, a sequence its whole frames. After an
 /// error an exporter is only good for being destroyed.
 class Exporter {
   public:
     virtual ~Exporter() = default;
+    /// Before the run, from the cloths as they start. Fails where the format cannot hold what is announced.
+    virtual Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const = 0;
     virtual Result<Done> begin(const ExportInfo& info) = 0;
     virtual Result<Done> write(const ExportFrame& frame) = 0;
     virtual Result<Done> finish() = 0;
 };
 
-/// By the ending of `path`: `.glb` (animated), `.obj`, `.ply` (the last frame), or a sequence where the file name holds
-/// one `%d` or `%0Nd` (`frames/%04d.obj`). Fails on an unknown ending or a folder that cannot be made.
+/// By the ending of `path`: `.glb`, `.pc2` (animated), `.obj`, `.ply` (the last frame), or a sequence where the file
+/// name holds one `%d` or `%0Nd` (`frames/%04d.obj`). Fails on an unknown ending or a folder that cannot be made.
 Result<std::unique_ptr<Exporter>> make_exporter(const std::filesystem::path& path);
 
 struct ExportFormat {

@@ -105,7 +105,7 @@ TEST(Exporter, DestroyedEarlyLeavesNothing) {
     const TestFolder folder;
     const std::vector<Cloth> cloths = {make_cloth("sheet", 40, 0)};
     write_text(folder / "b.glb", "earlier");
-    for (const char* name : {"a.glb", "b.glb", "a.obj", "a.ply", "%d.obj"}) {
+    for (const char* name : {"a.glb", "b.glb", "a.pc2", "a.obj", "a.ply", "%d.obj"}) {
         const auto made = make_exporter(folder / name);
         ASSERT_TRUE(made.ok());
         ASSERT_TRUE((*made)->begin({"s", 60, 100}).ok());
@@ -122,7 +122,7 @@ TEST(Exporter, DestroyedEarlyLeavesNothing) {
 
 TEST(Exporter, FinishWithoutAFrameFailsAndLeavesNothing) {
     const TestFolder folder;
-    for (const char* name : {"a.glb", "a.obj", "a.ply"}) {
+    for (const char* name : {"a.glb", "a.pc2", "a.obj", "a.ply"}) {
         const auto made = make_exporter(folder / name);
         ASSERT_TRUE(made.ok() && (*made)->begin({}).ok());
         EXPECT_FALSE((*made)->finish().ok()) << name;
@@ -155,7 +155,7 @@ TEST(Exporter, AFullDiskIsAnErrorAndKeepsTheEarlierFile) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
     std::vector<std::string> whats;
-    for (const char* name : {"a.glb", "a.obj", "a.ply", "000.obj"}) {
+    for (const char* name : {"a.glb", "b.pc2", "a.obj", "a.ply", "000.obj"}) {
         write_text(folder / name, "earlier");
         const rlimit limit{20000, before.rlim_max};
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
@@ -167,7 +167,7 @@ TEST(Exporter, AFullDiskIsAnErrorAndKeepsTheEarlierFile) {
         EXPECT_EQ(read_text(folder / name), "earlier") << name;
     }
     std::signal(SIGXFSZ, handler);
-    EXPECT_THAT(folder.names(), ElementsAre("000.obj", "a.glb", "a.obj", "a.ply"));
+    EXPECT_THAT(folder.names(), ElementsAre("000.obj", "a.glb", "a.obj", "a.ply", "b.pc2"));
 }
 
 TEST(Exporter, BrokenFramesAreNamed) {

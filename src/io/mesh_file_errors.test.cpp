@@ -3,6 +3,7 @@
 #include "io/mesh_fixtures.test.h"
 #include "io/temporary_folder.test.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -97,7 +98,27 @@ TEST_F(MeshFileErrors, PlyThatAssimpWouldCrashOn) {
               "face 1 has no corners");
     std::string huge = ascii;
     huge.replace(huge.find("vertex 5"), 8, "vertex 4000000000");
-    EXPECT_EQ(problem("a.ply", huge), "is cut short at vertex 7 of 4000000000");
+    EXPECT_EQ(problem("a.ply", huge), "has more values than properties at vertex 5");
+}
+
+// Each of these made Assimp see another file than the check before it, and abort the program or go out of bounds.
+TEST_F(MeshFileErrors, PlyThatCanBeReadInTwoWays) {
+    const std::string whole = fixtures::ply_ascii();
+    ASSERT_EQ(problem("a.ply", whole), "none");
+    const auto with = [&](const std::string& from, const std::string& to) {
+        return problem("a.ply", std::string(whole).replace(whole.find(from), from.size(), to));
+    };
+    EXPECT_EQ(with("float x\nprop", "float x\vprop"), "has control characters in its header");
+    EXPECT_EQ(with("element face", std::string("comment \0\nelement face", 22)),
+              "has control characters in its header");
+    EXPECT_EQ(with("5 5 5", "5\v5 5"), "has control characters");
+    EXPECT_EQ(with("5 5 5", "5 dae 5"), "has 'dae' at vertex 1");
+    EXPECT_EQ(with("5 5 5", "5 5 5 5"), "has more values than properties at vertex 1");
+    EXPECT_EQ(with("5 5 5", "+5 5e0 -.5"), "none");
+    EXPECT_EQ(with("3 3 0 2", "3 3 0 2.5"), "has '2.5' at face 0");
+    EXPECT_EQ(with("element face", "element vertex 5\nelement face"), "bad header line 'element vertex 5'");
+    EXPECT_EQ(with("element face", "element tristrips"), "bad header line 'element tristrips 2'");
+    EXPECT_THAT(with("int vertex_ind", "float vertex_ind"), testing::StartsWith("bad header line 'property list"));
 }
 
 TEST_F(MeshFileErrors, PlyIndicesOutOfRangeAndCoordinatesThatAreNone) {

@@ -1,5 +1,6 @@
 #include "io/mesh_checks.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
@@ -62,6 +63,19 @@ bool parse_whole(std::string_view word, T& value) {
     return parsed.ec == std::errc{} && parsed.ptr == word.data() + word.size();
 }
 
+/// Whether the word is a number, finite or not.
+bool is_number(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0;
+    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
+    return parsed.ec != std::errc::invalid_argument && parsed.ptr == word.data() + word.size();
+}
+
+/// Some programs end words at some of these and others do not.
+bool has_control_character(std::string_view line) {
+    return std::ranges::any_of(line, [](unsigned char c) { return (c < ' ' && c != '\t' && c != '\r') || c == 0x7f; });
+}
+
 const Type* find_type(std::string_view name) {
     for (const Type& type : types) {
         if (type.name == name) return &type;
@@ -95,6 +109,7 @@ class PlyCheck {
         bool has_format = false;
         while (!rest_.empty()) {
             const std::string_view whole = next_line(rest_);
+            if (has_control_character(whole)) return fail("has control characters in its header");
             std::string_view line = whole;
             const std::string_view keyword = next_word(line);
             if (keyword == "end_header") return has_format || fail("its header names no format");
@@ -104,6 +119,8 @@ class PlyCheck {
             } else if (keyword == "element") {
                 Element element{.name = std::string(next_word(line)), .count = 0, .properties = {}};
                 if (!parse_whole(next_word(line), element.count)) return bad_line(whole);
+                const bool is_second = std::ranges::find(elements_, element.name, &Element::name) != elements_.end();
+                if (is_second || element.name == "tristrips") return bad_line(whole);
                 elements_.push_back(std::move(element));
             } else if (keyword == "property") {
                 if (!read_property(line)) return bad_line(whole);
@@ -141,7 +158,7 @@ class PlyCheck {
         property.is_vertex_index =
             is_list && elements_.back().name == "face" && (name == "vertex_indices" || name == "vertex_index");
         elements_.back().properties.push_back(property);
-        return property.item && !name.empty();
+        return property.item && !name.empty() && (!property.is_vertex_index || property.item->is_integer);
     }
 
     bool cut_short(const Element& element, std::uint64_t index) {
@@ -158,27 +175,43 @@ class PlyCheck {
                     std::to_string(vertex_count_));
     }
 
+    bool bad_value(const Element& element, std::uint64_t index, std::string_view word) {
+        return fail("has '" + std::string(word.substr(0, 40)) + "' at " + element.name + " " + std::to_string(index));
+    }
+
     bool walk_text(const Element& element) {
-        if (element.properties.empty()) return true;
         for (std::uint64_t i = 0; i < element.count; ++i) {
             std::string_view line;
             while (line.find_first_not_of(" \t\r") == std::string_view::npos) {
                 if (rest_.empty()) return cut_short(element, i);
                 line = next_line(rest_);
+                if (has_control_character(line)) return fail("has control characters");
             }
             for (const Property& property : element.properties) {
-                std::uint64_t items = 1;
-                if (property.length && !parse_whole(next_word(line), items)) return cut_short(element, i);
-                if (property.is_vertex_index && items == 0) return no_corners(i);
-                for (std::uint64_t k = 0; k < items; ++k) {
-                    const std::string_view word = next_word(line);
-                    if (word.empty()) return cut_short(element, i);
-                    if (!property.is_vertex_index) continue;
-                    std::int64_t index = 0;
-                    if (!parse_whole(word, index)) return cut_short(element, i);
-                    if (!check_index(element, i, index)) return false;
-                }
+                if (!walk_text(element, i, property, line)) return false;
             }
+            // Whatever follows, Assimp takes for the next of these.
+            if (!next_word(line).empty()) {
+                return fail("has more values than properties at " + element.name + " " + std::to_string(i));
+            }
+        }
+        return true;
+    }
+
+    bool walk_text(const Element& element, std::uint64_t i, const Property& property, std::string_view& line) {
+        std::uint64_t items = 1;
+        if (property.length && !parse_whole(next_word(line), items)) return cut_short(element, i);
+        if (property.is_vertex_index && items == 0) return no_corners(i);
+        for (std::uint64_t k = 0; k < items; ++k) {
+            const std::string_view word = next_word(line);
+            if (word.empty()) return cut_short(element, i);
+            if (!property.is_vertex_index) {
+                if (!is_number(word)) return bad_value(element, i, word);
+                continue;
+            }
+            std::int64_t index = 0;
+            if (!parse_whole(word, index)) return bad_value(element, i, word);
+            if (!check_index(element, i, index)) return false;
         }
         return true;
     }
@@ -207,7 +240,7 @@ class PlyCheck {
                     rest_.remove_prefix(property.length->size);
                 }
                 if (rest_.size() / property.item->size < items) return cut_short(element, i);
-                if (property.is_vertex_index && property.item->is_integer) {
+                if (property.is_vertex_index) {
                     for (std::size_t k = 0; k < items; ++k) {
                         const char* const at = rest_.data() + k * property.item->size;
                         if (!check_index(element, i, integer_at(at, *property.item))) return false;

@@ -28,18 +28,22 @@ void read_head(ObjectReader& scene) {
                                                               number_text(head.weft));
 }
 
-void read_mesh(ObjectReader& mesh, std::variant<GridDesc, MeshFileDesc>& result) {
+template <class Shape>
+void read_made(ObjectReader& mesh, std::string_view kind, std::span<const Parameter> keys, MeshDesc& result) {
+    auto& shape = result.emplace<Shape>();
+    mesh.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
+    mesh.only_with("file", mesh_file_keys);
+}
+
+void read_mesh(ObjectReader& mesh, MeshDesc& result) {
     MeshFileDesc file;
     mesh.know(mesh_keys);
     mesh.values(mesh_file_keys, &file);
-    const std::string_view kind = mesh.one_of({"grid", "file"});
+    const std::string_view kind = mesh.one_of({"grid", "sphere", "box", "file"});
     if (kind == "file") result = std::move(file);
-    if (kind == "grid") {
-        GridDesc grid;
-        mesh.object("grid", [&](ObjectReader& o) { o.values(grid_keys, &grid); });
-        result = grid;
-        mesh.only_with("file", mesh_file_keys);
-    }
+    if (kind == "grid") read_made<GridDesc>(mesh, kind, grid_keys, result);
+    if (kind == "sphere") read_made<SphereMeshDesc>(mesh, kind, sphere_mesh_keys, result);
+    if (kind == "box") read_made<BoxMeshDesc>(mesh, kind, box_mesh_keys, result);
 }
 
 void use_preset(const std::string& name, const std::string& place, Fabric& fabric, Problems& problems) {
@@ -82,6 +86,7 @@ void read_pin(ObjectReader& pin, PinDesc& result) {
     ColorPins by_color;
     pin.know(pin_keys);
     pin.values(color_pin_keys, &by_color);
+    pin.values(pin_motion_keys, &result);
     const std::string_view kind = pin.one_of({"vertices", "box", "color"});
     if (kind == "vertices") result.select = VertexPins{pin.indices("vertices")};
     if (kind == "box") {
@@ -91,19 +96,43 @@ void read_pin(ObjectReader& pin, PinDesc& result) {
     }
     if (kind == "color") result.select = by_color;
     if (!kind.empty()) pin.only_with("color", color_pin_keys);
+    pin.objects("motion", [&](ObjectReader& key) { key.values(offset_key_keys, &result.motion.emplace_back()); });
 }
 
 void read_cloth(ObjectReader& o, ClothDesc& cloth) {
     o.values(cloth_keys, &cloth);
     o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
+    o.object("drawn", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.drawn.emplace()); });
     o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
     read_fabric(o, cloth.fabric);
     o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
 }
 
+void read_motion(ObjectReader& o, ColliderDesc& collider) {
+    const json* found = o.find("motion");
+    if (!found || *found == "static") return;
+    const std::string place = at(o.pointer(), "motion");
+    if (!found->is_object()) {
+        o.problems().add(place, "must be \"static\" or an object with keys, got " + json_text(*found));
+        return;
+    }
+    o.object("motion", [&](ObjectReader& motion) {
+        motion.know(motion_keys);
+        motion.objects("keys", [&](ObjectReader& key) {
+            // What a key does not say is as the transform has it.
+            PoseKey& pose = collider.motion.emplace_back();
+            pose.position = collider.transform.position;
+            pose.rotation_degrees = collider.transform.rotation_degrees;
+            key.values(pose_key_keys, &pose);
+        });
+        if (motion.find("keys") == nullptr || (motion.find("keys")->is_array() && motion.find("keys")->empty()))
+            motion.problems().add(at(place, "keys"), "must hold at least one key");
+    });
+}
+
 void read_collider(ObjectReader& o, ColliderDesc& collider) {
     o.values(collider_keys, &collider);
-    const std::string_view kind = o.one_of({"plane", "sphere"});
+    const std::string_view kind = o.one_of({"plane", "sphere", "box", "capsule"});
     if (kind == "plane") {
         auto& plane = collider.shape.emplace<PlaneDesc>();
         o.object("plane", [&](ObjectReader& shape) { shape.values(plane_keys, &plane); });
@@ -112,7 +141,16 @@ void read_collider(ObjectReader& o, ColliderDesc& collider) {
         auto& sphere = collider.shape.emplace<SphereDesc>();
         o.object("sphere", [&](ObjectReader& shape) { shape.values(sphere_keys, &sphere); });
     }
+    if (kind == "box") {
+        auto& box = collider.shape.emplace<BoxDesc>();
+        o.object("box", [&](ObjectReader& shape) { shape.values(box_shape_keys, &box); });
+    }
+    if (kind == "capsule") {
+        auto& capsule = collider.shape.emplace<CapsuleDesc>();
+        o.object("capsule", [&](ObjectReader& shape) { shape.values(capsule_keys, &capsule); });
+    }
     o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
+    read_motion(o, collider);
 }
 
 SceneDesc read_scene(const json& value, Problems& problems) {

@@ -148,6 +148,40 @@ TEST(SceneFile, PresetsCanBeOverridden) {
     EXPECT_THAT(fabric(R"({"stretch": [10, 20], "compression": 5})").stretch.compression, ElementsAre(5.0f, 5.0f));
     EXPECT_THAT(fabric(R"({"preset": "silk"})").stretch.compression, ElementsAre(2000.0f, 2000.0f));
     EXPECT_TRUE(std::isnan(fabric(R"({"rest_angle": "mesh"})").bend.rest_angle));
+    EXPECT_EQ(fabric(R"({"hinges": "source"})").bend.hinges, HingeChoice::source);
+    EXPECT_EQ(fabric(R"("silk")").bend.hinges, HingeChoice::all);
+}
+
+TEST(SceneFile, ReadsSpheresAndBoxes) {
+    const Result<SceneDesc> result = parse_scene(R"({"weft": 1, "cloths": [
+        {"mesh": {"sphere": {"radius": 0.2, "subdivisions": 0}}},
+        {"mesh": {"box": {"size": [1, 2, 3], "resolution": [2, 3, 4]}}},
+        {"mesh": {"sphere": {}}}, {"mesh": {"box": {}}}]})",
+                                                 "s.json");
+    ASSERT_TRUE(result) << result.error().message();
+    const auto& sphere = std::get<SphereMeshDesc>(result->cloths[0].mesh);
+    EXPECT_EQ(sphere.radius, 0.2f);
+    EXPECT_EQ(sphere.subdivisions, 0u);
+    const auto& box = std::get<BoxMeshDesc>(result->cloths[1].mesh);
+    EXPECT_THAT(box.size, ElementsAre(1, 2, 3));
+    EXPECT_THAT(box.resolution, ElementsAre(2u, 3u, 4u));
+    EXPECT_EQ(std::get<SphereMeshDesc>(result->cloths[2].mesh).subdivisions, 4u);
+    EXPECT_THAT(std::get<BoxMeshDesc>(result->cloths[3].mesh).resolution, ElementsAre(32u, 32u, 32u));
+}
+
+TEST(SceneFile, ReadsADrawnMeshBesideTheSimulatedOne) {
+    const Result<SceneDesc> result = parse_scene(R"({"weft": 1, "cloths": [
+        {"mesh": {"grid": {"resolution": [8, 8]}}, "drawn": {"file": "fine.obj", "scale": 0.1, "up": "z"}},
+        {"drawn": {"grid": {"resolution": [200, 200]}}}, {}]})",
+                                                 "s.json");
+    ASSERT_TRUE(result) << result.error().message();
+    EXPECT_THAT(std::get<GridDesc>(result->cloths[0].mesh).resolution, ElementsAre(8u, 8u));
+    const auto& fine = std::get<MeshFileDesc>(result->cloths[0].drawn.value());
+    EXPECT_EQ(fine.file, "fine.obj");
+    EXPECT_EQ(fine.scale, 0.1f);
+    EXPECT_EQ(fine.up, UpAxis::z);
+    EXPECT_THAT(std::get<GridDesc>(result->cloths[1].drawn.value()).resolution, ElementsAre(200u, 200u));
+    EXPECT_FALSE(result->cloths[2].drawn);
 }
 
 struct Bad {
@@ -175,7 +209,16 @@ TEST(SceneFile, NamesWrongValues) {
           "s.json: /cloths/0/mesh/grid/resolution/1: must be ≤ 4096, got 5000"}},
         {cloth(R"("mesh": {"grid": {"resolution": [4096, 4096], "diagonal": "cross"}})"),
          {"s.json: /cloths/0/mesh/grid/resolution: must give at most 16777216 particles, got 33546241"}},
+        {cloth(R"("mesh": {"sphere": {"radius": 0, "subdivisions": 8}})"),
+         {"s.json: /cloths/0/mesh/sphere/radius: must be > 0 m, got 0",
+          "s.json: /cloths/0/mesh/sphere/subdivisions: must be ≤ 7, got 8"}},
+        {cloth(R"("mesh": {"box": {"size": [1, -1, 1], "resolution": [2, 2, 1]}})"),
+         {"s.json: /cloths/0/mesh/box/size/1: must be > 0 m, got -1",
+          "s.json: /cloths/0/mesh/box/resolution/2: must be ≥ 2, got 1"}},
         {cloth(R"("mesh": {"file": ""})"), {"s.json: /cloths/0/mesh/file: must name a file"}},
+        {cloth(R"("drawn": {"file": ""})"), {"s.json: /cloths/0/drawn/file: must name a file"}},
+        {cloth(R"("drawn": {"grid": {"size": [0, 1]}})"),
+         {"s.json: /cloths/0/drawn/grid/size/0: must be > 0 m, got 0"}},
         {cloth(R"("pins": [{"vertices": [1, -1]}])"), {"s.json: /cloths/0/pins/0/vertices/1: must be ≥ 0, got -1"}},
         {cloth(R"("pins": [{"vertices": [4096]}])"),
          {"s.json: /cloths/0/pins/0/vertices/0: must be less than 4096, the number of particles, got 4096"}},
@@ -271,9 +314,12 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
         {R"({"weft": 2, "cloths": [{}]})", {"s.json: /weft: must be 1, the only format this version reads, got 2"}},
         {R"({"weft": 1})", {"s.json: /cloths: is missing"}},
         {R"({"weft": 1, "cloths": []})", {"s.json: /cloths: must hold at least one cloth"}},
-        {cloth(R"("mesh": {})"), {"s.json: /cloths/0/mesh: must have one of \"grid\" or \"file\""}},
+        {cloth(R"("mesh": {})"),
+         {"s.json: /cloths/0/mesh: must have one of \"grid\", \"sphere\", \"box\" or \"file\""}},
         {cloth(R"("mesh": {"grid": {}, "file": "a.obj"})"),
-         {"s.json: /cloths/0/mesh: must have one of \"grid\" or \"file\", got 2"}},
+         {"s.json: /cloths/0/mesh: must have one of \"grid\", \"sphere\", \"box\" or \"file\", got 2"}},
+        {cloth(R"("drawn": {"sphere": {}, "box": {}})"),
+         {"s.json: /cloths/0/drawn: must have one of \"grid\", \"sphere\", \"box\" or \"file\", got 2"}},
         {cloth(R"("mesh": {"grid": {}, "scale": 2})"),
          {"s.json: /cloths/0/mesh/scale: belongs to \"file\", which is absent"}},
         {cloth(R"("pins": [{}])"), {"s.json: /cloths/0/pins/0: must have one of \"vertices\", \"box\" or \"color\""}},
@@ -282,14 +328,68 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
         {cloth(R"("pins": [{"box": {"max": [1, 1, 1]}}])"), {"s.json: /cloths/0/pins/0/box/min: is missing"}},
         {cloth(R"("pins": [{"color": [1, 0, 0]}])"),
          {"s.json: /cloths/0/pins/0/color: needs a mesh with vertex colors, which a grid has not"}},
-        {scene(R"("colliders": [{}])"), {"s.json: /colliders/0: must have one of \"plane\" or \"sphere\""}},
+        {scene(R"("colliders": [{}])"),
+         {"s.json: /colliders/0: must have one of \"plane\", \"sphere\", \"box\" or \"capsule\""}},
         {scene(R"("colliders": [{"plane": {}, "sphere": {}}])"),
-         {"s.json: /colliders/0: must have one of \"plane\" or \"sphere\", got 2"}},
+         {"s.json: /colliders/0: must have one of \"plane\", \"sphere\", \"box\" or \"capsule\", got 2"}},
         {R"({"weft": 1, "cloths": [{"name": "a"}, {"name": "a"}]})",
          {"s.json: /cloths/1/name: is taken: another before it is called \"a\""}},
         {scene(R"("colliders": [{"name": "a", "plane": {}}, {"name": "a", "plane": {}}])"),
          {"s.json: /colliders/1/name: is taken: another before it is called \"a\""}},
     });
+}
+
+TEST(SceneFile, ReadsWhatMoves) {
+    const auto read = parse_scene(R"({"weft": 1,
+        "cloths": [{"tethers": true, "tether_slack": 0.1, "pins": [
+            {"vertices": [0], "attach": "drum"},
+            {"vertices": [1], "motion": [{"time": 1}, {"time": 2, "offset": [1, 2, 3]}]}]}],
+        "colliders": [
+            {"name": "drum", "capsule": {"radius": 0.2, "half_height": 0.4}, "transform": {"rotation": [90, 0, 0]},
+             "motion": {"keys": [{"time": 0}, {"time": 1, "position": [0, 1, 0]}]}},
+            {"box": {"half_extents": [1, 2, 3]}, "motion": "static"}]})",
+                                  "s.json");
+    ASSERT_TRUE(read.ok()) << read.error().message();
+    const ClothDesc& cloth = read->cloths[0];
+    EXPECT_TRUE(cloth.tethers);
+    EXPECT_EQ(cloth.tether_slack, 0.1f);
+    EXPECT_EQ(cloth.pins[0].attach, "drum");
+    ASSERT_EQ(cloth.pins[1].motion.size(), 2u);
+    EXPECT_EQ(cloth.pins[1].motion[1].offset, Vec3(1, 2, 3));
+    ASSERT_EQ(read->colliders[0].motion.size(), 2u);
+    EXPECT_EQ(read->colliders[0].motion[1].position, Vec3(0, 1, 0));
+    EXPECT_EQ(read->colliders[0].motion[1].rotation_degrees, Vec3(90, 0, 0)) << "as the transform has it";
+    EXPECT_EQ(std::get<BoxDesc>(read->colliders[1].shape).half_extents, Vec3(1, 2, 3));
+    EXPECT_TRUE(read->colliders[1].motion.empty());
+}
+
+TEST(SceneFile, KnowsWhatCannotMove) {
+    const auto collider = [](const std::string& motion) {
+        return errors_of(R"({"weft": 1, "cloths": [{}], "colliders": [{"plane": {}, "motion": )" + motion + "}]}");
+    };
+    EXPECT_THAT(collider("3"),
+                ElementsAre("s.json: /colliders/0/motion: must be \"static\" or an object with keys, got 3"));
+    EXPECT_THAT(collider("{}"), ElementsAre("s.json: /colliders/0/motion/keys: must hold at least one key"));
+    EXPECT_THAT(collider(R"({"keys": []})"),
+                ElementsAre("s.json: /colliders/0/motion/keys: must hold at least one key"));
+    EXPECT_THAT(
+        collider(R"({"keys": [{"time": 1}, {"time": 1}]})"),
+        ElementsAre("s.json: /colliders/0/motion/keys/1/time: must be later than that of the key before, 1, got 1"));
+    EXPECT_THAT(collider(R"({"keys": [{"time": -1}]})"),
+                ElementsAre("s.json: /colliders/0/motion/keys/0/time: must be ≥ 0 s, got -1"));
+
+    const auto pin = [](const std::string& members) {
+        return errors_of(R"({"weft": 1, "cloths": [{"pins": [{"vertices": [0], )" + members +
+                         R"(}]}], "colliders": [{"name": "ball", "sphere": {}}]})");
+    };
+    EXPECT_THAT(pin(R"("attach": "bal")"),
+                ElementsAre("s.json: /cloths/0/pins/0/attach: unknown collider \"bal\"; did you mean \"ball\"?"));
+    EXPECT_THAT(
+        pin(R"("attach": "ball", "motion": [{"time": 0}])"),
+        ElementsAre("s.json: /cloths/0/pins/0/motion: must not stand beside \"attach\": the collider moves the pin"));
+    EXPECT_THAT(
+        pin(R"("motion": [{"time": 2}, {"time": 1}])"),
+        ElementsAre("s.json: /cloths/0/pins/0/motion/1/time: must be later than that of the key before, 2, got 1"));
 }
 
 TEST(SceneFile, ReportsAllAtOnce) {
@@ -299,7 +399,7 @@ TEST(SceneFile, ReportsAllAtOnce) {
                               "colliders": [{"sphere": {"radius": -1}, "color": 3}]})"),
         ElementsAre("s.json: /cloths/0/fabric/shear: must be a number, got \"x\"",
                     "s.json: /colliders/0/color: unknown key \"color\"; known are \"name\", \"plane\", \"sphere\", "
-                    "\"transform\" and \"friction\"",
+                    "\"box\", \"capsule\", \"transform\", \"motion\" and \"friction\"",
                     "s.json: /gravty: unknown key \"gravty\"; did you mean \"gravity\"?",
                     "s.json: /frame_rate: must be > 0 frames/s, got -1",
                     "s.json: /cloths/0/mesh/grid/size/0: must be > 0 m, got 0",
@@ -313,7 +413,7 @@ TEST(SceneFile, ReportsNoConsequences) {
         {cloth(R"("mesh": {"grid": {"resolution": [100, "x"]}}, "pins": [{"vertices": [5000]}])"),
          {"s.json: /cloths/0/mesh/grid/resolution/1: must be a whole number, got \"x\""}},
         {cloth(R"("mesh": {"fiel": "a.obj"}, "pins": [{"color": [1, 0, 0]}])"),
-         {"s.json: /cloths/0/mesh: must have one of \"grid\" or \"file\"",
+         {"s.json: /cloths/0/mesh: must have one of \"grid\", \"sphere\", \"box\" or \"file\"",
           "s.json: /cloths/0/mesh/fiel: unknown key \"fiel\"; did you mean \"file\"?"}},
         {cloth(R"("fabric": {"stretch": [-1, "x"]})"),
          {"s.json: /cloths/0/fabric/stretch/1: must be a number, got \"x\"",

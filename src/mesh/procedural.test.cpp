@@ -1,9 +1,12 @@
 #include "mesh/procedural.h"
 
+#include "mesh/topology.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <set>
 
 namespace weft {
@@ -98,6 +101,115 @@ TEST(Grid, cross_has_a_vertex_in_the_middle_of_each_cell) {
             for (const Triangle& t : mesh.triangles) around += t[0] == m || t[1] == m || t[2] == m;
             EXPECT_EQ(around, 4);
         }
+}
+
+struct Measure {
+    double area = 0, volume = 0, least_triangle = 1e30, greatest_triangle = 0;
+};
+
+/// The volume is right for a closed surface only, and positive if its triangles face outward.
+Measure measure(const TriangleMesh& mesh) {
+    Measure sum;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 n = doubled_area(mesh, t);
+        const double area = static_cast<double>(length(n)) / 2;
+        sum.area += area;
+        sum.least_triangle = std::min(sum.least_triangle, area);
+        sum.greatest_triangle = std::max(sum.greatest_triangle, area);
+        sum.volume += static_cast<double>(dot(mesh.positions[t[0]], n)) / 6;
+    }
+    return sum;
+}
+
+/// Each vertex is a particle of its own, each edge has two triangles that wind it in opposite ways, and the whole is
+/// one piece without handles (Euler: V - E + F = 2).
+void expect_closed_and_welded(const TriangleMesh& mesh) {
+    const auto topology = build_topology(mesh);
+    ASSERT_TRUE(topology.ok());
+    EXPECT_EQ(topology->report.welded_vertices, 0u);
+    EXPECT_EQ(topology->report.isolated_vertices, 0u);
+    EXPECT_EQ(topology->report.degenerate_triangles, 0u);
+    EXPECT_EQ(topology->report.duplicate_triangles, 0u);
+    EXPECT_EQ(topology->report.non_manifold_edges, 0u);
+    EXPECT_EQ(topology->report.inconsistent_edges, 0u);
+    EXPECT_EQ(topology->hinges.size(), topology->edges.size());
+    EXPECT_EQ(topology->particle_count + topology->triangles.size() - topology->edges.size(), 2u);
+}
+
+TEST(Sphere, is_closed_and_welded) {
+    for (const std::uint32_t subdivisions : {0u, 1u, 3u, 5u}) {
+        const auto mesh = make_sphere(0.3f, subdivisions);
+        EXPECT_EQ(mesh.positions.size(), (10u << 2 * subdivisions) + 2);
+        EXPECT_EQ(mesh.triangles.size(), 20u << 2 * subdivisions);
+        expect_closed_and_welded(mesh);
+    }
+}
+
+TEST(Sphere, is_round) {
+    const auto mesh = make_sphere(2, 6);
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        EXPECT_NEAR(length(mesh.positions[v]), 2, 4e-7f);
+        EXPECT_LT(length(mesh.positions[v] - mesh.normals[v] * 2), 5e-7f);
+    }
+}
+
+TEST(Sphere, comes_to_the_area_and_volume_of_the_ball_from_within) {
+    const double area = 4 * std::numbers::pi * 0.25, volume = 4 * std::numbers::pi / 3 * 0.125;
+    double missing_area = area, missing_volume = volume;
+    for (std::uint32_t subdivisions = 0; subdivisions <= 6; ++subdivisions) {
+        const Measure ball = measure(make_sphere(0.5f, subdivisions));
+        // Flat triangles lack a part that falls with the square of their size: to a quarter with each cut.
+        const double at_most = subdivisions == 0 ? 0.5 : 0.35;
+        EXPECT_GT(area - ball.area, 0);
+        EXPECT_GT(volume - ball.volume, 0);
+        EXPECT_LT(area - ball.area, at_most * missing_area);
+        EXPECT_LT(volume - ball.volume, at_most * missing_volume);
+        missing_area = area - ball.area, missing_volume = volume - ball.volume;
+    }
+    EXPECT_LT(missing_area, 3e-4 * area);
+    EXPECT_LT(missing_volume, 6e-4 * volume);
+}
+
+TEST(Sphere, has_triangles_of_nearly_one_size) {
+    for (std::uint32_t subdivisions = 0; subdivisions <= 6; ++subdivisions) {
+        const Measure ball = measure(make_sphere(1, subdivisions));
+        EXPECT_LT(ball.greatest_triangle, 1.33 * ball.least_triangle)
+            << subdivisions << ": " << ball.greatest_triangle / ball.least_triangle;
+    }
+}
+
+TEST(Box, is_closed_and_welded) {
+    for (const std::array<std::uint32_t, 3> n : {std::array{2u, 2u, 2u}, {3u, 2u, 5u}, {2u, 9u, 2u}, {7u, 8u, 9u}}) {
+        const auto mesh = make_box({0.3f, 1.7f, 0.9f}, n);
+        const std::uint32_t x = n[0] - 1, y = n[1] - 1, z = n[2] - 1;
+        EXPECT_EQ(mesh.positions.size(), 2 * (x * y + y * z + z * x) + 2);
+        EXPECT_EQ(mesh.triangles.size(), 4 * (x * y + y * z + z * x));
+        expect_closed_and_welded(mesh);
+    }
+}
+
+TEST(Box, has_its_area_and_volume) {
+    const Measure box = measure(make_box({1, 2, 3}, {6, 5, 4}));
+    EXPECT_NEAR(box.area, 22, 1e-4);
+    EXPECT_NEAR(box.volume, 6, 1e-5);
+    // Cells of 0.2 by 0.5, 0.5 by 1 and 0.2 by 1.
+    EXPECT_NEAR(box.least_triangle, 0.05, 1e-6);
+    EXPECT_NEAR(box.greatest_triangle, 0.25, 1e-6);
+}
+
+TEST(Box, vertices_come_layer_by_layer) {
+    const auto mesh = make_box({2, 4, 6}, {3, 4, 3});
+    EXPECT_EQ(mesh.positions[0], (Vec3{-1, -2, -3}));
+    EXPECT_EQ(mesh.positions[2], (Vec3{1, -2, -3}));
+    EXPECT_EQ(mesh.positions[8], (Vec3{1, -2, 3}));
+    EXPECT_EQ(mesh.positions[12].x, -1);  // the ring above: three, then two at its sides
+    EXPECT_EQ(mesh.positions[12].z, 0);
+    EXPECT_EQ(mesh.positions[13].x, 1);
+    EXPECT_EQ(mesh.positions.back(), (Vec3{1, 2, 3}));
+    EXPECT_TRUE(std::is_sorted(mesh.positions.begin(), mesh.positions.end(), [](Vec3 a, Vec3 b) {
+        return std::array{a.y, a.z, a.x} < std::array{b.y, b.z, b.x};
+    }));
 }
 
 }  // namespace

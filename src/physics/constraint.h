@@ -4,6 +4,7 @@
 #include "physics/bend/bend.data.h"
 #include "physics/rest_shape.h"
 #include "physics/stretch/stretch.data.h"
+#include "physics/tether/tether.data.h"
 
 #include <cstdint>
 #include <span>
@@ -13,12 +14,12 @@
 namespace weft {
 
 enum class ConstraintKind : std::uint32_t {
-#define WEFT_CONSTRAINT(name, Name, particles) name,
+#define WEFT_CONSTRAINT(name, Name, particles, moved) name,
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };
 
-#define WEFT_CONSTRAINT(name, Name, particles) +1
+#define WEFT_CONSTRAINT(name, Name, particles, moved) +1
 inline constexpr std::uint32_t constraint_kind_count = 0
 #include "physics/constraints.def"
     ;
@@ -27,6 +28,7 @@ inline constexpr std::uint32_t constraint_kind_count = 0
 struct ConstraintInfo {
     std::string_view name;
     std::uint32_t arity;                       ///< particles per row
+    std::uint32_t moved;                       ///< of them, how many, from the first, a row may move
     std::span<const std::string_view> fields;  ///< names of the row's numbers
 };
 
@@ -49,7 +51,7 @@ struct RowList {
 RowList make_rows(ConstraintKind kind);
 
 // One builder per kind: build_stretch, build_bend, …
-#define WEFT_CONSTRAINT(name, Name, particles) \
+#define WEFT_CONSTRAINT(name, Name, particles, moved) \
     RowList build_##name(const RestShape& rest, const Name##Material& material);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT

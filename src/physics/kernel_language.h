@@ -5,3 +5,6 @@
 #define inout_(T) T&
 #define out_(T) T&
 #define WEFT_ROW_MEMBER(name) real name;
+
+// Kernels of one kind share one signature, which not all of them need in full.
+#pragma GCC diagnostic ignored "-Wunused-parameter"

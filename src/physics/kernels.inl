@@ -7,10 +7,13 @@
 #include "physics/integrate/integrate.kernel.h"
 #include "physics/surface/normals.kernel.h"
 
+#include "physics/tether/tether.kernel.h"
 #include "physics/stretch/stretch.kernel.h"
 #include "physics/bend/bend.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/plane.kernel.h"
 #include "physics/contact/sphere.kernel.h"
+#include "physics/contact/box.kernel.h"
+#include "physics/contact/capsule.kernel.h"
 // clang-format on

@@ -26,7 +26,7 @@ Vec3 warp_from_uvs(Vec3 e1, Vec3 e2, Vec2 t1, Vec2 t2) {
 }  // namespace
 
 RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
-    RestShape rest{topology, {}, {}};
+    RestShape rest{.topology = topology, .area = {}, .warp = {}};
     rest.area.reserve(topology.triangles.size());
     rest.warp.reserve(topology.triangles.size());
     for (std::size_t t = 0; t < topology.triangles.size(); ++t) {

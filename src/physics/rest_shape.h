@@ -9,8 +9,9 @@ namespace weft {
 
 struct RestShape {
     const Topology& topology;
-    std::vector<float> area;  ///< per triangle, m²
-    std::vector<Vec3> warp;   ///< per triangle, unit, in its plane: the direction in which u grows
+    std::vector<float> area;              ///< per triangle, m²
+    std::vector<Vec3> warp;               ///< per triangle, unit, in its plane: the direction in which u grows
+    std::vector<std::uint8_t> held = {};  ///< per particle: 1 if its place is given from outside; empty: none is
 };
 
 /// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis laid into the triangle (the z axis

@@ -6,6 +6,7 @@
 #include "physics/contact/contact.data.h"
 #include "physics/kernel_language.h"
 #include "physics/stretch/stretch.data.h"
+#include "physics/tether/tether.data.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,6 @@
 #include "scene/check.h"
 
+#include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <set>
 
 namespace weft {
@@ -47,12 +49,36 @@ std::uint64_t vertex_count(const GridDesc& grid) {
     return nx * nz + (centers ? (nx - 1) * (nz - 1) : 0);
 }
 
-void check_grid(const GridDesc& grid, const std::string& pointer, Problems& problems) {
-    check_values(grid_keys, &grid, pointer, problems);
-    if (problems.concern(at(pointer, "resolution"))) return;
-    if (const std::uint64_t count = vertex_count(grid); count > max_grid_vertices)
-        problems.add(at(pointer, "resolution"), "must give at most " + std::to_string(max_grid_vertices) +
-                                                    " particles, got " + std::to_string(count));
+std::uint64_t vertex_count(const SphereMeshDesc& sphere) {
+    // More than the key allows, and still no overflow.
+    return (std::uint64_t{10} << 2 * std::min(sphere.subdivisions, 20u)) + 2;
+}
+
+std::uint64_t vertex_count(const BoxMeshDesc& box) {
+    std::uint64_t cells[3];
+    for (std::size_t i = 0; i < 3; ++i) cells[i] = std::max(box.resolution[i], 1u) - 1;
+    return 2 * (cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]) + 2;
+}
+
+// A mesh that the scene describes by numbers: unlike that of a file, it is known before it is there.
+struct MadeMesh {
+    std::string_view key;
+    std::uint64_t vertices = 0;
+};
+
+std::optional<MadeMesh> made_mesh(const MeshDesc& mesh) {
+    if (const auto* grid = std::get_if<GridDesc>(&mesh)) return MadeMesh{"grid", vertex_count(*grid)};
+    if (const auto* sphere = std::get_if<SphereMeshDesc>(&mesh)) return MadeMesh{"sphere", vertex_count(*sphere)};
+    if (const auto* box = std::get_if<BoxMeshDesc>(&mesh)) return MadeMesh{"box", vertex_count(*box)};
+    return {};
+}
+
+// `resolution` of a grid or a box.
+void check_resolution(std::uint64_t vertices, const std::string& pointer, Problems& problems) {
+    const std::string place = at(pointer, "resolution");
+    if (vertices > max_made_vertices && !problems.concern(place))
+        problems.add(place, "must give at most " + std::to_string(max_made_vertices) + " particles, got " +
+                                std::to_string(vertices));
 }
 
 void check_mesh_file(const MeshFileDesc& mesh, const std::string& pointer, Problems& problems) {
@@ -60,9 +86,21 @@ void check_mesh_file(const MeshFileDesc& mesh, const std::string& pointer, Probl
     if (mesh.file.empty()) problems.add(at(pointer, "file"), "must name a file");
 }
 
-void check_vertex_pins(const VertexPins& pins, const GridDesc* grid, const std::string& pointer, Problems& problems) {
-    if (!grid) return;
-    const std::uint64_t count = vertex_count(*grid);
+void check_mesh(const MeshDesc& mesh, const std::string& pointer, Problems& problems) {
+    if (const auto* grid = std::get_if<GridDesc>(&mesh)) {
+        check_values(grid_keys, grid, at(pointer, "grid"), problems);
+        check_resolution(vertex_count(*grid), at(pointer, "grid"), problems);
+    } else if (const auto* sphere = std::get_if<SphereMeshDesc>(&mesh)) {
+        check_values(sphere_mesh_keys, sphere, at(pointer, "sphere"), problems);
+    } else if (const auto* box = std::get_if<BoxMeshDesc>(&mesh)) {
+        check_values(box_mesh_keys, box, at(pointer, "box"), problems);
+        check_resolution(vertex_count(*box), at(pointer, "box"), problems);
+    } else if (const auto* file = std::get_if<MeshFileDesc>(&mesh)) {
+        check_mesh_file(*file, pointer, problems);
+    }
+}
+
+void check_vertex_pins(const VertexPins& pins, std::uint64_t count, const std::string& pointer, Problems& problems) {
     for (std::size_t i = 0; i < pins.vertices.size(); ++i)
         if (pins.vertices[i] >= count)
             problems.add(at(pointer, i), "must be less than " + std::to_string(count) +
@@ -78,32 +116,61 @@ void check_box(const Bounds& box, const std::string& pointer, Problems& problems
                                                         number_text(high[i]) + ", got " + number_text(low[i]));
 }
 
-// Without a grid nothing is known of the particles.
-void check_pin(const PinDesc& pin, const GridDesc* grid, const std::string& pointer, Problems& problems) {
+template <class Key>
+void check_keys(const std::vector<Key>& keys, std::span<const Parameter> table, const std::string& pointer,
+                Problems& problems) {
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        check_values(table, &keys[i], at(pointer, i), problems);
+        if (i > 0 && keys[i].time <= keys[i - 1].time)
+            problems.add(at(at(pointer, i), "time"), "must be later than that of the key before, " +
+                                                         number_text(keys[i - 1].time) + ", got " +
+                                                         number_text(keys[i].time));
+    }
+}
+
+// Of the particles of a mesh that is not made here nothing is known.
+void check_pin(const PinDesc& pin, const std::optional<MadeMesh>& made, const std::string& pointer,
+               Problems& problems) {
     if (const auto* vertices = std::get_if<VertexPins>(&pin.select)) {
-        check_vertex_pins(*vertices, grid, at(pointer, "vertices"), problems);
+        if (made) check_vertex_pins(*vertices, made->vertices, at(pointer, "vertices"), problems);
     } else if (const auto* box = std::get_if<BoxPins>(&pin.select)) {
         check_box(box->box, at(pointer, "box"), problems);
     } else if (const auto* color = std::get_if<ColorPins>(&pin.select)) {
         check_values(color_pin_keys, color, pointer, problems);
-        if (grid) problems.add(at(pointer, "color"), "needs a mesh with vertex colors, which a grid has not");
+        if (made)
+            problems.add(at(pointer, "color"),
+                         "needs a mesh with vertex colors, which a " + std::string(made->key) + " has not");
+    }
+    check_values(pin_motion_keys, &pin, pointer, problems);
+    check_keys(pin.motion, offset_key_keys, at(pointer, "motion"), problems);
+    if (!pin.attach.empty() && !pin.motion.empty())
+        problems.add(at(pointer, "motion"), "must not stand beside \"attach\": the collider moves the pin");
+}
+
+// What a pin is attached to must be there.
+void check_attachments(const SceneDesc& scene, Problems& problems) {
+    std::vector<std::string_view> names;
+    for (const ColliderDesc& collider : scene.colliders) names.push_back(collider.name);
+    for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
+        const auto& pins = scene.cloths[c].pins;
+        for (std::size_t i = 0; i < pins.size(); ++i)
+            if (!pins[i].attach.empty() && std::ranges::find(names, pins[i].attach) == names.end())
+                problems.add(at(at(at(at("/cloths", c), "pins"), i), "attach"),
+                             "unknown collider " + in_quotes(pins[i].attach) + suggestion(pins[i].attach, names));
     }
 }
 
 void check_cloth(const ClothDesc& cloth, const std::string& pointer, Problems& problems) {
     check_values(cloth_keys, &cloth, pointer, problems);
-    const auto* grid = std::get_if<GridDesc>(&cloth.mesh);
-    if (grid)
-        check_grid(*grid, at(at(pointer, "mesh"), "grid"), problems);
-    else if (const auto* file = std::get_if<MeshFileDesc>(&cloth.mesh))
-        check_mesh_file(*file, at(pointer, "mesh"), problems);
+    check_mesh(cloth.mesh, at(pointer, "mesh"), problems);
+    if (cloth.drawn) check_mesh(*cloth.drawn, at(pointer, "drawn"), problems);
     check_values(transform_keys, &cloth.transform, at(pointer, "transform"), problems);
     for (const FabricTable& table : fabric_tables())
         check_values(table.parameters, reinterpret_cast<const std::byte*>(&cloth.fabric) + table.offset,
                      at(pointer, "fabric"), problems);
-    const GridDesc* sound_grid = problems.concern(at(pointer, "mesh")) ? nullptr : grid;
+    const auto made = problems.concern(at(pointer, "mesh")) ? std::nullopt : made_mesh(cloth.mesh);
     for (std::size_t i = 0; i < cloth.pins.size(); ++i)
-        check_pin(cloth.pins[i], sound_grid, at(at(pointer, "pins"), i), problems);
+        check_pin(cloth.pins[i], made, at(at(pointer, "pins"), i), problems);
 }
 
 void check_plane(const PlaneDesc& plane, const std::string& pointer, Problems& problems) {
@@ -118,7 +185,12 @@ void check_collider(const ColliderDesc& collider, const std::string& pointer, Pr
         check_plane(*plane, at(pointer, "plane"), problems);
     else if (const auto* sphere = std::get_if<SphereDesc>(&collider.shape))
         check_values(sphere_keys, sphere, at(pointer, "sphere"), problems);
+    else if (const auto* box = std::get_if<BoxDesc>(&collider.shape))
+        check_values(box_shape_keys, box, at(pointer, "box"), problems);
+    else if (const auto* capsule = std::get_if<CapsuleDesc>(&collider.shape))
+        check_values(capsule_keys, capsule, at(pointer, "capsule"), problems);
     check_values(pose_keys, &collider.transform, at(pointer, "transform"), problems);
+    check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
 }
 
 template <class Named>
@@ -129,13 +201,18 @@ void check_names(const std::vector<Named>& all, const std::string& pointer, Prob
             problems.add(at(at(pointer, i), "name"), "is taken: another before it is called " + in_quotes(all[i].name));
 }
 
-// Each grid may be fine by itself.
+// Each mesh may be fine by itself.
 void check_total(const SceneDesc& scene, Problems& problems) {
     std::uint64_t total = 0;
-    for (const ClothDesc& cloth : scene.cloths)
-        if (const auto* grid = std::get_if<GridDesc>(&cloth.mesh)) total += vertex_count(*grid);
-    if (total > max_grid_vertices && !problems.concern("/cloths"))
-        problems.add("/cloths", "must have at most " + std::to_string(max_grid_vertices) + " particles together, got " +
+    bool drawn = false;
+    for (const ClothDesc& cloth : scene.cloths) {
+        if (const auto made = made_mesh(cloth.mesh)) total += made->vertices;
+        if (const auto made = cloth.drawn ? made_mesh(*cloth.drawn) : std::nullopt)
+            total += made->vertices, drawn = true;
+    }
+    if (total > max_made_vertices && !problems.concern("/cloths"))
+        problems.add("/cloths", "must have at most " + std::to_string(max_made_vertices) +
+                                    (drawn ? " particles and drawn vertices" : " particles") + " together, got " +
                                     std::to_string(total));
 }
 
@@ -218,6 +295,7 @@ void check_scene(const SceneDesc& scene, Problems& problems) {
         check_collider(scene.colliders[i], at("/colliders", i), problems);
     check_names(scene.cloths, "/cloths", problems);
     check_names(scene.colliders, "/colliders", problems);
+    check_attachments(scene, problems);
     check_total(scene, problems);
 }
 

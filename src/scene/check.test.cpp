@@ -103,6 +103,16 @@ TEST(CheckScene, LimitsGrids) {
                     s.cloths[1] = {};
                 }),
                 ElementsAre("/cloths: must have at most 16777216 particles together, got 16781312"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[1].drawn = GridDesc{.resolution = {4096, 4096}};
+                }),
+                ElementsAre("/cloths: must have at most 16777216 particles and drawn vertices together, got 16781312"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[1].mesh = BoxMeshDesc{.resolution = {4096, 4096, 4096}};
+                }),
+                ElementsAre("/cloths/1/mesh/box/resolution: must give at most 16777216 particles, got 100614152"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[1].mesh = SphereMeshDesc{.subdivisions = 4000000000}; }),
+                ElementsAre("/cloths/1/mesh/sphere/subdivisions: must be ≤ 7, got 4000000000"));
 }
 
 TEST(CheckScene, KnowsTheParticlesOfAGrid) {
@@ -117,6 +127,17 @@ TEST(CheckScene, KnowsTheParticlesOfAGrid) {
                 ElementsAre());
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].pins = {{ColorPins{}}}; }),
                 ElementsAre("/cloths/0/pins/0/color: needs a mesh with vertex colors, which a grid has not"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[0].mesh = SphereMeshDesc{.subdivisions = 1};
+                    s.cloths[0].pins = {{VertexPins{{41, 42}}}, {ColorPins{}}};
+                }),
+                ElementsAre("/cloths/0/pins/0/vertices/1: must be less than 42, the number of particles, got 42",
+                            "/cloths/0/pins/1/color: needs a mesh with vertex colors, which a sphere has not"));
+    EXPECT_THAT(problems_after([](SceneDesc& s) {
+                    s.cloths[0].mesh = BoxMeshDesc{.resolution = {2, 3, 4}};
+                    s.cloths[0].pins = {{VertexPins{{23, 24}}}};
+                }),
+                ElementsAre("/cloths/0/pins/0/vertices/1: must be less than 24, the number of particles, got 24"));
     // How many a file has is not known yet.
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[1].pins = {{VertexPins{{1000000000}}}}; }), ElementsAre());
 }

@@ -5,6 +5,7 @@
 #include "physics/contact/contact.data.h"
 #include "physics/parameter.h"
 #include "physics/stretch/stretch.data.h"
+#include "physics/tether/tether.data.h"
 
 #include <span>
 #include <string_view>
@@ -31,7 +32,7 @@ inline constexpr Parameter body_parameters[] = {
 struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
-#define WEFT_CONSTRAINT(name, Name, particles) Name##Material name;
+#define WEFT_CONSTRAINT(name, Name, particles, moved) Name##Material name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,6 +35,16 @@ struct GridDesc {
     GridDiagonal diagonal = GridDiagonal::alternating;
 };
 
+struct SphereMeshDesc {
+    float radius = 0.5f;             ///< m
+    std::uint32_t subdivisions = 4;  ///< 0…7
+};
+
+struct BoxMeshDesc {
+    std::array<float, 3> size{1, 1, 1};                   ///< m along x, y and z
+    std::array<std::uint32_t, 3> resolution{32, 32, 32};  ///< particles along x, y and z
+};
+
 enum class UpAxis { x, y, z };
 
 struct MeshFileDesc {
@@ -41,6 +52,8 @@ struct MeshFileDesc {
     float scale = 1;        ///< m per unit of the file
     UpAxis up = UpAxis::y;
 };
+
+using MeshDesc = std::variant<GridDesc, SphereMeshDesc, BoxMeshDesc, MeshFileDesc>;
 
 struct TransformDesc {
     Vec3 position = {};          ///< m
@@ -59,16 +72,27 @@ struct ColorPins {
     float threshold = 0.5f;  ///< largest distance from `color`, per channel
 };
 
+/// Where a pin is, relative to where it started.
+struct OffsetKey {
+    float time = 0;    ///< s
+    Vec3 offset = {};  ///< m
+};
+
 struct PinDesc {
     std::variant<VertexPins, BoxPins, ColorPins> select = {};
+    std::string attach = {};             ///< name of the collider that the particles follow; empty: none
+    std::vector<OffsetKey> motion = {};  ///< by ascending time; empty: they stay
 };
 
 struct ClothDesc {
     std::string name = {};
-    std::variant<GridDesc, MeshFileDesc> mesh = {};
+    MeshDesc mesh = {};                  ///< what is simulated
+    std::optional<MeshDesc> drawn = {};  ///< what is drawn and follows it; without, the same
     TransformDesc transform = {};
     Fabric fabric = {};
     std::vector<PinDesc> pins = {};
+    bool tethers = false;
+    float tether_slack = 0.02f;  ///< of the way over the cloth
 };
 
 /// Half space below the plane: normal·x = offset, in the collider's own frame.
@@ -79,12 +103,28 @@ struct PlaneDesc {
 struct SphereDesc {
     float radius = 0.5f;  ///< m
 };
+struct BoxDesc {
+    Vec3 half_extents{0.5f, 0.5f, 0.5f};  ///< m
+};
+/// Along the collider's own y axis.
+struct CapsuleDesc {
+    float radius = 0.1f;       ///< m
+    float half_height = 0.5f;  ///< m: half the length between the centers of its two ends
+};
+
+/// Where a collider is at a time, in place of its transform.
+struct PoseKey {
+    float time = 0;              ///< s
+    Vec3 position = {};          ///< m
+    Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
+};
 
 struct ColliderDesc {
     std::string name = {};
-    std::variant<PlaneDesc, SphereDesc> shape = {};
+    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc> shape = {};
     TransformDesc transform = {};               ///< `scale` unused
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
+    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays at `transform`
 };
 
 struct SceneDesc {

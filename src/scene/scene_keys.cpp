@@ -11,10 +11,17 @@ const SceneDesc scene;
 const ClothDesc cloth;
 const MeshFileDesc mesh_file;
 const GridDesc grid;
+const SphereMeshDesc sphere_mesh;
+const BoxMeshDesc box_mesh;
 const ColorPins color_pins;
 const ColliderDesc collider;
 const PlaneDesc plane;
 const SphereDesc sphere;
+const BoxDesc box;
+const CapsuleDesc capsule;
+const PinDesc pin;
+const OffsetKey offset_key;
+const PoseKey pose_key;
 
 std::vector<SceneTable> all_tables() {
     std::vector<SceneTable> tables = {
@@ -25,6 +32,11 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/mesh", mesh_keys, nullptr},
         {"/cloths/*/mesh", mesh_file_keys, &mesh_file},
         {"/cloths/*/mesh/grid", grid_keys, &grid},
+        {"/cloths/*/mesh/sphere", sphere_mesh_keys, &sphere_mesh},
+        {"/cloths/*/mesh/box", box_mesh_keys, &box_mesh},
+        // Its shapes have the keys that they have in `mesh`.
+        {"/cloths/*/drawn", mesh_keys, nullptr},
+        {"/cloths/*/drawn", mesh_file_keys, &mesh_file},
         {"/cloths/*/transform", transform_keys, &cloth.transform},
         {"/cloths/*/fabric", fabric_keys, &fabric_head},
     };
@@ -34,11 +46,17 @@ std::vector<SceneTable> all_tables() {
     const SceneTable rest[] = {
         {"/cloths/*/pins/*", pin_keys, nullptr},
         {"/cloths/*/pins/*", color_pin_keys, &color_pins},
+        {"/cloths/*/pins/*", pin_motion_keys, &pin},
+        {"/cloths/*/pins/*/motion/*", offset_key_keys, &offset_key},
         {"/cloths/*/pins/*/box", box_keys, nullptr},
         {"/colliders/*", collider_keys, &collider},
         {"/colliders/*/transform", pose_keys, &collider.transform},
         {"/colliders/*/plane", plane_keys, &plane},
         {"/colliders/*/sphere", sphere_keys, &sphere},
+        {"/colliders/*/box", box_shape_keys, &box},
+        {"/colliders/*/capsule", capsule_keys, &capsule},
+        {"/colliders/*/motion", motion_keys, nullptr},
+        {"/colliders/*/motion/keys/*", pose_key_keys, &pose_key},
     };
     tables.insert(tables.end(), std::begin(rest), std::end(rest));
     return tables;

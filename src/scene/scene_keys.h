@@ -20,8 +20,8 @@ inline constexpr std::uint32_t scene_format = 1;
 inline constexpr double far_away = 1e6;
 inline constexpr double any_float = std::numeric_limits<float>::max();
 
-/// Vertices of all grids of a scene together; 2²⁴ is a grid of 4096 × 4096.
-inline constexpr std::uint64_t max_grid_vertices = 1u << 24;
+/// Vertices of all meshes together that a scene describes by numbers; 2²⁴ is a grid of 4096 × 4096.
+inline constexpr std::uint64_t max_made_vertices = 1u << 24;
 
 /// What a file says and a SceneDesc does not keep.
 struct SceneHead {
@@ -64,19 +64,26 @@ inline constexpr Parameter solver_keys[] = {
 inline constexpr Parameter cloth_keys[] = {
     {.key = "name", .kind = ParameterKind::text, .offset = offsetof(ClothDesc, name),
      .what = "no two cloths share one; a cloth without is called `cloth 0`, `cloth 1`, …"},
-    {.key = "mesh", .kind = ParameterKind::object, .what = "its shape: a grid or a file"},
+    {.key = "mesh", .kind = ParameterKind::object, .what = "its shape: a grid, a sphere, a box or a file"},
+    {.key = "drawn", .kind = ParameterKind::object, .what = "a mesh that is drawn in its place and follows it"},
     {.key = "transform", .kind = ParameterKind::object, .what = "where it starts"},
     {.key = "fabric", .kind = ParameterKind::object, .what = "its material: the name of a preset, or an object"},
-    {.key = "pins", .kind = ParameterKind::list, .what = "particles that stay where they start"},
+    {.key = "tethers", .kind = ParameterKind::flag, .offset = offsetof(ClothDesc, tethers),
+     .what = "hold every particle within its way over the cloth from where the cloth is pinned: far less stretch"},
+    {.key = "tether_slack", .offset = offsetof(ClothDesc, tether_slack), .min = 0, .max = 100,
+     .what = "by how much of that way a particle may go beyond it; with `tethers`"},
+    {.key = "pins", .kind = ParameterKind::list, .what = "particles whose place is given"},
 };
 
 inline constexpr Parameter mesh_keys[] = {
-    {.key = "grid", .kind = ParameterKind::object, .what = "a flat sheet; instead of `file`"},
+    {.key = "grid", .kind = ParameterKind::object, .what = "a flat sheet"},
+    {.key = "sphere", .kind = ParameterKind::object, .what = "a closed sphere"},
+    {.key = "box", .kind = ParameterKind::object, .what = "a closed box"},
 };
 
 inline constexpr Parameter mesh_file_keys[] = {
     {.key = "file", .kind = ParameterKind::text, .offset = offsetof(MeshFileDesc, file),
-     .what = "name of a mesh file; instead of `grid`"},
+     .what = "name of a mesh file"},
     {.key = "scale", .offset = offsetof(MeshFileDesc, scale), .min = 0, .max = far_away, .min_excluded = true,
      .unit = "m", .what = "length of the file's unit; with `file`"},
     {.key = "up", .kind = ParameterKind::choice, .offset = offsetof(MeshFileDesc, up),
@@ -91,6 +98,20 @@ inline constexpr Parameter grid_keys[] = {
     {.key = "diagonal", .kind = ParameterKind::choice, .offset = offsetof(GridDesc, diagonal),
      .what = "how cells are cut: all alike, a checkerboard, or both ways with a particle in the middle",
      .choices = "uniform|alternating|cross"},
+};
+
+inline constexpr Parameter sphere_mesh_keys[] = {
+    {.key = "radius", .offset = offsetof(SphereMeshDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "distance of every particle from the center"},
+    {.key = "subdivisions", .kind = ParameterKind::integer, .offset = offsetof(SphereMeshDesc, subdivisions), .min = 0,
+     .max = 7, .what = "how often the 20 triangles of an icosahedron are cut into four"},
+};
+
+inline constexpr Parameter box_mesh_keys[] = {
+    {.key = "size", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(BoxMeshDesc, size), .min = 0,
+     .max = far_away, .min_excluded = true, .unit = "m", .what = "extent along x, y and z"},
+    {.key = "resolution", .kind = ParameterKind::integer, .count = 3, .offset = offsetof(BoxMeshDesc, resolution),
+     .min = 2, .max = 4096, .what = "particles along x, y and z"},
 };
 
 inline constexpr Parameter transform_keys[] = {
@@ -113,6 +134,19 @@ inline constexpr Parameter pin_keys[] = {
     {.key = "box", .kind = ParameterKind::object, .what = "all within a box in world space, after the transform"},
 };
 
+inline constexpr Parameter pin_motion_keys[] = {
+    {.key = "attach", .kind = ParameterKind::text, .offset = offsetof(PinDesc, attach),
+     .what = "name of a collider that they follow; without, they stay where they start"},
+    {.key = "motion", .kind = ParameterKind::list, .what = "they move by these offsets; instead of `attach`"},
+};
+
+inline constexpr Parameter offset_key_keys[] = {
+    {.key = "time", .offset = offsetof(OffsetKey, time), .min = 0, .max = 1e6, .unit = "s",
+     .what = "later than that of the key before"},
+    {.key = "offset", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(OffsetKey, offset),
+     .min = -far_away, .max = far_away, .unit = "m", .what = "from where they started; in between it runs straight"},
+};
+
 inline constexpr Parameter color_pin_keys[] = {
     {.key = "color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(ColorPins, color), .min = 0,
      .max = 1, .what = "all whose vertex color (linear RGB) is near this one"},
@@ -132,9 +166,37 @@ inline constexpr Parameter collider_keys[] = {
      .what = "no two colliders share one; a collider without is called `collider 0`, `collider 1`, …"},
     {.key = "plane", .kind = ParameterKind::object, .what = "everything below a plane is solid"},
     {.key = "sphere", .kind = ParameterKind::object, .what = "a ball around the collider's origin"},
+    {.key = "box", .kind = ParameterKind::object, .what = "a box around the collider's origin"},
+    {.key = "capsule", .kind = ParameterKind::object, .what = "a segment of the collider's y axis with a radius"},
     {.key = "transform", .kind = ParameterKind::object, .what = "where it is"},
+    {.key = "motion", .kind = ParameterKind::object, .what = "`\"static\"`, or how it moves"},
     {.key = "friction", .count = 2, .offset = offsetof(ColliderDesc, friction), .min = 0, .max = 100,
      .what = "static and kinetic friction; a pair's is the geometric mean of its two sides"},
+};
+
+inline constexpr Parameter motion_keys[] = {
+    {.key = "keys", .kind = ParameterKind::list, .what = "where it is at certain times, at least one"},
+};
+
+inline constexpr Parameter pose_key_keys[] = {
+    {.key = "time", .offset = offsetof(PoseKey, time), .min = 0, .max = 1e6, .unit = "s",
+     .what = "later than that of the key before"},
+    {.key = "position", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PoseKey, position),
+     .min = -far_away, .max = far_away, .unit = "m", .what = "in place of the transform's"},
+    {.key = "rotation", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PoseKey, rotation_degrees),
+     .min = -any_float, .unit = "°", .what = "in place of the transform's; 360 more is one turn more"},
+};
+
+inline constexpr Parameter box_shape_keys[] = {
+    {.key = "half_extents", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(BoxDesc, half_extents),
+     .min = 0, .max = far_away, .min_excluded = true, .unit = "m", .what = "half its size along its x, y and z"},
+};
+
+inline constexpr Parameter capsule_keys[] = {
+    {.key = "radius", .offset = offsetof(CapsuleDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "of its round ends and its side"},
+    {.key = "half_height", .offset = offsetof(CapsuleDesc, half_height), .min = 0, .max = far_away, .unit = "m",
+     .what = "half the length between the centers of its ends, along its y"},
 };
 
 inline constexpr Parameter plane_keys[] = {

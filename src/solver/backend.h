@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "solver/collider.h"
 #include "solver/frame.h"
+#include "solver/holds.h"
 
 #include <memory>
 #include <span>
@@ -23,6 +24,10 @@ struct StepInput {
     /// Where each collider is at the start of the frame and after every substep: [substep · colliders + collider],
     /// substeps + 1 times.
     std::span<const Pose> poses;
+    std::span<const HeldParticle> held = {};
+    /// Likewise for what carries the held particles: [substep · movers + mover].
+    std::span<const Pose> mover_poses = {};
+    std::uint32_t movers = 0;
 };
 
 /// What the solver left of stretch, its material set aside: |C + α̃λ| / rest length over the rows.

@@ -1,5 +1,6 @@
 #include "solver/cloth_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,6 +62,25 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
     model.mean_edge = static_cast<float>(sum / static_cast<double>(model.topology.edges.size()));
 }
 
+// A simulated mesh was checked when its topology was built.
+Result<Done> check_drawn(const TriangleMesh& mesh) {
+    const std::size_t count = mesh.positions.size();
+    for (std::size_t v = 0; v < count; ++v) {
+        if (!finite(mesh.positions[v]))
+            return Error{"drawn mesh", "vertex " + std::to_string(v) + ": position must be finite"};
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto [a, b, c] = mesh.triangles[t];
+        if (std::max({a, b, c}) >= count)
+            return Error{"drawn mesh", "triangle " + std::to_string(t) + ": indices must be < " +
+                                           std::to_string(count) + ", the number of vertices"};
+    }
+    if (mesh.triangles.empty()) return Error{"drawn mesh", "must have at least one triangle"};
+    if (!mesh.normals.empty() && mesh.normals.size() != count)
+        return Error{"drawn mesh", "must have one normal per vertex or none"};
+    return Done{};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
@@ -70,16 +90,17 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     }
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
-    model->mesh = std::move(desc.mesh);
     model->topology = std::move(topology);
     model->fabric = desc.fabric;
     model->particle_count = model->topology.particle_count;
 
-    const RestShape rest = make_rest_shape(model->mesh, model->topology);
+    RestShape rest = make_rest_shape(desc.mesh, model->topology);
     model->mass = lump_masses(rest, density);
     if (auto placed = place_particles(*model, desc.pinned_particles); !placed) return placed.errors();
+    rest.held.assign(model->particle_count, 0);
+    for (std::uint32_t p : desc.pinned_particles) rest.held[p] = 1;
 
-#define WEFT_CONSTRAINT(name, Name, particles)                             \
+#define WEFT_CONSTRAINT(name, Name, particles, moved)                      \
     model->constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
         pack_rows(ConstraintKind::name, build_##name(rest, model->fabric.name), model->particle_count, desc.coloring);
 #include "physics/constraints.def"
@@ -87,6 +108,11 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 
     lay_out_faces(*model);
     measure_edges(*model, rest);
+    if (desc.drawn) {
+        if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
+        model->binding = bind_mesh(*desc.drawn, model->topology);
+    }
+    model->mesh = desc.drawn ? std::move(*desc.drawn) : std::move(desc.mesh);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

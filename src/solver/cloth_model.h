@@ -3,12 +3,14 @@
 
 #include "mesh/topology.h"
 #include "scene/fabric.h"
+#include "solver/binding.h"
 #include "solver/constraint_table.h"
 
 #include <weft/result.h>
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +18,8 @@ namespace weft {
 
 struct ClothModelDesc {
     std::string name = {};
-    TriangleMesh mesh = {};  ///< in world space, m
+    TriangleMesh mesh = {};                  ///< what is simulated, in world space, m
+    std::optional<TriangleMesh> drawn = {};  ///< what is drawn in its place and follows it; without, `mesh`
     Fabric fabric = {};
     std::vector<std::uint32_t> pinned_particles = {};  ///< of `topology`; in any order, repetitions allowed
     ColoringOptions coloring = {};
@@ -24,7 +27,10 @@ struct ClothModelDesc {
 
 struct ClothModel {
     std::string name;
-    TriangleMesh mesh;
+    TriangleMesh mesh;  ///< as drawn
+    /// How the drawn mesh follows the simulated one. Empty where they are the same: `topology.vertex_to_particle` leads
+    /// from one to the other then, while with a binding it speaks of a mesh that is no longer there.
+    Binding binding;
     Topology topology;
     Fabric fabric;
 
@@ -46,7 +52,7 @@ struct ClothModel {
 };
 
 /// `topology` is that of `desc.mesh`. Fails where values are such that no simulation could follow: density ≤ 0 or not
-/// finite, total mass that float cannot hold, a pinned particle out of range.
+/// finite, total mass that float cannot hold, a pinned particle out of range, a drawn mesh that is not sound.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
 }  // namespace weft

@@ -16,13 +16,56 @@ void set_shape(Collider& collider, const SphereDesc& sphere) {
     collider.numbers = {sphere.radius, 0, 0, 0};
 }
 
+void set_shape(Collider& collider, const BoxDesc& box) {
+    collider.shape = ShapeKind::box;
+    collider.numbers = {box.half_extents.x, box.half_extents.y, box.half_extents.z, 0};
+}
+
+void set_shape(Collider& collider, const CapsuleDesc& capsule) {
+    collider.shape = ShapeKind::capsule;
+    collider.numbers = {capsule.radius, capsule.half_height, 0, 0};
+}
+
+// The key before `time`, the one after it, and how far between them it is, 0…1.
+template <class Key>
+struct Between {
+    const Key &before, &after;
+    float fraction;
+};
+template <class Key>
+Between<Key> find_between(std::span<const Key> keys, double time) {
+    std::size_t after = 0;
+    while (after < keys.size() && keys[after].time <= time) ++after;
+    if (after == 0) return {keys.front(), keys.front(), 0};
+    if (after == keys.size()) return {keys.back(), keys.back(), 0};
+    const double from = keys[after - 1].time, to = keys[after].time;
+    return {keys[after - 1], keys[after], static_cast<float>((time - from) / (to - from))};
+}
+
+Vec3 mix(Vec3 a, Vec3 b, float fraction) {
+    return a + (b - a) * fraction;
+}
+
 }  // namespace
 
+Pose pose_at(const Collider& collider, double time) {
+    if (collider.motion.empty()) return collider.pose;
+    const auto [before, after, fraction] = find_between(std::span<const PoseKey>(collider.motion), time);
+    return {rotation_from_degrees(mix(before.rotation_degrees, after.rotation_degrees, fraction)),
+            mix(before.position, after.position, fraction)};
+}
+
+Vec3 offset_at(std::span<const OffsetKey> keys, double time) {
+    if (keys.empty()) return {};
+    const auto [before, after, fraction] = find_between(keys, time);
+    return mix(before.offset, after.offset, fraction);
+}
+
 Collider make_collider(const ColliderDesc& desc) {
-    Collider collider{.name = desc.name,
-                      .friction = desc.friction,
-                      .pose = {rotation_from_degrees(desc.transform.rotation_degrees), desc.transform.position}};
+    Collider collider{.name = desc.name, .friction = desc.friction, .pose = {}, .motion = desc.motion};
     std::visit([&](const auto& shape) { set_shape(collider, shape); }, desc.shape);
+    collider.pose = {rotation_from_degrees(desc.transform.rotation_degrees), desc.transform.position};
+    collider.pose = pose_at(collider, 0);
     return collider;
 }
 

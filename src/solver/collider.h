@@ -5,7 +5,9 @@
 #include "scene/scene_desc.h"
 
 #include <array>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace weft {
 
@@ -26,10 +28,16 @@ struct Collider {
     ShapeKind shape{};
     std::array<float, 4> numbers{};             ///< as the shape's kernel file states
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
-    Pose pose;
+    Pose pose;                                  ///< where it is now
+    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays
 };
 
 Collider make_collider(const ColliderDesc& desc);
+
+/// Where the collider is at a time: between two keys on the straight way, angles likewise; before the first and after
+/// the last it stays with them.
+Pose pose_at(const Collider& collider, double time);
+Vec3 offset_at(std::span<const OffsetKey> keys, double time);
 
 /// m: distance of a world point to the collider's true surface, negative inside.
 double signed_distance(const Collider& collider, Vec3 world);

@@ -22,7 +22,14 @@ std::vector<Batch> lay_out(const Coloring& coloring) {
 
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
                           const ColoringOptions& options) {
-    const Coloring coloring = color_rows(list.particles, list.arity, particle_count, options);
+    const std::uint32_t moved = constraint_info(kind).moved;
+    std::vector<std::uint32_t> written;  // what a row only reads, rows of one color may share
+    written.reserve(std::size_t{moved} * list.size());
+    for (std::uint32_t row = 0; row < list.size(); ++row) {
+        const auto first = list.particles.begin() + static_cast<std::ptrdiff_t>(row) * list.arity;
+        written.insert(written.end(), first, first + moved);
+    }
+    const Coloring coloring = color_rows(written, moved, particle_count, options);
     ConstraintTable table{.kind = kind,
                           .arity = list.arity,
                           .field_count = list.field_count,

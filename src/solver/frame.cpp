@@ -9,19 +9,18 @@ std::vector<std::string_view> report_names(std::uint32_t reports) {
     return names;
 }
 
-void draw_positions(const ClothFrame& cloth, std::vector<Vec3>& out) {
-    const auto& particle = cloth.model->topology.vertex_to_particle;
-    out.resize(particle.size());
-    for (std::size_t v = 0; v < particle.size(); ++v) {
-        out[v] = particle[v] == none ? cloth.model->mesh.positions[v] : cloth.positions[particle[v]].xyz();
+void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::vector<Vec3>& normals) {
+    if (!cloth.model->binding.empty()) {
+        follow(cloth.model->binding, cloth.positions, cloth.normals, positions, normals);
+        return;
     }
-}
-
-void draw_normals(const ClothFrame& cloth, std::vector<Vec3>& out) {
     const auto& particle = cloth.model->topology.vertex_to_particle;
-    out.resize(particle.size());
+    positions.resize(particle.size());
+    normals.resize(particle.size());
     for (std::size_t v = 0; v < particle.size(); ++v) {
-        out[v] = particle[v] == none ? Vec3{0, 1, 0} : cloth.normals[particle[v]].xyz();
+        const bool still = particle[v] == none;
+        positions[v] = still ? cloth.model->mesh.positions[v] : cloth.positions[particle[v]].xyz();
+        normals[v] = still ? Vec3{0, 1, 0} : cloth.normals[particle[v]].xyz();
     }
 }
 

@@ -42,9 +42,8 @@ struct Frame {
     std::uint32_t reports = report_none;  ///< of all cloths
 };
 
-/// Positions and normals of the drawn mesh's vertices: the same size as the model's mesh. Vertices that no triangle
-/// uses stay where the mesh has them.
-void draw_positions(const ClothFrame& cloth, std::vector<Vec3>& out);
-void draw_normals(const ClothFrame& cloth, std::vector<Vec3>& out);
+/// Positions and normals of the drawn mesh's vertices: the same size as the model's mesh. Needs the frame's normals.
+/// Where drawn and simulated mesh are the same, vertices that no triangle uses stay where the mesh has them.
+void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::vector<Vec3>& normals);
 
 }  // namespace weft

@@ -18,6 +18,7 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
     StepPlan plan{.substeps = settings.substeps, .iterations = settings.iterations, .substep = {}, .frame_end = {}};
 
     plan.substep.push_back({.kind = PassKind::predict});
+    if (settings.holds) plan.substep.push_back({.kind = PassKind::hold});
     for (std::uint32_t i = 0; i < settings.iterations; ++i) {
         for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
             plan.substep.push_back({PassKind::project, kind, batch, i == 0});
@@ -30,6 +31,8 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
     // Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
     if (model.fabric.body.damping > 0) {
         for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
+            const ConstraintInfo& info = constraint_info(kind);
+            if (info.moved < info.arity) return;
             plan.frame_end.push_back({.kind = PassKind::damp, .constraint = kind, .batch = batch});
         });
     }
@@ -57,6 +60,7 @@ static_assert(stage_end == stage_count);
 std::uint32_t stage_of(const Pass& pass) {
     switch (pass.kind) {
         case PassKind::predict:
+        case PassKind::hold:
             return stage_predict;
         case PassKind::project:
             return static_cast<std::uint32_t>(pass.constraint);

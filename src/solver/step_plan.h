@@ -12,6 +12,7 @@ namespace weft {
 
 enum class PassKind : std::uint8_t {
     predict,     ///< per particle: gravity, then where it would go
+    hold,        ///< per held particle: to where it is carried
     project,     ///< one batch of one constraint
     contact,     ///< per particle: every collider
     velocities,  ///< per particle: the velocity that the projection left
@@ -28,7 +29,8 @@ struct Pass {
 
     /// Whether it works particle by particle, touching no neighbor. Two such passes in a row need no barrier.
     bool particle_wise() const {
-        return kind == PassKind::predict || kind == PassKind::contact || kind == PassKind::velocities;
+        return kind == PassKind::predict || kind == PassKind::hold || kind == PassKind::contact ||
+               kind == PassKind::velocities;
     }
 };
 
@@ -36,6 +38,7 @@ struct StepSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     bool contacts = true;  ///< there is something to touch
+    bool holds = false;    ///< some particles are carried along
     bool surface = true;   ///< compute normals
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };

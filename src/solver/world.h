@@ -19,7 +19,8 @@ class World {
   public:
     World(std::unique_ptr<Backend> backend, const WorldSettings& settings);
 
-    ClothId add(std::shared_ptr<const ClothModel> model);
+    /// `holds` names colliders that are there already.
+    ClothId add(std::shared_ptr<const ClothModel> model, Holds holds = {});
     void add(Collider collider);
 
     /// Advances by dt seconds, > 0 and finite. The frame stays valid until the next step.
@@ -41,10 +42,14 @@ class World {
     struct Cloth {
         ClothId id;
         std::shared_ptr<const ClothModel> model;
+        Holds holds;
         StepPlan plan;
+        std::vector<Pose> mover_poses;
     };
 
     void replan();
+    void place_colliders(double dt);
+    void place_movers(Cloth& cloth, double dt) const;
 
     std::unique_ptr<Backend> backend_;
     WorldSettings settings_;

@@ -1,6 +1,8 @@
 #include "weft/placement.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace weft {
 namespace {
@@ -72,30 +74,50 @@ class PinSelector {
 
 }  // namespace
 
-void place_mesh(TriangleMesh& mesh, const ClothDesc& cloth) {
+void place_mesh(TriangleMesh& mesh, const MeshDesc& from, const TransformDesc& transform) {
     Mat3 turn;
-    float scale = cloth.transform.scale;
-    if (const auto* file = std::get_if<MeshFileDesc>(&cloth.mesh)) {
+    float scale = transform.scale;
+    if (const auto* file = std::get_if<MeshFileDesc>(&from)) {
         turn = upright(file->up);
         scale *= file->scale;
     }
-    turn = rotation_from_degrees(cloth.transform.rotation_degrees) * turn;
-    for (Vec3& p : mesh.positions) p = turn * (p * scale) + cloth.transform.position;
+    turn = rotation_from_degrees(transform.rotation_degrees) * turn;
+    for (Vec3& p : mesh.positions) p = turn * (p * scale) + transform.position;
     for (Vec3& n : mesh.normals) n = turn * n;
 }
 
-Result<std::vector<std::uint32_t>> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh,
-                                               const Topology& topology, const std::string& pointer) {
-    PinSelector selector(mesh, topology);
+Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, const Topology& topology,
+                           std::span<const Collider> colliders, const std::string& pointer) {
+    Pinned pinned;
     Errors errors;
+    std::map<std::uint32_t, std::uint32_t> mover_of;  // particle -> mover, or `none`
     for (std::size_t i = 0; i < cloth.pins.size(); ++i) {
+        const PinDesc& pin = cloth.pins[i];
+        PinSelector selector(mesh, topology);
         const std::string where = pointer + "/pins/" + std::to_string(i);
-        const Errors found =
-            std::visit([&](const auto& pins) { return selector.select(pins, where); }, cloth.pins[i].select);
+        const Errors found = std::visit([&](const auto& pins) { return selector.select(pins, where); }, pin.select);
         errors.insert(errors.end(), found.begin(), found.end());
+
+        std::uint32_t mover = none;
+        if (!pin.attach.empty() || !pin.motion.empty()) {
+            mover = static_cast<std::uint32_t>(pinned.holds.movers.size());
+            const auto collider = std::ranges::find(colliders, pin.attach, &Collider::name);
+            const bool attached = !pin.attach.empty() && collider != colliders.end();
+            pinned.holds.movers.push_back(
+                {attached ? static_cast<std::uint32_t>(collider - colliders.begin()) : none, pin.motion});
+        }
+        for (std::uint32_t particle : selector.chosen) mover_of[particle] = mover;
     }
     if (!errors.empty()) return errors;
-    return std::move(selector.chosen);
+    for (const auto& [particle, mover] : mover_of) {
+        pinned.particles.push_back(particle);
+        if (mover == none) continue;
+        const std::uint32_t collider = pinned.holds.movers[mover].collider;
+        const Vec3 at_rest = topology.rest_positions[particle];
+        const Vec3 local = collider == none ? at_rest : to_local(colliders[collider].pose, at_rest);
+        pinned.holds.particles.push_back({particle, mover, local});
+    }
+    return pinned;
 }
 
 }  // namespace weft

@@ -3,6 +3,8 @@
 
 #include "mesh/topology.h"
 #include "scene/scene_desc.h"
+#include "solver/collider.h"
+#include "solver/holds.h"
 
 #include <weft/result.h>
 
@@ -11,12 +13,18 @@
 
 namespace weft {
 
-/// Scale and up axis of the file, then the scene's transform.
-void place_mesh(TriangleMesh& mesh, const ClothDesc& cloth);
+/// Scale and up axis of a file, then the scene's transform. `from` is where the mesh came from.
+void place_mesh(TriangleMesh& mesh, const MeshDesc& from, const TransformDesc& transform);
 
-/// The particles that a cloth's pins name. Every pin must name at least one; `where` of an error is a JSON pointer that
-/// starts with `pointer`, the place of the cloth.
-Result<std::vector<std::uint32_t>> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh,
-                                               const Topology& topology, const std::string& pointer);
+struct Pinned {
+    std::vector<std::uint32_t> particles;  ///< all of them, those of `holds` included
+    Holds holds;
+};
+
+/// The particles that a cloth's pins name in the simulated mesh; where several pins name one, the last wins. Every pin
+/// must name at least one; `where` of an error is a JSON pointer that starts with `pointer`, the place of the cloth.
+/// Names of colliders have been checked.
+Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, const Topology& topology,
+                           std::span<const Collider> colliders, const std::string& pointer);
 
 }  // namespace weft

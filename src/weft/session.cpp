@@ -15,19 +15,31 @@ namespace {
 struct LoadedMesh {
     TriangleMesh mesh;
     std::string from;  // what errors about it call it
-    bool made = false;
 };
 
-Result<LoadedMesh> load_cloth_mesh(const ClothDesc& cloth, const std::filesystem::path& scene_folder) {
-    if (const auto* grid = std::get_if<GridDesc>(&cloth.mesh)) {
-        return LoadedMesh{make_grid(grid->size, grid->resolution, grid->diagonal), "grid", true};
-    }
-    const std::string& file = std::get<MeshFileDesc>(cloth.mesh).file;
-    auto path = find_asset(file, scene_folder);
+Result<LoadedMesh> load(const GridDesc& grid, const std::filesystem::path&) {
+    return LoadedMesh{make_grid(grid.size, grid.resolution, grid.diagonal), "grid"};
+}
+Result<LoadedMesh> load(const SphereMeshDesc& sphere, const std::filesystem::path&) {
+    return LoadedMesh{make_sphere(sphere.radius, sphere.subdivisions), "sphere"};
+}
+Result<LoadedMesh> load(const BoxMeshDesc& box, const std::filesystem::path&) {
+    return LoadedMesh{make_box(box.size, box.resolution), "box"};
+}
+Result<LoadedMesh> load(const MeshFileDesc& desc, const std::filesystem::path& scene_folder) {
+    auto path = find_asset(desc.file, scene_folder);
     if (!path) return path.errors();
     auto mesh = load_mesh(*path);
     if (!mesh) return mesh.errors();
-    return LoadedMesh{std::move(*mesh), path->string(), false};
+    return LoadedMesh{std::move(*mesh), path->string()};
+}
+
+// Placed in the world.
+Result<LoadedMesh> load_placed(const MeshDesc& desc, const TransformDesc& transform,
+                               const std::filesystem::path& scene_folder) {
+    auto loaded = std::visit([&](const auto& shape) { return load(shape, scene_folder); }, desc);
+    if (loaded) place_mesh(loaded->mesh, desc, transform);
+    return loaded;
 }
 
 // `where` of what lies deeper, put behind the place in the scene.
@@ -48,19 +60,44 @@ void note_report(const std::string& cloth, const TopologyReport& report, std::ve
     note(report.inconsistent_edges, "edges between triangles of opposite winding");
 }
 
-Result<std::shared_ptr<const ClothModel>> make_cloth(const ClothDesc& cloth, const std::string& place,
-                                                     const std::string& pointer,
-                                                     const std::filesystem::path& scene_folder,
-                                                     std::vector<std::string>& notes) {
-    auto loaded = load_cloth_mesh(cloth, scene_folder);
+// Two meshes that do not lie over each other come of a wrong scale or axis more often than of a wish.
+void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
+    constexpr float far_apart = 0.1f;  // of the extent: no lining, trimming or decimated mesh is so far off
+    const float extent = length(bounds_of(model.topology.rest_positions).size());
+    if (model.binding.farthest > far_apart * extent)
+        notes.push_back("cloth '" + model.name + "': the drawn mesh lies up to " + number_text(model.binding.farthest) +
+                        " m away from the simulated one");
+}
+
+// What a scene says of tethers beside the fabric is a material like any other to the solver.
+Fabric fabric_of(const ClothDesc& cloth) {
+    Fabric fabric = cloth.fabric;
+    fabric.tether = {cloth.tethers, cloth.tether_slack};
+    return fabric;
+}
+
+struct MadeCloth {
+    std::shared_ptr<const ClothModel> model;
+    Holds holds;
+};
+
+Result<MadeCloth> make_cloth(const ClothDesc& cloth, const std::string& place, const std::string& pointer,
+                             std::span<const Collider> colliders, const std::filesystem::path& scene_folder,
+                             std::vector<std::string>& notes) {
+    auto loaded = load_placed(cloth.mesh, cloth.transform, scene_folder);
     if (!loaded) return within(place + pointer + "/mesh/file", loaded.errors());
-    place_mesh(loaded->mesh, cloth);
+    std::optional<TriangleMesh> drawn;
+    if (cloth.drawn) {
+        auto other = load_placed(*cloth.drawn, cloth.transform, scene_folder);
+        if (!other) return within(place + pointer + "/drawn/file", other.errors());
+        drawn = std::move(other->mesh);
+    }
     // A generated grid comes in rows, which vector loads like better than any order found afterwards.
-    auto topology = build_topology(loaded->mesh, {.reorder = !loaded->made});
+    auto topology = build_topology(loaded->mesh, {.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)});
     if (!topology) return within(place + pointer + "/mesh: " + loaded->from, topology.errors());
     note_report(cloth.name, topology->report, notes);
 
-    auto pins = select_pins(cloth, loaded->mesh, *topology, pointer);
+    auto pins = select_pins(cloth, loaded->mesh, *topology, colliders, pointer);
     if (!pins) {
         Errors errors;
         for (const Error& error : pins.errors()) errors.push_back({place + error.where, error.what});
@@ -68,11 +105,13 @@ Result<std::shared_ptr<const ClothModel>> make_cloth(const ClothDesc& cloth, con
     }
     auto model = build_cloth_model({.name = cloth.name,
                                     .mesh = std::move(loaded->mesh),
-                                    .fabric = cloth.fabric,
-                                    .pinned_particles = std::move(*pins)},
+                                    .drawn = std::move(drawn),
+                                    .fabric = fabric_of(cloth),
+                                    .pinned_particles = std::move(pins->particles)},
                                    std::move(*topology));
     if (!model) return within(place + pointer, model.errors());
-    return model;
+    note_binding(**model, notes);
+    return MadeCloth{std::move(*model), std::move(pins->holds)};
 }
 
 Errors apply(const Options& options, SceneDesc& scene) {
@@ -102,8 +141,7 @@ void DrawnFrame::update(const Frame& frame) {
     surfaces_.resize(frame.cloths.size());
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         const ClothFrame& cloth = frame.cloths[i];
-        draw_positions(cloth, buffers_[i].positions);
-        draw_normals(cloth, buffers_[i].normals);
+        draw_surface(cloth, buffers_[i].positions, buffers_[i].normals);
         surfaces_[i] = {cloth.model->name, &cloth.model->mesh, buffers_[i].positions, buffers_[i].normals};
     }
 }
@@ -122,18 +160,18 @@ Result<Session> Session::open(const std::filesystem::path& scene_file, const Opt
                                                                    .substeps = session.scene_.solver.substeps,
                                                                    .iterations = session.scene_.solver.iterations});
 
+    for (const ColliderDesc& collider : session.scene_.colliders) session.world_->add(make_collider(collider));
     Errors errors;
     for (std::size_t i = 0; i < session.scene_.cloths.size(); ++i) {
-        auto model = make_cloth(session.scene_.cloths[i], scene_file.string() + ": ", "/cloths/" + std::to_string(i),
-                                scene_file.parent_path(), session.notes_);
-        if (model) {
-            session.world_->add(std::move(*model));
+        auto cloth = make_cloth(session.scene_.cloths[i], scene_file.string() + ": ", "/cloths/" + std::to_string(i),
+                                session.world_->colliders(), scene_file.parent_path(), session.notes_);
+        if (cloth) {
+            session.world_->add(std::move(cloth->model), std::move(cloth->holds));
         } else {
-            errors.insert(errors.end(), model.errors().begin(), model.errors().end());
+            errors.insert(errors.end(), cloth.errors().begin(), cloth.errors().end());
         }
     }
     if (!errors.empty()) return errors;
-    for (const ColliderDesc& collider : session.scene_.colliders) session.world_->add(make_collider(collider));
     return session;
 }
 

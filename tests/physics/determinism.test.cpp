@@ -7,7 +7,7 @@ namespace {
 
 // Changes whenever a bit of the result does. If you meant to change the physics, put the new one here and say so in the
 // changelog; if you did not, you have found a bug.
-constexpr const char* golden = "02e57f5252e40805";
+constexpr const char* golden = "92ffcbe6876d1ce8";
 
 std::string drape(const CpuOptions& options, std::uint32_t iterations) {
     World world = make_world({.substeps = 10, .iterations = iterations}, options);
@@ -23,7 +23,7 @@ std::string drape(const CpuOptions& options, std::uint32_t iterations) {
                           .position = {0, 0.6f, 0}}));
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {.position = {0, 0, 0}}}));
     world.add(make_collider({.name = "slope", .shape = PlaneDesc{{0.2f, 1, 0}, -0.3f}}));
-    run(world, 1);
+    run(world, 0.4);
     return world.state_hash();
 }
 

@@ -44,8 +44,36 @@ constexpr double json_bytes_per_target = 700;
 struct FirstFrame {
     std::vector<Vec3> positions, normals;
     std::size_t triangles = 0;
-    double bytes = 0;  ///< everything of this cloth but the morph targets
 };
+
+// The highest value of either type restarts a primitive and is not allowed as an index (3.7.2.1).
+bool has_short_indices(std::size_t vertices) {
+    return vertices <= std::numeric_limits<std::uint16_t>::max();
+}
+
+/// Bytes of a film, estimated on the safe side.
+struct FilmSize {
+    double base = 0;    ///< everything but the morph targets and their weights
+    double target = 0;  ///< of one frame
+
+    double of(double frames) const { return base + (frames - 1) * target + frames * frames * sizeof(float); }
+};
+
+FilmSize film_size(std::span<const ExportSurface> surfaces) {
+    FilmSize size;
+    for (const ExportSurface& surface : surfaces) {
+        const TriangleMesh& mesh = *surface.mesh;
+        const auto vertices = static_cast<double>(surface.positions.size());
+        const double vertex =
+            2 * sizeof(Vec3) + (mesh.uvs.empty() ? 0 : sizeof(Vec2)) + (mesh.colors.empty() ? 0 : sizeof(Vec4));
+        const double index = has_short_indices(surface.positions.size()) ? 2 : 4;
+        // The names stand in JSON, where a character may take six; the rest of the JSON of a cloth is a few lines.
+        size.base += vertices * vertex + static_cast<double>(mesh.triangles.size()) * 3 * index + 4096 +
+                     6 * static_cast<double>(surface.name.size());
+        size.target += vertices * 2 * sizeof(Vec3) + json_bytes_per_target;
+    }
+    return size;
+}
 
 int as_int(std::size_t value) {
     return static_cast<int>(value);
@@ -78,6 +106,7 @@ class GlbExporter : public Exporter {
   public:
     explicit GlbExporter(std::filesystem::path path) : path_(std::move(path)) {}
 
+    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override;
     Result<Done> begin(const ExportInfo& info) override;
     Result<Done> write(const ExportFrame& frame) override;
     Result<Done> finish() override;
@@ -91,7 +120,7 @@ class GlbExporter : public Exporter {
     Result<Done> write_container(std::string json);
 
     Result<Done> check_order(const ExportFrame& frame) const;
-    Result<Done> check_size(double frames) const;
+    Result<Done> check_size(const FilmSize& size, std::uint64_t frames) const;
     Result<std::string> json_text() const;
     Error error(std::string what) const { return {path_.string(), std::move(what)}; }
 
@@ -107,8 +136,15 @@ class GlbExporter : public Exporter {
     BufferedFile spool_;
     std::vector<float> times_;
     std::vector<FirstFrame> first_;
+    FilmSize size_;
     std::vector<Vec3> deltas_;
 };
+
+Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
+    const FilmSize size = film_size(surfaces);
+    if (Result<Done> checked = check_size(size, info.frame_count); !checked) return checked.errors();
+    return ExportEstimate{{path_}, static_cast<std::uint64_t>(size.of(static_cast<double>(info.frame_count)))};
+}
 
 Result<Done> GlbExporter::begin(const ExportInfo& info) {
     info_ = info;
@@ -125,7 +161,7 @@ Result<Done> GlbExporter::write(const ExportFrame& frame) {
     if (times_.empty()) {
         if (Result<Done> added = add_first_frame(frame); !added) return added;
     } else {
-        if (Result<Done> checked = check_size(static_cast<double>(times_.size() + 1)); !checked) return checked;
+        if (Result<Done> checked = check_size(size_, times_.size() + 1); !checked) return checked;
         for (std::size_t i = 0; i < first_.size(); ++i) {
             if (Result<Done> added = add_target(i, frame.surfaces[i]); !added) return added;
         }
@@ -155,18 +191,13 @@ Result<Done> GlbExporter::check_order(const ExportFrame& frame) const {
     return Done{};
 }
 
-/// An estimate on the safe side, made before the bytes are written anywhere.
-Result<Done> GlbExporter::check_size(double frames) const {
-    const double targets = frames - 1;
-    double bytes = frames * frames * sizeof(float);  // the weights and their times
-    for (const FirstFrame& first : first_) {
-        const auto vertices = static_cast<double>(first.positions.size());
-        bytes += first.bytes + targets * (2 * sizeof(Vec3) * vertices + json_bytes_per_target);
-    }
+/// Made before the bytes are written anywhere.
+Result<Done> GlbExporter::check_size(const FilmSize& size, std::uint64_t frames) const {
+    const double bytes = size.of(static_cast<double>(frames));
     if (bytes <= byte_limit) return Done{};
     char gib[32];
     std::snprintf(gib, sizeof gib, "%.1f", bytes / (1024.0 * 1024.0 * 1024.0));
-    return error("would take " + std::string(gib) + " GiB for " + std::to_string(static_cast<std::uint64_t>(frames)) +
+    return error("would take " + std::string(gib) + " GiB for " + std::to_string(frames) +
                  " frames, and a .glb ends at 4 GiB; write fewer frames or a sequence");
 }
 
@@ -182,11 +213,9 @@ Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
         first.normals.reserve(surface.normals.size());
         for (const Vec3& normal : surface.normals) first.normals.push_back(unit_normal(normal));
         first.triangles = surface.mesh->triangles.size();
-        // All of a vertex with UV and color, and names and bounds in JSON, which are small beside it.
-        first.bytes = static_cast<double>(first.positions.size()) * 48 + static_cast<double>(first.triangles) * 12 +
-                      4096 + 6.0 * static_cast<double>(surface.name.size());
     }
-    if (Result<Done> checked = check_size(std::max(1.0, static_cast<double>(info_.frame_count))); !checked) {
+    size_ = film_size(frame.surfaces);
+    if (Result<Done> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
         return checked;
     }
     for (const ExportSurface& surface : frame.surfaces) {
@@ -243,8 +272,7 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
 
 Result<Done> GlbExporter::add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive) {
     const std::span<const std::uint32_t> indices(mesh.triangles.front().data(), mesh.triangles.size() * 3);
-    // The highest value of either type restarts a primitive and is not allowed as an index (3.7.2.1).
-    const bool is_short = vertices <= std::numeric_limits<std::uint16_t>::max();
+    const bool is_short = has_short_indices(vertices);
     open_accessor(is_short ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                   TINYGLTF_TYPE_SCALAR, indices.size(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     primitive.indices = newest_accessor();
@@ -346,7 +374,7 @@ Result<Done> GlbExporter::write_container(std::string json) {
     if (Result<Done> r = put({glb_magic, glb_version, total, json.size(), json_chunk}); !r) return r;
     if (Result<Done> r = file->write(json); !r) return r;
     if (Result<Done> r = put({spool_.size(), binary_chunk}); !r) return r;
-    if (Result<Done> r = spool_.copy_to(file->content()); !r) return r;
+    if (Result<Done> r = spool_.move_to(file->content()); !r) return r;
     return file->commit();
 }
 

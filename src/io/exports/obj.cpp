@@ -8,6 +8,7 @@
 
 namespace weft {
 Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file);
+std::uint64_t size_obj(std::span<const ExportSurface> surfaces);
 
 namespace {
 
@@ -77,6 +78,21 @@ Result<Done> write_triangles(const ExportSurface& surface, FirstIndex first, Ato
 }
 
 }  // namespace
+
+std::uint64_t size_obj(std::span<const ExportSurface> surfaces) {
+    // A coordinate of a moving cloth takes all of a float's digits, as in " -0.12345678".
+    constexpr std::uint64_t number = 12, keyword = 3;
+    std::uint64_t vertices = 0, bytes = 0;
+    for (const ExportSurface& surface : surfaces) vertices += surface.positions.size();
+    const std::uint64_t index = 1 + std::to_string(vertices).size();  // with the space or the slash before it
+    for (const ExportSurface& surface : surfaces) {
+        bytes += keyword + surface.name.size();
+        bytes += surface.positions.size() * 2 * (keyword + 3 * number);
+        bytes += surface.mesh->uvs.size() * (keyword + 2 * number);
+        bytes += surface.mesh->triangles.size() * (keyword + 3 * 3 * index);
+    }
+    return bytes;
+}
 
 Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file) {
     FirstIndex first;

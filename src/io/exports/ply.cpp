@@ -10,6 +10,7 @@
 
 namespace weft {
 Result<Done> write_ply(const ExportFrame& frame, AtomicFile& file);
+std::uint64_t size_ply(std::span<const ExportSurface> surfaces);
 
 namespace {
 
@@ -20,9 +21,9 @@ struct Contents {
     bool uvs = false, colors = false;  ///< of any cloth; the others get zeros and white
 };
 
-Contents contents_of(const ExportFrame& frame) {
+Contents contents_of(std::span<const ExportSurface> surfaces) {
     Contents contents;
-    for (const ExportSurface& surface : frame.surfaces) {
+    for (const ExportSurface& surface : surfaces) {
         contents.vertices += surface.positions.size();
         contents.triangles += surface.mesh->triangles.size();
         contents.uvs |= !surface.mesh->uvs.empty();
@@ -85,8 +86,15 @@ Result<Done> write_triangles(const ExportSurface& surface, std::uint32_t first_v
 
 }  // namespace
 
+std::uint64_t size_ply(std::span<const ExportSurface> surfaces) {
+    const Contents contents = contents_of(surfaces);
+    const std::uint64_t vertex = 2 * sizeof(Vec3) + (contents.uvs ? sizeof(Vec2) : 0) + (contents.colors ? 4 : 0);
+    const std::uint64_t triangle = 1 + sizeof(Triangle);
+    return header(contents).size() + contents.vertices * vertex + contents.triangles * triangle;
+}
+
 Result<Done> write_ply(const ExportFrame& frame, AtomicFile& file) {
-    const Contents contents = contents_of(frame);
+    const Contents contents = contents_of(frame.surfaces);
     if (contents.vertices > std::numeric_limits<std::uint32_t>::max()) {
         return Error{file.path().string(), "a .ply holds at most 4294967295 vertices"};
     }

@@ -14,9 +14,13 @@
 
 namespace weft {
 
+/// Which hinges bend: `source` leaves out those that only cutting a rectangle in two has made.
+enum class HingeChoice { all, source };
+
 struct BendMaterial {
     float bend[3] = {11.9e-6f, 9.1e-6f, 6.6e-6f};                 ///< N·m: warp, bias, weft
     float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
+    HingeChoice hinges = HingeChoice::all;
 };
 
 inline constexpr Parameter bend_parameters[] = {
@@ -24,6 +28,8 @@ inline constexpr Parameter bend_parameters[] = {
      .what = "bending stiffness per width for curvature along warp, bias and weft; 0 is limp"},
     {.key = "rest_angle", .kind = ParameterKind::angle_or_mesh, .offset = offsetof(BendMaterial, rest_angle),
      .min = -180, .max = 180, .unit = "°", .what = "dihedral angle at ease: \"mesh\" as the mesh is built, or degrees"},
+    {.key = "hinges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, hinges),
+     .what = "`all` edges bend, or those of the `source`: not the diagonals of flat rectangles", .choices = "all|source"},
 };
 
 }  // namespace weft

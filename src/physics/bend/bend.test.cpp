@@ -1,3 +1,4 @@
+#include "base/transform.h"
 #include "mesh/procedural.h"
 #include "physics/constraint.h"
 #include "physics/testing.h"
@@ -215,6 +216,45 @@ TEST(BendRows, rest_angle_is_the_mesh_s_or_the_given_one) {
         EXPECT_NEAR(given.fields[2 * r], pi / 6, 1e-6);
     }
     EXPECT_EQ(right_angles, 1);
+}
+
+std::uint32_t row_count(const TriangleMesh& mesh, HingeChoice hinges) {
+    const auto topology = build_topology(mesh);
+    return build_bend(make_rest_shape(mesh, *topology), {.bend = {1, 1, 1}, .hinges = hinges}).size();
+}
+
+TEST(BendRows, of_the_source_are_all_but_the_diagonals_of_the_cells) {
+    const std::uint32_t nx = 7, nz = 5, cells = (nx - 1) * (nz - 1);
+    for (const auto diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
+        TriangleMesh mesh = make_grid({2, 1}, {nx, nz}, diagonal);  // cells that are no squares
+        EXPECT_EQ(row_count(mesh, HingeChoice::source) + cells, row_count(mesh, HingeChoice::all));
+        const std::uint32_t lines = (nx - 2) * (nz - 1) + (nz - 2) * (nx - 1);
+        EXPECT_EQ(row_count(mesh, HingeChoice::source), lines);
+
+        const Mat3 turn = rotation_from_degrees({35, 70, 15});
+        for (Vec3& p : mesh.positions) p = turn * p;
+        EXPECT_EQ(row_count(mesh, HingeChoice::source), lines) << "wherever the sheet lies";
+    }
+    // The squares of a cross grid stand on their corners: the sides of the cells cut them.
+    const TriangleMesh cross = make_grid({6, 4}, {nx, nz}, GridDiagonal::cross);
+    EXPECT_EQ(row_count(cross, HingeChoice::source), 4 * cells);
+}
+
+TEST(BendRows, of_the_source_keep_what_is_no_rectangle_and_what_is_folded) {
+    const auto of_a_cell = [](auto&& change) {
+        TriangleMesh mesh = make_grid({1, 1}, {2, 2}, GridDiagonal::uniform);
+        for (std::size_t v = 0; v < 4; ++v) change(mesh.positions[v], v);
+        return row_count(mesh, HingeChoice::source);
+    };
+    EXPECT_EQ(of_a_cell([](Vec3&, std::size_t) {}), 0u);
+    const auto sheared_by = [](float slope) { return [=](Vec3& p, std::size_t) { p.x += slope * p.z; }; };
+    EXPECT_EQ(of_a_cell(sheared_by(0.01f)), 0u) << "0.6 degrees";
+    EXPECT_EQ(of_a_cell(sheared_by(0.03f)), 1u) << "1.7 degrees";
+    EXPECT_EQ(of_a_cell([](Vec3& p, std::size_t v) { p.y = v == 1 ? 0.005f : 0; }), 0u) << "folded by 0.4 degrees";
+    EXPECT_EQ(of_a_cell([](Vec3& p, std::size_t v) { p.y = v == 1 ? 0.02f : 0; }), 1u) << "folded by 1.6 degrees";
+    // A kite with right angles where the hinge is seen from, and none at its ends.
+    const Vec3 kite[] = {{-1, 0, 0}, {0.5f, 0, -0.8660254f}, {0.5f, 0, 0.8660254f}, {1, 0, 0}};
+    EXPECT_EQ(of_a_cell([&](Vec3& p, std::size_t v) { p = kite[v]; }), 1u);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ WEFT_FN mask predict(inout_(vec3) x, inout_(Motion) m, real w, vec3 acceleration
     mask capped = moves && too_fast(v, max_speed);
     m.v_dropped = select(moves, dv - (v - m.v), vec3(real(0)));
     m.v = select(moves, cap_speed(v, max_speed), m.v);
-    x = x + (m.v * step.h + m.x_dropped);
+    x = select(moves, x + (m.v * step.h + m.x_dropped), x);
     return capped;
 }
 
@@ -39,8 +39,10 @@ WEFT_FN mask update_velocity(inout_(Motion) m, vec3 x, vec3 start, real w, real 
 {
     vec3 t = m.v * step.h + m.x_dropped;
     vec3 predicted = start + t;
-    m.x_dropped = select(w > real(0), t - (predicted - start), vec3(real(0)));
-    vec3 v = m.v + (x - predicted) * step.inv_h;
+    mask moves = w > real(0);
+    m.x_dropped = select(moves, t - (predicted - start), vec3(real(0)));
+    // What is held has the velocity of the hand that moves it, and none when that stands.
+    vec3 v = select(moves, m.v + (x - predicted) * step.inv_h, (x - start) * step.inv_h);
     m.v = cap_speed(v, max_speed);
     return too_fast(v, max_speed);
 }

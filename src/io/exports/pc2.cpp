@@ -1,0 +1,200 @@
+// PC2 point cache: the positions of every vertex in every frame, and beside it, as .obj, the mesh that they move.
+//
+//     "POINTCACHE2\0", int32 version = 1, int32 points, float32 first frame, float32 frames per sample, int32 samples,
+//     then float32 x, y, z of every point of every sample; all little-endian
+//
+// All cloths are one mesh, one after another, since the format knows only one list of points. Readers match it to the
+// mesh by the number and order of vertices alone, and those that load an .obj drop vertices that no face uses: both
+// files leave them out. Coordinates are the scene's own in both.
+#include "io/export_format.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace weft {
+std::unique_ptr<Exporter> make_pc2(const std::filesystem::path& path);
+Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file);
+std::uint64_t size_obj(std::span<const ExportSurface> surfaces);
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+struct Header {
+    std::array<char, 12> signature{'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
+    std::int32_t version = 1;
+    std::int32_t points = 0;
+    float first_frame = 0;
+    float frames_per_sample = 1;
+    std::int32_t samples = 0;
+};
+static_assert(sizeof(Header) == 32);
+
+constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
+
+/// A triangle whose corners are three vertices. Readers of .obj take no other for a face.
+bool is_face(const Triangle& t) {
+    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+}
+
+/// The vertices that faces use, ascending.
+std::vector<std::uint32_t> used_vertices(const TriangleMesh& mesh, std::size_t vertex_count) {
+    std::vector<bool> used(vertex_count);
+    for (const Triangle& triangle : mesh.triangles) {
+        if (!is_face(triangle)) continue;
+        for (const std::uint32_t vertex : triangle) used[vertex] = true;
+    }
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+        if (used[v]) vertices.push_back(v);
+    }
+    return vertices;
+}
+
+/// All cloths as one, without what no reader keeps.
+struct RestMesh {
+    TriangleMesh mesh;
+    std::vector<std::vector<std::uint32_t>> kept;   ///< per cloth: its vertices that are in `mesh`, ascending
+    std::vector<std::array<std::size_t, 2>> shape;  ///< per cloth: vertices and triangles
+
+    void add(const ExportSurface& surface, bool with_uvs);
+};
+
+void RestMesh::add(const ExportSurface& surface, bool with_uvs) {
+    const TriangleMesh& from = *surface.mesh;
+    const std::vector<std::uint32_t>& vertices = kept.emplace_back(used_vertices(from, surface.positions.size()));
+    shape.push_back({surface.positions.size(), from.triangles.size()});
+    std::vector<std::uint32_t> renumbered(surface.positions.size(), none);
+    for (const std::uint32_t v : vertices) {
+        renumbered[v] = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back(surface.positions[v]);
+        mesh.normals.push_back(surface.normals[v]);
+        if (with_uvs) mesh.uvs.push_back(from.uvs.empty() ? Vec2{} : from.uvs[v]);
+    }
+    for (const Triangle& t : from.triangles) {
+        if (is_face(t)) mesh.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
+    }
+}
+
+class Pc2Exporter : public Exporter {
+  public:
+    explicit Pc2Exporter(std::filesystem::path path)
+        : path_(std::move(path)), rest_path_(std::filesystem::path(path_).replace_extension(".obj")) {}
+
+    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override;
+    Result<Done> begin(const ExportInfo& info) override;
+    Result<Done> write(const ExportFrame& frame) override;
+    Result<Done> finish() override;
+
+  private:
+    Result<Done> check_counts(std::uint64_t points, std::uint64_t samples) const;
+    Result<Done> check_shape(const ExportFrame& frame) const;
+    void keep_rest_mesh(const ExportFrame& frame);
+    Result<Done> write_rest_mesh(AtomicFile& file) const;
+    Error error(std::string what) const { return {path_.string(), std::move(what)}; }
+
+    std::filesystem::path path_, rest_path_;
+    std::string name_;
+    RestMesh rest_;
+    BufferedFile spool_;
+    std::uint64_t samples_ = 0;
+    std::vector<Vec3> sample_;
+};
+
+Result<Done> Pc2Exporter::check_counts(std::uint64_t points, std::uint64_t samples) const {
+    if (points <= most && samples <= most) return Done{};
+    return error("would take " + std::to_string(samples) + " frames of " + std::to_string(points) +
+                 " vertices, and a .pc2 counts either up to " + std::to_string(most));
+}
+
+Result<ExportEstimate> Pc2Exporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
+    std::uint64_t points = 0;
+    for (const ExportSurface& surface : surfaces) points += surface.positions.size();
+    if (Result<Done> checked = check_counts(points, info.frame_count); !checked) return checked.errors();
+    return ExportEstimate{{path_, rest_path_},
+                          sizeof(Header) + info.frame_count * points * sizeof(Vec3) + size_obj(surfaces)};
+}
+
+Result<Done> Pc2Exporter::begin(const ExportInfo& info) {
+    name_ = info.scene_name;
+    for (const std::filesystem::path& path : {path_, rest_path_}) {
+        if (Result<Done> writable = check_writable(path); !writable) return writable;
+    }
+    Result<BufferedFile> spool = BufferedFile::open_nameless(folder_of(path_), path_.string());
+    if (!spool) return spool.errors();
+    spool_ = *std::move(spool);
+    return Done{};
+}
+
+Result<Done> Pc2Exporter::check_shape(const ExportFrame& frame) const {
+    const std::string which = "frame " + std::to_string(frame.index) + ": ";
+    if (frame.surfaces.size() != rest_.shape.size()) {
+        return error(which + "it does not hold the cloths of the first frame");
+    }
+    for (std::size_t i = 0; i < rest_.shape.size(); ++i) {
+        const ExportSurface& surface = frame.surfaces[i];
+        if (rest_.shape[i] == std::array{surface.positions.size(), surface.mesh->triangles.size()}) continue;
+        return error(which + "cloth \"" + std::string(surface.name) +
+                     "\" has other vertices or triangles than in the first frame, which a .pc2 cannot hold; " +
+                     "write a sequence instead");
+    }
+    return Done{};
+}
+
+void Pc2Exporter::keep_rest_mesh(const ExportFrame& frame) {
+    const bool with_uvs =
+        std::ranges::any_of(frame.surfaces, [](const ExportSurface& surface) { return !surface.mesh->uvs.empty(); });
+    for (const ExportSurface& surface : frame.surfaces) rest_.add(surface, with_uvs);
+    if (name_.empty()) name_ = frame.surfaces.front().name;
+}
+
+Result<Done> Pc2Exporter::write(const ExportFrame& frame) {
+    if (Result<Done> checked = check_frame(frame, path_.string()); !checked) return checked;
+    if (samples_ == 0) keep_rest_mesh(frame);
+    if (Result<Done> checked = check_shape(frame); !checked) return checked;
+    if (Result<Done> checked = check_counts(rest_.mesh.positions.size(), samples_ + 1); !checked) return checked;
+    if (rest_.mesh.triangles.empty()) return error("no triangle has three different corners");
+    sample_.clear();
+    for (std::size_t i = 0; i < frame.surfaces.size(); ++i) {
+        for (const std::uint32_t v : rest_.kept[i]) sample_.push_back(frame.surfaces[i].positions[v]);
+    }
+    ++samples_;
+    return spool_.write(std::as_bytes(std::span(sample_)));
+}
+
+Result<Done> Pc2Exporter::write_rest_mesh(AtomicFile& file) const {
+    const ExportSurface surface{name_, &rest_.mesh, rest_.mesh.positions, rest_.mesh.normals};
+    return write_obj({0, 0, std::span(&surface, 1)}, file);
+}
+
+Result<Done> Pc2Exporter::finish() {
+    if (samples_ == 0) return error("there is no frame to write");
+    Result<AtomicFile> cache = AtomicFile::create(path_);
+    if (!cache) return cache.errors();
+    const Header header{.points = static_cast<std::int32_t>(rest_.mesh.positions.size()),
+                        .samples = static_cast<std::int32_t>(samples_)};
+    if (Result<Done> r = cache->write(std::as_bytes(std::span(&header, 1))); !r) return r;
+    if (Result<Done> r = spool_.move_to(cache->content()); !r) return r;
+    if (Result<Done> r = cache->prepare(); !r) return r;
+
+    Result<AtomicFile> rest = AtomicFile::create(rest_path_);
+    if (!rest) return rest.errors();
+    if (Result<Done> r = write_rest_mesh(*rest); !r) return r;
+    if (Result<Done> r = rest->prepare(); !r) return r;
+
+    if (Result<Done> r = rest->commit(); !r) return r;
+    return cache->commit();
+}
+
+}  // namespace
+
+std::unique_ptr<Exporter> make_pc2(const std::filesystem::path& path) {
+    return std::make_unique<Pc2Exporter>(path);
+}
+
+}  // namespace weft

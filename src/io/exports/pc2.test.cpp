@@ -1,0 +1,171 @@
+#include "io/exports/film_fixtures.test.h"
+#include "io/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace weft {
+namespace {
+
+using test::Cloth;
+using test::export_film;
+using test::Instant;
+using test::make_cloth;
+using test::read_text;
+using test::TestFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Read by the published layout, not by the exporter's own struct.
+struct Cache {
+    std::string signature;
+    std::int32_t version = 0, points = 0, samples = 0;
+    float first = -1, rate = -1;
+    std::vector<Vec3> positions;
+
+    explicit Cache(const std::string& bytes) {
+        EXPECT_GE(bytes.size(), 32u);
+        if (bytes.size() < 32) return;
+        const auto at = [&]<class T>(T, std::size_t offset) {
+            T value;
+            std::memcpy(&value, bytes.data() + offset, sizeof value);
+            return value;
+        };
+        signature = bytes.substr(0, 12);
+        version = at(std::int32_t{}, 12);
+        points = at(std::int32_t{}, 16);
+        first = at(float{}, 20);
+        rate = at(float{}, 24);
+        samples = at(std::int32_t{}, 28);
+        EXPECT_EQ((bytes.size() - 32) % 12, 0u);
+        for (std::size_t o = 32; o + 12 <= bytes.size(); o += 12) {
+            positions.push_back({at(float{}, o), at(float{}, o + 4), at(float{}, o + 8)});
+        }
+    }
+};
+
+TEST(Pc2Export, HoldsEveryVertexOfEveryClothInEveryFrame) {
+    const TestFolder folder;
+    const std::vector<Cloth> cloths = {make_cloth("left", 5, 0), make_cloth("right", 7, 1)};
+    ASSERT_TRUE(export_film(folder / "film.pc2", cloths, 4, 10).ok());
+    EXPECT_THAT(folder.names(), ElementsAre("film.obj", "film.pc2"));
+
+    const Cache cache(read_text(folder / "film.pc2"));
+    EXPECT_EQ(cache.signature, std::string("POINTCACHE2\0", 12));
+    EXPECT_EQ(cache.version, 1);
+    EXPECT_EQ(cache.points, 25 + 49);
+    EXPECT_EQ(cache.first, 0);
+    EXPECT_EQ(cache.rate, 1);
+    EXPECT_EQ(cache.samples, 4);
+    ASSERT_EQ(cache.positions.size(), 4u * 74);
+    std::size_t next = 0;
+    for (int frame = 0; frame < 4; ++frame) {
+        Instant instant(cloths, 0, frame / 10.0);
+        for (std::size_t cloth = 0; cloth < 2; ++cloth) {
+            for (const Vec3& p : instant.positions(cloth)) EXPECT_EQ(cache.positions[next++], p) << frame;
+        }
+    }
+}
+
+TEST(Pc2Export, TheRestMeshIsOneObjectInTheOrderOfTheCache) {
+    const TestFolder folder;
+    std::vector<Cloth> cloths = {make_cloth("left", 5, 0), make_cloth("right", 4, 1)};
+    cloths[1].mesh.uvs.clear();
+    ASSERT_TRUE(export_film(folder / "film.pc2", cloths, 3).ok());
+    const std::string text = read_text(folder / "film.obj");
+    EXPECT_EQ(text.find("o waves\n"), 0u);
+    EXPECT_EQ(text.find("\no "), text.npos);
+    const Result<TriangleMesh> rest = load_mesh(folder / "film.obj");
+    ASSERT_TRUE(rest.ok());
+    const Cache cache(read_text(folder / "film.pc2"));
+    ASSERT_EQ(rest->positions.size(), 25u + 16);
+    for (std::size_t i = 0; i < rest->positions.size(); ++i) EXPECT_EQ(rest->positions[i], cache.positions[i]) << i;
+    EXPECT_EQ(rest->triangles.size(), 2u * 16 + 2 * 9);
+    EXPECT_EQ(rest->triangles[32][0], cloths[1].mesh.triangles[0][0] + 25);
+    EXPECT_EQ(rest->uvs[7], cloths[0].mesh.uvs[7]);
+    EXPECT_EQ(rest->uvs[30], Vec2{});
+}
+
+// Blender's importer drops them, and then numbers of vertices would differ.
+TEST(Pc2Export, VerticesThatNoFaceUsesAreInNeitherFile) {
+    const TestFolder folder;
+    std::vector<Cloth> cloths = {make_cloth("a", 3, 0), make_cloth("b", 3, 1)};
+    TriangleMesh& mesh = cloths[0].mesh;
+    mesh.uvs.clear();
+    mesh.positions.insert(mesh.positions.begin() + 4, Vec3{8, 8, 8});
+    for (Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle) vertex += vertex >= 4;
+    }
+    mesh.positions.push_back({9, 9, 9});
+    mesh.triangles.push_back({0, 10, 10});  // no face either
+    ASSERT_TRUE(export_film(folder / "film.pc2", cloths, 2).ok());
+
+    const Cache cache(read_text(folder / "film.pc2"));
+    EXPECT_EQ(cache.points, 9 + 9);
+    Instant last(cloths, 1, 1.0 / 60);
+    EXPECT_EQ(cache.positions.at(18 + 3), last.positions(0)[3]);
+    EXPECT_EQ(cache.positions.at(18 + 4), last.positions(0)[5]);
+    EXPECT_EQ(cache.positions.at(18 + 9), last.positions(1)[0]);
+    const Result<TriangleMesh> rest = load_mesh(folder / "film.obj");
+    ASSERT_TRUE(rest.ok());
+    EXPECT_EQ(rest->positions.size(), 18u);
+    EXPECT_EQ(rest->triangles.size(), 16u);
+}
+
+TEST(Pc2Export, AFrameOfAnotherShapeIsRefused) {
+    const TestFolder folder;
+    const std::vector<Cloth> cloths = {make_cloth("a", 3, 0), make_cloth("b", 3, 1)};
+    const auto second_frame = [&](const std::vector<Cloth>& later) {
+        const auto made = make_exporter(folder / "film.pc2");
+        EXPECT_TRUE(made.ok() && (*made)->begin({"s", 60, 2}).ok());
+        EXPECT_TRUE((*made)->write(Instant(cloths, 0, 0).frame()).ok());
+        const Result<Done> written = (*made)->write(Instant(later, 1, 0.1).frame());
+        return written ? std::string("none") : written.error().message();
+    };
+    EXPECT_EQ(second_frame(cloths), "none");
+    EXPECT_THAT(second_frame({cloths[0]}), HasSubstr("film.pc2: frame 1: it does not hold the cloths"));
+    EXPECT_THAT(second_frame({cloths[0], make_cloth("b", 4, 1)}), HasSubstr("cloth \"b\" has other vertices"));
+    EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Pc2Export, ARestMeshThatCannotBeWrittenIsKnownBeforeTheRun) {
+    const TestFolder folder;
+    std::filesystem::create_directory(folder / "film.obj");
+    const auto made = make_exporter(folder / "film.pc2");
+    ASSERT_TRUE(made.ok());
+    const Result<Done> begun = (*made)->begin({"s", 60, 2});
+    ASSERT_FALSE(begun.ok());
+    EXPECT_EQ(begun.error().where, (folder / "film.obj").string());
+}
+
+TEST(Pc2Export, BothFilesAppearOrNeither) {
+    const TestFolder folder;
+    const std::vector<Cloth> cloths = {make_cloth("a", 3, 0)};
+    const auto made = make_exporter(folder / "film.pc2");
+    ASSERT_TRUE(made.ok() && (*made)->begin({"s", 60, 1}).ok());
+    ASSERT_TRUE((*made)->write(Instant(cloths, 0, 0).frame()).ok());
+    // What begin found free is taken by the time finish writes.
+    std::filesystem::create_directory(folder / "film.pc2");
+    EXPECT_FALSE((*made)->finish().ok());
+    EXPECT_THAT(folder.names(), ElementsAre("film.pc2"));
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "film.pc2"));
+}
+
+TEST(Pc2Export, MoreVerticesThanItCountsAreRefused) {
+    const auto made = make_exporter("film.pc2");
+    ASSERT_TRUE(made.ok());
+    const TriangleMesh mesh;
+    // Never read: only their number counts.
+    const std::span<const Vec3> many(reinterpret_cast<const Vec3*>(0x1000), std::size_t{1} << 31);
+    const ExportSurface surface{"huge", &mesh, many, many};
+    const auto estimate = (*made)->estimate({"s", 60, 1}, std::span(&surface, 1));
+    ASSERT_FALSE(estimate.ok());
+    EXPECT_THAT(estimate.error().message(), HasSubstr("2147483648 vertices"));
+    EXPECT_FALSE((*made)->estimate({"s", 60, std::uint64_t{1} << 31}, {}).ok());
+}
+
+}  // namespace
+}  // namespace weft

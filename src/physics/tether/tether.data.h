@@ -1,0 +1,26 @@
+// Tether: a particle no farther from where the cloth is held than the way over the cloth. Read by C++ and by GLSL.
+#ifndef WEFT_TETHER_DATA_H
+#define WEFT_TETHER_DATA_H
+
+// The numbers of one row.
+//   radius  m  largest distance, slack included
+#define WEFT_ROW_tether(FIELD) FIELD(radius)
+
+#ifdef __cplusplus
+#include "physics/parameter.h"
+
+#include <array>
+
+namespace weft {
+
+struct TetherMaterial {
+    bool enabled = false;
+    float slack = 0.02f;  ///< of the rest distance
+};
+
+// A scene says this beside the fabric, of the cloth.
+inline constexpr std::array<Parameter, 0> tether_parameters{};
+
+}  // namespace weft
+#endif
+#endif

@@ -1,0 +1,21 @@
+// Tether: C = |x - anchor| - radius, at most 0. Only the particle moves; the anchor is held by something stronger.
+
+struct TetherRow { WEFT_ROW_tether(WEFT_ROW_MEMBER) };
+
+WEFT_FN void project_tether(inout_(vec3) x, inout_(vec3) anchor, real w, real anchor_w,
+                            inout_(real) lambda, TetherRow row, Step step)
+{
+    vec3 d = x - anchor;
+    real len2 = dot(d, d);
+    mask taut = len2 > row.radius * row.radius && w > real(0);
+    real len = sqrt(max(len2, real(1e-30)));
+    real c = select(taut, len - row.radius, real(0));
+    lambda = lambda - c / max(w, real(1e-30));
+    x = x - d * (c / len);
+}
+
+// One-sided: nothing to damp.
+WEFT_FN void damp_tether(inout_(vec3) v, inout_(vec3) anchor_v, vec3 x, vec3 anchor, real w, real anchor_w,
+                         TetherRow row, real viscous)
+{
+}

@@ -1,0 +1,97 @@
+#include "physics/tether/geodesic.h"
+
+#include "mesh/procedural.h"
+#include "physics/constraint.h"
+#include "physics/testing.h"
+
+#include <cmath>
+
+namespace weft {
+namespace {
+
+using namespace testing_kernels;
+using reference::TetherRow;
+
+TEST(Tether, pulls_back_to_its_radius_and_only_then) {
+    vec3 x(3, 0, 4), anchor(0.0);
+    double lambda = 0;
+    reference::project_tether(x, anchor, 2, 0, lambda, TetherRow{4}, make_step(0.01));
+    EXPECT_LT(norm(x - vec3(2.4, 0, 3.2)), 1e-12);
+    EXPECT_EQ(norm(anchor), 0);
+    EXPECT_NEAR(lambda, -0.5, 1e-12);
+    const vec3 before = x = vec3(1, 2, 3);
+    reference::project_tether(x, anchor, 2, 0, lambda, TetherRow{4}, make_step(0.01));
+    EXPECT_EQ(norm(x - before), 0);
+}
+
+TEST(Tether, survives_degenerate_input) {
+    for (const float w : {0.0f, 1e-30f, 1.0f}) {
+        for (const float radius : {0.0f, 1e-20f, 1e30f}) {
+            for (const float d : {0.0f, 1e-25f, 1.0f, 1e15f}) {
+                scalar::vec3 x(d, 0, 0), anchor(0.0f);
+                float lambda = 0;
+                scalar::project_tether(x, anchor, w, 0.0f, lambda, {radius}, {1e-3f, 1e3f, 1e6f});
+                EXPECT_TRUE(std::isfinite(x.x)) << w << ' ' << radius << ' ' << d;
+                if (w == 0) {
+                    EXPECT_EQ(x.x, d);
+                }
+            }
+        }
+    }
+}
+
+TEST(Geodesic, is_straight_across_a_flat_sheet_whatever_the_diagonals) {
+    for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating, GridDiagonal::cross}) {
+        const TriangleMesh mesh = make_grid({1, 1}, {33, 33}, diagonal);
+        const auto topology = build_topology(mesh, {.reorder = false});
+        const std::uint32_t source[] = {0};
+        const Geodesic way = geodesic_distance(*topology, source);
+        for (std::uint32_t p = 1; p < topology->particle_count; ++p) {
+            const double straight = length(topology->rest_positions[p] - topology->rest_positions[0]);
+            EXPECT_GE(way.distance[p], straight * (1 - 1e-5)) << "no way is shorter than the straight one";
+            EXPECT_LE(way.distance[p], straight * 1.01 + 1e-6) << "particle " << p;
+        }
+    }
+}
+
+TEST(Geodesic, goes_over_the_surface_not_through_the_air) {
+    TriangleMesh mesh = make_grid({2, 0.5f}, {81, 11}, GridDiagonal::alternating);
+    for (Vec3& p : mesh.positions) p = {std::sin(p.x * 1.5f) / 1.5f, std::cos(p.x * 1.5f) / 1.5f, p.z};  // rolled up
+    const auto topology = build_topology(mesh, {.reorder = false});
+    const std::uint32_t source[] = {5 * 81};
+    const Geodesic way = geodesic_distance(*topology, source);
+    EXPECT_NEAR(way.distance[5 * 81 + 80], 2, 0.005);
+    EXPECT_LT(length(topology->rest_positions[5 * 81 + 80] - topology->rest_positions[5 * 81]), 1.4f);
+}
+
+TEST(Geodesic, knows_what_it_cannot_reach) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {3, 5, 4}};
+    const auto topology = build_topology(mesh, {.reorder = false});
+    const std::uint32_t source[] = {0};
+    const Geodesic way = geodesic_distance(*topology, source);
+    EXPECT_EQ(way.nearest[4], none);
+    EXPECT_TRUE(std::isinf(way.distance[4]));
+}
+
+TEST(TetherRows, lead_to_every_place_where_the_cloth_is_held) {
+    const TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::alternating);
+    const auto topology = build_topology(mesh, {.reorder = false});
+    RestShape rest = make_rest_shape(mesh, *topology);
+    EXPECT_EQ(build_tether(rest, {.enabled = true}).size(), 0u) << "held nowhere";
+    rest.held.assign(topology->particle_count, 0);
+    rest.held[0] = rest.held[1] = rest.held[8] = 1;  // two neighbors, and another corner
+    EXPECT_EQ(build_tether(rest, {.enabled = false}).size(), 0u);
+    const RowList rows = build_tether(rest, {.enabled = true, .slack = 0.1f});
+    ASSERT_EQ(rows.size(), 2 * (81u - 3));
+    for (std::uint32_t r = 0; r < rows.size(); ++r) {
+        const std::uint32_t p = rows.particles[2 * r], anchor = rows.particles[2 * r + 1];
+        EXPECT_TRUE(rest.held[anchor] && !rest.held[p]);
+        const float straight = length(topology->rest_positions[p] - topology->rest_positions[anchor]);
+        EXPECT_NEAR(rows.fields[r], 1.1f * straight, 0.02f * straight) << p << " to " << anchor;
+    }
+}
+
+}  // namespace
+}  // namespace weft

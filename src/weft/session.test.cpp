@@ -1,0 +1,197 @@
+#include "weft/session.h"
+
+#include "io/temporary_folder.test.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+/// A scene of one cloth over the ground, with files beside it.
+class SessionOfACloth : public testing::Test {
+  protected:
+    Result<Session> open(const std::string& cloth_keys) {
+        return Session::open(folder.write("s.json", R"({"weft": 1, "cloths": [{"name": "it", )" + cloth_keys +
+                                                        R"(}], "colliders": [{"plane": {"offset": -1}}]})"),
+                             {.substeps = 5});
+    }
+    std::vector<std::string> errors_of(const std::string& cloth_keys) {
+        std::vector<std::string> messages;
+        if (const auto session = open(cloth_keys); !session)
+            for (const Error& error : session.errors()) {
+                const std::string message = error.message(), place = folder.path().string() + '/';
+                messages.push_back(message.substr(message.starts_with(place) ? place.size() : 0));
+            }
+        return messages;
+    }
+
+    TemporaryFolder folder;
+};
+
+void expect_sound(const Session& session) {
+    for (const ClothFrame& cloth : session.world().frame().cloths) {
+        for (const Vec4& p : cloth.positions) ASSERT_TRUE(finite(p.xyz()));
+        for (const Vec4& v : cloth.velocities) ASSERT_TRUE(finite(v.xyz()));
+        for (const Vec4& n : cloth.normals) ASSERT_NEAR(length(n.xyz()), 1, 1e-4f);
+    }
+    DrawnFrame drawn;
+    drawn.update(session.world().frame());
+    for (const ExportSurface& surface : drawn.surfaces()) {
+        ASSERT_EQ(surface.positions.size(), surface.mesh->positions.size());
+        for (const Vec3 p : surface.positions) ASSERT_TRUE(finite(p));
+        for (const Vec3 n : surface.normals) ASSERT_NEAR(length(n), 1, 1e-4f);
+    }
+}
+
+/// Returns whether something moved.
+bool run(Session& session, int frames = 30) {
+    DrawnFrame before, after;
+    before.update(session.world().frame());
+    for (int i = 0; i < frames; ++i) {
+        EXPECT_EQ(session.step().reports & report_non_finite, 0u) << "frame " << i;
+        expect_sound(session);
+    }
+    after.update(session.world().frame());
+    return !std::ranges::equal(before.surfaces()[0].positions, after.surfaces()[0].positions);
+}
+
+// Three leaves on one spine, a triangle given twice and once more the other way round, one that is a point, one that is
+// a line, a vertex that nothing uses, and a triangle that hangs on a single corner.
+constexpr std::string_view messy_obj = R"(
+v 0 0 0
+v 0 1 0
+v 1 0.5 0
+v -1 0.5 0.2
+v 0 0.5 1
+v 5 5 5
+v 0 2 0
+v 0.5 3 0
+v -0.5 3 0.1
+f 1 2 3
+f 2 1 4
+f 1 2 5
+f 2 3 1
+f 3 2 1
+f 4 4 4
+f 1 2 7
+f 7 8 9
+f 2 3 7
+)";
+
+TEST_F(SessionOfACloth, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
+    folder.write("messy.obj", messy_obj);
+    for (const char* more : {"", R"(, "fabric": {"hinges": "source", "rest_angle": 0})", R"(, "tethers": true,
+                             "pins": [{"vertices": [0, 8]}])",
+                             R"(, "fabric": {"inextensible": true})"}) {
+        auto session = open(R"("mesh": {"file": "messy.obj"})" + std::string(more));
+        ASSERT_TRUE(session.ok()) << session.error().message();
+        EXPECT_THAT(session->notes(),
+                    UnorderedElementsAre("cloth 'it': 1 vertices that no triangle uses stay where they are",
+                                         "cloth 'it': 2 triangles without an area left out",
+                                         "cloth 'it': 2 doubled triangles left out",
+                                         "cloth 'it': 1 edges with three or more triangles do not bend",
+                                         "cloth 'it': 1 edges between triangles of opposite winding"));
+        EXPECT_TRUE(run(*session)) << more;
+        DrawnFrame drawn;
+        drawn.update(session->world().frame());
+        EXPECT_EQ(drawn.surfaces()[0].positions[5], (Vec3{5, 5, 5})) << "the vertex of no triangle stays";
+    }
+}
+
+TEST_F(SessionOfACloth, says_nothing_of_a_mesh_that_is_fine) {
+    for (const char* mesh : {R"("grid": {})", R"("sphere": {})", R"("box": {})"}) {
+        const auto session = open(R"("mesh": {)" + std::string(mesh) + "}");
+        ASSERT_TRUE(session.ok()) << session.error().message();
+        EXPECT_THAT(session->notes(), IsEmpty());
+    }
+}
+
+TEST_F(SessionOfACloth, refuses_a_mesh_of_nothing_but_rubbish) {
+    folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n");
+    EXPECT_THAT(errors_of(R"("mesh": {"file": "lines.obj"})"),
+                ElementsAre(HasSubstr("must have at least one triangle with an area, got 2 without")));
+}
+
+TEST_F(SessionOfACloth, drops_spheres_and_boxes) {
+    auto sphere = open(R"("mesh": {"sphere": {"radius": 0.25, "subdivisions": 3}}, "transform": {"position": [1, 2, 3]},
+                          "pins": [{"vertices": [641]}])");
+    ASSERT_TRUE(sphere.ok()) << sphere.error().message();
+    const ClothModel& ball = *sphere->world().frame().cloths[0].model;
+    EXPECT_EQ(ball.particle_count, 642u);
+    EXPECT_EQ(ball.pinned_count, 1u);
+    for (const Vec3 p : ball.topology.rest_positions) EXPECT_NEAR(length(p - Vec3{1, 2, 3}), 0.25f, 1e-6f);
+    EXPECT_TRUE(run(*sphere));
+
+    auto box = open(R"("mesh": {"box": {"size": [0.1, 0.2, 0.3], "resolution": [3, 4, 5]}})");
+    ASSERT_TRUE(box.ok()) << box.error().message();
+    EXPECT_EQ(box->world().frame().cloths[0].model->particle_count, 54u);
+    EXPECT_TRUE(run(*box));
+}
+
+TEST_F(SessionOfACloth, draws_a_fine_mesh_over_a_coarse_one) {
+    auto session = open(R"("mesh": {"grid": {"resolution": [9, 9]}}, "drawn": {"grid": {"resolution": [65, 65]}},
+                           "transform": {"position": [0, 1, 0], "rotation": [0, 30, 0]}, "pins": [{"vertices": [0, 8]}])");
+    ASSERT_TRUE(session.ok()) << session.error().message();
+    EXPECT_THAT(session->notes(), IsEmpty());
+    EXPECT_EQ(session->world().frame().cloths[0].model->particle_count, 81u);
+    EXPECT_TRUE(run(*session));
+
+    DrawnFrame drawn;
+    drawn.update(session->world().frame());
+    const ExportSurface& surface = drawn.surfaces()[0];
+    ASSERT_EQ(surface.positions.size(), 65u * 65u);
+    EXPECT_EQ(surface.mesh->uvs.size(), 65u * 65u);
+    const auto particles = session->world().frame().cloths[0].positions;
+    const auto& particle = session->world().frame().cloths[0].model->topology.welded_to_particle;
+    for (std::uint32_t z = 0; z < 9; ++z)
+        for (std::uint32_t x = 0; x < 9; ++x) {
+            const Vec3 at = surface.positions[8 * z * 65 + 8 * x];
+            EXPECT_LT(length(at - particles[particle[9 * z + x]].xyz()), 1e-5f) << "where both have a vertex";
+        }
+    // It hangs by two corners: no two neighbors are torn apart.
+    for (std::uint32_t v = 0; v + 1 < 65 * 65; ++v) {
+        if (v % 65 != 64) {
+            EXPECT_LT(length(surface.positions[v] - surface.positions[v + 1]), 1.5f / 64);
+        }
+    }
+}
+
+TEST_F(SessionOfACloth, takes_the_drawn_mesh_from_a_file_with_its_own_scale_and_axis) {
+    // The same square in centimeters, standing in the file's xy plane, its z up.
+    folder.write("fine.obj",
+                 "v -50 50 0\nv 50 50 0\nv 50 -50 0\nv -50 -50 0\nv 0 0 1\n"
+                 "f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n");
+    auto session = open(R"("mesh": {"grid": {"resolution": [4, 4]}}, "transform": {"position": [0, 3, 0], "scale": 2},
+                           "drawn": {"file": "fine.obj", "scale": 0.01, "up": "z"})");
+    ASSERT_TRUE(session.ok()) << session.error().message();
+    EXPECT_THAT(session->notes(), IsEmpty());
+    DrawnFrame drawn;
+    drawn.update(session->world().frame());
+    EXPECT_LT(length(drawn.surfaces()[0].positions[0] - Vec3{-1, 3, -1}), 1e-6f);
+    EXPECT_LT(length(drawn.surfaces()[0].positions[4] - Vec3{0, 3.02f, 0}), 1e-6f);
+    EXPECT_TRUE(run(*session));
+
+    auto too_large = open(R"("mesh": {"grid": {"resolution": [4, 4]}}, "drawn": {"file": "fine.obj"})");
+    ASSERT_TRUE(too_large.ok()) << too_large.error().message();
+    EXPECT_THAT(too_large->notes(), ElementsAre(HasSubstr("cloth 'it': the drawn mesh lies up to 70.3")));
+    EXPECT_THAT(errors_of(R"("drawn": {"file": "missing.obj"})"),
+                ElementsAre(HasSubstr("s.json: /cloths/0/drawn/file")));
+}
+
+TEST_F(SessionOfACloth, pins_the_simulated_mesh_and_not_the_drawn_one) {
+    EXPECT_THAT(
+        errors_of(R"("mesh": {"grid": {"resolution": [4, 4]}}, "drawn": {"grid": {"resolution": [40, 40]}},
+                             "pins": [{"vertices": [15, 16]}])"),
+        ElementsAre("s.json: /cloths/0/pins/0/vertices/1: must be less than 16, the number of particles, got 16"));
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,130 @@
+// A cloth without a World, for tests that choose where it starts, how it comes to rest and what it stores.
+#pragma once
+
+#include "cpu/cloth_state.h"
+#include "cpu/executor.h"
+#include "physics/scalar.h"
+#include "sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::physical {
+
+class Specimen {
+  public:
+    struct Steps {
+        double dt;  ///< s, of a frame
+        std::uint32_t substeps = 10, iterations = 1;
+    };
+
+    Specimen(std::shared_ptr<const ClothModel> model, const Steps& steps)
+        : cloth_(std::move(model)),
+          executor_(*cpu::available_passes().front(), team_),
+          plan_(plan_step(
+              *cloth_.model,
+              {.substeps = steps.substeps, .iterations = steps.iterations, .contacts = false, .surface = false})),
+          dt_(steps.dt) {}
+
+    const ClothModel& model() const { return *cloth_.model; }
+    std::uint32_t size() const { return cloth_.model->particle_count; }
+    bool pinned(std::uint32_t p) const { return !(cloth_.now.position[p].w > 0); }
+    Vec3 position(std::uint32_t p) const { return cloth_.now.position[p].xyz(); }
+    Vec3 velocity(std::uint32_t p) const { return cloth_.now.velocity[p].xyz(); }
+
+    /// Puts every particle, pinned ones too, where `pose` maps its place at rest. Velocities stay.
+    template <class Pose>
+    void place(Pose&& pose) {
+        for (std::uint32_t p = 0; p < size(); ++p) {
+            const Vec3 x = pose(cloth_.model->topology.rest_positions[p]);
+            Vec4& now = cloth_.now.position[p];
+            now = {x.x, x.y, x.z, now.w};
+        }
+    }
+
+    void step() {
+        reports_ |= executor_.run(cloth_, plan_, {.dt = dt_, .gravity = {0, -gravity, 0}, .colliders = {}, .poses = {}},
+                                  stage_ms_);
+    }
+    std::uint32_t reports() const { return reports_; }
+
+    /// Lets a drag of `rate` 1/s bring the cloth to rest. Drag acts on velocities alone, so what it leaves is the
+    /// equilibrium of the constraints. True once no particle is faster than `slow` m/s.
+    bool settle(double rate, double slow, double seconds) {
+        const auto keep = static_cast<float>(std::exp(-rate * dt_));
+        for (int frame = 0; frame * dt_ < seconds; ++frame) {
+            step();
+            float fastest = 0;
+            for (std::uint32_t p = 0; p < size(); ++p) {
+                const Vec3 v = velocity(p) * keep;
+                cloth_.now.velocity[p] = {v.x, v.y, v.z, 0};
+                fastest = std::max(fastest, dot(v, v));
+            }
+            if (frame > 10 && fastest < slow * slow) return true;
+        }
+        return false;
+    }
+
+    static constexpr float gravity = 9.81f;  ///< m/s², along -y
+
+  private:
+    cpu::ClothState cloth_;
+    WorkerTeam team_;
+    cpu::Executor executor_;
+    StepPlan plan_;
+    double dt_;
+    std::uint32_t reports_ = report_none;
+    std::array<double, stage_count> stage_ms_{};
+};
+
+/// J. What a cloth holds: by its height over y = 0, by its motion, and in its stretch and bend rows.
+struct Energy {
+    double height = 0, motion = 0, stretch = 0, bend = 0;
+    double total() const { return height + motion + stretch + bend; }
+};
+
+inline Energy measure_energy(const Specimen& cloth) {
+    const auto at = [&](std::uint32_t p) {
+        const Vec3 x = cloth.position(p);
+        return reference::vec3(x.x, x.y, x.z);
+    };
+    Energy energy;
+    for (std::uint32_t p = 0; p < cloth.size(); ++p) {
+        if (cloth.pinned(p)) continue;
+        const double m = cloth.model().mass[p];
+        energy.height += m * Specimen::gravity * cloth.position(p).y;
+        energy.motion += 0.5 * m * dot(cloth.velocity(p), cloth.velocity(p));
+    }
+    const ConstraintTable& stretch = cloth.model().table(ConstraintKind::stretch);
+    for (std::uint32_t r = 0; r < stretch.stride; ++r) {
+        if (stretch.source[r] == none) continue;
+        const reference::vec3 d = at(stretch.particles[r]) - at(stretch.particles[stretch.stride + r]);
+        const double c = std::sqrt(reference::dot(d, d)) - stretch.fields[r];
+        const double compliance = stretch.fields[(c > 0 ? 1 : 2) * stretch.stride + r];
+        if (compliance > 0) energy.stretch += 0.5 * c * c / compliance;
+    }
+    const ConstraintTable& bend = cloth.model().table(ConstraintKind::bend);
+    for (std::uint32_t r = 0; r < bend.stride; ++r) {
+        if (bend.source[r] == none) continue;
+        const auto corner = [&](std::uint32_t slot) { return at(bend.particles[slot * bend.stride + r]); };
+        const double c = reference::hinge_angle(corner(0), corner(1), corner(2), corner(3)).theta - bend.fields[r];
+        energy.bend += 0.5 * c * c / bend.fields[bend.stride + r];
+    }
+    return energy;
+}
+
+/// As make_sheet, from any flat mesh.
+inline std::shared_ptr<const ClothModel> make_specimen(TriangleMesh mesh, const Fabric& fabric,
+                                                       const std::function<bool(Vec3 at_rest)>& pinned) {
+    auto topology = build_topology(mesh, {.reorder = false});
+    EXPECT_TRUE(topology.ok());
+    ClothModelDesc model{.name = "specimen", .mesh = std::move(mesh), .fabric = fabric};
+    for (std::uint32_t p = 0; p < topology->particle_count; ++p) {
+        if (pinned(topology->rest_positions[p])) model.pinned_particles.push_back(p);
+    }
+    auto built = build_cloth_model(std::move(model), std::move(*topology));
+    EXPECT_TRUE(built.ok());
+    return *built;
+}
+
+}  // namespace weft::physical
