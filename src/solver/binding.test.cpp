@@ -260,7 +260,9 @@ TEST(ClothModel, refuses_a_drawn_mesh_that_is_not_sound) {
     };
     EXPECT_EQ(error_with([](TriangleMesh&) {}), "");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.positions[4].y = std::numeric_limits<float>::infinity(); }),
-              "drawn mesh: vertex 4: position must be finite");
+              "drawn mesh: vertex 4: position must be within 1e6 m of the origin");
+    EXPECT_EQ(error_with([](TriangleMesh& m) { m.positions[4].z = -3e38f; }),
+              "drawn mesh: vertex 4: position must be within 1e6 m of the origin");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.triangles[1][2] = 9; }),
               "drawn mesh: triangle 1: indices must be < 9, the number of vertices");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.triangles.clear(); }), "drawn mesh: must have at least one triangle");

@@ -1,5 +1,7 @@
 #include "solver/cloth_model.h"
 
+#include "scene/scene_keys.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,8 +68,11 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
 Result<Done> check_drawn(const TriangleMesh& mesh) {
     const std::size_t count = mesh.positions.size();
     for (std::size_t v = 0; v < count; ++v) {
-        if (!finite(mesh.positions[v]))
-            return Error{"drawn mesh", "vertex " + std::to_string(v) + ": position must be finite"};
+        // Farther out, a vertex that turns with its triangle can leave the range of a float.
+        const Vec3 p = mesh.positions[v];
+        const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        if (!finite(p) || farthest > far_away)
+            return Error{"drawn mesh", "vertex " + std::to_string(v) + ": position must be within 1e6 m of the origin"};
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto [a, b, c] = mesh.triangles[t];

@@ -39,11 +39,6 @@ bool all_finite(const std::vector<Vec3>& vectors) {
     return std::ranges::all_of(vectors, [](Vec3 v) { return finite(v); });
 }
 
-bool all_near(const std::vector<Vec3>& vectors) {
-    const auto near = [](float x) { return !(std::abs(x) > static_cast<float>(far_away)); };
-    return std::ranges::all_of(vectors, [&](Vec3 v) { return near(v.x) && near(v.y) && near(v.z); });
-}
-
 /// Takes values from the front; zeros after the end.
 class ByteReader {
   public:
@@ -132,8 +127,6 @@ void simulate(TriangleMesh mesh, ByteReader& in) {
     if (in.flag()) pinned.push_back(in.take<std::uint8_t>() % (topology->particle_count + 1));
     std::optional<TriangleMesh> drawn;
     if (in.flag()) drawn = take_mesh(in);
-    // Farther out than a scene may put anything, a turned vertex can leave the range of a float.
-    if (drawn && !all_near(drawn->positions)) drawn.reset();
     auto model = build_cloth_model({.name = "fuzz",
                                     .mesh = std::move(mesh),
                                     .drawn = std::move(drawn),

@@ -70,7 +70,7 @@ double cantilever_error(const Strip& strip, const CurvePoint& point, const Resol
     return error;
 }
 
-constexpr double fine = 1.0 / 4000, medium = 1.0 / 2000, coarse = 1.0 / 1000;
+constexpr double medium = 1.0 / 2000, coarse = 1.0 / 1000;
 
 struct Case {
     CurvePoint point;
