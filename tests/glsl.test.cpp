@@ -30,6 +30,7 @@ class Glsl : public testing::Test {
                                  "#include \"physics/lanes.glsl\"\n"
                                  "#include \"physics/stretch/stretch.data.h\"\n"
                                  "#include \"physics/tether/tether.data.h\"\n"
+                                 "#include \"physics/attachment/attachment.data.h\"\n"
                                  "#include \"physics/bend/bend.data.h\"\n"
                                  "#include \"physics/kernels.inl\"\n"
                                  "layout(std430, binding = 0) buffer Particles { vec4 x[]; };\n"
@@ -104,6 +105,29 @@ TEST_F(Glsl, every_collider_shape_compiles) {
         << #name;
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
+}
+
+TEST_F(Glsl, every_wind_compiles) {
+#define WEFT_WIND(name, Name)                                                                                     \
+    EXPECT_EQ(compile("    WindNumbers w = WindNumbers(x[0].xyz, x[1].xyz, x[2].xyz);\n"                          \
+                      "    WindLife life = WindLife(n[0], n[1], n[2], n[3], n[4], n[5], n[6], x[3].xyz);\n"       \
+                      "    x[i].xyz = live_wind(flow_" #name "(x[i].xyz, w), float(i), life);\n"),                 \
+              "")                                                                                                 \
+        << #name;
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+}
+
+TEST_F(Glsl, air_and_tangents_compile) {
+    EXPECT_EQ(compile("    vec3 dv = air_velocity_change(x[0].xyz, x[1].xyz, n[0], AirFabric(n[1], n[2], n[3]), h.h);\n"
+                      "    Motion m = Motion(x[i + 1].xyz, x[i + 2].xyz, x[i + 3].xyz);\n"
+                      "    push_by_air(m, dv, x[i].w);\n"
+                      "    x[i].xyz = m.v + m.v_dropped;\n"),
+              "");
+    EXPECT_EQ(compile("    float hand;\n"
+                      "    TangentFrame f = face_tangents(x[0].xyz, x[1].xyz, x[2].xyz, n[0], n[1], n[2], n[3]);\n"
+                      "    vec3 t = unit_tangent(f, x[3].xyz, hand);\n    x[i] = vec4(t, hand);\n"),
+              "");
 }
 
 TEST_F(Glsl, integration_and_normals_compile) {

@@ -22,7 +22,53 @@ SinCos sin_cos_degrees(float degrees) {
     return {static_cast<float>(std::sin(radians)), static_cast<float>(std::cos(radians))};
 }
 
+struct Quaternion {
+    float x, y, z, w;
+};
+
+float dot(const Quaternion& a, const Quaternion& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+
+Quaternion normalized(const Quaternion& q) {
+    const float inverse = 1 / std::sqrt(dot(q, q));
+    return {q.x * inverse, q.y * inverse, q.z * inverse, q.w * inverse};
+}
+
+// The largest component first: nothing is divided by a small one.
+Quaternion quaternion_of(const Mat3& m) {
+    const float xx = m.x.x, yy = m.y.y, zz = m.z.z;
+    Quaternion q{};
+    if (xx + yy + zz > 0) {
+        q = {m.y.z - m.z.y, m.z.x - m.x.z, m.x.y - m.y.x, 1 + xx + yy + zz};
+    } else if (xx > yy && xx > zz) {
+        q = {1 + xx - yy - zz, m.y.x + m.x.y, m.z.x + m.x.z, m.y.z - m.z.y};
+    } else if (yy > zz) {
+        q = {m.y.x + m.x.y, 1 + yy - zz - xx, m.z.y + m.y.z, m.z.x - m.x.z};
+    } else {
+        q = {m.z.x + m.x.z, m.z.y + m.y.z, 1 + zz - xx - yy, m.x.y - m.y.x};
+    }
+    return normalized(q);
+}
+
+Mat3 matrix_of(const Quaternion& q) {
+    return {{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y + q.w * q.z), 2 * (q.x * q.z - q.w * q.y)},
+            {2 * (q.x * q.y - q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z + q.w * q.x)},
+            {2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}};
+}
+
 }  // namespace
+
+Pose between(const Pose& from, const Pose& to, float fraction) {
+    if (fraction <= 0 || from == to) return from;
+    if (fraction >= 1) return to;
+    const Vec3 position = from.position + (to.position - from.position) * fraction;
+    if (from.rotation == to.rotation) return {from.rotation, position};
+    const Quaternion a = quaternion_of(from.rotation), b = quaternion_of(to.rotation);
+    const float s = 1 - fraction, t = dot(a, b) < 0 ? -fraction : fraction;
+    const Quaternion q{s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z, s * a.w + t * b.w};
+    return {matrix_of(normalized(q)), position};
+}
 
 Mat3 rotation_from_degrees(Vec3 degrees) {
     const auto [sx, cx] = sin_cos_degrees(degrees.x);

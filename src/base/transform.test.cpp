@@ -27,5 +27,21 @@ TEST(Pose, local_and_world_are_inverse) {
     EXPECT_NEAR(length(pose.rotation * p), length(p), 1e-6f);
 }
 
+TEST(Transform, goes_from_pose_to_pose_by_the_shortest_turn) {
+    const Pose from{rotation_from_degrees({10, 20, 30}), {1, 2, 3}};
+    for (const Vec3 turn : {Vec3{0, 0, 0}, Vec3{40, -70, 20}, Vec3{170, 0, 0}, Vec3{0, 179, 0}, Vec3{-90, 0, 120}}) {
+        const Pose to{rotation_from_degrees(turn) * from.rotation, {3, 0, 3}};
+        EXPECT_EQ(between(from, to, 0), from);
+        EXPECT_EQ(between(from, to, 1), to);
+        const Pose half = between(from, to, 0.5f);
+        EXPECT_EQ(half.position, (Vec3{2, 1, 3}));
+        // The same turn twice leads there.
+        const Mat3 first = half.rotation * transposed(from.rotation);
+        const Mat3 there = first * half.rotation;
+        EXPECT_LT(length(there.x - to.rotation.x) + length(there.y - to.rotation.y), 2e-4f) << turn.x << ' ' << turn.y;
+        EXPECT_NEAR(length(half.rotation.z), 1, 1e-5f);
+    }
+}
+
 }  // namespace
 }  // namespace weft

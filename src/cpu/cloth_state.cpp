@@ -1,5 +1,8 @@
 #include "cpu/cloth_state.h"
 
+#include <algorithm>
+#include <cassert>
+
 namespace weft::cpu {
 
 ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {
@@ -14,6 +17,68 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(st
     }
     face_normals.resize(model->face_stride);
     normals.resize(capacity);
+    update_normals();
+}
+
+void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
+    assert(other->particle_count == model->particle_count);
+    const auto keep = [&](AlignedVector<Vec4>& array, const auto& fresh) {
+        AlignedVector<Vec4> next(other->capacity());
+        for (std::uint32_t p = 0; p < other->capacity(); ++p) next[p] = fresh(p);
+        for (std::uint32_t p = 0; p < other->particle_count; ++p) {
+            const float w = next[p].w;
+            next[p] = array[p];
+            if (&array == &now.position) next[p].w = w;
+        }
+        array = std::move(next);
+    };
+    const auto zero = [](std::uint32_t) { return Vec4{}; };
+    keep(now.position, [&](std::uint32_t p) { return other->start[p]; });
+    keep(now.start, zero);
+    keep(now.velocity, zero);
+    keep(now.carry, zero);
+    last_good = now;
+    model = std::move(other);
+    for (const ConstraintTable& table : model->constraints) {
+        lambda[static_cast<std::uint32_t>(table.kind)].assign(table.stride, 0.0f);
+    }
+    gather = nullptr;
+    contact_sums.clear();
+    face_normals.assign(model->face_stride, Vec4{});
+    normals.assign(model->capacity(), Vec4{});
+    update_normals();
+}
+
+ClothSnapshot ClothState::save() const {
+    const auto points = [&](const AlignedVector<Vec4>& array) {
+        return std::vector<Vec4>(array.begin(), array.begin() + model->point_count());
+    };
+    ClothSnapshot snapshot{.position = points(now.position),
+                           .start = points(now.start),
+                           .velocity = points(now.velocity),
+                           .carry = points(now.carry),
+                           .lambda = {},
+                           .substep_seconds = substep_seconds};
+    for (Vec4& p : snapshot.position) p.w = 0;
+    for (const auto& table : lambda) snapshot.lambda.insert(snapshot.lambda.end(), table.begin(), table.end());
+    return snapshot;
+}
+
+void ClothState::restore(const ClothSnapshot& snapshot) {
+    for (std::uint32_t p = 0; p < model->point_count(); ++p) {
+        const Vec4& x = snapshot.position[p];
+        now.position[p] = {x.x, x.y, x.z, model->start[p].w};
+    }
+    std::ranges::copy(snapshot.start, now.start.begin());
+    std::ranges::copy(snapshot.velocity, now.velocity.begin());
+    std::ranges::copy(snapshot.carry, now.carry.begin());
+    auto from = snapshot.lambda.begin();
+    for (auto& table : lambda) {
+        std::copy(from, from + static_cast<std::ptrdiff_t>(table.size()), table.begin());
+        from += static_cast<std::ptrdiff_t>(table.size());
+    }
+    substep_seconds = snapshot.substep_seconds;
+    last_good = now;
     update_normals();
 }
 
@@ -32,6 +97,48 @@ SurfaceView ClothState::surface() {
     const Adjacency& around = model->topology.particle_triangles;
     return {&now.position[0].x,    model->faces.data(), model->face_stride, &face_normals[0].x,
             around.offsets.data(), around.items.data(), &normals[0].x};
+}
+
+AirView ClothState::air(float density) {
+    const Adjacency& around = model->topology.particle_triangles;
+    const AirMaterial& fabric = model->fabric.air;
+    return {.position = &now.position[0].x,
+            .velocity = &now.velocity[0].x,
+            .faces = model->faces.data(),
+            .stride = model->face_stride,
+            .mass = model->face_mass.data(),
+            .wind = wind.empty() ? nullptr : &wind[0].x,
+            .impulse = &air_impulse[0].x,
+            .drag = 0.5f * density * fabric.drag,
+            .lift = 0.5f * density * fabric.lift,
+            .listing = fabric.lift_model == LiftModel::listing,
+            .offsets = around.offsets.data(),
+            .triangles = around.items.data()};
+}
+
+GatherView ClothState::gather_view(bool mean) const {
+    return {&corrections[0].x, gather->offsets.data(), gather->items.data(), mean};
+}
+
+CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan) {
+    const auto index = static_cast<std::uint32_t>(kind);
+    return {.blocks = &corrections[gather->first[index]].x,
+            .share = plan.method == Method::pbd ? nullptr : gather->share[index].data(),
+            .stiffness = plan.stiffness[index]};
+}
+
+void ClothState::prepare(const StepPlan& plan, std::size_t colliders) {
+    const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
+        return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
+    };
+    wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
+    air_impulse.resize(has(plan.substep, PassKind::air) ? model->face_stride : 0);
+    const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
+    if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
+    if (plan.projection == Projection::jacobi && !gather) {
+        gather = std::make_unique<const JacobiGather>(build_gather(*model));
+        corrections.resize(gather->blocks);
+    }
 }
 
 }  // namespace weft::cpu

@@ -4,6 +4,9 @@
 #include "base/aligned.h"
 #include "cpu/passes.h"
 #include "solver/cloth_model.h"
+#include "solver/jacobi.h"
+#include "solver/snapshot.h"
+#include "solver/step_plan.h"
 
 #include <array>
 #include <memory>
@@ -26,10 +29,23 @@ struct ClothState {
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
     AlignedVector<Vec4> face_normals, normals;
+    AlignedVector<Vec4> wind, air_impulse;  ///< per triangle; empty until a plan has them
+    std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
+    AlignedVector<Vec4> corrections;
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
+
+    /// The same particles; anchors may come or go.
+    void set_model(std::shared_ptr<const ClothModel> other);
+    ClothSnapshot save() const;
+    void restore(const ClothSnapshot& snapshot);
 
     RowView rows(ConstraintKind kind);
     SurfaceView surface();
+    AirView air(float density);
+    GatherView gather_view(bool mean) const;
+    CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
+    /// Makes room for what the plan needs beyond the particles.
+    void prepare(const StepPlan& plan, std::size_t colliders);
     void update_normals();
 };
 

@@ -24,12 +24,31 @@ class CpuBackend final : public Backend {
     }
     unsigned threads() const override { return team_.ranks(); }
 
-    ClothId add_cloth(std::shared_ptr<const ClothModel> model) override {
-        cloths_.push_back(std::make_unique<cpu::ClothState>(std::move(model)));
-        return {static_cast<std::uint32_t>(cloths_.size())};
+    ClothHandle add_cloth(std::shared_ptr<const ClothModel> model) override {
+        auto state = std::make_unique<cpu::ClothState>(std::move(model));
+        const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
+        const auto at = static_cast<std::uint32_t>(free - cloths_.begin());
+        if (free == cloths_.end()) {
+            cloths_.push_back(std::move(state));
+        } else {
+            *free = std::move(state);
+        }
+        return {at};
     }
 
-    void step(ClothId id, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
+    void remove_cloth(ClothHandle handle) override {
+        assert(handle.value < cloths_.size());
+        cloths_[handle.value] = nullptr;
+    }
+
+    void set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+        cloth(handle).set_model(std::move(model));
+    }
+
+    ClothSnapshot save(ClothHandle handle) const override { return cloth(handle).save(); }
+    void restore(ClothHandle handle, const ClothSnapshot& snapshot) override { cloth(handle).restore(snapshot); }
+
+    void step(ClothHandle id, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
               std::array<double, stage_count>& stage_ms) override {
         cpu::ClothState& state = cloth(id);
         frame.reports = executor_.run(state, plan, input, stage_ms);
@@ -43,7 +62,7 @@ class CpuBackend final : public Backend {
         read(id, frame);
     }
 
-    void read(ClothId id, ClothFrame& frame) const override {
+    void read(ClothHandle id, ClothFrame& frame) const override {
         const cpu::ClothState& state = cloth(id);
         const std::uint32_t count = state.model->particle_count;
         frame.model = state.model.get();
@@ -52,7 +71,7 @@ class CpuBackend final : public Backend {
         frame.normals = std::span(state.normals).first(count);
     }
 
-    Residual stretch_residual(ClothId id) const override {
+    Residual stretch_residual(ClothHandle id) const override {
         const cpu::ClothState& state = cloth(id);
         const ConstraintTable& table = state.model->table(ConstraintKind::stretch);
         const double h2 = state.substep_seconds * state.substep_seconds;
@@ -74,7 +93,7 @@ class CpuBackend final : public Backend {
         return residual;
     }
 
-    void hash(ClothId id, StateHash& hash) const override {
+    void hash(ClothHandle id, StateHash& hash) const override {
         const cpu::ClothState& state = cloth(id);
         for (std::uint32_t p = 0; p < state.model->particle_count; ++p) {
             for (const Vec4& v : {state.now.position[p], state.now.velocity[p], state.now.carry[p]}) {
@@ -85,9 +104,9 @@ class CpuBackend final : public Backend {
     }
 
   private:
-    cpu::ClothState& cloth(ClothId id) const {
-        assert(id.value >= 1 && id.value <= cloths_.size());
-        return *cloths_[id.value - 1];
+    cpu::ClothState& cloth(ClothHandle id) const {
+        assert(id.value < cloths_.size() && cloths_[id.value]);
+        return *cloths_[id.value];
     }
 
     const cpu::Passes& passes_;

@@ -44,7 +44,7 @@ bool finite4(const Vec4& v) {
 }
 
 std::uint32_t first_non_finite(const ClothState& cloth) {
-    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+    for (std::uint32_t p = 0; p < cloth.model->point_count(); ++p) {
         if (!finite4(cloth.now.position[p]) || !finite4(cloth.now.velocity[p])) return p;
     }
     return none;
@@ -65,6 +65,11 @@ std::string row_at(const ClothState& cloth, const Pass& pass, std::uint32_t part
 
 std::string name_input(const ClothState& cloth, const StepInput& input) {
     if (!finite(input.gravity)) return "gravity is not finite";
+    if (!std::isfinite(input.air_density)) return "the density of the air is not finite";
+    for (const WindNow& wind : input.winds) {
+        const bool sound = finite(wind.numbers[0]) && finite(wind.numbers[1]) && finite(wind.numbers[2]);
+        if (!sound) return "a wind is not finite";
+    }
     for (std::size_t i = 0; i < input.poses.size(); ++i) {
         const Pose& pose = input.poses[i];
         if (!finite(pose.position) || !finite(pose.rotation.x) || !finite(pose.rotation.y) ||
@@ -105,14 +110,13 @@ Executor::Frame Executor::make_frame(ClothState& cloth, const StepPlan& plan, co
 
 std::uint32_t Executor::run(ClothState& cloth, const StepPlan& plan, const StepInput& input,
                             std::array<double, stage_count>& stage_ms) {
-    const std::size_t sums = plan.iterations > 1 ? input.colliders.size() * cloth.model->capacity() : 0;
-    if (cloth.contact_sums.size() != sums) cloth.contact_sums.assign(sums, Vec4{});
-
+    cloth.prepare(plan, input.colliders.size());
     const Frame frame = make_frame(cloth, plan, input);
     std::array<double, stage_count> unused{};
     for (Rank& rank : ranks_) rank.reports = report_none;
     team_.run([&](unsigned rank) { run_rank(frame, rank, rank == 0 ? stage_ms : unused); });
-    cloth.substep_seconds = frame.h;
+    // Plain constraints have no compliance, so what they leave is C itself.
+    cloth.substep_seconds = plan.method == Method::pbd ? 0 : static_cast<double>(frame.h);
 
     std::uint32_t reports = report_none;
     for (const Rank& rank : ranks_) reports |= rank.reports;
@@ -123,17 +127,16 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
     std::array<double, stage_count> mine{};
     StageClock clock(mine);
     keep_last_good(frame, rank);
-    bool last_was_particle_wise = true;  // so was the copy above
+    PassKind last = PassKind::predict;  // like it, the copy above keeps to this rank's own particles
     const auto run_list = [&](const std::vector<Pass>& passes, std::uint32_t substep) {
         for (const Pass& pass : passes) {
-            // Each rank owns the same particles in every pass over particles: from one such pass to the next nothing
-            // crosses ranks.
-            if (!(last_was_particle_wise && pass.particle_wise())) team_.meet();
+            if (needs_barrier(last, pass.kind)) team_.meet();
             clock.enter(stage_of(pass));
             run_pass(frame, pass, substep, rank);
-            last_was_particle_wise = pass.particle_wise();
+            last = pass.kind;
         }
     };
+    run_list(frame.plan.frame_begin, 0);
     for (std::uint32_t substep = 0; substep < frame.plan.substeps; ++substep) run_list(frame.plan.substep, substep);
     run_list(frame.plan.frame_end, frame.plan.substeps - 1);
     team_.meet();
@@ -146,7 +149,7 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
 
 void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
     const ClothModel& model = *frame.cloth.model;
-    const Share mine = share_of(padded(model.particle_count), lane_padding, rank, team_.ranks());
+    const Share mine = share_of(padded(model.point_count()), lane_padding, rank, team_.ranks());
     const Range particles{mine.begin, mine.end};
     bool capped = false;
     switch (pass.kind) {
@@ -166,16 +169,34 @@ void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t subs
         case PassKind::contact:
             run_contacts(frame, pass, substep, rank);
             break;
-        case PassKind::faces: {
-            const Share share = share_of(model.face_stride, lane_padding, rank, team_.ranks());
-            passes_.faces(frame.cloth.surface(), {share.begin, share.end});
+        case PassKind::correct:
+            run_corrections(frame, pass, substep, rank);
             break;
-        }
+        case PassKind::average:
+            passes_.average(frame.particles, frame.cloth.gather_view(frame.plan.method == Method::pbd),
+                            {mine.begin, std::min(mine.end, model.point_count())});
+            break;
+        case PassKind::wind:
+        case PassKind::air:
+        case PassKind::faces:
+            run_faces(frame, pass, rank);
+            break;
+        case PassKind::push:
+            passes_.push(frame.particles, frame.cloth.air(frame.input.air_density),
+                         {mine.begin, std::min(mine.end, model.particle_count)});
+            break;
         case PassKind::normals:
             passes_.normals(frame.cloth.surface(), {mine.begin, std::min(mine.end, model.particle_count)});
             break;
     }
     if (capped) ranks_[rank].reports |= report_speed_capped;
+}
+
+// Lambda is read again by a later iteration, or by whoever asks for the residual after the last substep.
+LambdaUse Executor::lambda_use(const Frame& frame, const Pass& pass, std::uint32_t substep) {
+    if (!pass.first_iteration) return LambdaUse::accumulate;
+    const bool kept = frame.plan.iterations > 1 || substep + 1 == frame.plan.substeps;
+    return kept ? LambdaUse::store : LambdaUse::discard;
 }
 
 void Executor::run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
@@ -193,12 +214,39 @@ void Executor::run_rows(const Frame& frame, const Pass& pass, std::uint32_t subs
     const RowView rows = frame.cloth.rows(pass.constraint);
     if (pass.kind == PassKind::damp) {
         passes.damp[kind](frame.particles, rows, range, frame.viscous);
+    } else if (frame.plan.method == Method::pbd) {
+        passes.project_plain[kind](frame.particles, rows, range, frame.plan.stiffness[kind]);
+    } else {
+        passes.project[kind](frame.particles, rows, range, frame.h, lambda_use(frame, pass, substep));
+    }
+}
+
+void Executor::run_corrections(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
+    const ConstraintTable& table = frame.cloth.model->table(pass.constraint);
+    // Side by side no two rows write to the same place: colors and the overflow do not matter.
+    const Share share = share_of(table.stride, lane_padding, rank, team_.ranks());
+    passes_.correct[static_cast<std::uint32_t>(pass.constraint)](
+        frame.particles, frame.cloth.rows(pass.constraint), frame.cloth.correction(pass.constraint, frame.plan),
+        {share.begin, share.end}, frame.h, lambda_use(frame, pass, substep));
+}
+
+void Executor::run_faces(const Frame& frame, const Pass& pass, unsigned rank) {
+    const Share share = share_of(frame.cloth.model->face_stride, lane_padding, rank, team_.ranks());
+    const Range range{share.begin, share.end};
+    if (pass.kind == PassKind::faces) {
+        passes_.faces(frame.cloth.surface(), range);
         return;
     }
-    // Lambda is read again by a later iteration, or by whoever asks for the residual after the last substep.
-    const bool kept = frame.plan.iterations > 1 || substep + 1 == frame.plan.substeps;
-    const LambdaUse use = !pass.first_iteration ? LambdaUse::accumulate : kept ? LambdaUse::store : LambdaUse::discard;
-    passes.project[kind](frame.particles, rows, range, frame.h, use);
+    const AirView air = frame.cloth.air(frame.input.air_density);
+    if (pass.kind == PassKind::air) {
+        passes_.air(air, range, frame.h);
+        return;
+    }
+    bool first = true;
+    for (const WindNow& wind : frame.input.winds) {
+        passes_.wind[static_cast<std::uint32_t>(wind.kind)](air, wind, first, range);
+        first = false;
+    }
 }
 
 void Executor::run_holds(const Frame& frame, std::uint32_t substep, Share mine) {
@@ -214,7 +262,7 @@ void Executor::run_holds(const Frame& frame, std::uint32_t substep, Share mine) 
 void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
     const ClothModel& model = *frame.cloth.model;
     const ContactMaterial& cloth = model.fabric.contact;
-    const Share share = share_of(padded(model.particle_count), lane_padding, rank, team_.ranks());
+    const Share share = share_of(padded(model.point_count()), lane_padding, rank, team_.ranks());
     const std::size_t count = frame.input.colliders.size();
     for (std::size_t i = 0; i < count; ++i) {
         const Collider& collider = frame.input.colliders[i];
@@ -234,7 +282,7 @@ void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t 
 }
 
 void Executor::keep_last_good(const Frame& frame, unsigned rank) {
-    const Share share = share_of(padded(frame.cloth.model->particle_count), lane_padding, rank, team_.ranks());
+    const Share share = share_of(padded(frame.cloth.model->point_count()), lane_padding, rank, team_.ranks());
     const auto copy = [&](const AlignedVector<Vec4>& from, AlignedVector<Vec4>& to) {
         std::copy(from.begin() + share.begin, from.begin() + share.end, to.begin() + share.begin);
     };
@@ -245,7 +293,7 @@ void Executor::keep_last_good(const Frame& frame, unsigned rank) {
 }
 
 void Executor::check_finite(const Frame& frame, unsigned rank) {
-    const Share share = share_of(padded(frame.cloth.model->particle_count), lane_padding, rank, team_.ranks());
+    const Share share = share_of(padded(frame.cloth.model->point_count()), lane_padding, rank, team_.ranks());
     const std::size_t begin = std::size_t{4} * share.begin, end = std::size_t{4} * share.end;
     for (const float* array : {frame.particles.position, frame.particles.velocity, frame.particles.carry}) {
         if (!passes_.all_finite(array, begin, end)) ranks_[rank].reports |= report_non_finite;
@@ -257,6 +305,7 @@ std::string Executor::find_non_finite(ClothState& cloth, const StepPlan& plan, c
     WorkerTeam alone;
     Executor single(passes_, alone);
     const Frame frame = make_frame(cloth, plan, input);
+    for (const Pass& pass : plan.frame_begin) single.run_pass(frame, pass, 0, 0);
     for (std::uint32_t substep = 0; substep < plan.substeps; ++substep) {
         for (const Pass& pass : plan.substep) {
             single.run_pass(frame, pass, substep, 0);

@@ -32,10 +32,13 @@ class Executor {
     void run_rank(const Frame& frame, unsigned rank, std::array<double, stage_count>& stage_ms);
     void run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
+    void run_corrections(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
+    void run_faces(const Frame& frame, const Pass& pass, unsigned rank);
     void run_holds(const Frame& frame, std::uint32_t substep, Share mine);
     void run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void keep_last_good(const Frame& frame, unsigned rank);
     void check_finite(const Frame& frame, unsigned rank);
+    static LambdaUse lambda_use(const Frame& frame, const Pass& pass, std::uint32_t substep);
     Frame make_frame(ClothState& cloth, const StepPlan& plan, const StepInput& input) const;
 
     const Passes& passes_;

@@ -3,6 +3,7 @@
 
 #include "base/transform.h"
 #include "physics/constraint.h"
+#include "solver/air.h"
 #include "solver/collider.h"
 
 #include <array>
@@ -49,6 +50,35 @@ struct ContactView {
     bool first_iteration;
 };
 
+/// Where rows side by side write what they want of their particles.
+struct CorrectionView {
+    float* blocks;                     ///< of four, [slot · stride + row]
+    const float* share;                ///< [row]; nullptr for plain constraints, whose sum is averaged by particle
+    std::array<float, 2> stiffness{};  ///< as StepPlan has it; plain constraints only
+};
+
+/// How particles find their corrections again.
+struct GatherView {
+    const float* blocks;
+    const std::uint32_t* offsets;
+    const std::uint32_t* items;
+    bool mean;  ///< the sum divided by its terms; otherwise the sum
+};
+
+struct AirView {
+    const float* position;
+    const float* velocity;
+    const std::uint32_t* faces;  ///< [corner · stride + triangle]
+    std::uint32_t stride;
+    const float* mass;  ///< kg per triangle
+    float* wind;        ///< blocks of four per triangle, m/s; nullptr where the air stands still
+    float* impulse;     ///< blocks of four per triangle, kg·m/s: a corner's third
+    float drag, lift;   ///< ½ρC, kg/m³
+    bool listing;
+    const std::uint32_t* offsets;  ///< triangles at each particle
+    const std::uint32_t* triangles;
+};
+
 struct SurfaceView {
     const float* position;
     const std::uint32_t* faces;  ///< [corner · stride + triangle]
@@ -66,17 +96,31 @@ struct Passes {
     bool (*predict)(const ParticleView&, Range, Vec3 gravity, float max_speed, float h);
     bool (*velocities)(const ParticleView&, Range, float max_speed, float h);
     std::array<void (*)(const ParticleView&, const RowView&, Range, float h, LambdaUse), constraint_kind_count> project;
+    /// Plain position-based dynamics: as if compliance were 0, but only a part of it.
+    std::array<void (*)(const ParticleView&, const RowView&, Range, std::array<float, 2> stiffness),
+               constraint_kind_count>
+        project_plain;
+    std::array<void (*)(const ParticleView&, const RowView&, const CorrectionView&, Range, float h, LambdaUse),
+               constraint_kind_count>
+        correct;
+    void (*average)(const ParticleView&, const GatherView&, Range);
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
+    /// Adds to the wind of each triangle, or sets it. One entry per kind of wind.
+    std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;
+    void (*air)(const AirView&, Range, float h);
+    void (*push)(const ParticleView&, const AirView&, Range);
     void (*faces)(const SurfaceView&, Range);
     void (*normals)(const SurfaceView&, Range);
     /// Whether every float in [begin, end) is finite; both multiples of lane_padding.
     bool (*all_finite)(const float*, std::size_t begin, std::size_t end);
 };
 
-/// Sums over each particle's own list of triangles: one particle at a time on every instruction set.
+/// Sums over each particle's own list of triangles or rows: one particle at a time on every instruction set.
 void normals_pass(const SurfaceView&, Range);
+void push_pass(const ParticleView&, const AirView&, Range);
+void average_pass(const ParticleView&, const GatherView&, Range);
 
 /// One lane, on any machine.
 const Passes& scalar_passes();

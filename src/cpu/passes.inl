@@ -70,15 +70,20 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
+template <class Traits>
+WEFT_FN void load_points(const ParticleView& p, const RowView& rows, std::size_t r, vec3* x, real* w) {
+    for (int k = 0; k < Traits::arity; ++k) {
+        x[k] = gather_blocks(p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r, w[k]);
+    }
+}
+
 template <class Traits, LambdaUse use>
 inline void project_rows(const ParticleView& p, const RowView& rows, Range range, float h) {
     const Step step = make_step(h);
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         vec3 x[Traits::arity];
         real w[Traits::arity];
-        for (int k = 0; k < Traits::arity; ++k) {
-            x[k] = gather_blocks(p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r, w[k]);
-        }
+        load_points<Traits>(p, rows, r, x, w);
         real lambda = real(0.0f);
         if constexpr (use == LambdaUse::accumulate) lambda = load(rows.lambda + r);
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
@@ -95,6 +100,55 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
         case LambdaUse::discard: return project_rows<Traits, LambdaUse::discard>(p, rows, range, h);
         case LambdaUse::store: return project_rows<Traits, LambdaUse::store>(p, rows, range, h);
         case LambdaUse::accumulate: return project_rows<Traits, LambdaUse::accumulate>(p, rows, range, h);
+    }
+}
+
+// Without compliance, λ is what moved the particles, and its sign tells which way C was.
+WEFT_FN real plain_part(real lambda, std::array<float, 2> stiffness) {
+    return select(lambda < real(0.0f), real(stiffness[0]), real(stiffness[1]));
+}
+
+template <class Traits>
+inline void project_plain_pass(const ParticleView& p, const RowView& rows, Range range, std::array<float, 2> stiffness) {
+    const Step step = {real(1.0f), real(1.0f), real(0.0f)};
+    for (std::size_t r = range.begin; r < range.end; r += lane_count) {
+        vec3 x[Traits::arity], before[Traits::arity];
+        real w[Traits::arity], lambda = real(0.0f);
+        load_points<Traits>(p, rows, r, x, w);
+        for (int k = 0; k < Traits::moves; ++k) before[k] = x[k];
+        Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
+        const real part = plain_part(lambda, stiffness);
+        for (int k = 0; k < Traits::moves; ++k) {
+            scatter_blocks(before[k] + (x[k] - before[k]) * part, w[k], p.position,
+                           rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
+        }
+    }
+}
+
+template <class Traits>
+inline void correct_pass(const ParticleView& p, const RowView& rows, const CorrectionView& out, Range range, float h,
+                         LambdaUse use) {
+    Step step = make_step(h);
+    if (!out.share) step.inv_h2 = real(0.0f);
+    for (std::size_t r = range.begin; r < range.end; r += lane_count) {
+        vec3 x[Traits::arity], before[Traits::arity];
+        real w[Traits::arity];
+        load_points<Traits>(p, rows, r, x, w);
+        for (int k = 0; k < Traits::moves; ++k) before[k] = x[k];
+        const real lambda_before = use == LambdaUse::accumulate ? load(rows.lambda + r) : real(0.0f);
+        real lambda = lambda_before;
+        Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
+        real part;
+        if (out.share) {
+            part = load(out.share + r);
+            if (use != LambdaUse::discard) store(lambda_before + (lambda - lambda_before) * part, rows.lambda + r);
+        } else {
+            part = plain_part(lambda, out.stiffness);
+        }
+        for (int k = 0; k < Traits::moves; ++k) {
+            store_blocks((x[k] - before[k]) * part, real(0.0f),
+                         out.blocks + 4 * (static_cast<std::size_t>(k) * rows.stride + r));
+        }
     }
 }
 
@@ -161,6 +215,61 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
 
+#define WEFT_WIND(name, Name)                                    \
+    struct Name##Wind {                                          \
+        WEFT_FN static Flow flow(vec3 p, const WindNumbers& n) { \
+            return flow_##name(p, n);                            \
+        }                                                        \
+    };
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+
+// 0, 1, 2, … in the lanes.
+WEFT_FN real lane_numbers() {
+    float numbers[16];
+    for (int lane = 0; lane < 16; ++lane) numbers[lane] = static_cast<float>(lane);
+    return load(numbers);
+}
+
+template <class Wind>
+inline void wind_pass(const AirView& air, const WindNow& wind, bool first, Range range) {
+    const WindNumbers numbers = {spread(wind.numbers[0]), spread(wind.numbers[1]), spread(wind.numbers[2])};
+    const WindLife life = {real(wind.gust),           real(wind.gust_turns),     real(wind.gust_per_meter),
+                           real(wind.scattered ? 1.0f : 0.0f), real(wind.turbulence), real(wind.noise_per_meter),
+                           real(wind.noise_time),     spread(wind.noise_offset)};
+    const real lanes = lane_numbers();
+    for (std::size_t t = range.begin; t < range.end; t += lane_count) {
+        real unused;
+        const vec3 a = gather_blocks(air.position, air.faces + t, unused);
+        const vec3 b = gather_blocks(air.position, air.faces + std::size_t{air.stride} + t, unused);
+        const vec3 c = gather_blocks(air.position, air.faces + std::size_t{2} * air.stride + t, unused);
+        const vec3 middle = (a + b + c) * real(1.0f / 3.0f);
+        vec3 u = live_wind(Wind::flow(middle, numbers), real(static_cast<float>(t)) + lanes, life);
+        if (!first) u = u + load_blocks(air.wind + 4 * t, unused);
+        store_blocks(u, real(0.0f), air.wind + 4 * t);
+    }
+}
+
+inline void air_pass(const AirView& air, Range range, float h) {
+    const AirFabric fabric = {real(air.drag), real(air.lift), real(air.listing ? 1.0f : 0.0f)};
+    const real third = real(1.0f / 3.0f);
+    for (std::size_t t = range.begin; t < range.end; t += lane_count) {
+        const std::uint32_t* corner[3] = {air.faces + t, air.faces + std::size_t{air.stride} + t,
+                                          air.faces + std::size_t{2} * air.stride + t};
+        real unused;
+        const vec3 a = gather_blocks(air.position, corner[0], unused);
+        const vec3 b = gather_blocks(air.position, corner[1], unused);
+        const vec3 c = gather_blocks(air.position, corner[2], unused);
+        vec3 v = (gather_blocks(air.velocity, corner[0], unused) + gather_blocks(air.velocity, corner[1], unused) +
+                  gather_blocks(air.velocity, corner[2], unused)) *
+                 third;
+        if (air.wind) v = v - load_blocks(air.wind + 4 * t, unused);
+        const real mass = load(air.mass + t);
+        const vec3 dv = air_velocity_change(v, face_normal(a, b, c), mass, fabric, real(h));
+        store_blocks(dv * (mass * third), real(0.0f), air.impulse + 4 * t);
+    }
+}
+
 inline void faces_pass(const SurfaceView& s, Range range) {
     for (std::size_t t = range.begin; t < range.end; t += lane_count) {
         real unused;
@@ -189,6 +298,17 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
+#define WEFT_CONSTRAINT(name, Name, particles, moved) project_plain_pass<Name##Traits>,
+        .project_plain = {
+#include "physics/constraints.def"
+        },
+#undef WEFT_CONSTRAINT
+#define WEFT_CONSTRAINT(name, Name, particles, moved) correct_pass<Name##Traits>,
+        .correct = {
+#include "physics/constraints.def"
+        },
+#undef WEFT_CONSTRAINT
+        .average = average_pass,
 #define WEFT_CONSTRAINT(name, Name, particles, moved) damp_pass<Name##Traits>,
         .damp = {
 #include "physics/constraints.def"
@@ -199,6 +319,13 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+#define WEFT_WIND(name, Name) wind_pass<Name##Wind>,
+        .wind = {
+#include "physics/air/winds.def"
+        },
+#undef WEFT_WIND
+        .air = air_pass,
+        .push = push_pass,
         .faces = faces_pass,
         .normals = normals_pass,
         .all_finite = all_finite_pass,

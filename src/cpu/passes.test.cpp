@@ -138,6 +138,76 @@ TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
     }
 }
 
+TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            const bool nasty = seed % 2;
+            Fixture state = random_state(seed, nasty);
+            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
+            compare(state, [&](const Passes& passes, Fixture& f) {
+                for (const Batch& batch : f.table.batches) {
+                    if (!batch.serial)
+                        passes.project_plain[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()}, {0.3f, 0.8f});
+                }
+            });
+            // Corrections stand in for positions, so that the comparison sees them.
+            for (const bool plain : {false, true}) {
+                compare(state, [&](const Passes& passes, Fixture& f) {
+                    AlignedVector<Vec4> blocks(std::size_t{4} * f.table.stride);
+                    const AlignedVector<float> share(f.table.stride, 0.25f);
+                    const CorrectionView out{&blocks[0].x, plain ? nullptr : share.data(), {0.3f, 0.8f}};
+                    const LambdaUse use = plain ? LambdaUse::discard : LambdaUse::accumulate;
+                    passes.correct[kind](f.view(), f.rows(), out, {0, f.table.stride}, 1e-3f, use);
+                    for (std::uint32_t p = 0; p < particle_count && p < f.table.stride; ++p) {
+                        if (f.table.source[p] != none) f.start[p] = blocks[p];
+                    }
+                });
+            }
+        }
+    }
+}
+
+TEST_P(InstructionSet, blows_and_pushes_alike) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const Fixture state = random_state(seed, seed % 2);
+        compare(state, [&](const Passes& passes, Fixture& f) {
+            constexpr std::uint32_t faces = 128;
+            Numbers random(seed);
+            std::vector<std::uint32_t> corners(3 * faces);
+            for (std::uint32_t& c : corners) c = random.below(particle_count);
+            AlignedVector<float> mass(faces, 1e-4f);
+            AlignedVector<Vec4> wind(faces), impulse(faces);
+            const AirView air{.position = &f.position[0].x,
+                              .velocity = &f.velocity[0].x,
+                              .faces = corners.data(),
+                              .stride = faces,
+                              .mass = mass.data(),
+                              .wind = &wind[0].x,
+                              .impulse = &impulse[0].x,
+                              .drag = 0.7f,
+                              .lift = 0.4f,
+                              .listing = seed % 3 == 0,
+                              .offsets = nullptr,
+                              .triangles = nullptr};
+            for (std::uint32_t kind = 0; kind < wind_kind_count; ++kind) {
+                const WindNow now{.kind = static_cast<WindKind>(kind),
+                                  .numbers = {Vec3{3, 1, 0}, Vec3{0, 0, 1}, Vec3{-0.3f, 0.9f, 0}},
+                                  .gust = 0.3f,
+                                  .gust_turns = 5.3f,
+                                  .gust_per_meter = 0.25f,
+                                  .scattered = seed % 4 == 0,
+                                  .turbulence = 0.4f,
+                                  .noise_per_meter = 2,
+                                  .noise_time = 7.2f,
+                                  .noise_offset = {1, 2, 3}};
+                passes.wind[kind](air, now, kind == 0, {0, faces});
+            }
+            passes.air(air, {0, faces}, 1e-3f);
+            for (std::uint32_t t = 0; t < faces; ++t) f.start[t] = impulse[t], f.carry[t] = wind[t];
+        });
+    }
+}
+
 TEST_P(InstructionSet, padding_rows_touch_no_particle) {
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         RowList rows = make_rows(static_cast<ConstraintKind>(kind));

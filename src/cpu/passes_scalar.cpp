@@ -16,6 +16,41 @@ void normals_pass(const SurfaceView& s, Range range) {
     }
 }
 
+void push_pass(const ParticleView& p, const AirView& air, Range range) {
+    using namespace scalar;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+        const float w = p.position[4 * i + 3];
+        if (!(w > 0)) continue;
+        vec3 sum(0.0f);
+        for (std::uint32_t k = air.offsets[i]; k < air.offsets[i + 1]; ++k) {
+            const float* j = air.impulse + std::size_t{4} * air.triangles[k];
+            sum = sum + vec3(j[0], j[1], j[2]);
+        }
+        float *v = p.velocity + 4 * i, *x_dropped = p.carry + 4 * i, *start = p.start + 4 * i;
+        Motion m{vec3(v[0], v[1], v[2]), vec3(start[3], v[3], x_dropped[3]), vec3(0.0f)};
+        push_by_air(m, sum, w);
+        store_blocks(m.v, m.v_dropped.y, v);
+        start[3] = m.v_dropped.x;
+        x_dropped[3] = m.v_dropped.z;
+    }
+}
+
+void average_pass(const ParticleView& p, const GatherView& gather, Range range) {
+    using namespace scalar;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+        const std::uint32_t begin = gather.offsets[i], end = gather.offsets[i + 1];
+        if (begin == end) continue;
+        vec3 sum(0.0f);
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const float* c = gather.blocks + std::size_t{4} * gather.items[k];
+            sum = sum + vec3(c[0], c[1], c[2]);
+        }
+        if (gather.mean) sum = sum * (1.0f / static_cast<float>(end - begin));
+        float* x = p.position + 4 * i;
+        store_blocks(vec3(x[0], x[1], x[2]) + sum, x[3], x);
+    }
+}
+
 }  // namespace weft::cpu
 
 namespace weft::scalar {

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include "cpu/passes.h"
+#include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"

@@ -28,6 +28,16 @@ void read_head(ObjectReader& scene) {
                                                               number_text(head.weft));
 }
 
+void read_air(ObjectReader& o, AirDesc& air) {
+    o.values(air_keys, &air);
+    o.objects("wind", [&](ObjectReader& wind) {
+        WindDesc& desc = air.wind.emplace_back();
+        wind.values(wind_keys, &desc);
+        wind.object("gust", [&](ObjectReader& gust) { gust.values(gust_keys, &desc.gust); });
+        wind.object("turbulence", [&](ObjectReader& t) { t.values(turbulence_keys, &desc.turbulence); });
+    });
+}
+
 template <class Shape>
 void read_made(ObjectReader& mesh, std::string_view kind, std::span<const Parameter> keys, MeshDesc& result) {
     auto& shape = result.emplace<Shape>();
@@ -160,6 +170,7 @@ SceneDesc read_scene(const json& value, Problems& problems) {
     read_head(o);
     o.values(scene_keys, &scene);
     o.object("solver", [&](ObjectReader& solver) { solver.values(solver_keys, &scene.solver); });
+    o.object("air", [&](ObjectReader& air) { read_air(air, scene.air.emplace()); });
     o.objects("cloths", [&](ObjectReader& cloth) { read_cloth(cloth, scene.cloths.emplace_back()); });
     o.objects("colliders", [&](ObjectReader& collider) { read_collider(collider, scene.colliders.emplace_back()); });
     o.finish();

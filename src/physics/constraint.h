@@ -1,6 +1,7 @@
 // The kinds of constraint, and their rows as the builders make them.
 #pragma once
 
+#include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/rest_shape.h"
 #include "physics/stretch/stretch.data.h"

@@ -1,13 +1,21 @@
 // Every kernel, to be included inside a namespace that has the lanes. Kernels carry no include guards: each namespace
 // compiles its own copy of the same text. The *.data.h files come before, outside any namespace. The preprocessor
-// cannot make an #include from constraints.def, so a new constraint or shape is named here too.
+// cannot make an #include from constraints.def, so a new constraint, shape or
+// wind is named here too.
 
 // clang-format off: each file builds on those before it
 #include "physics/trigonometry.kernel.h"
 #include "physics/integrate/integrate.kernel.h"
 #include "physics/surface/normals.kernel.h"
+#include "physics/surface/tangents.kernel.h"
+
+#include "physics/air/noise.kernel.h"
+#include "physics/air/wind.kernel.h"
+#include "physics/air/directional.kernel.h"
+#include "physics/air/air.kernel.h"
 
 #include "physics/tether/tether.kernel.h"
+#include "physics/attachment/attachment.kernel.h"
 #include "physics/stretch/stretch.kernel.h"
 #include "physics/bend/bend.kernel.h"
 

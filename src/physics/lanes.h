@@ -82,6 +82,9 @@ WEFT_FN real sqrt(real x) {
 WEFT_FN real abs(real x) {
     return hn::Abs(x.v);
 }
+WEFT_FN real floor(real x) {
+    return hn::Floor(x.v);
+}
 // Spelled as comparisons: Highway leaves the order of equal and unordered operands to the machine.
 WEFT_FN real min(real a, real b) {
     return select(a < b, a, b);

@@ -6,6 +6,7 @@ inline constexpr int lane_count = 1;
 
 WEFT_FN real sqrt(real x) { return std::sqrt(x); }
 WEFT_FN real abs(real x) { return std::fabs(x); }
+WEFT_FN real floor(real x) { return std::floor(x); }
 // As the x86 instructions have it, so that every lane width agrees to the bit: the second operand unless the first wins.
 WEFT_FN real min(real a, real b) { return a < b ? a : b; }
 WEFT_FN real max(real a, real b) { return a > b ? a : b; }

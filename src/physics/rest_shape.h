@@ -7,11 +7,18 @@
 
 namespace weft {
 
+/// A particle that a spring ties to an anchor.
+struct Attachment {
+    std::uint32_t particle = 0;
+    float compliance = 0;  ///< m/N, > 0
+};
+
 struct RestShape {
     const Topology& topology;
     std::vector<float> area;              ///< per triangle, m²
     std::vector<Vec3> warp;               ///< per triangle, unit, in its plane: the direction in which u grows
     std::vector<std::uint8_t> held = {};  ///< per particle: 1 if its place is given from outside; empty: none is
+    std::vector<Attachment> attachments = {};  ///< the anchor of number i is particle `topology.particle_count` + i
 };
 
 /// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis laid into the triangle (the z axis

@@ -2,6 +2,7 @@
 // `weft::reference` in double, for tests and measurements.
 #pragma once
 
+#include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
 #include "physics/kernel_language.h"

@@ -160,6 +160,16 @@ void check_attachments(const SceneDesc& scene, Problems& problems) {
     }
 }
 
+void check_air(const AirDesc& air, const std::string& pointer, Problems& problems) {
+    check_values(air_keys, &air, pointer, problems);
+    for (std::size_t i = 0; i < air.wind.size(); ++i) {
+        const std::string place = at(at(pointer, "wind"), i);
+        check_values(wind_keys, &air.wind[i], place, problems);
+        check_values(gust_keys, &air.wind[i].gust, at(place, "gust"), problems);
+        check_values(turbulence_keys, &air.wind[i].turbulence, at(place, "turbulence"), problems);
+    }
+}
+
 void check_cloth(const ClothDesc& cloth, const std::string& pointer, Problems& problems) {
     check_values(cloth_keys, &cloth, pointer, problems);
     check_mesh(cloth.mesh, at(pointer, "mesh"), problems);
@@ -289,6 +299,7 @@ void check_values(std::span<const Parameter> table, const void* base, const std:
 void check_scene(const SceneDesc& scene, Problems& problems) {
     check_values(scene_keys, &scene, "", problems);
     check_values(solver_keys, &scene.solver, "/solver", problems);
+    if (scene.air) check_air(*scene.air, "/air", problems);
     if (scene.cloths.empty()) problems.add("/cloths", "must hold at least one cloth");
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) check_cloth(scene.cloths[i], at("/cloths", i), problems);
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)

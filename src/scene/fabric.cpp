@@ -46,6 +46,7 @@ constexpr FabricTable tables[] = {
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
     {contact_parameters, offsetof(Fabric, contact)},
+    {air_parameters, offsetof(Fabric, air)},
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 // A fabric: every material value of a cloth, and the fabrics known by name.
 #pragma once
 
+#include "physics/air/air.data.h"
+#include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
 #include "physics/parameter.h"
@@ -16,6 +18,8 @@ namespace weft {
 struct BodyMaterial {
     float density = 0.14f;  ///< kg/m²
     float damping = 0.1f;   ///< s
+    /// Of stretch, compression and bend, 0…1, for plain position-based dynamics, which knows no N/m.
+    float stiffness[3] = {1, 1, 1};
 };
 
 // One entry is one key.
@@ -25,6 +29,8 @@ inline constexpr Parameter body_parameters[] = {
      .min_excluded = true, .unit = "kg/m²", .what = "mass per area"},
     {.key = "damping", .count = 1, .offset = offsetof(BodyMaterial, damping), .min = 0, .max = 1e4, .unit = "s",
      .what = "retardation time of a Kelvin-Voigt solid: stress = stiffness · (strain + time · strain rate)"},
+    {.key = "stiffness", .count = 3, .offset = offsetof(BodyMaterial, stiffness), .min = 0, .max = 1,
+     .what = "part of a stretch, compression and bend that an iteration undoes, in place of N/m; `method` `pbd` only"},
 };
 // clang-format on
 
@@ -32,6 +38,7 @@ inline constexpr Parameter body_parameters[] = {
 struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
+    AirMaterial air;
 #define WEFT_CONSTRAINT(name, Name, particles, moved) Name##Material name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT

@@ -19,14 +19,50 @@
 
 namespace weft {
 
-enum class Method { xpbd };
-enum class Projection { gauss_seidel };
+enum class Method { xpbd, pbd };
+enum class Projection { gauss_seidel, jacobi };
 
 struct SolverDesc {
     std::uint32_t substeps = 20;   ///< per frame, 1…10000
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
     Method method = Method::xpbd;
     Projection projection = Projection::gauss_seidel;
+};
+
+enum class WindKind {
+#define WEFT_WIND(name, Name) name,
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+};
+
+/// `smooth`: neighbors feel a gust at nearly the same time. `scattered`: every triangle has a phase and a frequency of
+/// its own.
+enum class GustPhase { smooth, scattered };
+
+struct GustDesc {
+    float amplitude = 0;     ///< of the velocity
+    float frequency = 0.5f;  ///< 1/s
+    float scale = 4;         ///< m: distance over which gusts fall out of step
+    GustPhase phase = GustPhase::smooth;
+};
+
+struct TurbulenceDesc {
+    float strength = 0;  ///< of the velocity
+    float scale = 0.5f;  ///< m: size of an eddy, across the wind
+    float period = 1;    ///< s: how long an eddy lives; 0 keeps them still
+};
+
+struct WindDesc {
+    WindKind kind = WindKind::directional;
+    Vec3 velocity = {};  ///< m/s
+    GustDesc gust = {};
+    TurbulenceDesc turbulence = {};
+    std::uint32_t seed = 0;
+};
+
+struct AirDesc {
+    float density = 1.225f;           ///< kg/m³
+    std::vector<WindDesc> wind = {};  ///< the sum acts
 };
 
 struct GridDesc {
@@ -82,6 +118,7 @@ struct PinDesc {
     std::variant<VertexPins, BoxPins, ColorPins> select = {};
     std::string attach = {};             ///< name of the collider that the particles follow; empty: none
     std::vector<OffsetKey> motion = {};  ///< by ascending time; empty: they stay
+    float compliance = 0;                ///< m/N: of the spring between particle and place; 0: the particle is there
 };
 
 struct ClothDesc {
@@ -132,6 +169,7 @@ struct SceneDesc {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s²
     float frame_rate = 60;       ///< frames per second, > 0
     SolverDesc solver = {};
+    std::optional<AirDesc> air = {};  ///< without, a vacuum
     std::vector<ClothDesc> cloths = {};  ///< at least one
     std::vector<ColliderDesc> colliders = {};
 };

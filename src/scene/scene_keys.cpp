@@ -8,6 +8,8 @@ namespace {
 const SceneHead scene_head;
 const FabricHead fabric_head;
 const SceneDesc scene;
+const AirDesc air;
+const WindDesc wind;
 const ClothDesc cloth;
 const MeshFileDesc mesh_file;
 const GridDesc grid;
@@ -28,6 +30,10 @@ std::vector<SceneTable> all_tables() {
         {"", head_keys, &scene_head},
         {"", scene_keys, &scene},
         {"/solver", solver_keys, &scene.solver},
+        {"/air", air_keys, &air},
+        {"/air/wind/*", wind_keys, &wind},
+        {"/air/wind/*/gust", gust_keys, &wind.gust},
+        {"/air/wind/*/turbulence", turbulence_keys, &wind.turbulence},
         {"/cloths/*", cloth_keys, &cloth},
         {"/cloths/*/mesh", mesh_keys, nullptr},
         {"/cloths/*/mesh", mesh_file_keys, &mesh_file},

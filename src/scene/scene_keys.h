@@ -46,19 +46,60 @@ inline constexpr Parameter scene_keys[] = {
     {.key = "frame_rate", .offset = offsetof(SceneDesc, frame_rate), .min = 0, .max = 100000, .min_excluded = true,
      .unit = "frames/s", .what = "frames per second of simulated time"},
     {.key = "solver", .kind = ParameterKind::object, .what = "how motion is computed"},
+    {.key = "air", .kind = ParameterKind::object, .what = "the air around, still or windy; without it, a vacuum"},
     {.key = "cloths", .kind = ParameterKind::list, .what = "the cloths, at least one", .required = true},
     {.key = "colliders", .kind = ParameterKind::list, .what = "what the cloths fall on"},
 };
 
 inline constexpr Parameter solver_keys[] = {
     {.key = "method", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, method),
-     .what = "`xpbd`: stiffness does not depend on substeps and iterations", .choices = "xpbd"},
+     .what = "`xpbd`: stiffness in N/m, whatever the substeps; `pbd`: plain, stiffness as in the fabric's `stiffness`",
+     .choices = "xpbd|pbd"},
     {.key = "projection", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, projection),
-     .what = "order of projection: `gauss-seidel`, batch after batch", .choices = "gauss-seidel"},
+     .what = "`gauss-seidel`: rows one after another, color by color; `jacobi`: all at once, averaged, slower to converge",
+     .choices = "gauss-seidel|jacobi"},
     {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,
      .max = 10000, .what = "steps per frame; twice as many cost twice the time and leave about a quarter of the stretch"},
     {.key = "iterations", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, iterations), .min = 1,
      .max = 10000, .what = "passes over all constraints per substep; more substeps serve better than more iterations"},
+};
+
+inline constexpr Parameter air_keys[] = {
+    {.key = "density", .offset = offsetof(AirDesc, density), .min = 0, .max = 1e4, .unit = "kg/m³",
+     .what = "mass per volume; 1.225 is air at sea level and 15 °C"},
+    {.key = "wind", .kind = ParameterKind::list, .what = "what moves the air; the sum acts"},
+};
+
+inline constexpr Parameter wind_keys[] = {
+    {.key = "kind", .kind = ParameterKind::choice, .offset = offsetof(WindDesc, kind),
+     .what = "`directional`: the same everywhere", .choices = "directional"},
+    {.key = "velocity", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(WindDesc, velocity), .min = -1e4,
+     .max = 1e4, .unit = "m/s", .what = "where it blows to, and how fast"},
+    {.key = "gust", .kind = ParameterKind::object, .what = "how it swells and drops"},
+    {.key = "turbulence", .kind = ParameterKind::object, .what = "how it differs from place to place"},
+    {.key = "seed", .kind = ParameterKind::integer, .offset = offsetof(WindDesc, seed), .min = 0, .max = 16777215,
+     .what = "another number, other gusts and eddies of the same kind"},
+};
+
+inline constexpr Parameter gust_keys[] = {
+    {.key = "amplitude", .offset = offsetof(GustDesc, amplitude), .min = 0, .max = 100,
+     .what = "largest change, as a part of the velocity"},
+    {.key = "frequency", .offset = offsetof(GustDesc, frequency), .min = 0, .max = 1e3, .unit = "1/s",
+     .what = "how often it comes"},
+    {.key = "scale", .offset = offsetof(GustDesc, scale), .min = 0, .max = far_away, .min_excluded = true, .unit = "m",
+     .what = "distance across the wind over which gusts fall out of step"},
+    {.key = "phase", .kind = ParameterKind::choice, .offset = offsetof(GustDesc, phase),
+     .what = "`smooth`: neighbors feel it together; `scattered`: each triangle has its own phase and frequency",
+     .choices = "smooth|scattered"},
+};
+
+inline constexpr Parameter turbulence_keys[] = {
+    {.key = "strength", .offset = offsetof(TurbulenceDesc, strength), .min = 0, .max = 100,
+     .what = "largest change, as a part of the velocity"},
+    {.key = "scale", .offset = offsetof(TurbulenceDesc, scale), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "size of an eddy across the wind"},
+    {.key = "period", .offset = offsetof(TurbulenceDesc, period), .min = 0, .max = 1e6, .unit = "s",
+     .what = "how long an eddy lives; 0 keeps them still"},
 };
 
 inline constexpr Parameter cloth_keys[] = {
@@ -138,6 +179,8 @@ inline constexpr Parameter pin_motion_keys[] = {
     {.key = "attach", .kind = ParameterKind::text, .offset = offsetof(PinDesc, attach),
      .what = "name of a collider that they follow; without, they stay where they start"},
     {.key = "motion", .kind = ParameterKind::list, .what = "they move by these offsets; instead of `attach`"},
+    {.key = "compliance", .offset = offsetof(PinDesc, compliance), .min = 0, .max = 1e6, .unit = "m/N",
+     .what = "how far they give way per newton, as on an elastic cord; 0: not at all"},
 };
 
 inline constexpr Parameter offset_key_keys[] = {

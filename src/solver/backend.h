@@ -2,9 +2,11 @@
 #pragma once
 
 #include "base/hash.h"
+#include "solver/air.h"
 #include "solver/collider.h"
 #include "solver/frame.h"
 #include "solver/holds.h"
+#include "solver/snapshot.h"
 
 #include <memory>
 #include <span>
@@ -12,14 +14,16 @@
 
 namespace weft {
 
-struct ClothId {
-    std::uint32_t value = 0;  ///< 0 is none
-    friend bool operator==(ClothId, ClothId) = default;
+/// One cloth as a backend knows it. Kept by the world, which gives out ids.
+struct ClothHandle {
+    std::uint32_t value = 0;
 };
 
 struct StepInput {
     double dt = 0;  ///< s, > 0: length of the frame
     Vec3 gravity;   ///< m/s²
+    float air_density = 0;             ///< kg/m³
+    std::span<const WindNow> winds = {};  ///< in the middle of the frame
     std::span<const Collider> colliders;
     /// Where each collider is at the start of the frame and after every substep: [substep · colliders + collider],
     /// substeps + 1 times.
@@ -43,16 +47,22 @@ class Backend {
     virtual std::string device() const = 0;     ///< for a human
     virtual unsigned threads() const = 0;
 
-    virtual ClothId add_cloth(std::shared_ptr<const ClothModel> model) = 0;
+    virtual ClothHandle add_cloth(std::shared_ptr<const ClothModel> model) = 0;
+    virtual void remove_cloth(ClothHandle cloth) = 0;
+    /// Another model for the same particles: other rows, other masses, other pins. What moved goes on moving.
+    virtual void set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
     /// Advances one cloth by a frame.
-    virtual void step(ClothId cloth, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
+    virtual void step(ClothHandle cloth, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
                       std::array<double, stage_count>& stage_ms) = 0;
     /// The cloth as it is.
-    virtual void read(ClothId cloth, ClothFrame& frame) const = 0;
+    virtual void read(ClothHandle cloth, ClothFrame& frame) const = 0;
     /// Of the last substep.
-    virtual Residual stretch_residual(ClothId cloth) const = 0;
+    virtual Residual stretch_residual(ClothHandle cloth) const = 0;
+    virtual ClothSnapshot save(ClothHandle cloth) const = 0;
+    /// `snapshot` has the sizes that save() gives for this cloth.
+    virtual void restore(ClothHandle cloth, const ClothSnapshot& snapshot) = 0;
     /// Adds everything that decides what the cloth does next.
-    virtual void hash(ClothId cloth, StateHash& hash) const = 0;
+    virtual void hash(ClothHandle cloth, StateHash& hash) const = 0;
 };
 
 }  // namespace weft

@@ -40,15 +40,32 @@ Result<Done> place_particles(ClothModel& model, const std::vector<std::uint32_t>
     return Done{};
 }
 
-void lay_out_faces(ClothModel& model) {
+Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& attachments) {
+    for (std::uint32_t i = 0; i < attachments.size(); ++i) {
+        const auto& [particle, compliance] = attachments[i];
+        const std::string where = "attachment " + std::to_string(i);
+        if (particle >= model.particle_count)
+            return Error{where, "there are only " + std::to_string(model.particle_count) + " particles, got number " +
+                                    std::to_string(particle)};
+        if (!(compliance > 0 && std::isfinite(compliance)))
+            return Error{where, "compliance must be > 0 m/N, got " + std::to_string(compliance)};
+        const Vec4& at = model.start[particle];
+        model.start[model.particle_count + i] = {at.x, at.y, at.z, 0};
+    }
+    return Done{};
+}
+
+void lay_out_faces(ClothModel& model, const RestShape& rest) {
     const auto count = static_cast<std::uint32_t>(model.topology.triangles.size());
     model.face_stride = padded(count);
     model.faces.resize(std::size_t{3} * model.face_stride);
+    model.face_mass.assign(model.face_stride, 0.0f);
+    for (std::uint32_t t = 0; t < count; ++t) model.face_mass[t] = model.fabric.body.density * rest.area[t];
     for (std::uint32_t t = 0; t < model.face_stride; ++t) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             model.faces[std::size_t{corner} * model.face_stride + t] =
                 t < count ? model.topology.triangles[t][corner]
-                          : first_dummy(model.particle_count) + corner * lane_padding + t % lane_padding;
+                          : first_dummy(model.point_count()) + corner * lane_padding + t % lane_padding;
         }
     }
 }
@@ -98,20 +115,23 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     model->topology = std::move(topology);
     model->fabric = desc.fabric;
     model->particle_count = model->topology.particle_count;
+    model->anchor_count = static_cast<std::uint32_t>(desc.attachments.size());
 
     RestShape rest = make_rest_shape(desc.mesh, model->topology);
     model->mass = lump_masses(rest, density);
     if (auto placed = place_particles(*model, desc.pinned_particles); !placed) return placed.errors();
+    if (auto placed = place_anchors(*model, desc.attachments); !placed) return placed.errors();
+    rest.attachments = std::move(desc.attachments);
     rest.held.assign(model->particle_count, 0);
     for (std::uint32_t p : desc.pinned_particles) rest.held[p] = 1;
 
 #define WEFT_CONSTRAINT(name, Name, particles, moved)                      \
     model->constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
-        pack_rows(ConstraintKind::name, build_##name(rest, model->fabric.name), model->particle_count, desc.coloring);
+        pack_rows(ConstraintKind::name, build_##name(rest, model->fabric.name), model->point_count(), desc.coloring);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    lay_out_faces(*model);
+    lay_out_faces(*model, rest);
     measure_edges(*model, rest);
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();

@@ -22,6 +22,8 @@ struct ClothModelDesc {
     std::optional<TriangleMesh> drawn = {};  ///< what is drawn in its place and follows it; without, `mesh`
     Fabric fabric = {};
     std::vector<std::uint32_t> pinned_particles = {};  ///< of `topology`; in any order, repetitions allowed
+    /// Springs to anchors, which start where their particles do.
+    std::vector<Attachment> attachments = {};
     ColoringOptions coloring = {};
 };
 
@@ -35,24 +37,29 @@ struct ClothModel {
     Fabric fabric;
 
     std::uint32_t particle_count = 0;
+    std::uint32_t anchor_count = 0;  ///< points without weight behind the particles, which attachments hold on to
     std::uint32_t pinned_count = 0;
-    AlignedVector<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to particle_capacity()
+    AlignedVector<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to capacity()
     std::vector<float> mass;    ///< kg, per particle, pinned ones included
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
     AlignedVector<std::uint32_t> faces;
     std::uint32_t face_stride = 0;
+    AlignedVector<float> face_mass;  ///< kg, per triangle, padded with zeros
 
     std::vector<std::uint8_t> edge_is_axial;  ///< per edge: 1 if it runs along warp or weft (within 10°)
     float mean_edge = 0;                      ///< m
 
-    std::uint32_t capacity() const { return particle_capacity(particle_count); }
+    /// Particles and anchors: what a step moves.
+    std::uint32_t point_count() const { return particle_count + anchor_count; }
+    std::uint32_t capacity() const { return particle_capacity(point_count()); }
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
 };
 
 /// `topology` is that of `desc.mesh`. Fails where values are such that no simulation could follow: density ≤ 0 or not
-/// finite, total mass that float cannot hold, a pinned particle out of range, a drawn mesh that is not sound.
+/// finite, total mass that float cannot hold, a pinned or attached particle out of range, a compliance that is not > 0 and
+/// finite, a drawn mesh that is not sound.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
 }  // namespace weft

@@ -62,7 +62,7 @@ Vec3 offset_at(std::span<const OffsetKey> keys, double time) {
 }
 
 Collider make_collider(const ColliderDesc& desc) {
-    Collider collider{.name = desc.name, .friction = desc.friction, .pose = {}, .motion = desc.motion};
+    Collider collider{.name = desc.name, .friction = desc.friction, .pose = {}, .motion = desc.motion, .next_pose = {}};
     std::visit([&](const auto& shape) { set_shape(collider, shape); }, desc.shape);
     collider.pose = {rotation_from_degrees(desc.transform.rotation_degrees), desc.transform.position};
     collider.pose = pose_at(collider, 0);

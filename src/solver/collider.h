@@ -5,6 +5,7 @@
 #include "scene/scene_desc.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct Collider {
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
     Pose pose;                                  ///< where it is now
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays
+    std::optional<Pose> next_pose = {};         ///< where it goes in the next frame, if it is moved from outside
 };
 
 Collider make_collider(const ColliderDesc& desc);

@@ -4,6 +4,8 @@
 #include "solver/cloth_model.h"
 #include "solver/step_plan.h"
 
+#include <weft/ids.h>
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -25,6 +27,7 @@ std::vector<std::string_view> report_names(std::uint32_t reports);
 
 /// One cloth. Arrays hold one element per particle, in the order of the model's topology.
 struct ClothFrame {
+    ClothId id;
     const ClothModel* model = nullptr;
     std::span<const Vec4> positions;   ///< m; w is the inverse mass, 1/kg
     std::span<const Vec4> velocities;  ///< m/s; w is internal

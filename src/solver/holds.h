@@ -4,6 +4,8 @@
 #include "mesh/triangle_mesh.h"
 #include "scene/scene_desc.h"
 
+#include <weft/ids.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -11,12 +13,12 @@ namespace weft {
 
 /// What carries held particles along.
 struct Mover {
-    std::uint32_t collider = none;        ///< index into the world's colliders, or `none`:
+    ColliderId collider = {};             ///< of the world, or none:
     std::vector<OffsetKey> offsets = {};  ///< then these, by ascending time
 };
 
 struct HeldParticle {
-    std::uint32_t particle = 0;
+    std::uint32_t particle = 0;  ///< or an anchor, which is numbered behind the particles
     std::uint32_t mover = 0;
     Vec3 local = {};  ///< m, in the mover's frame: at rest for offsets, the collider's own for a collider
 };

@@ -1,6 +1,7 @@
 #include "solver/step_plan.h"
 
 #include <array>
+#include <cmath>
 
 namespace weft {
 namespace {
@@ -14,28 +15,73 @@ void for_each_batch(const ClothModel& model, F&& f) {
 
 }  // namespace
 
-StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
-    StepPlan plan{.substeps = settings.substeps, .iterations = settings.iterations, .substep = {}, .frame_end = {}};
+namespace {
 
+// Undoing the part s of an error in k iterations takes the part 1 - (1 - s)^(1/k) in each (Müller et al. 2007,
+// "Position Based Dynamics", section 3.3).
+float per_iteration(float stiffness, std::uint32_t iterations) {
+    return static_cast<float>(1 - std::pow(1 - static_cast<double>(stiffness), 1.0 / iterations));
+}
+
+template <class Material>
+std::array<float, 2> plain_stiffness(const Fabric& fabric, std::uint32_t iterations) {
+    const auto of = [&](int which) { return which < 0 ? 1.0f : per_iteration(fabric.body.stiffness[which], iterations); };
+    return {of(Material::plain[0]), of(Material::plain[1])};
+}
+
+void plan_iteration(const ClothModel& model, const StepSettings& settings, bool first, std::vector<Pass>& passes) {
+    if (settings.projection == Projection::jacobi) {
+        bool any = false;
+        for (const ConstraintTable& table : model.constraints) {
+            if (table.rows == 0) continue;
+            passes.push_back({.kind = PassKind::correct, .constraint = table.kind, .first_iteration = first});
+            any = true;
+        }
+        if (any) passes.push_back({.kind = PassKind::average});
+    } else {
+        for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
+            passes.push_back({PassKind::project, kind, batch, first});
+        });
+    }
+    // Last, so that an iteration ends with nothing inside a collider.
+    if (settings.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
+}
+
+// Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
+void plan_damping(const ClothModel& model, std::vector<Pass>& passes) {
+    for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
+        const ConstraintInfo& info = constraint_info(kind);
+        if (info.moved == info.arity) passes.push_back({.kind = PassKind::damp, .constraint = kind, .batch = batch});
+    });
+}
+
+}  // namespace
+
+StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
+    StepPlan plan{.substeps = settings.substeps,
+                  .iterations = settings.iterations,
+                  .method = settings.method,
+                  .projection = settings.projection,
+                  .frame_begin = {},
+                  .substep = {},
+                  .frame_end = {}};
+#define WEFT_CONSTRAINT(name, Name, particles, moved)                    \
+    plan.stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = \
+        plain_stiffness<Name##Material>(model.fabric, settings.iterations);
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+
+    // The wind changes little within a frame; what the cloth makes of it does.
+    if (settings.air && settings.wind) plan.frame_begin.push_back({.kind = PassKind::wind});
+
+    if (settings.air) plan.substep.push_back({.kind = PassKind::air});
+    if (settings.air) plan.substep.push_back({.kind = PassKind::push});
     plan.substep.push_back({.kind = PassKind::predict});
     if (settings.holds) plan.substep.push_back({.kind = PassKind::hold});
-    for (std::uint32_t i = 0; i < settings.iterations; ++i) {
-        for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
-            plan.substep.push_back({PassKind::project, kind, batch, i == 0});
-        });
-        // Last, so that an iteration ends with nothing inside a collider.
-        if (settings.contacts) plan.substep.push_back({.kind = PassKind::contact, .first_iteration = i == 0});
-    }
+    for (std::uint32_t i = 0; i < settings.iterations; ++i) plan_iteration(model, settings, i == 0, plan.substep);
     plan.substep.push_back({.kind = PassKind::velocities});
 
-    // Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
-    if (model.fabric.body.damping > 0) {
-        for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
-            const ConstraintInfo& info = constraint_info(kind);
-            if (info.moved < info.arity) return;
-            plan.frame_end.push_back({.kind = PassKind::damp, .constraint = kind, .batch = batch});
-        });
-    }
+    if (model.fabric.body.damping > 0) plan_damping(model, plan.frame_end);
     if (settings.surface) {
         plan.frame_end.push_back({.kind = PassKind::faces});
         plan.frame_end.push_back({.kind = PassKind::normals});
@@ -43,10 +89,26 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
     return plan;
 }
 
+bool needs_barrier(PassKind before, PassKind after) {
+    // Work on one particle from what is already its own. Each thread owns the same particles in all of them.
+    const auto own = [](PassKind kind) {
+        return kind == PassKind::predict || kind == PassKind::hold || kind == PassKind::contact ||
+               kind == PassKind::velocities;
+    };
+    // A sum over triangles or rows of others, into particles of one's own.
+    const auto gathers = [](PassKind kind) { return kind == PassKind::push || kind == PassKind::average; };
+    if (own(after)) return !own(before) && !gathers(before);
+    // Rows side by side read positions and write to places of their own; so do triangles.
+    if (after == PassKind::correct) return before != PassKind::correct;
+    return !(before == PassKind::wind && after == PassKind::air);
+}
+
 namespace {
 
 enum Stage : std::uint32_t {
-    stage_predict = constraint_kind_count,
+    stage_air = constraint_kind_count,
+    stage_predict,
+    stage_average,
     stage_contact,
     stage_velocities,
     stage_damp,
@@ -59,11 +121,18 @@ static_assert(stage_end == stage_count);
 
 std::uint32_t stage_of(const Pass& pass) {
     switch (pass.kind) {
+        case PassKind::wind:
+        case PassKind::air:
+        case PassKind::push:
+            return stage_air;
         case PassKind::predict:
         case PassKind::hold:
             return stage_predict;
         case PassKind::project:
+        case PassKind::correct:
             return static_cast<std::uint32_t>(pass.constraint);
+        case PassKind::average:
+            return stage_average;
         case PassKind::contact:
             return stage_contact;
         case PassKind::velocities:
@@ -78,13 +147,14 @@ std::uint32_t stage_of(const Pass& pass) {
 }
 
 std::string_view stage_name(std::uint32_t stage) {
-    constexpr std::array<std::string_view, 5> others = {"predict", "contact", "velocities", "damp", "surface"};
+    constexpr std::array<std::string_view, stage_count - constraint_kind_count> others = {
+        "air", "predict", "average", "contact", "velocities", "damp", "surface"};
     return stage < constraint_kind_count ? constraint_info(static_cast<ConstraintKind>(stage)).name
                                          : others[stage - constraint_kind_count];
 }
 
 std::string describe(const StepPlan& plan) {
-    std::string text = std::to_string(plan.substeps) + " times:\n";
+    std::string text;
     const auto list = [&](const std::vector<Pass>& passes) {
         for (std::size_t i = 0, end = 0; i < passes.size(); i = end) {
             const std::uint32_t stage = stage_of(passes[i]);
@@ -94,6 +164,9 @@ std::string describe(const StepPlan& plan) {
             text += '\n';
         }
     };
+    if (!plan.frame_begin.empty()) text += "first:\n";
+    list(plan.frame_begin);
+    text += std::to_string(plan.substeps) + " times:\n";
     list(plan.substep);
     text += "once a frame:\n";
     list(plan.frame_end);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "physics/constraint.h"
+#include "scene/scene_desc.h"
 #include "solver/cloth_model.h"
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,9 +13,14 @@
 namespace weft {
 
 enum class PassKind : std::uint8_t {
+    wind,        ///< per triangle: the wind that it meets in this frame
+    air,         ///< per triangle: what drag and lift do to it
+    push,        ///< per particle: the sum of that over its triangles, on its velocity
     predict,     ///< per particle: gravity, then where it would go
     hold,        ///< per held particle: to where it is carried
-    project,     ///< one batch of one constraint
+    project,     ///< one batch of one constraint, row after row
+    correct,     ///< all rows of one constraint, side by side: what they want of their particles
+    average,     ///< per particle: the mean of that
     contact,     ///< per particle: every collider
     velocities,  ///< per particle: the velocity that the projection left
     damp,        ///< one batch of one constraint, on velocities
@@ -23,40 +30,46 @@ enum class PassKind : std::uint8_t {
 
 struct Pass {
     PassKind kind;
-    ConstraintKind constraint{};  ///< of project and damp
+    ConstraintKind constraint{};  ///< of project, correct and damp
     std::uint32_t batch = 0;      ///< of project and damp
-    bool first_iteration = true;  ///< of project and contact: no lambda, no friction from before
-
-    /// Whether it works particle by particle, touching no neighbor. Two such passes in a row need no barrier.
-    bool particle_wise() const {
-        return kind == PassKind::predict || kind == PassKind::hold || kind == PassKind::contact ||
-               kind == PassKind::velocities;
-    }
+    bool first_iteration = true;  ///< of project, correct and contact: no lambda, no friction from before
 };
+
+/// Whether a pass may begin on one thread while another is still in the one before.
+bool needs_barrier(PassKind before, PassKind after);
 
 struct StepSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     bool contacts = true;  ///< there is something to touch
     bool holds = false;    ///< some particles are carried along
+    bool air = false;      ///< there is air
+    bool wind = false;     ///< and it moves
     bool surface = true;   ///< compute normals
+    Method method = Method::xpbd;
+    Projection projection = Projection::gauss_seidel;
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
-/// `substep` runs `substeps` times, then `frame_end` once.
+/// `frame_begin` once, `substep` `substeps` times, then `frame_end` once.
 struct StepPlan {
     std::uint32_t substeps = 0;
     std::uint32_t iterations = 0;
+    Method method = Method::xpbd;
+    Projection projection = Projection::gauss_seidel;
+    /// What an iteration undoes of a constraint, 0…1, while C > 0 and while C < 0. Method pbd only.
+    std::array<std::array<float, 2>, constraint_kind_count> stiffness{};
+    std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
 };
 
 StepPlan plan_step(const ClothModel& model, const StepSettings& settings);
 
-/// What timings are kept by: predict, one per constraint, contact, velocities, damp, surface.
+/// What timings are kept by: one per constraint, then air, predict, average, contact, velocities, damp, surface.
 std::uint32_t stage_of(const Pass& pass);
 std::string_view stage_name(std::uint32_t stage);
-inline constexpr std::uint32_t stage_count = constraint_kind_count + 5;
+inline constexpr std::uint32_t stage_count = constraint_kind_count + 7;
 
 /// One line per run of alike passes.
 std::string describe(const StepPlan& plan);

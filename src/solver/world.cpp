@@ -9,31 +9,96 @@
 
 namespace weft {
 
-World::World(std::unique_ptr<Backend> backend, const WorldSettings& settings)
-    : backend_(std::move(backend)), settings_(settings) {
+World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
+    : backend_(std::move(backend)), settings_(std::move(settings)) {
     assert(settings_.substeps > 0 && settings_.iterations > 0);
 }
 
 ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
-    const ClothId id = backend_->add_cloth(model);
-    cloths_.push_back({id, std::move(model), std::move(holds), {}, {}});
-    frame_.cloths.emplace_back();
-    backend_->read(id, frame_.cloths.back());
+    const ClothHandle handle = backend_->add_cloth(model);
+    const ClothId id = cloths_.add({handle, std::move(model), std::move(holds), {}, {}});
+    read_cloths();
     replan();
     return id;
 }
 
-void World::add(Collider collider) {
-    colliders_.push_back(std::move(collider));
+void World::remove(ClothId id) {
+    assert(contains(id));
+    backend_->remove_cloth(cloths_[cloths_.find(id)].handle);
+    cloths_.remove(id);
+    read_cloths();
+}
+
+void World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
+    assert(contains(id));
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    assert(model->particle_count == cloth.model->particle_count);
+    backend_->set_model(cloth.handle, model);
+    cloth.model = std::move(model);
+    cloth.holds = std::move(holds);
+    read_cloths();
     replan();
 }
 
+ColliderId World::add(Collider collider) {
+    const ColliderId id = colliders_.add(std::move(collider));
+    replan();
+    return id;
+}
+
+void World::remove(ColliderId id) {
+    assert(contains(id));
+    const Pose last = collider(id).pose;
+    for (Cloth& cloth : cloths_) {
+        for (std::uint32_t m = 0; m < cloth.holds.movers.size(); ++m) {
+            if (cloth.holds.movers[m].collider != id) continue;
+            cloth.holds.movers[m] = {};
+            for (HeldParticle& held : cloth.holds.particles) {
+                if (held.mover == m) held.local = to_world(last, held.local);
+            }
+        }
+    }
+    colliders_.remove(id);
+    replan();
+}
+
+void World::set_friction(ColliderId id, std::array<float, 2> friction) {
+    assert(contains(id));
+    colliders_[colliders_.find(id)].friction = friction;
+}
+
+void World::move(ColliderId id, const Pose& to) {
+    assert(contains(id));
+    Collider& collider = colliders_[colliders_.find(id)];
+    collider.motion.clear();
+    collider.next_pose = to;
+}
+
+void World::configure(WorldSettings settings) {
+    assert(settings.substeps > 0 && settings.iterations > 0);
+    settings_ = std::move(settings);
+    replan();
+}
+
+void World::read_cloths() {
+    frame_.cloths.resize(cloths_.size());
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        frame_.cloths[i].id = cloths_.id_of(i);
+        backend_->read(cloths_[i].handle, frame_.cloths[i]);
+    }
+}
+
 void World::replan() {
+    const bool air = settings_.air && settings_.air->density > 0;
     StepSettings settings{.substeps = settings_.substeps,
                           .iterations = settings_.iterations,
                           .contacts = !colliders_.empty(),
                           .holds = false,
-                          .surface = settings_.surface};
+                          .air = air,
+                          .wind = air && !settings_.air->wind.empty(),
+                          .surface = settings_.surface,
+                          .method = settings_.method,
+                          .projection = settings_.projection};
     const std::size_t places = std::size_t{settings_.substeps} + 1;
     for (Cloth& cloth : cloths_) {
         settings.holds = !cloth.holds.particles.empty();
@@ -41,6 +106,7 @@ void World::replan() {
         cloth.mover_poses.resize(places * cloth.holds.movers.size());
     }
     poses_.resize(places * colliders_.size());
+    winds_.resize(air ? settings_.air->wind.size() : 0);
 }
 
 // Where every collider is at the start of the frame and after each substep.
@@ -48,18 +114,24 @@ void World::place_colliders(double dt) {
     const std::size_t count = colliders_.size();
     for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
         const double time = frame_.time + dt * substep / settings_.substeps;
-        for (std::size_t i = 0; i < count; ++i) poses_[substep * count + i] = pose_at(colliders_[i], time);
+        const float fraction = static_cast<float>(substep) / static_cast<float>(settings_.substeps);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Collider& collider = colliders_[i];
+            poses_[substep * count + i] = collider.next_pose ? between(collider.pose, *collider.next_pose, fraction)
+                                                             : pose_at(collider, time);
+        }
     }
 }
 
 void World::place_movers(Cloth& cloth, double dt) const {
     const std::size_t count = cloth.holds.movers.size();
-    for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
-        const double time = frame_.time + dt * substep / settings_.substeps;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Mover& mover = cloth.holds.movers[i];
-            cloth.mover_poses[substep * count + i] = mover.collider != none
-                                                         ? poses_[substep * colliders_.size() + mover.collider]
+    for (std::size_t i = 0; i < count; ++i) {
+        const Mover& mover = cloth.holds.movers[i];
+        const std::size_t collider = colliders_.find(mover.collider);
+        for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
+            const double time = frame_.time + dt * substep / settings_.substeps;
+            cloth.mover_poses[substep * count + i] = collider < colliders_.size()
+                                                         ? poses_[substep * colliders_.size() + collider]
                                                          : Pose{{}, offset_at(mover.offsets, time)};
         }
     }
@@ -69,6 +141,9 @@ const Frame& World::step(double dt) {
     assert(dt > 0 && std::isfinite(dt));
     place_colliders(dt);
     for (Cloth& cloth : cloths_) place_movers(cloth, dt);
+    for (std::size_t i = 0; i < winds_.size(); ++i) {
+        winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
+    }
     const auto begin = std::chrono::steady_clock::now();
     frame_.index += 1;
     frame_.time += dt;
@@ -78,19 +153,59 @@ const Frame& World::step(double dt) {
         const Cloth& cloth = cloths_[i];
         const StepInput input{.dt = dt,
                               .gravity = settings_.gravity,
-                              .colliders = colliders_,
+                              .air_density = settings_.air ? settings_.air->density : 0,
+                              .winds = winds_,
+                              .colliders = colliders_.values(),
                               .poses = poses_,
                               .held = cloth.holds.particles,
                               .mover_poses = cloth.mover_poses,
                               .movers = static_cast<std::uint32_t>(cloth.holds.movers.size())};
-        backend_->step(cloth.id, cloth.plan, input, frame_.cloths[i], frame_.stage_ms);
+        backend_->step(cloth.handle, cloth.plan, input, frame_.cloths[i], frame_.stage_ms);
         frame_.reports |= frame_.cloths[i].reports;
     }
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];
+        colliders_[i].next_pose.reset();
     }
     frame_.step_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return frame_;
+}
+
+Snapshot World::save() const {
+    Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
+    for (const Cloth& cloth : cloths_) snapshot.cloths.push_back(backend_->save(cloth.handle));
+    for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
+    return snapshot;
+}
+
+Result<Done> World::restore(const Snapshot& snapshot) {
+    const auto differs = [](const char* what, std::size_t got, std::size_t expected) {
+        return Error{"state", "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
+    };
+    if (snapshot.cloths.size() != cloths_.size()) return differs("cloths", snapshot.cloths.size(), cloths_.size());
+    if (snapshot.colliders.size() != colliders_.size())
+        return differs("colliders", snapshot.colliders.size(), colliders_.size());
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        const ClothSnapshot& saved = snapshot.cloths[i];
+        const std::size_t points = cloths_[i].model->point_count();
+        std::size_t rows = 0;
+        for (const ConstraintTable& table : cloths_[i].model->constraints) rows += table.stride;
+        const std::string of_cloth = "particles in cloth '" + cloths_[i].model->name + "'";
+        for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.carry}) {
+            if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);
+        }
+        if (saved.lambda.size() != rows) return differs("rows of constraints", saved.lambda.size(), rows);
+    }
+    for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->restore(cloths_[i].handle, snapshot.cloths[i]);
+    for (std::size_t i = 0; i < colliders_.size(); ++i) {
+        colliders_[i].pose = snapshot.colliders[i];
+        colliders_[i].next_pose.reset();
+    }
+    frame_.index = snapshot.frame;
+    frame_.time = snapshot.time;
+    frame_.reports = report_none;
+    read_cloths();
+    return Done{};
 }
 
 Residual World::stretch_residual() const {
@@ -98,7 +213,7 @@ Residual World::stretch_residual() const {
     double rows = 0;
     for (const Cloth& cloth : cloths_) {
         const double count = cloth.model->table(ConstraintKind::stretch).rows;
-        const Residual one = backend_->stretch_residual(cloth.id);
+        const Residual one = backend_->stretch_residual(cloth.handle);
         all.mean += one.mean * count;
         all.max = std::max(all.max, one.max);
         rows += count;
@@ -109,7 +224,7 @@ Residual World::stretch_residual() const {
 
 std::string World::state_hash() const {
     StateHash hash;
-    for (const Cloth& cloth : cloths_) backend_->hash(cloth.id, hash);
+    for (const Cloth& cloth : cloths_) backend_->hash(cloth.handle, hash);
     return hash.text();
 }
 

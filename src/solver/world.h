@@ -1,9 +1,11 @@
 // Cloths, colliders and time.
 #pragma once
 
+#include "base/id_list.h"
 #include "solver/backend.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace weft {
@@ -12,26 +14,52 @@ struct WorldSettings {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s²
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
-    bool surface = true;  ///< keep normals up to date
+    Method method = Method::xpbd;
+    Projection projection = Projection::gauss_seidel;
+    std::optional<AirDesc> air = {};  ///< without, a vacuum
+    bool surface = true;              ///< keep normals up to date
 };
 
+/// Everything may be added, removed and changed between two steps. Ids must name what is there.
 class World {
   public:
-    World(std::unique_ptr<Backend> backend, const WorldSettings& settings);
+    World(std::unique_ptr<Backend> backend, WorldSettings settings);
 
     /// `holds` names colliders that are there already.
     ClothId add(std::shared_ptr<const ClothModel> model, Holds holds = {});
-    void add(Collider collider);
+    void remove(ClothId id);
+    /// Another model for the same particles, with other material or other pins; what moves goes on moving.
+    void set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
+    bool contains(ClothId id) const { return cloths_.contains(id); }
+    const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
 
-    /// Advances by dt seconds, > 0 and finite. The frame stays valid until the next step.
+    ColliderId add(Collider collider);
+    /// Pins that it carried stay where they are.
+    void remove(ColliderId id);
+    bool contains(ColliderId id) const { return colliders_.contains(id); }
+    const Collider& collider(ColliderId id) const { return colliders_[colliders_.find(id)]; }
+    void set_friction(ColliderId id, std::array<float, 2> friction);
+    /// During the next frame the collider moves there from where it is, and takes cloth along; then it stays. Ends its
+    /// motion by keys.
+    void move(ColliderId id, const Pose& to);
+
+    void configure(WorldSettings settings);
+
+    /// Advances by dt seconds, > 0 and finite. The frame stays valid until the next step or change.
     const Frame& step(double dt);
     /// The last frame; before the first step, the start.
     const Frame& frame() const { return frame_; }
 
     const WorldSettings& settings() const { return settings_; }
-    const std::vector<Collider>& colliders() const { return colliders_; }
+    const std::vector<Collider>& colliders() const { return colliders_.values(); }
+    ColliderId collider_id(std::size_t place) const { return colliders_.id_of(place); }
     const StepPlan& plan(std::size_t cloth) const { return cloths_[cloth].plan; }
     const Backend& backend() const { return *backend_; }
+
+    Snapshot save() const;
+    /// The same bits come after it as came after save(), as long as cloths, colliders and settings are what they were.
+    /// Fails, and changes nothing, if the cloths or colliders are not as many or as large.
+    Result<Done> restore(const Snapshot& snapshot);
 
     /// Over all cloths.
     Residual stretch_residual() const;
@@ -40,7 +68,7 @@ class World {
 
   private:
     struct Cloth {
-        ClothId id;
+        ClothHandle handle;
         std::shared_ptr<const ClothModel> model;
         Holds holds;
         StepPlan plan;
@@ -48,14 +76,16 @@ class World {
     };
 
     void replan();
+    void read_cloths();
     void place_colliders(double dt);
     void place_movers(Cloth& cloth, double dt) const;
 
     std::unique_ptr<Backend> backend_;
     WorldSettings settings_;
-    std::vector<Cloth> cloths_;
-    std::vector<Collider> colliders_;
+    IdList<Cloth, struct ClothTag> cloths_;
+    IdList<Collider, struct ColliderTag> colliders_;
     std::vector<Pose> poses_;
+    std::vector<WindNow> winds_;
     Frame frame_;
 };
 

@@ -86,11 +86,27 @@ void place_mesh(TriangleMesh& mesh, const MeshDesc& from, const TransformDesc& t
     for (Vec3& n : mesh.normals) n = turn * n;
 }
 
+namespace {
+
+// The pin that holds a particle, and what carries it.
+struct Hold {
+    std::uint32_t mover = none;
+    float compliance = 0;
+};
+
+ColliderId find_collider(const World& world, const std::string& name) {
+    const auto& all = world.colliders();
+    const auto found = std::ranges::find(all, name, &Collider::name);
+    return found == all.end() ? ColliderId{} : world.collider_id(static_cast<std::size_t>(found - all.begin()));
+}
+
+}  // namespace
+
 Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, const Topology& topology,
-                           std::span<const Collider> colliders, const std::string& pointer) {
+                           const World& world, const std::string& pointer) {
     Pinned pinned;
     Errors errors;
-    std::map<std::uint32_t, std::uint32_t> mover_of;  // particle -> mover, or `none`
+    std::map<std::uint32_t, Hold> hold_of;  // by particle
     for (std::size_t i = 0; i < cloth.pins.size(); ++i) {
         const PinDesc& pin = cloth.pins[i];
         PinSelector selector(mesh, topology);
@@ -98,25 +114,32 @@ Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, con
         const Errors found = std::visit([&](const auto& pins) { return selector.select(pins, where); }, pin.select);
         errors.insert(errors.end(), found.begin(), found.end());
 
-        std::uint32_t mover = none;
+        Hold hold{.mover = none, .compliance = pin.compliance};
         if (!pin.attach.empty() || !pin.motion.empty()) {
-            mover = static_cast<std::uint32_t>(pinned.holds.movers.size());
-            const auto collider = std::ranges::find(colliders, pin.attach, &Collider::name);
-            const bool attached = !pin.attach.empty() && collider != colliders.end();
+            hold.mover = static_cast<std::uint32_t>(pinned.holds.movers.size());
             pinned.holds.movers.push_back(
-                {attached ? static_cast<std::uint32_t>(collider - colliders.begin()) : none, pin.motion});
+                {pin.attach.empty() ? ColliderId{} : find_collider(world, pin.attach), pin.motion});
         }
-        for (std::uint32_t particle : selector.chosen) mover_of[particle] = mover;
+        for (std::uint32_t particle : selector.chosen) hold_of[particle] = hold;
     }
     if (!errors.empty()) return errors;
-    for (const auto& [particle, mover] : mover_of) {
-        pinned.particles.push_back(particle);
-        if (mover == none) continue;
-        const std::uint32_t collider = pinned.holds.movers[mover].collider;
+
+    std::vector<HeldParticle> anchors;
+    for (const auto& [particle, hold] : hold_of) {
+        std::uint32_t point = particle;
+        if (hold.compliance > 0) {
+            point = topology.particle_count + static_cast<std::uint32_t>(pinned.attachments.size());
+            pinned.attachments.push_back({particle, hold.compliance});
+        } else {
+            pinned.particles.push_back(particle);
+        }
+        if (hold.mover == none) continue;
+        const ColliderId carrier = pinned.holds.movers[hold.mover].collider;
         const Vec3 at_rest = topology.rest_positions[particle];
-        const Vec3 local = collider == none ? at_rest : to_local(colliders[collider].pose, at_rest);
-        pinned.holds.particles.push_back({particle, mover, local});
+        const Vec3 local = carrier ? to_local(world.collider(carrier).pose, at_rest) : at_rest;
+        (point == particle ? pinned.holds.particles : anchors).push_back({point, hold.mover, local});
     }
+    pinned.holds.particles.insert(pinned.holds.particles.end(), anchors.begin(), anchors.end());
     return pinned;
 }
 

@@ -3,8 +3,7 @@
 
 #include "mesh/topology.h"
 #include "scene/scene_desc.h"
-#include "solver/collider.h"
-#include "solver/holds.h"
+#include "solver/world.h"
 
 #include <weft/result.h>
 
@@ -18,13 +17,14 @@ void place_mesh(TriangleMesh& mesh, const MeshDesc& from, const TransformDesc& t
 
 struct Pinned {
     std::vector<std::uint32_t> particles;  ///< all of them, those of `holds` included
-    Holds holds;
+    std::vector<Attachment> attachments;   ///< pins that give way; the particles keep their weight
+    Holds holds;                           ///< of pinned particles and anchors
 };
 
 /// The particles that a cloth's pins name in the simulated mesh; where several pins name one, the last wins. Every pin
 /// must name at least one; `where` of an error is a JSON pointer that starts with `pointer`, the place of the cloth.
 /// Names of colliders have been checked.
 Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, const Topology& topology,
-                           std::span<const Collider> colliders, const std::string& pointer);
+                           const World& world, const std::string& pointer);
 
 }  // namespace weft

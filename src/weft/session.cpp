@@ -82,7 +82,7 @@ struct MadeCloth {
 };
 
 Result<MadeCloth> make_cloth(const ClothDesc& cloth, const std::string& place, const std::string& pointer,
-                             std::span<const Collider> colliders, const std::filesystem::path& scene_folder,
+                             const World& world, const std::filesystem::path& scene_folder,
                              std::vector<std::string>& notes) {
     auto loaded = load_placed(cloth.mesh, cloth.transform, scene_folder);
     if (!loaded) return within(place + pointer + "/mesh/file", loaded.errors());
@@ -97,7 +97,7 @@ Result<MadeCloth> make_cloth(const ClothDesc& cloth, const std::string& place, c
     if (!topology) return within(place + pointer + "/mesh: " + loaded->from, topology.errors());
     note_report(cloth.name, topology->report, notes);
 
-    auto pins = select_pins(cloth, loaded->mesh, *topology, colliders, pointer);
+    auto pins = select_pins(cloth, loaded->mesh, *topology, world, pointer);
     if (!pins) {
         Errors errors;
         for (const Error& error : pins.errors()) errors.push_back({place + error.where, error.what});
@@ -107,7 +107,8 @@ Result<MadeCloth> make_cloth(const ClothDesc& cloth, const std::string& place, c
                                     .mesh = std::move(loaded->mesh),
                                     .drawn = std::move(drawn),
                                     .fabric = fabric_of(cloth),
-                                    .pinned_particles = std::move(pins->particles)},
+                                    .pinned_particles = std::move(pins->particles),
+                                    .attachments = std::move(pins->attachments)},
                                    std::move(*topology));
     if (!model) return within(place + pointer, model.errors());
     note_binding(**model, notes);
@@ -158,13 +159,16 @@ Result<Session> Session::open(const std::filesystem::path& scene_file, const Opt
     session.world_ =
         std::make_unique<World>(std::move(*backend), WorldSettings{.gravity = session.scene_.gravity,
                                                                    .substeps = session.scene_.solver.substeps,
-                                                                   .iterations = session.scene_.solver.iterations});
+                                                                   .iterations = session.scene_.solver.iterations,
+                                                                   .method = session.scene_.solver.method,
+                                                                   .projection = session.scene_.solver.projection,
+                                                                   .air = session.scene_.air});
 
     for (const ColliderDesc& collider : session.scene_.colliders) session.world_->add(make_collider(collider));
     Errors errors;
     for (std::size_t i = 0; i < session.scene_.cloths.size(); ++i) {
         auto cloth = make_cloth(session.scene_.cloths[i], scene_file.string() + ": ", "/cloths/" + std::to_string(i),
-                                session.world_->colliders(), scene_file.parent_path(), session.notes_);
+                                *session.world_, scene_file.parent_path(), session.notes_);
         if (cloth) {
             session.world_->add(std::move(cloth->model), std::move(cloth->holds));
         } else {

@@ -106,7 +106,7 @@ TEST(Pins, ride_on_a_turning_collider) {
                              .transform = {.position = {0, 0.5f, 0}},
                              .motion = {{0, {0, 0.5f, 0}, {}}, {1, {0, 0.5f, 0}, {0, 90, 0}}}}));
     const auto model = make_sheet(hung);
-    world.add(model, hold_all(*model, {.collider = 0}, world.colliders()[0].pose));
+    world.add(model, hold_all(*model, {.collider = world.collider_id(0)}, world.colliders()[0].pose));
     run(world, 1);
     // The upper hem lay along x through the collider's center; a quarter turn lays it along -z.
     const ClothFrame& cloth = world.frame().cloths[0];

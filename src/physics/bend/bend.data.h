@@ -18,6 +18,8 @@ namespace weft {
 enum class HingeChoice { all, source };
 
 struct BendMaterial {
+    static constexpr int plain[2] = {2, 2};
+
     float bend[3] = {11.9e-6f, 9.1e-6f, 6.6e-6f};                 ///< N·m: warp, bias, weft
     float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
     HingeChoice hinges = HingeChoice::all;

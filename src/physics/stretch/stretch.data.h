@@ -14,6 +14,8 @@
 namespace weft {
 
 struct StretchMaterial {
+    static constexpr int plain[2] = {0, 1};
+
     float stretch[2] = {4000, 4000};      ///< N/m, warp and weft
     float compression[2] = {4000, 4000};  ///< N/m, warp and weft
     float shear = 40;                     ///< N/m

@@ -14,6 +14,8 @@
 namespace weft {
 
 struct TetherMaterial {
+    static constexpr int plain[2] = {-1, -1};
+
     bool enabled = false;
     float slack = 0.02f;  ///< of the rest distance
 };

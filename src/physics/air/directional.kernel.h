@@ -1,0 +1,12 @@
+// The same wind everywhere.
+//   n0       velocity [m/s]
+//   n1, n2   unit vectors across it
+
+WEFT_FN Flow flow_directional(vec3 p, WindNumbers n)
+{
+    Flow flow;
+    flow.velocity = n.n0;
+    flow.q1 = dot(p, n.n1);
+    flow.q2 = dot(p, n.n2);
+    return flow;
+}

@@ -1,0 +1,22 @@
+// Attachment: C = |x - anchor|. Only the particle moves; the anchor is carried by what it belongs to.
+
+struct AttachmentRow { WEFT_ROW_attachment(WEFT_ROW_MEMBER) };
+
+WEFT_FN void project_attachment(inout_(vec3) x, inout_(vec3) anchor, real w, real anchor_w,
+                                inout_(real) lambda, AttachmentRow row, Step step)
+{
+    vec3 d = x - anchor;
+    real len2 = dot(d, d);
+    real len = sqrt(len2);
+    real alpha = row.compliance * step.inv_h2;
+    mask able = w > real(0) && len2 > real(1e-20);
+    real s = select(able, -(len + alpha * lambda) / ((w + alpha) * len), real(0));   // delta lambda / |d|
+    lambda = lambda + s * len;
+    x = x + d * (w * s);
+}
+
+// A row that does not move all of its particles is not damped: the step's own damping is what it has.
+WEFT_FN void damp_attachment(inout_(vec3) v, inout_(vec3) anchor_v, vec3 x, vec3 anchor, real w, real anchor_w,
+                             AttachmentRow row, real viscous)
+{
+}

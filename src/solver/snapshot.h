@@ -1,0 +1,36 @@
+// Everything that moves, at one moment: what brings a world back to it, to the bit.
+#pragma once
+
+#include "base/transform.h"
+
+#include <weft/result.h>
+#include <weft/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft {
+
+/// The fourth floats of start, velocity and carry hold what rounding dropped from the velocity, as in a step. The
+/// inverse mass is the model's affair and is not here.
+struct ClothSnapshot {
+    std::vector<Vec4> position, start, velocity, carry;  ///< per particle and anchor
+    std::vector<float> lambda;                           ///< of all tables, one after another
+    double substep_seconds = 0;                          ///< of the last frame
+};
+
+struct Snapshot {
+    std::uint64_t frame = 0;
+    double time = 0;
+    std::vector<ClothSnapshot> cloths;
+    std::vector<Pose> colliders;
+};
+
+std::vector<std::byte> to_bytes(const Snapshot& snapshot);
+
+/// Fails on what to_bytes did not write, or what was changed or cut off since.
+Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace weft
