@@ -22,7 +22,7 @@ std::shared_ptr<const ClothModel> sheet(std::uint32_t side) {
         Fabric fabric;
         fabric.tether.enabled = true;
         model = *build_cloth_model(
-            {.name = "sheet", .mesh = std::move(mesh), .fabric = fabric, .pinned_particles = {0, side - 1}},
+            {.name = "sheet", .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}},
             std::move(*topology));
     }
     return model;

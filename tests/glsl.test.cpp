@@ -108,11 +108,11 @@ TEST_F(Glsl, every_collider_shape_compiles) {
 }
 
 TEST_F(Glsl, every_wind_compiles) {
-#define WEFT_WIND(name, Name)                                                                                     \
-    EXPECT_EQ(compile("    WindNumbers w = WindNumbers(x[0].xyz, x[1].xyz, x[2].xyz);\n"                          \
-                      "    WindLife life = WindLife(n[0], n[1], n[2], n[3], n[4], n[5], n[6], x[3].xyz);\n"       \
-                      "    x[i].xyz = live_wind(flow_" #name "(x[i].xyz, w), float(i), life);\n"),                 \
-              "")                                                                                                 \
+#define WEFT_WIND(name, Name)                                                                               \
+    EXPECT_EQ(compile("    WindNumbers w = WindNumbers(x[0].xyz, x[1].xyz, x[2].xyz);\n"                    \
+                      "    WindLife life = WindLife(n[0], n[1], n[2], n[3], n[4], n[5], n[6], x[3].xyz);\n" \
+                      "    x[i].xyz = live_wind(flow_" #name "(x[i].xyz, w), float(i), life);\n"),          \
+              "")                                                                                           \
         << #name;
 #include "physics/air/winds.def"
 #undef WEFT_WIND

@@ -1,10 +1,14 @@
-// Runs a scene, frame by frame.
+// Simulates cloth: a scene from a file, or a world that a program fills and changes as it runs.
 #pragma once
 
+#include <weft/export.h>
+#include <weft/ids.h>
 #include <weft/result.h>
+#include <weft/scene.h>
 #include <weft/vector.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -16,18 +20,28 @@
 
 namespace weft {
 
-/// Overrides of what the scene file says, and where to compute.
+/// Overrides of what the scene says, and where to compute.
 struct Options {
     std::string backend = "auto";  ///< "auto" or "cpu"
     /// Threads in all, the calling one included, 1…256. The result has the same bits whatever the number.
     unsigned threads = 1;
     std::optional<std::uint32_t> substeps = {};    ///< per frame, 1…10000
     std::optional<std::uint32_t> iterations = {};  ///< per substep, 1…10000
+    std::string method = {};                       ///< "xpbd" or "pbd"; empty: as the scene says
+    std::string projection = {};                   ///< "gauss-seidel" or "jacobi"; empty: as the scene says
     /// Instruction set: "avx512", "avx2", "sse4", "neon", "scalar"; empty takes the widest. Same bits for all of them.
     std::string isa = {};
 };
 
-/// The drawn surface of one cloth. Views into the simulation, valid until its next step.
+/// What holds for everything in a world.
+struct WorldDesc {
+    Vec3 gravity{0, -9.81f, 0};  ///< m/s²
+    SolverDesc solver = {};
+    std::optional<AirDesc> air = {};  ///< without, a vacuum
+    float frame_rate = 60;            ///< 1/s: of step()
+};
+
+/// The drawn surface of one cloth. Views into the simulation, valid until its next step or change.
 struct Surface {
     std::string_view name;
     std::span<const Vec3> positions;  ///< m, per vertex of the mesh as it was loaded
@@ -36,28 +50,86 @@ struct Surface {
     std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 
-class Simulation {
+/// How well the last step went.
+struct Measures {
+    double mean_stretch = 0, max_stretch = 0;    ///< |ℓ/ℓ₀ − 1| of the edges along warp and weft
+    double mean_shear = 0, max_shear = 0;        ///< the same of the others
+    double mean_residual = 0, max_residual = 0;  ///< of that, what the solver left unsolved
+    double kinetic_energy = 0;                   ///< J
+    double max_speed = 0;                        ///< m/s
+    double max_penetration = 0;                  ///< m beyond a collider's surface
+};
+
+/// Functions that take an id fail, or give nothing, if it names nothing in this simulation (any more). A simulation is
+/// used from one thread at a time.
+class WEFT_API Simulation {
   public:
     /// Reads a scene file and everything it names. Fails with every problem found, each with its place.
     static Result<Simulation> load(const std::filesystem::path& scene, const Options& options = {});
+    /// An empty world, to be filled.
+    static Result<Simulation> create(const WorldDesc& world = {}, const Options& options = {});
 
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Advances by one frame of the scene's frame rate.
+    /// Advances by one frame of the world's frame rate.
     void step();
+    /// Advances by one frame of dt seconds; fails, and does nothing, unless 0 < dt ≤ 1000.
+    Result<Done> step(double dt);
 
     std::uint64_t frame() const;  ///< 0 is the start
     double time() const;          ///< s
 
-    std::size_t cloth_count() const;
-    Surface cloth(std::size_t index) const;
+    // What is in the world. Everything may come and go between two steps.
 
+    /// Pins may attach to colliders that are there, by name. The mesh is copied. Names of cloths differ, and so do
+    /// those of colliders; what has none gets one.
+    Result<ClothId> add(const ClothDesc& cloth);
+    Result<ColliderId> add(const ColliderDesc& collider);
+    Result<Done> remove(ClothId id);
+    /// Pins that it carried stay where they are.
+    Result<Done> remove(ColliderId id);
+
+    std::vector<ClothId> cloths() const;  ///< in the order in which they were added
+    std::vector<ColliderId> colliders() const;
+    ClothId find_cloth(std::string_view name) const;  ///< no id if there is none of that name
+    ColliderId find_collider(std::string_view name) const;
+
+    // Change while it runs. Cloth goes on moving as it was.
+
+    Result<Done> set_fabric(ClothId id, const FabricDesc& fabric);
+    /// In place of those that it has. Particles are held where they are now; a box selects those that are in it now.
+    Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
+    /// During the next frame the collider moves there from where it is, and takes cloth along; then it stays there.
+    /// Rotation as in a scene, in degrees. Ends a motion by keys.
+    Result<Done> move(ColliderId id, Vec3 position, Vec3 rotation_degrees = {});
+    Result<Done> set_friction(ColliderId id, float static_friction, float kinetic_friction);
+    Result<Done> set_gravity(Vec3 gravity);
+    Result<Done> set_solver(const SolverDesc& solver);
+    Result<Done> set_air(const std::optional<AirDesc>& air);
+
+    // What came of it.
+
+    Surface surface(ClothId id) const;
+    std::size_t cloth_count() const;
+    Surface cloth(std::size_t index) const;  ///< in the order of cloths(); index < cloth_count()
+    /// Of the surface's vertices, for normal maps: unit tangents along which u grows, and in w the handedness, 1 or −1:
+    /// bitangent = w · normal × tangent. Empty if the mesh has no UVs. Valid as long as the surface, and until the next
+    /// call.
+    std::span<const Vec4> tangents(ClothId id) const;
+
+    Measures measure() const;
     /// What the last step held back or caught, by name ("SpeedCapped", "NonFinite"); empty if all went well.
     std::vector<std::string_view> reports() const;
     /// 16 hexadecimal digits that differ as soon as one bit of the state does.
     std::string state_hash() const;
+
+    /// All that moves: what restore_state() brings back. The steps after it then have the same bits as they had, as
+    /// long as the same cloths and colliders are there and settings are what they were.
+    std::vector<std::byte> save_state() const;
+    /// Fails, and changes nothing, on what save_state() did not give, or gave in another world.
+    Result<Done> restore_state(std::span<const std::byte> state);
 
     /// Writes the surfaces as they are now: `.obj`, `.ply` or `.glb`.
     Result<Done> save(const std::filesystem::path& file) const;

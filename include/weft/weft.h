@@ -1,13 +1,18 @@
 // Everything of weft. Standard library types only.
 #pragma once
 
+#include <weft/bounds.h>
+#include <weft/export.h>
+#include <weft/ids.h>
+#include <weft/mesh.h>
 #include <weft/result.h>
+#include <weft/scene.h>
 #include <weft/simulation.h>
 #include <weft/vector.h>
 
 namespace weft {
 
 /// "major.minor.patch"
-const char* version();
+WEFT_API const char* version();
 
 }  // namespace weft

@@ -1,7 +1,7 @@
 // A bounding volume hierarchy over boxes: which of many boxes overlap a given one, or each other.
 #pragma once
 
-#include "base/bounds.h"
+#include <weft/bounds.h>
 
 #include <algorithm>
 #include <array>

@@ -25,7 +25,9 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     const auto keep = [&](AlignedVector<Vec4>& array, const auto& fresh) {
         AlignedVector<Vec4> next(other->capacity());
         for (std::uint32_t p = 0; p < other->capacity(); ++p) next[p] = fresh(p);
-        for (std::uint32_t p = 0; p < other->particle_count; ++p) {
+        // Of another set of anchors nobody can tell which is which; they start where the model has them.
+        const bool same_anchors = other->anchor_count == model->anchor_count;
+        for (std::uint32_t p = 0; p < (same_anchors ? other->point_count() : other->particle_count); ++p) {
             const float w = next[p].w;
             next[p] = array[p];
             if (&array == &now.position) next[p].w = w;

@@ -29,7 +29,7 @@ struct ClothState {
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
     AlignedVector<Vec4> face_normals, normals;
-    AlignedVector<Vec4> wind, air_impulse;  ///< per triangle; empty until a plan has them
+    AlignedVector<Vec4> wind, air_impulse;       ///< per triangle; empty until a plan has them
     std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
     AlignedVector<Vec4> corrections;
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it

@@ -1,7 +1,7 @@
 // Reading meshes that are in order; mesh_file_errors.test.cpp has those that are not.
 #include "io/mesh_file.h"
 
-#include "base/bounds.h"
+#include <weft/bounds.h>
 #include "io/mesh_fixtures.test.h"
 #include "io/temporary_folder.test.h"
 

@@ -73,11 +73,7 @@ void read_fabric_object(ObjectReader& o, Fabric& fabric) {
     for (const FabricTable& table : fabric_tables())
         o.values(table.parameters, reinterpret_cast<std::byte*>(&fabric) + table.offset);
 
-    // A stretch out of range is one problem, not two.
-    Problems of_stretch;
-    check_values(stretch_parameters, &fabric.stretch, "", of_stretch);
-    if (o.find("stretch") && !o.find("compression") && !of_stretch.concern("/stretch"))
-        std::ranges::copy(fabric.stretch.stretch, fabric.stretch.compression);
+    follow_stretch(fabric, o.find("stretch") != nullptr, o.find("compression") != nullptr);
 }
 
 void read_fabric(ObjectReader& cloth, Fabric& fabric) {
@@ -109,7 +105,7 @@ void read_pin(ObjectReader& pin, PinDesc& result) {
     pin.objects("motion", [&](ObjectReader& key) { key.values(offset_key_keys, &result.motion.emplace_back()); });
 }
 
-void read_cloth(ObjectReader& o, ClothDesc& cloth) {
+void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.values(cloth_keys, &cloth);
     o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
     o.object("drawn", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.drawn.emplace()); });

@@ -81,7 +81,7 @@ TEST(SceneFile, ReadsEveryKeyOfAScene) {
 TEST(SceneFile, ReadsEveryKeyOfACloth) {
     const Result<SceneDesc> result = parse_scene(full_scene, "s.json");
     ASSERT_TRUE(result) << result.error().message();
-    const ClothDesc& sheet = result->cloths[0];
+    const SceneCloth& sheet = result->cloths[0];
     const auto& grid = std::get<GridDesc>(sheet.mesh);
     EXPECT_EQ(sheet.name, "sheet");
     EXPECT_THAT(grid.size, ElementsAre(2.0f, 3.0f));
@@ -96,7 +96,7 @@ TEST(SceneFile, ReadsEveryKeyOfACloth) {
     EXPECT_EQ(box.min, (Vec3{-1, -2, -3}));
     EXPECT_EQ(box.max, (Vec3{1, 2, 3}));
 
-    const ClothDesc& bunny = result->cloths[1];
+    const SceneCloth& bunny = result->cloths[1];
     const auto& mesh = std::get<MeshFileDesc>(bunny.mesh);
     EXPECT_EQ(bunny.name, "cloth 1");
     EXPECT_EQ(mesh.file, "models/../bunny.obj");
@@ -290,8 +290,7 @@ TEST(SceneFile, NamesUnknownKeysAndChoices) {
           "\"gravity\", \"frame_rate\", \"solver\", \"air\", \"cloths\" and \"colliders\""}},
         {scene(R"("colliders": [{"plane": {}, "transform": {"scale": 2}}])"),
          {"s.json: /colliders/0/transform/scale: unknown key \"scale\"; known are \"position\" and \"rotation\""}},
-        {scene(R"("solver": {"method": "pdb"})"),
-         {"s.json: /solver/method: must be \"xpbd\" or \"pbd\", got \"pdb\""}},
+        {scene(R"("solver": {"method": "pdb"})"), {"s.json: /solver/method: must be \"xpbd\" or \"pbd\", got \"pdb\""}},
         {scene(R"("solver": {"projection": "jakobi"})"),
          {"s.json: /solver/projection: must be \"gauss-seidel\" or \"jacobi\", got \"jakobi\""}},
         {cloth(R"("mesh": {"grid": {"diagonal": "both"}})"),
@@ -351,7 +350,7 @@ TEST(SceneFile, ReadsWhatMoves) {
             {"box": {"half_extents": [1, 2, 3]}, "motion": "static"}]})",
                                   "s.json");
     ASSERT_TRUE(read.ok()) << read.error().message();
-    const ClothDesc& cloth = read->cloths[0];
+    const SceneCloth& cloth = read->cloths[0];
     EXPECT_TRUE(cloth.tethers);
     EXPECT_EQ(cloth.tether_slack, 0.1f);
     EXPECT_EQ(cloth.pins[0].attach, "drum");

@@ -11,13 +11,14 @@ namespace weft {
 struct Attachment {
     std::uint32_t particle = 0;
     float compliance = 0;  ///< m/N, > 0
+    Vec3 place = {};       ///< m: where the anchor starts
 };
 
 struct RestShape {
     const Topology& topology;
-    std::vector<float> area;              ///< per triangle, m²
-    std::vector<Vec3> warp;               ///< per triangle, unit, in its plane: the direction in which u grows
-    std::vector<std::uint8_t> held = {};  ///< per particle: 1 if its place is given from outside; empty: none is
+    std::vector<float> area;                   ///< per triangle, m²
+    std::vector<Vec3> warp;                    ///< per triangle, unit, in its plane: the direction in which u grows
+    std::vector<std::uint8_t> held = {};       ///< per particle: 1 if its place is given from outside; empty: none is
     std::vector<Attachment> attachments = {};  ///< the anchor of number i is particle `topology.particle_count` + i
 };
 

@@ -86,6 +86,18 @@ void check_mesh_file(const MeshFileDesc& mesh, const std::string& pointer, Probl
     if (mesh.file.empty()) problems.add(at(pointer, "file"), "must name a file");
 }
 
+// The rest is seen when its topology is built.
+void check_given_mesh(const TriangleMesh& mesh, const std::string& pointer, Problems& problems) {
+    const auto check_size = [&](std::size_t size, std::string_view what) {
+        if (size != 0 && size != mesh.positions.size())
+            problems.add(pointer, "must have as many " + std::string(what) + " as positions, or none, got " +
+                                      std::to_string(size) + " and " + std::to_string(mesh.positions.size()));
+    };
+    check_size(mesh.uvs.size(), "uvs");
+    check_size(mesh.normals.size(), "normals");
+    check_size(mesh.colors.size(), "colors");
+}
+
 void check_mesh(const MeshDesc& mesh, const std::string& pointer, Problems& problems) {
     if (const auto* grid = std::get_if<GridDesc>(&mesh)) {
         check_values(grid_keys, grid, at(pointer, "grid"), problems);
@@ -97,6 +109,8 @@ void check_mesh(const MeshDesc& mesh, const std::string& pointer, Problems& prob
         check_resolution(vertex_count(*box), at(pointer, "box"), problems);
     } else if (const auto* file = std::get_if<MeshFileDesc>(&mesh)) {
         check_mesh_file(*file, pointer, problems);
+    } else if (const auto* given = std::get_if<TriangleMesh>(&mesh)) {
+        check_given_mesh(*given, pointer, problems);
     }
 }
 
@@ -147,60 +161,10 @@ void check_pin(const PinDesc& pin, const std::optional<MadeMesh>& made, const st
         problems.add(at(pointer, "motion"), "must not stand beside \"attach\": the collider moves the pin");
 }
 
-// What a pin is attached to must be there.
-void check_attachments(const SceneDesc& scene, Problems& problems) {
-    std::vector<std::string_view> names;
-    for (const ColliderDesc& collider : scene.colliders) names.push_back(collider.name);
-    for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
-        const auto& pins = scene.cloths[c].pins;
-        for (std::size_t i = 0; i < pins.size(); ++i)
-            if (!pins[i].attach.empty() && std::ranges::find(names, pins[i].attach) == names.end())
-                problems.add(at(at(at(at("/cloths", c), "pins"), i), "attach"),
-                             "unknown collider " + in_quotes(pins[i].attach) + suggestion(pins[i].attach, names));
-    }
-}
-
-void check_air(const AirDesc& air, const std::string& pointer, Problems& problems) {
-    check_values(air_keys, &air, pointer, problems);
-    for (std::size_t i = 0; i < air.wind.size(); ++i) {
-        const std::string place = at(at(pointer, "wind"), i);
-        check_values(wind_keys, &air.wind[i], place, problems);
-        check_values(gust_keys, &air.wind[i].gust, at(place, "gust"), problems);
-        check_values(turbulence_keys, &air.wind[i].turbulence, at(place, "turbulence"), problems);
-    }
-}
-
-void check_cloth(const ClothDesc& cloth, const std::string& pointer, Problems& problems) {
-    check_values(cloth_keys, &cloth, pointer, problems);
-    check_mesh(cloth.mesh, at(pointer, "mesh"), problems);
-    if (cloth.drawn) check_mesh(*cloth.drawn, at(pointer, "drawn"), problems);
-    check_values(transform_keys, &cloth.transform, at(pointer, "transform"), problems);
-    for (const FabricTable& table : fabric_tables())
-        check_values(table.parameters, reinterpret_cast<const std::byte*>(&cloth.fabric) + table.offset,
-                     at(pointer, "fabric"), problems);
-    const auto made = problems.concern(at(pointer, "mesh")) ? std::nullopt : made_mesh(cloth.mesh);
-    for (std::size_t i = 0; i < cloth.pins.size(); ++i)
-        check_pin(cloth.pins[i], made, at(at(pointer, "pins"), i), problems);
-}
-
 void check_plane(const PlaneDesc& plane, const std::string& pointer, Problems& problems) {
     check_values(plane_keys, &plane, pointer, problems);
     const double x = plane.normal.x, y = plane.normal.y, z = plane.normal.z;
     if (std::sqrt(x * x + y * y + z * z) < min_normal_length) problems.add(at(pointer, "normal"), "must not be zero");
-}
-
-void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
-    check_values(collider_keys, &collider, pointer, problems);
-    if (const auto* plane = std::get_if<PlaneDesc>(&collider.shape))
-        check_plane(*plane, at(pointer, "plane"), problems);
-    else if (const auto* sphere = std::get_if<SphereDesc>(&collider.shape))
-        check_values(sphere_keys, sphere, at(pointer, "sphere"), problems);
-    else if (const auto* box = std::get_if<BoxDesc>(&collider.shape))
-        check_values(box_shape_keys, box, at(pointer, "box"), problems);
-    else if (const auto* capsule = std::get_if<CapsuleDesc>(&collider.shape))
-        check_values(capsule_keys, capsule, at(pointer, "capsule"), problems);
-    check_values(pose_keys, &collider.transform, at(pointer, "transform"), problems);
-    check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
 }
 
 template <class Named>
@@ -215,7 +179,7 @@ void check_names(const std::vector<Named>& all, const std::string& pointer, Prob
 void check_total(const SceneDesc& scene, Problems& problems) {
     std::uint64_t total = 0;
     bool drawn = false;
-    for (const ClothDesc& cloth : scene.cloths) {
+    for (const SceneCloth& cloth : scene.cloths) {
         if (const auto made = made_mesh(cloth.mesh)) total += made->vertices;
         if (const auto made = cloth.drawn ? made_mesh(*cloth.drawn) : std::nullopt)
             total += made->vertices, drawn = true;
@@ -296,9 +260,64 @@ void check_values(std::span<const Parameter> table, const void* base, const std:
     }
 }
 
+void check_solver(const SolverDesc& solver, const std::string& pointer, Problems& problems) {
+    check_values(solver_keys, &solver, pointer, problems);
+}
+
+void check_air(const AirDesc& air, const std::string& pointer, Problems& problems) {
+    check_values(air_keys, &air, pointer, problems);
+    for (std::size_t i = 0; i < air.wind.size(); ++i) {
+        const std::string place = at(at(pointer, "wind"), i);
+        check_values(wind_keys, &air.wind[i], place, problems);
+        check_values(gust_keys, &air.wind[i].gust, at(place, "gust"), problems);
+        check_values(turbulence_keys, &air.wind[i].turbulence, at(place, "turbulence"), problems);
+    }
+}
+
+void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const std::string& pointer,
+                Problems& problems) {
+    const auto made = made_mesh(mesh);
+    for (std::size_t i = 0; i < pins.size(); ++i) check_pin(pins[i], made, at(pointer, i), problems);
+}
+
+void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
+                       const std::string& pointer, Problems& problems) {
+    for (std::size_t i = 0; i < pins.size(); ++i)
+        if (!pins[i].attach.empty() && std::ranges::find(names, pins[i].attach) == names.end())
+            problems.add(at(at(pointer, i), "attach"), "unknown collider " + in_quotes(pins[i].attach) +
+                                                           suggestion(pins[i].attach, {names.begin(), names.end()}));
+}
+
+void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& problems) {
+    check_values(cloth_keys, &cloth, pointer, problems);
+    check_mesh(cloth.mesh, at(pointer, "mesh"), problems);
+    if (cloth.drawn) check_mesh(*cloth.drawn, at(pointer, "drawn"), problems);
+    check_values(transform_keys, &cloth.transform, at(pointer, "transform"), problems);
+    for (const FabricTable& table : fabric_tables())
+        check_values(table.parameters, reinterpret_cast<const std::byte*>(&cloth.fabric) + table.offset,
+                     at(pointer, "fabric"), problems);
+    // Of a mesh that is wrong nobody knows how many particles it has.
+    const bool sound = !problems.concern(at(pointer, "mesh"));
+    check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
+}
+
+void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
+    check_values(collider_keys, &collider, pointer, problems);
+    if (const auto* plane = std::get_if<PlaneDesc>(&collider.shape))
+        check_plane(*plane, at(pointer, "plane"), problems);
+    else if (const auto* sphere = std::get_if<SphereDesc>(&collider.shape))
+        check_values(sphere_keys, sphere, at(pointer, "sphere"), problems);
+    else if (const auto* box = std::get_if<BoxDesc>(&collider.shape))
+        check_values(box_shape_keys, box, at(pointer, "box"), problems);
+    else if (const auto* capsule = std::get_if<CapsuleDesc>(&collider.shape))
+        check_values(capsule_keys, capsule, at(pointer, "capsule"), problems);
+    check_values(pose_keys, &collider.transform, at(pointer, "transform"), problems);
+    check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
+}
+
 void check_scene(const SceneDesc& scene, Problems& problems) {
     check_values(scene_keys, &scene, "", problems);
-    check_values(solver_keys, &scene.solver, "/solver", problems);
+    check_solver(scene.solver, "/solver", problems);
     if (scene.air) check_air(*scene.air, "/air", problems);
     if (scene.cloths.empty()) problems.add("/cloths", "must hold at least one cloth");
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) check_cloth(scene.cloths[i], at("/cloths", i), problems);
@@ -306,7 +325,10 @@ void check_scene(const SceneDesc& scene, Problems& problems) {
         check_collider(scene.colliders[i], at("/colliders", i), problems);
     check_names(scene.cloths, "/cloths", problems);
     check_names(scene.colliders, "/colliders", problems);
-    check_attachments(scene, problems);
+    std::vector<std::string_view> names;
+    for (const ColliderDesc& collider : scene.colliders) names.push_back(collider.name);
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+        check_attachments(scene.cloths[i].pins, names, at(at("/cloths", i), "pins"), problems);
     check_total(scene, problems);
 }
 

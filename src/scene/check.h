@@ -30,6 +30,16 @@ void check_scene(const SceneDesc& scene, Problems& problems);
 /// The same as a list, each `where` a JSON pointer in the terms of a scene file; empty if the scene can be run.
 Errors check_scene(const SceneDesc& scene);
 
+/// Parts of a scene, each at its `pointer`. check_cloth leaves alone what concerns other parts.
+void check_solver(const SolverDesc& solver, const std::string& pointer, Problems& problems);
+void check_air(const AirDesc& air, const std::string& pointer, Problems& problems);
+void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& problems);
+void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const std::string& pointer, Problems& problems);
+/// Colliders that pins name must be among `names`.
+void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
+                       const std::string& pointer, Problems& problems);
+void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems);
+
 /// Gives cloths and colliders without a name one that is free: `cloth 0`, `collider 0`, …
 void name_unnamed(SceneDesc& scene);
 

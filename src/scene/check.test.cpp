@@ -172,7 +172,7 @@ TEST(NameUnnamed, GivesFreeNames) {
     scene.colliders.emplace_back();
     name_unnamed(scene);
     std::vector<std::string> names;
-    for (const ClothDesc& cloth : scene.cloths) names.push_back(cloth.name);
+    for (const SceneCloth& cloth : scene.cloths) names.push_back(cloth.name);
     EXPECT_THAT(names, ElementsAre("cloth 0", "cloth 2", "cloth 3", "cloth 4"));
     EXPECT_EQ(scene.colliders[0].name, "ground");
     EXPECT_EQ(scene.colliders[2].name, "collider 2");

@@ -9,7 +9,11 @@
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 
+#include <weft/result.h>
+#include <weft/scene.h>
+
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace weft {
@@ -59,6 +63,12 @@ struct FabricPreset {
     Fabric fabric;
     bool woven_or_knitted = true;
 };
+
+/// The fabric that a program describes. Every problem with it has its place below `pointer`.
+Result<Fabric> make_fabric(const FabricDesc& desc, const std::string& pointer = "/fabric");
+
+/// Where a description says how stiff a stretch is and not a compression, both are the same.
+void follow_stretch(Fabric& fabric, bool stretch_given, bool compression_given);
 
 /// Every fabric known by name.
 std::span<const FabricPreset> fabric_presets();

@@ -10,7 +10,7 @@ const FabricHead fabric_head;
 const SceneDesc scene;
 const AirDesc air;
 const WindDesc wind;
-const ClothDesc cloth;
+const SceneCloth cloth;
 const MeshFileDesc mesh_file;
 const GridDesc grid;
 const SphereMeshDesc sphere_mesh;

@@ -103,15 +103,15 @@ inline constexpr Parameter turbulence_keys[] = {
 };
 
 inline constexpr Parameter cloth_keys[] = {
-    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(ClothDesc, name),
+    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(SceneCloth, name),
      .what = "no two cloths share one; a cloth without is called `cloth 0`, `cloth 1`, …"},
     {.key = "mesh", .kind = ParameterKind::object, .what = "its shape: a grid, a sphere, a box or a file"},
     {.key = "drawn", .kind = ParameterKind::object, .what = "a mesh that is drawn in its place and follows it"},
     {.key = "transform", .kind = ParameterKind::object, .what = "where it starts"},
     {.key = "fabric", .kind = ParameterKind::object, .what = "its material: the name of a preset, or an object"},
-    {.key = "tethers", .kind = ParameterKind::flag, .offset = offsetof(ClothDesc, tethers),
+    {.key = "tethers", .kind = ParameterKind::flag, .offset = offsetof(SceneCloth, tethers),
      .what = "hold every particle within its way over the cloth from where the cloth is pinned: far less stretch"},
-    {.key = "tether_slack", .offset = offsetof(ClothDesc, tether_slack), .min = 0, .max = 100,
+    {.key = "tether_slack", .offset = offsetof(SceneCloth, tether_slack), .min = 0, .max = 100,
      .what = "by how much of that way a particle may go beyond it; with `tethers`"},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose place is given"},
 };

@@ -47,18 +47,13 @@ Vec3 wind_velocity(const std::vector<WindNow>& winds, Vec3 position, std::uint32
     scalar::vec3 sum(0.0f);
     for (const WindNow& wind : winds) {
         const scalar::WindNumbers numbers{spread(wind.numbers[0]), spread(wind.numbers[1]), spread(wind.numbers[2])};
-        const scalar::WindLife life{wind.gust,
-                                    wind.gust_turns,
-                                    wind.gust_per_meter,
-                                    wind.scattered ? 1.0f : 0.0f,
-                                    wind.turbulence,
-                                    wind.noise_per_meter,
-                                    wind.noise_time,
-                                    spread(wind.noise_offset)};
+        const scalar::WindLife life{
+            wind.gust,       wind.gust_turns,      wind.gust_per_meter, wind.scattered ? 1.0f : 0.0f,
+            wind.turbulence, wind.noise_per_meter, wind.noise_time,     spread(wind.noise_offset)};
         scalar::Flow flow{};
         switch (wind.kind) {
-#define WEFT_WIND(name, Name)                                        \
-    case WindKind::name:                                             \
+#define WEFT_WIND(name, Name)                                  \
+    case WindKind::name:                                       \
         flow = scalar::flow_##name(spread(position), numbers); \
         break;
 #include "physics/air/winds.def"

@@ -20,9 +20,9 @@ struct ClothHandle {
 };
 
 struct StepInput {
-    double dt = 0;  ///< s, > 0: length of the frame
-    Vec3 gravity;   ///< m/s²
-    float air_density = 0;             ///< kg/m³
+    double dt = 0;                        ///< s, > 0: length of the frame
+    Vec3 gravity;                         ///< m/s²
+    float air_density = 0;                ///< kg/m³
     std::span<const WindNow> winds = {};  ///< in the middle of the frame
     std::span<const Collider> colliders;
     /// Where each collider is at the start of the frame and after every substep: [substep · colliders + collider],

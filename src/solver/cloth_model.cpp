@@ -42,15 +42,15 @@ Result<Done> place_particles(ClothModel& model, const std::vector<std::uint32_t>
 
 Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& attachments) {
     for (std::uint32_t i = 0; i < attachments.size(); ++i) {
-        const auto& [particle, compliance] = attachments[i];
+        const auto& [particle, compliance, place] = attachments[i];
         const std::string where = "attachment " + std::to_string(i);
         if (particle >= model.particle_count)
             return Error{where, "there are only " + std::to_string(model.particle_count) + " particles, got number " +
                                     std::to_string(particle)};
         if (!(compliance > 0 && std::isfinite(compliance)))
             return Error{where, "compliance must be > 0 m/N, got " + std::to_string(compliance)};
-        const Vec4& at = model.start[particle];
-        model.start[model.particle_count + i] = {at.x, at.y, at.z, 0};
+        if (!finite(place)) return Error{where, "place is not finite"};
+        model.start[model.particle_count + i] = {place.x, place.y, place.z, 0};
     }
     return Done{};
 }
@@ -103,41 +103,58 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
     return Done{};
 }
 
-}  // namespace
-
-Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
-    const float density = desc.fabric.body.density;
-    if (!(density > 0) || !std::isfinite(density)) {
+// Everything that material and pins decide, on a model that has its topology.
+Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
+                     const ColoringOptions& coloring) {
+    const float density = fabric.body.density;
+    if (!(density > 0) || !std::isfinite(density))
         return Error{"density", "must be > 0 kg/m², got " + std::to_string(density)};
-    }
-    auto model = std::make_shared<ClothModel>();
-    model->name = std::move(desc.name);
-    model->topology = std::move(topology);
-    model->fabric = desc.fabric;
-    model->particle_count = model->topology.particle_count;
-    model->anchor_count = static_cast<std::uint32_t>(desc.attachments.size());
+    model.fabric = fabric;
+    model.particle_count = model.topology.particle_count;
+    model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
 
-    RestShape rest = make_rest_shape(desc.mesh, model->topology);
-    model->mass = lump_masses(rest, density);
-    if (auto placed = place_particles(*model, desc.pinned_particles); !placed) return placed.errors();
-    if (auto placed = place_anchors(*model, desc.attachments); !placed) return placed.errors();
-    rest.attachments = std::move(desc.attachments);
-    rest.held.assign(model->particle_count, 0);
-    for (std::uint32_t p : desc.pinned_particles) rest.held[p] = 1;
+    RestShape rest = make_rest_shape(mesh, model.topology);
+    model.mass = lump_masses(rest, density);
+    if (auto placed = place_particles(model, pins.particles); !placed) return placed;
+    if (auto placed = place_anchors(model, pins.attachments); !placed) return placed;
+    rest.attachments = pins.attachments;
+    rest.held.assign(model.particle_count, 0);
+    for (std::uint32_t p : pins.particles) rest.held[p] = 1;
 
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                      \
-    model->constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
-        pack_rows(ConstraintKind::name, build_##name(rest, model->fabric.name), model->point_count(), desc.coloring);
+#define WEFT_CONSTRAINT(name, Name, particles, moved)                     \
+    model.constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
+        pack_rows(ConstraintKind::name, build_##name(rest, model.fabric.name), model.point_count(), coloring);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    lay_out_faces(*model, rest);
-    measure_edges(*model, rest);
+    lay_out_faces(model, rest);
+    measure_edges(model, rest);
+    return Done{};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
+    auto model = std::make_shared<ClothModel>();
+    model->name = std::move(desc.name);
+    model->topology = std::move(topology);
+    if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring); !done) return done.errors();
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
         model->binding = bind_mesh(*desc.drawn, model->topology);
     }
     model->mesh = desc.drawn ? std::move(*desc.drawn) : std::move(desc.mesh);
+    return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
+                                                             const Fabric& fabric, const ClothPins& pins) {
+    auto model = std::make_shared<ClothModel>();
+    model->name = from.name;
+    model->mesh = from.mesh;
+    model->binding = from.binding;
+    model->topology = from.topology;
+    if (auto done = lay_out(*model, mesh, fabric, pins, {}); !done) return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

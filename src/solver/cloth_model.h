@@ -16,14 +16,18 @@
 
 namespace weft {
 
+/// What is held of a cloth.
+struct ClothPins {
+    std::vector<std::uint32_t> particles = {};  ///< of `topology`, without weight; in any order, repetitions allowed
+    std::vector<Attachment> attachments = {};   ///< springs to anchors
+};
+
 struct ClothModelDesc {
     std::string name = {};
     TriangleMesh mesh = {};                  ///< what is simulated, in world space, m
     std::optional<TriangleMesh> drawn = {};  ///< what is drawn in its place and follows it; without, `mesh`
     Fabric fabric = {};
-    std::vector<std::uint32_t> pinned_particles = {};  ///< of `topology`; in any order, repetitions allowed
-    /// Springs to anchors, which start where their particles do.
-    std::vector<Attachment> attachments = {};
+    ClothPins pins = {};
     ColoringOptions coloring = {};
 };
 
@@ -58,8 +62,12 @@ struct ClothModel {
 };
 
 /// `topology` is that of `desc.mesh`. Fails where values are such that no simulation could follow: density ≤ 0 or not
-/// finite, total mass that float cannot hold, a pinned or attached particle out of range, a compliance that is not > 0 and
-/// finite, a drawn mesh that is not sound.
+/// finite, total mass that float cannot hold, a pinned or attached particle out of range, a compliance that is not > 0
+/// and finite, a drawn mesh that is not sound.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
+
+/// Another material or other pins for the same mesh. `mesh` is the simulated one that `from` was built of.
+Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
+                                                             const Fabric& fabric, const ClothPins& pins);
 
 }  // namespace weft

@@ -49,4 +49,9 @@ struct Frame {
 /// Where drawn and simulated mesh are the same, vertices that no triangle uses stay where the mesh has them.
 void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::vector<Vec3>& normals);
 
+/// Tangents of a drawn mesh's vertices, for its positions and normals at the moment: unit, in w the handedness
+/// (tangents.md). Empty if the mesh has no UVs.
+void compute_tangents(const TriangleMesh& mesh, std::span<const Vec3> positions, std::span<const Vec3> normals,
+                      std::vector<Vec4>& tangents);
+
 }  // namespace weft

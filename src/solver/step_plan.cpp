@@ -25,7 +25,9 @@ float per_iteration(float stiffness, std::uint32_t iterations) {
 
 template <class Material>
 std::array<float, 2> plain_stiffness(const Fabric& fabric, std::uint32_t iterations) {
-    const auto of = [&](int which) { return which < 0 ? 1.0f : per_iteration(fabric.body.stiffness[which], iterations); };
+    const auto of = [&](int which) {
+        return which < 0 ? 1.0f : per_iteration(fabric.body.stiffness[which], iterations);
+    };
     return {of(Material::plain[0]), of(Material::plain[1])};
 }
 
@@ -65,7 +67,7 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
                   .frame_begin = {},
                   .substep = {},
                   .frame_end = {}};
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                    \
+#define WEFT_CONSTRAINT(name, Name, particles, moved)                  \
     plan.stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = \
         plain_stiffness<Name##Material>(model.fabric, settings.iterations);
 #include "physics/constraints.def"

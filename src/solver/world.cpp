@@ -117,8 +117,8 @@ void World::place_colliders(double dt) {
         const float fraction = static_cast<float>(substep) / static_cast<float>(settings_.substeps);
         for (std::size_t i = 0; i < count; ++i) {
             const Collider& collider = colliders_[i];
-            poses_[substep * count + i] = collider.next_pose ? between(collider.pose, *collider.next_pose, fraction)
-                                                             : pose_at(collider, time);
+            poses_[substep * count + i] =
+                collider.next_pose ? between(collider.pose, *collider.next_pose, fraction) : pose_at(collider, time);
         }
     }
 }
@@ -180,7 +180,8 @@ Snapshot World::save() const {
 
 Result<Done> World::restore(const Snapshot& snapshot) {
     const auto differs = [](const char* what, std::size_t got, std::size_t expected) {
-        return Error{"state", "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
+        return Error{"state",
+                     "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
     };
     if (snapshot.cloths.size() != cloths_.size()) return differs("cloths", snapshot.cloths.size(), cloths_.size());
     if (snapshot.colliders.size() != colliders_.size())

@@ -21,7 +21,10 @@ Mat3 upright(UpAxis up) {
 
 class PinSelector {
   public:
-    PinSelector(const TriangleMesh& mesh, const Topology& topology) : mesh_(mesh), topology_(topology) {}
+    explicit PinSelector(const PinnedCloth& cloth)
+        : mesh_(cloth.mesh), topology_(cloth.topology), positions_(cloth.positions) {}
+
+    Vec3 place(std::uint32_t p) const { return positions_.empty() ? topology_.rest_positions[p] : positions_[p].xyz(); }
 
     Errors select(const VertexPins& pins, const std::string& where) {
         const auto& particle = topology_.welded_to_particle;
@@ -46,7 +49,7 @@ class PinSelector {
     Errors select(const BoxPins& pins, const std::string& where) {
         const std::size_t before = chosen.size();
         for (std::uint32_t p = 0; p < topology_.particle_count; ++p) {
-            if (pins.box.contains(topology_.rest_positions[p])) chosen.push_back(p);
+            if (pins.box.contains(place(p))) chosen.push_back(p);
         }
         if (chosen.size() == before) return {{where + "/box", "no vertex lies in it"}};
         return {};
@@ -70,6 +73,7 @@ class PinSelector {
   private:
     const TriangleMesh& mesh_;
     const Topology& topology_;
+    std::span<const Vec4> positions_;
 };
 
 }  // namespace
@@ -102,16 +106,16 @@ ColliderId find_collider(const World& world, const std::string& name) {
 
 }  // namespace
 
-Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, const Topology& topology,
-                           const World& world, const std::string& pointer) {
+Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& cloth, const World& world,
+                           const std::string& pointer) {
     Pinned pinned;
     Errors errors;
     std::map<std::uint32_t, Hold> hold_of;  // by particle
-    for (std::size_t i = 0; i < cloth.pins.size(); ++i) {
-        const PinDesc& pin = cloth.pins[i];
-        PinSelector selector(mesh, topology);
-        const std::string where = pointer + "/pins/" + std::to_string(i);
-        const Errors found = std::visit([&](const auto& pins) { return selector.select(pins, where); }, pin.select);
+    for (std::size_t i = 0; i < pins.size(); ++i) {
+        const PinDesc& pin = pins[i];
+        PinSelector selector(cloth);
+        const std::string where = pointer + '/' + std::to_string(i);
+        const Errors found = std::visit([&](const auto& select) { return selector.select(select, where); }, pin.select);
         errors.insert(errors.end(), found.begin(), found.end());
 
         Hold hold{.mover = none, .compliance = pin.compliance};
@@ -124,19 +128,21 @@ Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, con
     }
     if (!errors.empty()) return errors;
 
+    const PinSelector places(cloth);
     std::vector<HeldParticle> anchors;
     for (const auto& [particle, hold] : hold_of) {
+        const Vec3 place = places.place(particle);
         std::uint32_t point = particle;
         if (hold.compliance > 0) {
-            point = topology.particle_count + static_cast<std::uint32_t>(pinned.attachments.size());
-            pinned.attachments.push_back({particle, hold.compliance});
+            point = cloth.topology.particle_count + static_cast<std::uint32_t>(pinned.pins.attachments.size());
+            pinned.pins.attachments.push_back({particle, hold.compliance, place});
         } else {
-            pinned.particles.push_back(particle);
+            pinned.pins.particles.push_back(particle);
         }
         if (hold.mover == none) continue;
-        const ColliderId carrier = pinned.holds.movers[hold.mover].collider;
-        const Vec3 at_rest = topology.rest_positions[particle];
-        const Vec3 local = carrier ? to_local(world.collider(carrier).pose, at_rest) : at_rest;
+        const Mover& mover = pinned.holds.movers[hold.mover];
+        const Vec3 local = mover.collider ? to_local(world.collider(mover.collider).pose, place)
+                                          : place - offset_at(mover.offsets, cloth.time);
         (point == particle ? pinned.holds.particles : anchors).push_back({point, hold.mover, local});
     }
     pinned.holds.particles.insert(pinned.holds.particles.end(), anchors.begin(), anchors.end());

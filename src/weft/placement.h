@@ -16,15 +16,22 @@ namespace weft {
 void place_mesh(TriangleMesh& mesh, const MeshDesc& from, const TransformDesc& transform);
 
 struct Pinned {
-    std::vector<std::uint32_t> particles;  ///< all of them, those of `holds` included
-    std::vector<Attachment> attachments;   ///< pins that give way; the particles keep their weight
-    Holds holds;                           ///< of pinned particles and anchors
+    ClothPins pins;  ///< all of them, those of `holds` included
+    Holds holds;     ///< of pinned particles and anchors
 };
 
-/// The particles that a cloth's pins name in the simulated mesh; where several pins name one, the last wins. Every pin
-/// must name at least one; `where` of an error is a JSON pointer that starts with `pointer`, the place of the cloth.
-/// Names of colliders have been checked.
-Result<Pinned> select_pins(const ClothDesc& cloth, const TriangleMesh& mesh, const Topology& topology,
-                           const World& world, const std::string& pointer);
+/// What the pins of a cloth are selected from.
+struct PinnedCloth {
+    const TriangleMesh& mesh;  ///< simulated
+    const Topology& topology;
+    std::span<const Vec4> positions;  ///< m, per particle: where it is now; empty: where it is at rest
+    double time = 0;                  ///< s
+};
+
+/// The particles that pins name; where several pins name one, the last wins. Every pin must name at least one; `where`
+/// of an error is a JSON pointer that starts with `pointer`, the place of the pins. Names of colliders have been
+/// checked.
+Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& cloth, const World& world,
+                           const std::string& pointer);
 
 }  // namespace weft

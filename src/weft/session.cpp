@@ -5,9 +5,13 @@
 #include "io/scene_file.h"
 #include "mesh/topology.h"
 #include "scene/check.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_keys.h"
 #include "weft/placement.h"
 
 #include <algorithm>
+#include <cassert>
+#include <type_traits>
 
 namespace weft {
 namespace {
@@ -25,6 +29,9 @@ Result<LoadedMesh> load(const SphereMeshDesc& sphere, const std::filesystem::pat
 }
 Result<LoadedMesh> load(const BoxMeshDesc& box, const std::filesystem::path&) {
     return LoadedMesh{make_box(box.size, box.resolution), "box"};
+}
+Result<LoadedMesh> load(const TriangleMesh& mesh, const std::filesystem::path&) {
+    return LoadedMesh{mesh, "mesh"};
 }
 Result<LoadedMesh> load(const MeshFileDesc& desc, const std::filesystem::path& scene_folder) {
     auto path = find_asset(desc.file, scene_folder);
@@ -70,49 +77,14 @@ void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
 }
 
 // What a scene says of tethers beside the fabric is a material like any other to the solver.
-Fabric fabric_of(const ClothDesc& cloth) {
+Fabric fabric_of(const SceneCloth& cloth) {
     Fabric fabric = cloth.fabric;
     fabric.tether = {cloth.tethers, cloth.tether_slack};
     return fabric;
 }
 
-struct MadeCloth {
-    std::shared_ptr<const ClothModel> model;
-    Holds holds;
-};
-
-Result<MadeCloth> make_cloth(const ClothDesc& cloth, const std::string& place, const std::string& pointer,
-                             const World& world, const std::filesystem::path& scene_folder,
-                             std::vector<std::string>& notes) {
-    auto loaded = load_placed(cloth.mesh, cloth.transform, scene_folder);
-    if (!loaded) return within(place + pointer + "/mesh/file", loaded.errors());
-    std::optional<TriangleMesh> drawn;
-    if (cloth.drawn) {
-        auto other = load_placed(*cloth.drawn, cloth.transform, scene_folder);
-        if (!other) return within(place + pointer + "/drawn/file", other.errors());
-        drawn = std::move(other->mesh);
-    }
-    // A generated grid comes in rows, which vector loads like better than any order found afterwards.
-    auto topology = build_topology(loaded->mesh, {.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)});
-    if (!topology) return within(place + pointer + "/mesh: " + loaded->from, topology.errors());
-    note_report(cloth.name, topology->report, notes);
-
-    auto pins = select_pins(cloth, loaded->mesh, *topology, world, pointer);
-    if (!pins) {
-        Errors errors;
-        for (const Error& error : pins.errors()) errors.push_back({place + error.where, error.what});
-        return errors;
-    }
-    auto model = build_cloth_model({.name = cloth.name,
-                                    .mesh = std::move(loaded->mesh),
-                                    .drawn = std::move(drawn),
-                                    .fabric = fabric_of(cloth),
-                                    .pinned_particles = std::move(pins->particles),
-                                    .attachments = std::move(pins->attachments)},
-                                   std::move(*topology));
-    if (!model) return within(place + pointer, model.errors());
-    note_binding(**model, notes);
-    return MadeCloth{std::move(*model), std::move(pins->holds)};
+std::unique_ptr<TriangleMesh> keep_if(bool wanted, const TriangleMesh& mesh) {
+    return wanted ? std::make_unique<TriangleMesh>(mesh) : nullptr;
 }
 
 Errors apply(const Options& options, SceneDesc& scene) {
@@ -124,6 +96,20 @@ Errors apply(const Options& options, SceneDesc& scene) {
         }
         to = *from;
     };
+    const auto choose = [&](const std::string& from, const auto& names, auto& to, const char* name) {
+        if (from.empty()) return;
+        const auto it = std::ranges::find(names, from);
+        if (it == names.end()) {
+            errors.push_back({name, "must be " + alternatives(names) + ", got " + in_quotes(from)});
+        } else {
+            to = static_cast<std::remove_reference_t<decltype(to)>>(it - names.begin());
+        }
+    };
+    const auto names_of = [](std::string_view key) {
+        return choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
+    };
+    choose(options.method, names_of("method"), scene.solver.method, "method");
+    choose(options.projection, names_of("projection"), scene.solver.projection, "projection");
     set(options.substeps, scene.solver.substeps, "substeps");
     set(options.iterations, scene.solver.iterations, "iterations");
     if (options.threads < 1 || options.threads > 256) {
@@ -147,36 +133,133 @@ void DrawnFrame::update(const Frame& frame) {
     }
 }
 
+struct Session::Entry {
+    ClothId id;
+    SceneCloth desc;                          ///< without its meshes
+    std::unique_ptr<TriangleMesh> simulated;  ///< where that is not the one that is drawn
+    ClothPins pins;
+    Holds holds;
+};
+
+Session::Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Result<Session> Session::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder) {
+    Session session;
+    if (Errors errors = apply(options, scene); !errors.empty()) return errors;
+    auto backend = make_cpu_backend({.workers = options.threads - 1, .isa = options.isa});
+    if (!backend) return backend.errors();
+    session.folder_ = folder;
+    session.world_ = std::make_unique<World>(std::move(*backend), WorldSettings{.gravity = scene.gravity,
+                                                                                .substeps = scene.solver.substeps,
+                                                                                .iterations = scene.solver.iterations,
+                                                                                .method = scene.solver.method,
+                                                                                .projection = scene.solver.projection,
+                                                                                .air = scene.air});
+    for (const ColliderDesc& collider : scene.colliders) session.world_->add(make_collider(collider));
+    Errors errors;
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        auto added = session.add(scene.cloths[i], "/cloths/" + std::to_string(i));
+        if (!added) errors.insert(errors.end(), added.errors().begin(), added.errors().end());
+    }
+    if (!errors.empty()) return errors;
+    session.scene_ = std::move(scene);
+    return session;
+}
+
 Result<Session> Session::open(const std::filesystem::path& scene_file, const Options& options) {
     auto scene = load_scene(scene_file);
     if (!scene) return scene.errors();
-    Session session;
-    session.scene_ = std::move(*scene);
-    if (Errors errors = apply(options, session.scene_); !errors.empty()) return errors;
-
-    auto backend = make_cpu_backend({.workers = options.threads - 1, .isa = options.isa});
-    if (!backend) return backend.errors();
-    session.world_ =
-        std::make_unique<World>(std::move(*backend), WorldSettings{.gravity = session.scene_.gravity,
-                                                                   .substeps = session.scene_.solver.substeps,
-                                                                   .iterations = session.scene_.solver.iterations,
-                                                                   .method = session.scene_.solver.method,
-                                                                   .projection = session.scene_.solver.projection,
-                                                                   .air = session.scene_.air});
-
-    for (const ColliderDesc& collider : session.scene_.colliders) session.world_->add(make_collider(collider));
+    auto session = create(std::move(*scene), options, scene_file.parent_path());
+    if (session) return session;
     Errors errors;
-    for (std::size_t i = 0; i < session.scene_.cloths.size(); ++i) {
-        auto cloth = make_cloth(session.scene_.cloths[i], scene_file.string() + ": ", "/cloths/" + std::to_string(i),
-                                *session.world_, scene_file.parent_path(), session.notes_);
-        if (cloth) {
-            session.world_->add(std::move(cloth->model), std::move(cloth->holds));
-        } else {
-            errors.insert(errors.end(), cloth.errors().begin(), cloth.errors().end());
-        }
+    for (const Error& error : session.errors()) {
+        // What options are wrong the file cannot help.
+        const bool of_file = error.where.starts_with('/');
+        errors.push_back(of_file ? Error{scene_file.string() + ": " + error.where, error.what} : error);
     }
-    if (!errors.empty()) return errors;
-    return session;
+    return errors;
+}
+
+Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer) {
+    auto loaded = load_placed(cloth.mesh, cloth.transform, folder_);
+    if (!loaded) return within(pointer + "/mesh/file", loaded.errors());
+    std::optional<TriangleMesh> drawn;
+    if (cloth.drawn) {
+        auto other = load_placed(*cloth.drawn, cloth.transform, folder_);
+        if (!other) return within(pointer + "/drawn/file", other.errors());
+        drawn = std::move(other->mesh);
+    }
+    // A generated grid comes in rows, which vector loads like better than any order found afterwards.
+    auto topology = build_topology(loaded->mesh, {.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)});
+    if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
+    note_report(cloth.name, topology->report, notes_);
+
+    auto pinned = select_pins(cloth.pins, {loaded->mesh, *topology, {}}, *world_, pointer + "/pins");
+    if (!pinned) return pinned.errors();
+    Entry entry{
+        .id = {}, .desc = cloth, .simulated = keep_if(drawn.has_value(), loaded->mesh), .pins = {}, .holds = {}};
+    entry.desc.mesh = {}, entry.desc.drawn = {};
+    entry.pins = pinned->pins;
+    entry.holds = pinned->holds;
+    auto model = build_cloth_model({.name = cloth.name,
+                                    .mesh = std::move(loaded->mesh),
+                                    .drawn = std::move(drawn),
+                                    .fabric = fabric_of(cloth),
+                                    .pins = std::move(pinned->pins)},
+                                   std::move(*topology));
+    if (!model) return within(pointer, model.errors());
+    note_binding(**model, notes_);
+    entry.id = world_->add(std::move(*model), std::move(pinned->holds));
+    entries_.push_back(std::move(entry));
+    return entries_.back().id;
+}
+
+void Session::remove(ClothId id) {
+    std::erase_if(entries_, [&](const Entry& entry) { return entry.id == id; });
+    world_->remove(id);
+}
+
+Result<Done> Session::rebuild(Entry& entry, const SceneCloth& desc, const ClothPins& pins, Holds holds) {
+    const ClothModel& now = *world_->model(entry.id);
+    const TriangleMesh& mesh = entry.simulated ? *entry.simulated : now.mesh;
+    auto model = change_cloth_model(now, mesh, fabric_of(desc), pins);
+    if (!model) return model.errors();
+    // A place for what the cloth is now, taken before anything of it changes.
+    entry.desc = desc;
+    entry.pins = pins;
+    entry.holds = holds;
+    world_->set_model(entry.id, std::move(*model), std::move(holds));
+    return Done{};
+}
+
+Session::Entry& Session::entry(ClothId id) {
+    const auto it = std::ranges::find(entries_, id, &Entry::id);
+    assert(it != entries_.end());
+    return *it;
+}
+
+Result<Done> Session::set_fabric(ClothId id, const Fabric& fabric) {
+    Entry& one = entry(id);
+    SceneCloth desc = one.desc;
+    desc.fabric = fabric;
+    return rebuild(one, desc, ClothPins(one.pins), Holds(one.holds));
+}
+
+Result<Done> Session::set_pins(ClothId id, std::vector<PinDesc> pins) {
+    Entry& one = entry(id);
+    const ClothModel& model = *world_->model(id);
+    const auto cloths = std::span(world_->frame().cloths);
+    const auto frame = std::ranges::find(cloths, id, &ClothFrame::id);
+    const PinnedCloth cloth{one.simulated ? *one.simulated : model.mesh, model.topology, frame->positions,
+                            world_->frame().time};
+    auto pinned = select_pins(pins, cloth, *world_, "/pins");
+    if (!pinned) return pinned.errors();
+    SceneCloth desc = one.desc;
+    desc.pins = std::move(pins);
+    return rebuild(one, desc, pinned->pins, std::move(pinned->holds));
 }
 
 }  // namespace weft

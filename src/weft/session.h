@@ -33,20 +33,42 @@ class Session {
   public:
     /// Every problem found has its place in the scene file as `where`.
     static Result<Session> open(const std::filesystem::path& scene_file, const Options& options);
+    /// A scene that has been checked (check.h), or one without cloths, to be filled. Files are looked for in `folder`.
+    /// Problems have JSON pointers as `where`.
+    static Result<Session> create(SceneDesc scene, const Options& options, const std::filesystem::path& folder = {});
+
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;
+    ~Session();
+
+    /// `pointer` is the place of the cloth in errors. It has been checked.
+    Result<ClothId> add(const SceneCloth& cloth, const std::string& pointer);
+    void remove(ClothId id);
+    /// Cloth goes on moving as it was.
+    Result<Done> set_fabric(ClothId id, const Fabric& fabric);
+    /// Particles are held where they are now; boxes are where particles are now.
+    Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
 
     const SceneDesc& scene() const { return scene_; }
     World& world() { return *world_; }
     const World& world() const { return *world_; }
     double frame_seconds() const { return 1.0 / static_cast<double>(scene_.frame_rate); }
     const Frame& step() { return world_->step(frame_seconds()); }
+    const Frame& step(double dt) { return world_->step(dt); }
 
     /// What building found and survived, a line each.
     const std::vector<std::string>& notes() const { return notes_; }
 
   private:
-    Session() = default;
+    struct Entry;
+
+    Session();
+    Entry& entry(ClothId id);
+    Result<Done> rebuild(Entry& entry, const SceneCloth& desc, const ClothPins& pins, Holds holds);
 
     SceneDesc scene_;
+    std::filesystem::path folder_;
+    std::vector<Entry> entries_;
     std::unique_ptr<World> world_;
     std::vector<std::string> notes_;
 };

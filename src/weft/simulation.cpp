@@ -1,13 +1,85 @@
 #include "weft/session.h"
 
+#include "scene/check.h"
+#include "scene/scene_keys.h"
+#include "solver/statistics.h"
+
 #include <weft/weft.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace weft {
 
 struct Simulation::Impl {
     Session session;
     DrawnFrame drawn;
+    mutable std::vector<Vec4> tangents;
+
+    World& world() { return session.world(); }
+    const World& world() const { return session.world(); }
+    void draw() { drawn.update(world().frame()); }
 };
+
+namespace {
+
+Error no_such(const char* what) {
+    return {what, "names nothing in this simulation"};
+}
+
+SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
+    return {.name = desc.name,
+            .mesh = desc.mesh,
+            .drawn = desc.drawn,
+            .transform = desc.transform,
+            .fabric = fabric,
+            .pins = desc.pins,
+            .tethers = desc.tethers,
+            .tether_slack = desc.tether_slack};
+}
+
+std::vector<std::string_view> names_of_cloths(const World& world) {
+    std::vector<std::string_view> names;
+    for (const ClothFrame& cloth : world.frame().cloths) names.push_back(cloth.model->name);
+    return names;
+}
+
+std::vector<std::string_view> names_of_colliders(const World& world) {
+    std::vector<std::string_view> names;
+    for (const Collider& collider : world.colliders()) names.push_back(collider.name);
+    return names;
+}
+
+// Takes the name if it is free, or finds one.
+std::string own_name(const std::string& wanted, const std::string& kind, std::span<const std::string_view> taken,
+                     Problems& problems) {
+    const auto is_taken = [&](std::string_view name) { return std::ranges::find(taken, name) != taken.end(); };
+    if (!wanted.empty()) {
+        if (is_taken(wanted)) problems.add("/name", "is taken: another is called " + in_quotes(wanted));
+        return wanted;
+    }
+    for (std::size_t number = taken.size();; ++number)
+        if (std::string name = kind + ' ' + std::to_string(number); !is_taken(name)) return name;
+}
+
+template <class Check>
+Result<Done> checked(Check&& check) {
+    Problems problems;
+    check(problems);
+    if (!problems.none()) return std::move(problems).take();
+    return Done{};
+}
+
+Surface view(const ExportSurface& surface) {
+    return {surface.name, surface.positions, surface.normals, surface.mesh->uvs, surface.mesh->triangles};
+}
+
+std::size_t place_of(const World& world, ClothId id) {
+    const auto& cloths = world.frame().cloths;
+    return static_cast<std::size_t>(std::ranges::find(cloths, id, &ClothFrame::id) - cloths.begin());
+}
+
+}  // namespace
 
 const char* version() {
     return WEFT_VERSION;
@@ -21,35 +93,242 @@ Simulation::~Simulation() = default;
 Result<Simulation> Simulation::load(const std::filesystem::path& scene, const Options& options) {
     auto session = Session::open(scene, options);
     if (!session) return session.errors();
-    auto impl = std::make_unique<Impl>(Impl{std::move(*session), {}});
-    impl->drawn.update(impl->session.world().frame());
+    auto impl = std::make_unique<Impl>(Impl{std::move(*session), {}, {}});
+    impl->draw();
     return Simulation(std::move(impl));
 }
 
+Result<Simulation> Simulation::create(const WorldDesc& world, const Options& options) {
+    SceneDesc scene{.name = {},
+                    .gravity = world.gravity,
+                    .frame_rate = world.frame_rate,
+                    .solver = world.solver,
+                    .air = world.air,
+                    .cloths = {},
+                    .colliders = {}};
+    const auto sound = checked([&](Problems& problems) {
+        check_values(scene_keys, &scene, "", problems);
+        check_solver(scene.solver, "/solver", problems);
+        if (scene.air) check_air(*scene.air, "/air", problems);
+    });
+    if (!sound) return sound.errors();
+    auto session = Session::create(std::move(scene), options);
+    if (!session) return session.errors();
+    return Simulation(std::make_unique<Impl>(Impl{std::move(*session), {}, {}}));
+}
+
 void Simulation::step() {
-    impl_->drawn.update(impl_->session.step());
+    impl_->session.step();
+    impl_->draw();
+}
+
+Result<Done> Simulation::step(double dt) {
+    if (!(dt > 0 && dt <= 1000)) return Error{"dt", "must be > 0 s and ≤ 1000 s, got " + number_text(dt)};
+    impl_->session.step(dt);
+    impl_->draw();
+    return Done{};
 }
 
 std::uint64_t Simulation::frame() const {
-    return impl_->session.world().frame().index;
+    return impl_->world().frame().index;
 }
 double Simulation::time() const {
-    return impl_->session.world().frame().time;
+    return impl_->world().frame().time;
 }
+
+Result<ClothId> Simulation::add(const ClothDesc& desc) {
+    Problems problems;
+    const auto taken = names_of_cloths(impl_->world());
+    const std::string name = own_name(desc.name, "cloth", taken, problems);
+    auto fabric = make_fabric(desc.fabric);
+    SceneCloth cloth = resolved(desc, fabric ? *fabric : Fabric{});
+    cloth.name = name;
+    check_cloth(cloth, "", problems);
+    check_attachments(cloth.pins, names_of_colliders(impl_->world()), "/pins", problems);
+    if (!fabric)
+        for (const Error& error : fabric.errors()) problems.add(error.where, error.what);
+    if (!problems.none()) return std::move(problems).take();
+    auto id = impl_->session.add(cloth, "");
+    if (id) impl_->draw();
+    return id;
+}
+
+Result<ColliderId> Simulation::add(const ColliderDesc& desc) {
+    Problems problems;
+    ColliderDesc collider = desc;
+    const auto taken = names_of_colliders(impl_->world());
+    collider.name = own_name(desc.name, "collider", taken, problems);
+    check_collider(collider, "", problems);
+    if (!problems.none()) return std::move(problems).take();
+    return impl_->world().add(make_collider(collider));
+}
+
+Result<Done> Simulation::remove(ClothId id) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    impl_->session.remove(id);
+    impl_->draw();
+    return Done{};
+}
+
+Result<Done> Simulation::remove(ColliderId id) {
+    if (!impl_->world().contains(id)) return no_such("collider");
+    impl_->world().remove(id);
+    return Done{};
+}
+
+std::vector<ClothId> Simulation::cloths() const {
+    std::vector<ClothId> ids;
+    for (const ClothFrame& cloth : impl_->world().frame().cloths) ids.push_back(cloth.id);
+    return ids;
+}
+
+std::vector<ColliderId> Simulation::colliders() const {
+    std::vector<ColliderId> ids;
+    const World& world = impl_->world();
+    for (std::size_t i = 0; i < world.colliders().size(); ++i) ids.push_back(world.collider_id(i));
+    return ids;
+}
+
+ClothId Simulation::find_cloth(std::string_view name) const {
+    for (const ClothFrame& cloth : impl_->world().frame().cloths)
+        if (cloth.model->name == name) return cloth.id;
+    return {};
+}
+
+ColliderId Simulation::find_collider(std::string_view name) const {
+    const auto& all = impl_->world().colliders();
+    const auto found = std::ranges::find(all, name, &Collider::name);
+    return found == all.end() ? ColliderId{}
+                              : impl_->world().collider_id(static_cast<std::size_t>(found - all.begin()));
+}
+
+Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    const auto fabric = make_fabric(desc);
+    if (!fabric) return fabric.errors();
+    auto done = impl_->session.set_fabric(id, *fabric);
+    impl_->draw();
+    return done;
+}
+
+Result<Done> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    const auto sound = checked([&](Problems& problems) {
+        check_pins(pins, MeshFileDesc(), "/pins", problems);
+        check_attachments(pins, names_of_colliders(impl_->world()), "/pins", problems);
+    });
+    if (!sound) return sound;
+    auto done = impl_->session.set_pins(id, std::move(pins));
+    impl_->draw();
+    return done;
+}
+
+Result<Done> Simulation::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
+    if (!impl_->world().contains(id)) return no_such("collider");
+    const TransformDesc transform{.position = position, .rotation_degrees = rotation_degrees};
+    const auto sound = checked([&](Problems& problems) { check_values(pose_keys, &transform, "", problems); });
+    if (!sound) return sound;
+    impl_->world().move(id, {rotation_from_degrees(rotation_degrees), position});
+    return Done{};
+}
+
+Result<Done> Simulation::set_friction(ColliderId id, float static_friction, float kinetic_friction) {
+    if (!impl_->world().contains(id)) return no_such("collider");
+    ColliderDesc desc;
+    desc.friction = {static_friction, kinetic_friction};
+    const auto sound = checked([&](Problems& problems) { check_values(collider_keys, &desc, "", problems); });
+    if (!sound) return sound;
+    impl_->world().set_friction(id, desc.friction);
+    return Done{};
+}
+
+Result<Done> Simulation::set_gravity(Vec3 gravity) {
+    SceneDesc scene;
+    scene.gravity = gravity;
+    const auto sound = checked([&](Problems& problems) { check_values(scene_keys, &scene, "", problems); });
+    if (!sound) return sound;
+    WorldSettings settings = impl_->world().settings();
+    settings.gravity = gravity;
+    impl_->world().configure(settings);
+    return Done{};
+}
+
+Result<Done> Simulation::set_solver(const SolverDesc& solver) {
+    const auto sound = checked([&](Problems& problems) { check_solver(solver, "", problems); });
+    if (!sound) return sound;
+    WorldSettings settings = impl_->world().settings();
+    settings.substeps = solver.substeps;
+    settings.iterations = solver.iterations;
+    settings.method = solver.method;
+    settings.projection = solver.projection;
+    impl_->world().configure(settings);
+    return Done{};
+}
+
+Result<Done> Simulation::set_air(const std::optional<AirDesc>& air) {
+    const auto sound = checked([&](Problems& problems) {
+        if (air) check_air(*air, "", problems);
+    });
+    if (!sound) return sound;
+    WorldSettings settings = impl_->world().settings();
+    settings.air = air;
+    impl_->world().configure(settings);
+    return Done{};
+}
+
 std::size_t Simulation::cloth_count() const {
     return impl_->drawn.surfaces().size();
 }
 
 Surface Simulation::cloth(std::size_t index) const {
-    const ExportSurface& surface = impl_->drawn.surfaces()[index];
-    return {surface.name, surface.positions, surface.normals, surface.mesh->uvs, surface.mesh->triangles};
+    return view(impl_->drawn.surfaces()[index]);
+}
+
+Surface Simulation::surface(ClothId id) const {
+    const std::size_t place = place_of(impl_->world(), id);
+    return place < cloth_count() ? cloth(place) : Surface{};
+}
+
+std::span<const Vec4> Simulation::tangents(ClothId id) const {
+    const std::size_t place = place_of(impl_->world(), id);
+    if (place >= cloth_count()) return {};
+    const ExportSurface& surface = impl_->drawn.surfaces()[place];
+    compute_tangents(*surface.mesh, surface.positions, surface.normals, impl_->tangents);
+    return impl_->tangents;
+}
+
+Measures Simulation::measure() const {
+    const World& world = impl_->world();
+    const Strain strain = measure_strain(world.frame());
+    const Residual residual = world.stretch_residual();
+    return {.mean_stretch = strain.stretch.mean,
+            .max_stretch = strain.stretch.max,
+            .mean_shear = strain.shear.mean,
+            .max_shear = strain.shear.max,
+            .mean_residual = residual.mean,
+            .max_residual = residual.max,
+            .kinetic_energy = kinetic_energy(world.frame()),
+            .max_speed = max_speed(world.frame()),
+            .max_penetration = measure_penetration(world.frame(), world.colliders()).max};
 }
 
 std::vector<std::string_view> Simulation::reports() const {
-    return report_names(impl_->session.world().frame().reports);
+    return report_names(impl_->world().frame().reports);
 }
 std::string Simulation::state_hash() const {
-    return impl_->session.world().state_hash();
+    return impl_->world().state_hash();
+}
+
+std::vector<std::byte> Simulation::save_state() const {
+    return to_bytes(impl_->world().save());
+}
+
+Result<Done> Simulation::restore_state(std::span<const std::byte> state) {
+    auto snapshot = snapshot_from_bytes(state);
+    if (!snapshot) return snapshot.errors();
+    auto done = impl_->world().restore(*snapshot);
+    if (done) impl_->draw();
+    return done;
 }
 
 Result<Done> Simulation::save(const std::filesystem::path& file) const {

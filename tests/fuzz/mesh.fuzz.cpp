@@ -131,7 +131,7 @@ void simulate(TriangleMesh mesh, ByteReader& in) {
                                     .mesh = std::move(mesh),
                                     .drawn = std::move(drawn),
                                     .fabric = take_fabric(in),
-                                    .pinned_particles = std::move(pinned)},
+                                    .pins = {.particles = std::move(pinned)}},
                                    std::move(*topology));
     if (!model) return require(!model.errors().empty(), "a model refused without an error");
 

@@ -65,10 +65,10 @@ TEST(Wind, carries_along_and_never_overtakes) {
 }
 
 TEST(Wind, holds_a_flag_up_and_keeps_it_moving_but_whole) {
-    const auto model = make_sheet({.size = {1.2f, 0.8f},
-                                   .resolution = {25, 17},
-                                   .rotation_degrees = {90, 0, 0},
-                                   .pinned = [](Vec3 p) { return p.x < -0.59f; }});
+    const auto model =
+        make_sheet({.size = {1.2f, 0.8f}, .resolution = {25, 17}, .rotation_degrees = {90, 0, 0}, .pinned = [](Vec3 p) {
+                        return p.x < -0.59f;
+                    }});
     WindDesc breeze{.velocity = {7, 0, 1.5f}, .gust = {.amplitude = 0.3f}, .turbulence = {.strength = 0.4f}};
     World world = make_world({.air = AirDesc{.wind = {breeze}}});
     world.add(model);
@@ -97,14 +97,13 @@ TEST(Wind, of_any_strength_leaves_finite_cloth) {
     for (const float speed : {1e-6f, 100.0f, 1e4f}) {
         for (const float density : {1e-3f, 1e4f}) {
             SheetDesc sheet{.pinned = [](Vec3 p) { return p.x < -0.49f; }};
-            World world = make_world(
-                {.substeps = 4,
-                 .air = AirDesc{density,
-                                {{.velocity = {speed, speed, 0},
-                                  .gust = {100, 1000, 1e-6f, GustPhase::scattered},
-                                  .turbulence = {100, 1e-6f, 1e-6f}},
-                                 wind({-speed, 0, speed})}}},
-                sheet);
+            World world = make_world({.substeps = 4,
+                                      .air = AirDesc{density,
+                                                     {{.velocity = {speed, speed, 0},
+                                                       .gust = {100, 1000, 1e-6f, GustPhase::scattered},
+                                                       .turbulence = {100, 1e-6f, 1e-6f}},
+                                                      wind({-speed, 0, speed})}}},
+                                     sheet);
             run(world, 1);
             EXPECT_TRUE(all_finite(world.frame())) << speed << ' ' << density;
         }

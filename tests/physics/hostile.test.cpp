@@ -86,7 +86,7 @@ TEST(Model, refuses_values_that_no_simulation_could_follow) {
         desc.fabric.body.density = density;
         EXPECT_FALSE(build_cloth_model(desc, *build_topology(mesh)).ok()) << density;
     }
-    ClothModelDesc desc{.name = "x", .mesh = mesh, .fabric = {}, .pinned_particles = {9}};
+    ClothModelDesc desc{.name = "x", .mesh = mesh, .fabric = {}, .pins = {.particles = {9}}};
     EXPECT_FALSE(build_cloth_model(desc, *build_topology(mesh)).ok());
 }
 

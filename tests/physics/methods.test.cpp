@@ -133,11 +133,12 @@ TEST(Jacobi, keeps_momentum_where_stiffness_is_in_newtons_per_meter) {
         }
         WorkerTeam team;
         cpu::Executor executor(*cpu::available_passes().front(), team);
-        const StepPlan plan = plan_step(
-            *model, {.substeps = 20, .contacts = false, .method = method, .projection = Projection::jacobi});
+        const StepPlan plan =
+            plan_step(*model, {.substeps = 20, .contacts = false, .method = method, .projection = Projection::jacobi});
         std::array<double, stage_count> stage_ms{};
         double p[3] = {}, fast = 0;
-        for (int i = 0; i < 5; ++i) executor.run(cloth, plan, {.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}}, stage_ms);
+        for (int i = 0; i < 5; ++i)
+            executor.run(cloth, plan, {.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}}, stage_ms);
         for (std::uint32_t i = 0; i < model->particle_count; ++i) {
             const Vec4& v = cloth.now.velocity[i];
             p[0] += model->mass[i] * v.x, p[1] += model->mass[i] * v.y, p[2] += model->mass[i] * v.z;
@@ -179,7 +180,7 @@ TEST(Attachment, gives_way_by_its_compliance) {
         auto topology = build_topology(mesh, {.reorder = false});
         ClothModelDesc desc{.mesh = std::move(mesh)};
         desc.fabric.stretch.inextensible = true;
-        for (std::uint32_t p = 0; p < 9; ++p) desc.attachments.push_back({p, compliance});
+        for (std::uint32_t p = 0; p < 9; ++p) desc.pins.attachments.push_back({p, compliance, desc.mesh.positions[p]});
         const auto model = *build_cloth_model(std::move(desc), std::move(*topology));
         World world = make_world({.substeps = 10, .iterations = iterations});
         world.add(model);
@@ -196,7 +197,7 @@ TEST(Attachment, gives_way_by_its_compliance) {
 TEST(Attachment, follows_what_carries_its_anchor) {
     TriangleMesh mesh = make_grid({0.2f, 0.2f}, {3, 3}, GridDiagonal::alternating);
     auto topology = build_topology(mesh, {.reorder = false});
-    ClothModelDesc desc{.mesh = std::move(mesh), .attachments = {{4, 1e-4f}}};
+    ClothModelDesc desc{.mesh = std::move(mesh), .pins = {.attachments = {{4, 1e-4f, {0, 0, 0}}}}};
     const auto model = *build_cloth_model(std::move(desc), std::move(*topology));
     World world = make_world({.gravity = {}});
     world.add(model, {.movers = {{.offsets = {{0, {}}, {1, {0, 0.4f, 0}}}}}, .particles = {{9, 0, {0, 0, 0}}}});
@@ -208,7 +209,7 @@ TEST(Attachment, of_nonsense_is_refused) {
     for (const Attachment bad : {Attachment{9, 1e-3f}, {0, 0}, {0, -1}, {0, NAN}, {0, INFINITY}}) {
         TriangleMesh mesh = make_grid({1, 1}, {3, 3}, GridDiagonal::alternating);
         auto topology = build_topology(mesh);
-        ClothModelDesc desc{.mesh = std::move(mesh), .attachments = {bad}};
+        ClothModelDesc desc{.mesh = std::move(mesh), .pins = {.attachments = {bad}}};
         const auto model = build_cloth_model(std::move(desc), std::move(*topology));
         ASSERT_FALSE(model.ok());
         EXPECT_EQ(model.error().where, "attachment 0");

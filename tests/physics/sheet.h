@@ -32,7 +32,7 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
     EXPECT_TRUE(topology.ok());
     ClothModelDesc model{.name = "sheet", .mesh = std::move(mesh), .fabric = desc.fabric};
     for (std::uint32_t v = 0; v < flat.size(); ++v) {
-        if (desc.pinned && desc.pinned(flat[v])) model.pinned_particles.push_back(topology->vertex_to_particle[v]);
+        if (desc.pinned && desc.pinned(flat[v])) model.pins.particles.push_back(topology->vertex_to_particle[v]);
     }
     auto built = build_cloth_model(std::move(model), std::move(*topology));
     EXPECT_TRUE(built.ok());

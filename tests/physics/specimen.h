@@ -120,7 +120,7 @@ inline std::shared_ptr<const ClothModel> make_specimen(TriangleMesh mesh, const 
     EXPECT_TRUE(topology.ok());
     ClothModelDesc model{.name = "specimen", .mesh = std::move(mesh), .fabric = fabric};
     for (std::uint32_t p = 0; p < topology->particle_count; ++p) {
-        if (pinned(topology->rest_positions[p])) model.pinned_particles.push_back(p);
+        if (pinned(topology->rest_positions[p])) model.pins.particles.push_back(p);
     }
     auto built = build_cloth_model(std::move(model), std::move(*topology));
     EXPECT_TRUE(built.ok());

@@ -14,7 +14,8 @@ World lively_world(unsigned workers = 0) {
                               .iterations = 2,
                               .air = AirDesc{.wind = {{.velocity = {1, 0, 0.3f}, .turbulence = {.strength = 0.5f}}}}},
                              {.workers = workers});
-    world.add(make_collider({.name = "ball", .shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {2, {0, 0.3f, 0}, {90, 0, 0}}}}));
+    world.add(make_collider(
+        {.name = "ball", .shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {2, {0, 0.3f, 0}, {90, 0, 0}}}}));
     world.add(make_collider({.name = "ground", .shape = PlaneDesc{{0, 1, 0}, -0.4f}}));
     world.add(make_sheet(small({0, 0.25f, 0})));
     SheetDesc pinned = small({0, 0.5f, 0});
@@ -63,7 +64,8 @@ TEST(Snapshot, survives_being_written_and_read) {
 TEST(Snapshot, that_is_damaged_is_refused) {
     World world = lively_world();
     const std::vector<std::byte> bytes = to_bytes(world.save());
-    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{12}, std::size_t{40}, bytes.size() - 1}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{3}, std::size_t{12}, std::size_t{40}, bytes.size() - 1}) {
         EXPECT_FALSE(snapshot_from_bytes(std::span(bytes).first(size)).ok()) << size;
     }
     for (std::size_t at = 0; at < bytes.size(); at += 97) {
@@ -146,8 +148,8 @@ TEST(World, takes_cloth_along_with_a_collider_that_is_moved) {
     SheetDesc desc = small({0, 0.002f, 0});
     desc.fabric.contact.friction[0] = desc.fabric.contact.friction[1] = 2;
     World world = make_world({}, desc);
-    const ColliderId table = world.add(
-        make_collider({.shape = BoxDesc{{0.5f, 0.5f, 0.5f}}, .transform = {.position = {0, -0.5f, 0}}, .friction = {2, 2}}));
+    const ColliderId table = world.add(make_collider(
+        {.shape = BoxDesc{{0.5f, 0.5f, 0.5f}}, .transform = {.position = {0, -0.5f, 0}}, .friction = {2, 2}}));
     run(world, 0.3);
     Pose pose = world.collider(table).pose;
     for (int i = 0; i < 60; ++i) {
@@ -168,8 +170,10 @@ TEST(World, takes_cloth_along_with_a_collider_that_is_moved) {
 TEST(World, keeps_pins_where_their_collider_left_them) {
     const auto model = make_sheet({.size = {0.2f, 0.2f}, .resolution = {3, 3}, .pinned = [](Vec3) { return true; }});
     World world = make_world({});
-    const ColliderId ball = world.add(make_collider({.shape = SphereDesc{0.01f}, .motion = {{0, {}, {}}, {1, {0, 1, 0}, {}}}}));
-    const ColliderId other = world.add(make_collider({.shape = SphereDesc{0.01f}, .transform = {.position = {9, 9, 9}}}));
+    const ColliderId ball =
+        world.add(make_collider({.shape = SphereDesc{0.01f}, .motion = {{0, {}, {}}, {1, {0, 1, 0}, {}}}}));
+    const ColliderId other =
+        world.add(make_collider({.shape = SphereDesc{0.01f}, .transform = {.position = {9, 9, 9}}}));
     Holds holds{.movers = {{.collider = ball}}, .particles = {}};
     for (std::uint32_t p = 0; p < 9; ++p) holds.particles.push_back({p, 0, model->topology.rest_positions[p]});
     world.add(model, holds);

@@ -43,7 +43,9 @@ TEST(Wind, is_the_same_along_itself_and_smooth_across) {
     Random random(2);
     for (int i = 0; i < 500; ++i) {
         const vec3 p = random.vector(5);
-        const auto at = [&](vec3 x) { return reference::live_wind(reference::flow_directional(x, numbers), 0, lively()); };
+        const auto at = [&](vec3 x) {
+            return reference::live_wind(reference::flow_directional(x, numbers), 0, lively());
+        };
         EXPECT_LT(norm(at(p) - at(p + vec3(0, 0, random.number(-9, 9)))), 1e-12);
         EXPECT_LT(norm(at(p) - at(p + random.vector(1e-4))), 0.02);
     }

@@ -1,0 +1,243 @@
+// The public interface, as a program uses it.
+#include "io/temporary_folder.test.h"
+
+#include <weft/weft.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace weft {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+ClothDesc small_sheet(Vec3 position = {}) {
+    return {.mesh = GridDesc{.size = {0.5f, 0.5f}, .resolution = {9, 9}}, .transform = {.position = position}};
+}
+
+Simulation make_simulation(const WorldDesc& world = {}) {
+    auto simulation = Simulation::create(world);
+    EXPECT_TRUE(simulation.ok());
+    return std::move(*simulation);
+}
+
+template <class T>
+std::vector<std::string> messages(const Result<T>& result) {
+    std::vector<std::string> all;
+    if (!result)
+        for (const Error& error : result.errors()) all.push_back(error.message());
+    return all;
+}
+
+TEST(Simulation, is_filled_and_runs) {
+    Simulation simulation = make_simulation();
+    EXPECT_EQ(simulation.cloth_count(), 0u);
+    simulation.step();  // an empty world is a world
+    const auto sheet = simulation.add(small_sheet({0, 0.3f, 0}));
+    const auto ball = simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{0.2f}});
+    ASSERT_TRUE(sheet.ok() && ball.ok());
+    EXPECT_EQ(simulation.surface(*sheet).name, "cloth 0");
+    EXPECT_EQ(simulation.surface(*sheet).positions.size(), 81u);
+    EXPECT_EQ(simulation.surface(*sheet).triangles.size(), 128u);
+    for (int i = 0; i < 60; ++i) simulation.step();
+    EXPECT_EQ(simulation.frame(), 61u);
+    EXPECT_LT(simulation.surface(*sheet).positions[0].y, 0.2f) << "its corner hangs down";
+    EXPECT_GT(simulation.surface(*sheet).positions[40].y, 0.19f) << "its middle lies on the ball";
+    const Measures measures = simulation.measure();
+    EXPECT_GT(measures.kinetic_energy, 0);
+    EXPECT_LT(measures.mean_stretch, 0.05);
+    EXPECT_LT(measures.max_penetration, 0.02);
+    EXPECT_THAT(simulation.reports(), testing::IsEmpty());
+}
+
+TEST(Simulation, takes_meshes_from_memory) {
+    TriangleMesh mesh{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 0, 1}}, .triangles = {{0, 1, 2}, {2, 1, 3}}};
+    Simulation simulation = make_simulation();
+    const auto cloth = simulation.add({.mesh = mesh, .pins = {{.select = VertexPins{{0}}}}});
+    ASSERT_TRUE(cloth.ok()) << messages(cloth)[0];
+    simulation.step();
+    EXPECT_EQ(simulation.surface(*cloth).positions[0], (Vec3{0, 0, 0}));
+    EXPECT_LT(simulation.surface(*cloth).positions[3].y, 0);
+
+    mesh.uvs = {{0, 0}};
+    EXPECT_THAT(messages(simulation.add({.mesh = mesh})),
+                ElementsAre("/mesh: must have as many uvs as positions, or none, got 1 and 4"));
+    mesh.uvs.clear();
+    mesh.triangles[0][0] = 7;
+    EXPECT_FALSE(simulation.add({.mesh = mesh}).ok());
+    mesh.triangles.clear();
+    EXPECT_FALSE(simulation.add({.mesh = mesh}).ok());
+    mesh = {.positions = {{0, 0, 0}, {0, NAN, 1}, {1, 0, 0}}, .triangles = {{0, 1, 2}}};
+    EXPECT_THAT(messages(simulation.add({.mesh = mesh}))[0], HasSubstr("vertex 1"));
+    EXPECT_EQ(simulation.cloth_count(), 1u) << "what fails leaves nothing behind";
+}
+
+TEST(Simulation, describes_fabrics_by_keys) {
+    Simulation simulation = make_simulation();
+    ClothDesc cloth = small_sheet();
+    cloth.fabric = FabricDesc("silk")
+                       .set("density", 1)
+                       .set("stretch", {500, 400})
+                       .set("rest_angle", "mesh")
+                       .set("inextensible", true);
+    EXPECT_TRUE(simulation.add(cloth).ok());
+    cloth.fabric = FabricDesc("slik")
+                       .set("densty", 1)
+                       .set("friction", {1, 2, 3})
+                       .set("hinges", "some")
+                       .set("shear", true)
+                       .set("inextensible", 1.0)
+                       .set("damping", -1);
+    EXPECT_THAT(messages(simulation.add(cloth)),
+                testing::UnorderedElementsAre("/fabric/preset: unknown fabric \"slik\"; did you mean \"silk\"?",
+                                              "/fabric/densty: unknown key \"densty\"; did you mean \"density\"?",
+                                              "/fabric/friction: must be one number or 2 numbers, got 3",
+                                              "/fabric/hinges: must be \"all\" or \"source\", got \"some\"",
+                                              "/fabric/shear: must not be true or false",
+                                              "/fabric/inextensible: must not be a number",
+                                              "/fabric/damping: must be ≥ 0 s, got -1"));
+}
+
+TEST(Simulation, says_what_is_wrong_with_what_it_is_given) {
+    EXPECT_THAT(messages(Simulation::create({.solver = {.substeps = 0}})),
+                ElementsAre("/solver/substeps: must be ≥ 1, got 0"));
+    EXPECT_THAT(messages(Simulation::create({.gravity = {0, NAN, 0}, .frame_rate = -1})), testing::SizeIs(2));
+    EXPECT_THAT(messages(Simulation::create({}, {.threads = 0}))[0], HasSubstr("threads"));
+    EXPECT_THAT(messages(Simulation::create({}, {.method = "magic"})),
+                ElementsAre("method: must be \"xpbd\" or \"pbd\", got \"magic\""));
+    Simulation simulation = make_simulation();
+    ASSERT_TRUE(simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{0.2f}}).ok());
+    EXPECT_THAT(messages(simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{-1}})),
+                ElementsAre("/name: is taken: another is called \"ball\"", "/sphere/radius: must be > 0 m, got -1"));
+    ClothDesc cloth = small_sheet();
+    cloth.pins = {{.select = VertexPins{{0}}, .attach = "bell"}};
+    EXPECT_THAT(messages(simulation.add(cloth)),
+                ElementsAre("/pins/0/attach: unknown collider \"bell\"; did you mean \"ball\"?"));
+    cloth.pins = {{.select = VertexPins{{81}}}};
+    EXPECT_FALSE(simulation.add(cloth).ok());
+    cloth = small_sheet();
+    cloth.mesh = MeshFileDesc{.file = "no such file.obj"};
+    EXPECT_FALSE(simulation.add(cloth).ok());
+    EXPECT_FALSE(simulation.step(0).ok());
+    EXPECT_FALSE(simulation.step(NAN).ok());
+    EXPECT_FALSE(simulation.step(-1).ok());
+    EXPECT_FALSE(simulation.set_gravity({INFINITY, 0, 0}).ok());
+    EXPECT_FALSE(simulation.set_solver({.iterations = 0}).ok());
+    EXPECT_FALSE(simulation.set_air(AirDesc{.density = -1}).ok());
+    EXPECT_EQ(simulation.frame(), 0u);
+}
+
+TEST(Simulation, knows_no_id_that_has_been_removed) {
+    Simulation simulation = make_simulation();
+    const ClothId cloth = *simulation.add(small_sheet());
+    const ColliderId ball = *simulation.add(ColliderDesc{.name = "ball"});
+    EXPECT_EQ(simulation.find_cloth("cloth 0"), cloth);
+    EXPECT_EQ(simulation.find_collider("ball"), ball);
+    EXPECT_THAT(simulation.cloths(), ElementsAre(cloth));
+    EXPECT_THAT(simulation.colliders(), ElementsAre(ball));
+    ASSERT_TRUE(simulation.remove(cloth).ok());
+    ASSERT_TRUE(simulation.remove(ball).ok());
+    const ClothId other = *simulation.add(small_sheet());
+    EXPECT_NE(other, cloth);
+    for (const auto& result :
+         {simulation.remove(cloth), simulation.remove(ball), simulation.set_fabric(cloth, {}),
+          simulation.set_pins(cloth, {}), simulation.move(ball, {}), simulation.set_friction(ball, 1, 1)})
+        EXPECT_FALSE(result.ok());
+    EXPECT_TRUE(simulation.surface(cloth).positions.empty());
+    EXPECT_TRUE(simulation.tangents(cloth).empty());
+    EXPECT_FALSE(simulation.find_cloth("nobody"));
+}
+
+TEST(Simulation, changes_while_it_runs) {
+    Simulation simulation = make_simulation();
+    ClothDesc desc = small_sheet({0, 1, 0});
+    desc.pins = {{.select = VertexPins{{0, 8}}}};
+    const ClothId cloth = *simulation.add(desc);
+    for (int i = 0; i < 20; ++i) simulation.step();
+    const Vec3 before = simulation.surface(cloth).positions[80];
+    ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("denim").set("damping", 0.3)).ok());
+    EXPECT_EQ(simulation.surface(cloth).positions[80], before);
+    // Let go of, and held by another corner, where that is now.
+    ASSERT_TRUE(simulation.set_pins(cloth, {{.select = VertexPins{{80}}}}).ok());
+    for (int i = 0; i < 40; ++i) simulation.step();
+    EXPECT_EQ(simulation.surface(cloth).positions[80], before);
+    EXPECT_LT(simulation.surface(cloth).positions[0].y, before.y);
+    ASSERT_TRUE(simulation.set_gravity({0, 9.81f, 0}).ok());
+    ASSERT_TRUE(simulation.set_air(AirDesc{}).ok());
+    ASSERT_TRUE(simulation.set_solver({.substeps = 8, .iterations = 2}).ok());
+    for (int i = 0; i < 60; ++i) ASSERT_TRUE(simulation.step(1.0 / 30).ok());
+    EXPECT_GT(simulation.surface(cloth).positions[0].y, before.y + 0.3f) << "up is down now";
+    EXPECT_LT(simulation.measure().mean_stretch, 0.05);
+    // A box selects what is in it now; of nothing there is nothing to pin, and the old pins stay.
+    EXPECT_FALSE(simulation.set_pins(cloth, {{.select = BoxPins{{{8, 8, 8}, {9, 9, 9}}}}}).ok());
+    simulation.step();
+    EXPECT_EQ(simulation.surface(cloth).positions[80], before);
+}
+
+TEST(Simulation, carries_cloth_that_is_attached_to_a_collider) {
+    Simulation simulation = make_simulation({.gravity = {}});
+    const ColliderId hand = *simulation.add(ColliderDesc{.name = "hand", .shape = SphereDesc{0.01f}});
+    ClothDesc desc = small_sheet({0, 0.1f, 0});
+    desc.pins = {{.select = VertexPins{{0}}, .attach = "hand"},
+                 {.select = VertexPins{{8}}, .attach = "hand", .compliance = 1e-3f}};
+    const ClothId cloth = *simulation.add(desc);
+    const Vec3 corner = simulation.surface(cloth).positions[0], soft = simulation.surface(cloth).positions[8];
+    for (int i = 1; i <= 60; ++i) {
+        ASSERT_TRUE(simulation.move(hand, {0.01f * static_cast<float>(i), 0, 0}).ok());
+        simulation.step();
+    }
+    EXPECT_NEAR(simulation.surface(cloth).positions[0].x, corner.x + 0.6f, 1e-5f);
+    for (int i = 0; i < 120; ++i) simulation.step();
+    EXPECT_NEAR(simulation.surface(cloth).positions[8].x, soft.x + 0.6f, 0.02f);
+    // A change of fabric does not let go.
+    ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("wool")).ok());
+    for (int i = 1; i <= 30; ++i) {
+        ASSERT_TRUE(simulation.move(hand, {0.6f, 0.01f * static_cast<float>(i), 0}).ok());
+        simulation.step();
+    }
+    EXPECT_NEAR(simulation.surface(cloth).positions[0].y, corner.y + 0.3f, 1e-5f);
+}
+
+TEST(Simulation, comes_back_to_a_saved_state) {
+    TemporaryFolder folder;
+    Simulation simulation = make_simulation();
+    ASSERT_TRUE(simulation.add(small_sheet({0, 0.3f, 0})).ok());
+    ASSERT_TRUE(simulation.add(ColliderDesc{.shape = SphereDesc{0.2f}}).ok());
+    for (int i = 0; i < 20; ++i) simulation.step();
+    const auto state = simulation.save_state();
+    const std::string then = simulation.state_hash();
+    const Vec3 corner = simulation.cloth(0).positions[0];
+    for (int i = 0; i < 20; ++i) simulation.step();
+    const std::string later = simulation.state_hash();
+    ASSERT_TRUE(simulation.restore_state(state).ok());
+    EXPECT_EQ(simulation.state_hash(), then);
+    EXPECT_EQ(simulation.cloth(0).positions[0], corner) << "surfaces too";
+    for (int i = 0; i < 20; ++i) simulation.step();
+    EXPECT_EQ(simulation.state_hash(), later);
+    EXPECT_FALSE(simulation.restore_state(std::span(state).first(100)).ok());
+    EXPECT_FALSE(make_simulation().restore_state(state).ok());
+    EXPECT_EQ(simulation.state_hash(), later);
+}
+
+TEST(Simulation, gives_tangents_along_the_warp) {
+    Simulation simulation = make_simulation({.gravity = {}});
+    ClothDesc desc = small_sheet();
+    desc.transform.rotation_degrees = {0, 0, 90};
+    const ClothId cloth = *simulation.add(desc);
+    simulation.step();
+    const auto tangents = simulation.tangents(cloth);
+    ASSERT_EQ(tangents.size(), 81u);
+    for (const Vec4& t : tangents) {
+        EXPECT_NEAR(t.y, 1, 1e-4f) << "x, turned up";
+        EXPECT_EQ(std::abs(t.w), 1);
+    }
+    desc.mesh = SphereMeshDesc{.radius = 0.1f, .subdivisions = 1};
+    EXPECT_TRUE(simulation.tangents(*simulation.add(desc)).empty()) << "no UVs, no tangents";
+}
+
+}  // namespace
+}  // namespace weft
