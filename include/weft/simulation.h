@@ -1,6 +1,7 @@
 // Runs a scene, frame by frame.
 #pragma once
 
+#include <weft/export.h>
 #include <weft/result.h>
 #include <weft/vector.h>
 
@@ -36,7 +37,7 @@ struct Surface {
     std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 
-class Simulation {
+class WEFT_API Simulation {
   public:
     /// Reads a scene file and everything it names. Fails with every problem found, each with its place.
     static Result<Simulation> load(const std::filesystem::path& scene, const Options& options = {});

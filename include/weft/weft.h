@@ -1,6 +1,7 @@
 // Everything of weft. Standard library types only.
 #pragma once
 
+#include <weft/export.h>
 #include <weft/result.h>
 #include <weft/simulation.h>
 #include <weft/vector.h>
@@ -8,6 +9,6 @@
 namespace weft {
 
 /// "major.minor.patch"
-const char* version();
+WEFT_API const char* version();
 
 }  // namespace weft
