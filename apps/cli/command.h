@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace weft::cli {
@@ -20,10 +22,19 @@ void print_warning(const std::string& text);
 /// --backend, --threads, … with their checks.
 void add_common_options(CLI::App& command, Options& options);
 
+/// How much simulated time: one of the two, or neither.
+struct Length {
+    std::optional<double> frames, seconds;
+};
+/// --frames and --seconds; `verb` is what happens to them.
+void add_length_options(CLI::App& command, Length& length, const std::string& verb);
+Result<std::uint64_t> frame_count(const Length& length, double frame_seconds);
+
 /// A subcommand: adds itself to the program and returns what to run if it is the one chosen.
 using Command = std::function<int()>;
 Command add_run(CLI::App& program);
 Command add_check(CLI::App& program);
+Command add_bench(CLI::App& program);
 Command add_info(CLI::App& program);
 
 }  // namespace weft::cli

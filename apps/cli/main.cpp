@@ -2,7 +2,9 @@
 
 #include <weft/weft.h>
 
+#include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -29,6 +31,27 @@ void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--projection", options.projection, "gauss-seidel or jacobi, instead of the scene's");
 }
 
+void add_length_options(CLI::App& command, Length& length, const std::string& verb) {
+    auto* frames = command.add_option("--frames", length.frames, "how many frames to " + verb);
+    command.add_option("--seconds", length.seconds, "how many seconds instead (default 2)")->excludes(frames);
+}
+
+Result<std::uint64_t> frame_count(const Length& length, double frame_seconds) {
+    constexpr double default_seconds = 2, max_frames = 1e6;
+    double frames = std::round(length.seconds.value_or(default_seconds) / frame_seconds);
+    if (length.frames) {
+        frames = *length.frames;
+        if (frames != std::floor(frames)) return Error{"--frames", "must be a whole number"};
+    }
+    const std::string name = length.frames ? "--frames" : "--seconds";
+    if (!(frames >= 1 && frames <= max_frames)) {
+        char text[96];
+        std::snprintf(text, sizeof text, "must come to 1 to %.0f frames, got %g", max_frames, frames);
+        return Error{name, text};
+    }
+    return static_cast<std::uint64_t>(frames);
+}
+
 namespace {
 
 // CLI11 answers a wrong word with several lines; the house says one.
@@ -51,12 +74,14 @@ int run_program(int argc, char** argv) {
         "Examples:\n"
         "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb\n"
         "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.obj --stats stats.json\n"
+        "  weft bench --json before.json\n"
         "  weft check scenes/hanging_bunny.json\n"
         "  weft info\n"
         "Exit status: 0 done, 1 failed while running, 2 wrong input or usage.");
 
     std::map<std::string, Command> commands;
     commands["run"] = add_run(program);
+    commands["bench"] = add_bench(program);
     commands["check"] = add_check(program);
     commands["info"] = add_info(program);
 

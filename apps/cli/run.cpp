@@ -5,18 +5,14 @@
 #include "io/export_plan.h"
 #include "weft/session.h"
 
-#include <cmath>
 #include <cstdio>
 
 namespace weft::cli {
 namespace {
 
-constexpr double default_seconds = 2;
-constexpr double max_frames = 1e6;
-
 struct RunOptions {
     std::string scene;
-    std::optional<double> frames, seconds;
+    Length length;
     std::vector<std::string> outputs;
     std::string stats;
     bool quiet = false;
@@ -24,21 +20,6 @@ struct RunOptions {
 };
 
 using Exporters = std::vector<std::unique_ptr<Exporter>>;
-
-Result<std::uint64_t> frame_count(const RunOptions& options, const Session& session) {
-    double frames = std::round(options.seconds.value_or(default_seconds) / session.frame_seconds());
-    if (options.frames) {
-        frames = *options.frames;
-        if (frames != std::floor(frames)) return Error{"--frames", "must be a whole number"};
-    }
-    const std::string name = options.frames ? "--frames" : "--seconds";
-    if (!(frames >= 1 && frames <= max_frames)) {
-        char text[96];
-        std::snprintf(text, sizeof text, "must come to 1 to %.0f frames, got %g", max_frames, frames);
-        return Error{name, text};
-    }
-    return static_cast<std::uint64_t>(frames);
-}
 
 Result<Exporters> open_exporters(const RunOptions& options) {
     Exporters exporters;
@@ -111,7 +92,7 @@ int run(const RunOptions& options) {
     if (!exporters) return wrong(exporters.errors());
     auto session = Session::open(options.scene, options.common);
     if (!session) return wrong(session.errors());
-    const auto frames = frame_count(options, *session);
+    const auto frames = frame_count(options.length, session->frame_seconds());
     if (!frames) return wrong(frames.errors());
     const auto estimates = plan(*exporters, *session, *frames);
     if (!estimates) return wrong(estimates.errors());
@@ -147,8 +128,7 @@ Command add_run(CLI::App& program) {
     CLI::App* command = program.add_subcommand("run", "simulates a scene, exports it, measures it");
     auto options = std::make_shared<RunOptions>();
     command->add_option("scene", options->scene, "scene file")->required();
-    auto* frames = command->add_option("--frames", options->frames, "how many frames to simulate");
-    command->add_option("--seconds", options->seconds, "how many seconds instead (default 2)")->excludes(frames);
+    add_length_options(*command, options->length, "simulate");
     command
         ->add_option("--out", options->outputs,
                      ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")

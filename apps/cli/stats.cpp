@@ -12,7 +12,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Nearest rank, of sorted values.
+Json mean_max(MeanMax value) {
+    return {{"mean", value.mean}, {"max", value.max}};
+}
+
+}  // namespace
+
 double percentile(const std::vector<double>& sorted, double fraction) {
     if (sorted.empty()) return 0;
     const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sorted.size())));
@@ -24,12 +29,6 @@ double median(const std::vector<double>& sorted) {
     const std::size_t half = sorted.size() / 2;
     return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
-
-Json mean_max(MeanMax value) {
-    return {{"mean", value.mean}, {"max", value.max}};
-}
-
-}  // namespace
 
 RunStatistics::RunStatistics(const Session& session, std::uint64_t frames) : frame_seconds_(session.frame_seconds()) {
     const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);

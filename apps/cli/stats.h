@@ -11,6 +11,10 @@
 
 namespace weft::cli {
 
+/// Of values in ascending order; 0 if there are none. The percentile is one of the values (nearest rank).
+double median(const std::vector<double>& sorted);
+double percentile(const std::vector<double>& sorted, double fraction);
+
 class RunStatistics {
   public:
     /// `frames` steps are going to be run.

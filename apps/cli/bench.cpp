@@ -1,0 +1,109 @@
+#include "cli/bench_report.h"
+#include "cli/stats.h"
+#include "io/atomic_file.h"
+#include "weft/session.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace weft::cli {
+namespace {
+
+struct BenchOptions {
+    std::vector<std::string> scenes;
+    BenchSettings settings;
+    std::string json, compare;
+};
+
+void append(Errors& all, const Errors& more) {
+    // An option that is wrong is wrong for every scene.
+    for (const Error& error : more) {
+        const auto same = [&](const Error& known) { return known.message() == error.message(); };
+        if (std::ranges::none_of(all, same)) all.push_back(error);
+    }
+}
+
+// What is wrong with the input, known before the first run rather than after the last: a report may take minutes.
+Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subjects) {
+    Errors errors;
+    const auto range = [&](const char* name, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
+        if (value >= least && value <= most) return;
+        append(errors, {{name, "must be from " + std::to_string(least) + " to " + std::to_string(most) + ", got " +
+                                   std::to_string(value)}});
+    };
+    range("--repeat", options.settings.repeat, 1, 1000);
+    range("--warmup", options.settings.warmup, 0, 1000000);
+    for (const BenchSubject& subject : subjects) {
+        const auto session = subject.open(options.settings.common);
+        if (!session) {
+            append(errors, session.errors());
+            continue;
+        }
+        for (const std::string& note : session->notes()) print_warning(subject.name + ": " + note);
+        const auto frames = frame_count(options.settings.length, session->frame_seconds());
+        if (!frames) append(errors, frames.errors());
+    }
+    if (!options.json.empty()) {  // made and gone again: at the end it would be too late to say that it cannot be
+        if (const auto file = AtomicFile::create(options.json); !file) append(errors, file.errors());
+    }
+    return errors;
+}
+
+int bench(const BenchOptions& options) {
+    const auto failed = [](const Errors& errors, ExitCode code) {
+        print_errors(errors);
+        return code;
+    };
+    std::vector<BenchSubject> subjects;
+    for (const std::string& scene : options.scenes) subjects.push_back(scene_subject(scene));
+    if (subjects.empty()) subjects = built_in_subjects();
+    std::optional<BenchReport> before;
+    if (!options.compare.empty()) {
+        auto read = read_report(options.compare);
+        if (!read) return failed(read.errors(), exit_usage);
+        before = std::move(*read);
+    }
+    if (const Errors errors = check(options, subjects); !errors.empty()) return failed(errors, exit_usage);
+    BenchReport report = empty_report();
+    for (const BenchSubject& subject : subjects) {
+        auto figures = measure_scene(subject, options.settings);
+        if (!figures) return failed(figures.errors(), exit_failed);
+        report.scenes.push_back(std::move(*figures));
+    }
+    if (!options.json.empty()) {
+        if (auto written = write_stats(to_json(report), options.json); !written) {
+            return failed(written.errors(), exit_failed);
+        }
+    }
+    if (!options.settings.quiet) std::fputs(tables(report).c_str(), stdout);
+    if (before) {
+        std::printf("%s%s", options.settings.quiet ? "" : "\n", comparison(report, *before, options.compare).c_str());
+    }
+    if (!options.json.empty() && !options.settings.quiet) std::printf("\nwrote %s\n", options.json.c_str());
+    return exit_done;
+}
+
+}  // namespace
+
+Command add_bench(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("bench", "measures speed and quality, and compares them with before");
+    auto options = std::make_shared<BenchOptions>();
+    command->add_option("scene", options->scenes, "scene files; without any, hung sheets of 32² to 256² particles");
+    add_length_options(*command, options->settings.length, "measure");
+    command->add_option("--warmup", options->settings.warmup, "frames before those, not counted")
+        ->capture_default_str();
+    command->add_option("--repeat", options->settings.repeat, "runs, each from a fresh load")->capture_default_str();
+    command->add_option("--json", options->json, "write all figures to this file");
+    command->add_option("--compare", options->compare, "print ratios to the figures of this file, now / before");
+    command->add_flag("--quiet", options->settings.quiet, "no progress, no figures but the ratios");
+    add_common_options(*command, options->settings.common);
+    command->footer(
+        "Examples:\n"
+        "  weft bench --json before.json\n"
+        "  weft bench --compare before.json\n"
+        "  weft bench scenes/banner.json scenes/curtain.json --threads 2 --repeat 5\n"
+        "One run more than --repeat goes first, without a clock: it measures stretch, shear and residual.");
+    return [options] { return bench(*options); };
+}
+
+}  // namespace weft::cli

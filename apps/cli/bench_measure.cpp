@@ -1,0 +1,239 @@
+#include "cli/bench_measure.h"
+
+#include "cli/progress.h"
+#include "cli/stats.h"
+#include "cpu/cpu_backend.h"
+#include "weft/session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace weft::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+// Bytes that the program has asked for and not given back: unlike the process's size, free space that the allocator
+// keeps for later does not count. 0 where that cannot be known.
+double heap_bytes() {
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+    const auto info = mallinfo2();
+    return static_cast<double>(info.uordblks + info.hblkhd);
+#else
+    return 0;
+#endif
+}
+
+// --- Built-in scenes
+
+std::string sheet_scene(std::uint32_t side) {
+    const std::string n = std::to_string(side);
+    return R"({ "weft": 1, "name": "sheet )" + n + R"(", "cloths": [ { "name": "sheet",
+        "mesh": { "grid": { "size": [1, 1], "resolution": [)" +
+           n + ", " + n + R"(] } },
+        "transform": { "position": [0, 1, 0], "rotation": [90, 0, 0] }, "fabric": "cotton",
+        "pins": [ { "vertices": [0, )" +
+           std::to_string(side - 1) + "] } ] } ] }\n";
+}
+
+// By way of a file, gone again at once: so a built-in scene takes exactly the way of any other.
+Result<Session> open_text(const std::string& text, const Options& options) {
+    std::string folder = (std::filesystem::temp_directory_path() / "weft-bench-XXXXXX").string();
+    if (!::mkdtemp(folder.data())) {
+        return Error{folder, "cannot be made: " + std::generic_category().message(errno)};
+    }
+    const std::filesystem::path file = std::filesystem::path(folder) / "scene.json";
+    std::ofstream(file) << text;
+    auto session = Session::open(file, options);
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+    return session;
+}
+
+// --- Runs
+
+struct Plan {
+    std::uint64_t warmup = 0, frames = 0;
+    std::uint64_t all() const { return warmup + frames; }
+};
+
+struct Average {
+    MeanMax sum;
+    void add(double mean, double max) { sum.mean += mean, sum.max += max; }
+    MeanMax over(double count) const { return {sum.mean / count, sum.max / count}; }
+};
+
+// The run without a clock. `heap_before` is what the heap held before the session was opened.
+void run_for_quality(Session& session, const Plan& plan, double heap_before, Progress& progress,
+                     SceneFigures& figures) {
+    const auto last_second =
+        std::min(plan.frames, static_cast<std::uint64_t>(std::max(1.0, 1 / session.frame_seconds() + 0.5)));
+    Average stretch, shear, residual;
+    std::uint32_t reports = report_none;
+    for (std::uint64_t i = 0; i < plan.all(); ++i) {
+        const Frame& frame = session.step();
+        reports |= frame.reports;
+        progress.update(i + 1);
+        if (i + last_second < plan.all()) continue;
+        const Strain strain = measure_strain(frame);
+        const Residual left = session.world().stretch_residual();
+        stretch.add(strain.stretch.mean, strain.stretch.max);
+        shear.add(strain.shear.mean, strain.shear.max);
+        residual.add(left.mean, left.max);
+    }
+    const auto count = static_cast<double>(last_second);
+    figures.stretch = stretch.over(count);
+    figures.shear = shear.over(count);
+    figures.residual = residual.over(count);
+    for (const std::string_view name : report_names(reports)) figures.reports.emplace_back(name);
+    figures.state_hash = session.world().state_hash();
+    if (const double held = heap_bytes() - heap_before; held > 0 && figures.particles > 0) {
+        figures.bytes_per_particle = held / static_cast<double>(figures.particles);
+    }
+}
+
+struct Timings {
+    std::vector<double> step_ms;
+    std::array<std::vector<double>, stage_count> stage_ms;
+    std::vector<double> run_medians, load_ms, first_frame_ms;
+};
+
+double median_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return median(values);
+}
+
+/// The state that the run ended in.
+Result<std::string> run_for_time(const BenchSubject& subject, const Options& options, const Plan& plan,
+                                 std::uint64_t frames_before, Progress& progress, Timings& timings) {
+    const auto begin = Clock::now();
+    auto session = subject.open(options);
+    if (!session) return session.errors();
+    timings.load_ms.push_back(ms_since(begin));
+    std::vector<double> steps;
+    steps.reserve(plan.frames);
+    for (std::uint64_t i = 0; i < plan.all(); ++i) {
+        const Frame& frame = session->step();
+        if (i == 0) timings.first_frame_ms.push_back(ms_since(begin));
+        if (i >= plan.warmup) {
+            steps.push_back(frame.step_ms);
+            for (std::uint32_t s = 0; s < stage_count; ++s) timings.stage_ms[s].push_back(frame.stage_ms[s]);
+        }
+        progress.update(frames_before + i + 1);
+    }
+    timings.step_ms.insert(timings.step_ms.end(), steps.begin(), steps.end());
+    timings.run_medians.push_back(median_of(std::move(steps)));
+    return session->world().state_hash();
+}
+
+// --- Figures
+
+void describe(const Session& session, const Options& options, SceneFigures& figures) {
+    const World& world = session.world();
+    figures.backend = world.backend().name();
+    figures.device = world.backend().device();
+    figures.isa = options.isa.empty() ? std::string(cpu_instruction_sets().front()) : options.isa;
+    figures.threads = world.backend().threads();
+    figures.substeps = world.settings().substeps;
+    figures.iterations = world.settings().iterations;
+    figures.frame_rate = session.scene().frame_rate;
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        figures.constraints.push_back({std::string(constraint_info(static_cast<ConstraintKind>(kind)).name), 0, 0});
+    }
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        figures.particles += cloth.model->particle_count;
+        figures.triangles += cloth.model->topology.triangles.size();
+        for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+            figures.constraints[kind].rows += cloth.model->constraints[kind].rows;
+        }
+    }
+}
+
+void sum_up(Timings timings, SceneFigures& figures) {
+    std::sort(timings.step_ms.begin(), timings.step_ms.end());
+    figures.ms = {median(timings.step_ms), percentile(timings.step_ms, 0.95), timings.step_ms.front(),
+                  timings.step_ms.back()};
+    figures.run_medians = std::move(timings.run_medians);
+    figures.load_ms = median_of(std::move(timings.load_ms));
+    figures.first_frame_ms = median_of(std::move(timings.first_frame_ms));
+    for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
+        figures.stages.push_back({std::string(stage_name(stage)), median_of(std::move(timings.stage_ms[stage]))});
+    }
+    const auto rounds = static_cast<double>(figures.substeps * figures.iterations);
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {  // a constraint's stage has its number
+        ConstraintFigures& constraint = figures.constraints[kind];
+        if (constraint.rows == 0) continue;
+        constraint.ns_per_row = figures.stages[kind].ms * 1e6 / (static_cast<double>(constraint.rows) * rounds);
+    }
+    std::erase_if(figures.constraints, [](const ConstraintFigures& constraint) { return constraint.rows == 0; });
+}
+
+}  // namespace
+
+BenchSubject scene_subject(const std::string& file) {
+    return {file, [file](const Options& options) { return Session::open(file, options); }};
+}
+
+std::vector<BenchSubject> built_in_subjects() {
+    std::vector<BenchSubject> subjects;
+    for (const std::uint32_t side : {32u, 64u, 128u, 256u}) {
+        subjects.push_back({"sheet " + std::to_string(side),
+                            [side](const Options& options) { return open_text(sheet_scene(side), options); }});
+    }
+    return subjects;
+}
+
+std::optional<double> spread(const SceneFigures& figures) {
+    if (figures.run_medians.size() < 2 || figures.ms.median <= 0) return {};
+    const auto [least, most] = std::ranges::minmax(figures.run_medians);
+    return (most - least) / figures.ms.median;
+}
+
+Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings) {
+    SceneFigures figures;
+    figures.name = subject.name;
+    figures.warmup = settings.warmup;
+    figures.runs = settings.repeat;
+
+    const double heap_before = heap_bytes();
+    auto session = subject.open(settings.common);
+    if (!session) return session.errors();
+    const auto frames = frame_count(settings.length, session->frame_seconds());
+    if (!frames) return frames.errors();
+    figures.frames = *frames;
+    const Plan plan{settings.warmup, *frames};
+    Progress progress("measuring " + subject.name, (settings.repeat + std::uint64_t{1}) * plan.all(), settings.quiet);
+
+    describe(*session, settings.common, figures);
+    run_for_quality(*session, plan, heap_before, progress, figures);
+    { const Session gone = std::move(*session); }  // two at once would share the caches
+
+    Timings timings;
+    for (std::uint32_t run = 1; run <= settings.repeat; ++run) {
+        const auto hash = run_for_time(subject, settings.common, plan, run * plan.all(), progress, timings);
+        if (!hash) return hash.errors();
+        if (*hash != figures.state_hash) {
+            return Error{subject.name, "two runs of the same scene end in different states, " + figures.state_hash +
+                                           " and " + *hash + ": the figures mean nothing"};
+        }
+    }
+    sum_up(std::move(timings), figures);
+    return figures;
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,83 @@
+// Runs scenes and times them. What comes out are values; bench_report.h writes and compares them.
+#pragma once
+
+#include "cli/command.h"
+#include "solver/statistics.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft {
+class Session;
+}
+
+namespace weft::cli {
+
+struct BenchSettings {
+    Length length;              ///< of simulated time, measured
+    std::uint32_t warmup = 30;  ///< frames before the first one that counts
+    std::uint32_t repeat = 3;   ///< runs, each from a fresh load
+    bool quiet = false;         ///< no progress
+    Options common;
+};
+
+/// Something to measure.
+struct BenchSubject {
+    std::string name;
+    std::function<Result<Session>(const Options&)> open;
+};
+
+/// A scene file.
+BenchSubject scene_subject(const std::string& file);
+/// A sheet of cotton, 1 m by 1 m, hung by two corners, of 32² to 256² particles.
+std::vector<BenchSubject> built_in_subjects();
+
+struct Distribution {
+    double median = 0, p95 = 0, min = 0, max = 0;
+};
+
+struct StageFigures {
+    std::string name;
+    double ms = 0;  ///< a frame: median over the frames
+};
+
+struct ConstraintFigures {
+    std::string name;
+    std::uint64_t rows = 0;
+    /// The stage's time over rows, substeps and iterations, on all threads together: two threads halve it.
+    double ns_per_row = 0;
+};
+
+struct SceneFigures {
+    std::string name;
+    std::string backend, device, isa;
+    std::uint64_t threads = 0, substeps = 0, iterations = 0;
+    double frame_rate = 0;
+    std::uint64_t warmup = 0, frames = 0, runs = 0;
+
+    std::uint64_t particles = 0, triangles = 0;
+    std::vector<ConstraintFigures> constraints;
+    Distribution ms;                  ///< a frame, over the frames of all runs
+    std::vector<double> run_medians;  ///< ms
+    std::vector<StageFigures> stages;
+    double load_ms = 0;                ///< from the file to a world that can step; median over the runs
+    double first_frame_ms = 0;         ///< and to the end of its first frame
+    MeanMax stretch, shear, residual;  ///< averages over the frames of the last second
+    /// What the heap holds for the scene, file and drawn mesh included; nothing where that cannot be known.
+    std::optional<double> bytes_per_particle;
+    std::vector<std::string> reports;
+    std::string state_hash;
+};
+
+/// Largest less smallest median of the runs, as a part of the median of all frames. One run tells nothing of it.
+std::optional<double> spread(const SceneFigures& figures);
+
+/// Runs the scene once without a clock, for stretch, residual and memory, and then `repeat` times with one. Reading
+/// every particle between two frames would move the second one out of the caches, hence the run apart.
+/// Fails where the scene cannot be opened, and where two runs end in different states.
+Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings);
+
+}  // namespace weft::cli

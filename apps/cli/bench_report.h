@@ -1,0 +1,35 @@
+// The figures of `weft bench`: as JSON and back, as tables, and against former ones.
+#pragma once
+
+#include "cli/bench_measure.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace weft::cli {
+
+struct BenchReport {
+    std::string version, compiler, processor;
+    std::uint64_t hardware_threads = 0;
+    std::vector<SceneFigures> scenes;
+};
+
+/// This program on this machine, no scenes yet.
+BenchReport empty_report();
+
+nlohmann::ordered_json to_json(const BenchReport& report);
+/// What to_json wrote. Errors name the file and the place in it.
+Result<BenchReport> read_report(const std::filesystem::path& file);
+
+std::string spread_text(std::optional<double> spread);
+
+/// Everything, for a human.
+std::string tables(const BenchReport& report);
+
+/// Ratios now / before, scene by scene, and what is not alike: below 1 is faster, or less stretch.
+std::string comparison(const BenchReport& now, const BenchReport& before, const std::string& before_name);
+
+}  // namespace weft::cli

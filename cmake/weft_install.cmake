@@ -1,0 +1,23 @@
+# What `cmake --install` puts in place. Whoever links weft::weft needs no other package: the library's own dependencies
+# are behind it.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS weft_library EXPORT weft
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/weft DESTINATION include)
+if(WEFT_APPS)
+    install(TARGETS weft RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
+install(EXPORT weft FILE weft-targets.cmake NAMESPACE weft:: DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/weft-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES cmake/weft-config.cmake ${PROJECT_BINARY_DIR}/weft-config-version.cmake DESTINATION ${package})
+
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/weft)
+install(FILES docs/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/weft)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

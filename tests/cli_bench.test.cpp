@@ -1,0 +1,151 @@
+// weft bench: what it writes, what it compares, what it refuses. How long anything takes is no matter of a test.
+
+#include "cli_fixture.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using weft::Json;
+using weft::Outcome;
+using weft::read_file;
+
+class CliBench : public weft::Cli {
+  protected:
+    Json bench(const std::string& arguments) {
+        const Outcome outcome = weft("bench --quiet --warmup 2 --frames 5 --repeat 2 --json b.json " + arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_EQ(outcome.out, "") << "--quiet";
+        return Json::parse(read_file(folder_ / "b.json"));
+    }
+    Outcome compare(const std::string& arguments = "") {
+        return weft("bench sheet.json --quiet --warmup 2 --frames 5 --repeat 2 --compare b.json " + arguments);
+    }
+};
+
+TEST_F(CliBench, writes_every_figure) {
+    const Json report = bench("sheet.json");
+    EXPECT_EQ(report["weft_bench"], 1);
+    for (const char* key : {"version", "compiler", "processor", "hardware_threads"}) EXPECT_TRUE(report.contains(key));
+    ASSERT_EQ(report["scenes"].size(), 1u);
+    const Json& s = report["scenes"][0];
+    EXPECT_EQ(s["scene"], "sheet.json");
+    EXPECT_EQ(s["backend"], "cpu");
+    EXPECT_EQ(s["device"].get<std::string>().rfind(s["isa"].get<std::string>(), 0), 0u);
+    EXPECT_EQ(s["threads"], 1);
+    EXPECT_EQ(s["substeps"], 20);
+    EXPECT_EQ(s["iterations"], 1);
+    EXPECT_EQ(s["frame_rate"], 60);
+    EXPECT_EQ(s["warmup"], 2);
+    EXPECT_EQ(s["frames"], 5);
+    EXPECT_EQ(s["runs"], 2);
+    EXPECT_EQ(s["particles"], 120);
+    EXPECT_EQ(s["triangles"], 2 * 11 * 9);
+    EXPECT_EQ(s["constraints"].size(), 2u) << "no tethers, no row of them";
+    EXPECT_EQ(s["constraints"]["stretch"]["rows"], 11 * 10 + 12 * 9 + 11 * 9);
+    EXPECT_EQ(s["constraints"]["bend"]["rows"], 11 * 8 + 10 * 9 + 11 * 9);
+    for (const char* kind : {"stretch", "bend"}) EXPECT_GT(s["constraints"][kind]["ns_per_row"], 0);
+    for (const char* key : {"median", "p95", "min", "max"}) EXPECT_GT(s["ms_per_frame"][key], 0);
+    EXPECT_LE(s["ms_per_frame"]["min"], s["ms_per_frame"]["median"]);
+    EXPECT_LE(s["ms_per_frame"]["p95"], s["ms_per_frame"]["max"]);
+    EXPECT_EQ(s["run_medians_ms"].size(), 2u);
+    EXPECT_GE(s["spread"], 0);
+    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities"})
+        EXPECT_GT(s["stage_ms"][stage], 0);
+    EXPECT_GT(s["load_ms"], 0);
+    EXPECT_GT(s["first_frame_ms"], s["load_ms"]);
+    for (const char* key : {"stretch", "shear", "residual"}) {
+        EXPECT_GT(s[key]["mean"], 0);
+        EXPECT_LE(s[key]["mean"], s[key]["max"]);
+    }
+    EXPECT_EQ(s["reports"], Json::array());
+    EXPECT_EQ(s["state_hash"], stats("--frames 7")["state_hash"]) << "what weft run comes to";
+}
+
+TEST_F(CliBench, takes_options_and_several_scenes) {
+    fs::copy(folder_ / "sheet.json", folder_ / "other.json");
+    const Json report = bench("sheet.json other.json --threads 2 --substeps 10 --iterations 2 --isa scalar");
+    ASSERT_EQ(report["scenes"].size(), 2u);
+    EXPECT_EQ(report["scenes"][1]["scene"], "other.json");
+    EXPECT_EQ(report["scenes"][0]["state_hash"], report["scenes"][1]["state_hash"]);
+    for (const Json& s : report["scenes"]) {
+        EXPECT_EQ(s["threads"], 2);
+        EXPECT_EQ(s["substeps"], 10);
+        EXPECT_EQ(s["iterations"], 2);
+        EXPECT_EQ(s["isa"], "scalar");
+    }
+}
+
+TEST_F(CliBench, prints_tables_and_has_scenes_of_its_own) {
+    const Outcome outcome = weft("bench --frames 1 --warmup 0 --repeat 1 --substeps 1");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    for (const char* text : {"sheet 32 ", "sheet 64 ", "sheet 128 ", "sheet 256 ", "65536", "median", "state hash"}) {
+        EXPECT_NE(outcome.out.find(text), std::string::npos) << text << " in\n" << outcome.out;
+    }
+    EXPECT_NE(outcome.err.find("measuring sheet 256 2/2"), std::string::npos) << outcome.err;
+    EXPECT_NE(weft("bench --help").out.find("Examples:"), std::string::npos);
+}
+
+TEST_F(CliBench, compares_with_a_former_report) {
+    bench("sheet.json");
+    const Outcome same = compare();
+    EXPECT_EQ(same.status, 0) << same.err;
+    EXPECT_EQ(same.out.rfind("compared with b.json\nratios are now / before ", 0), 0u) << same.out;
+    EXPECT_NE(same.out.find("\nsheet.json "), std::string::npos) << same.out;
+    EXPECT_NE(same.out.find(" 1.000 "), std::string::npos) << "the stretch of both\n" << same.out;
+    EXPECT_NE(same.out.find("settings, scenes and results are the same"), std::string::npos) << same.out;
+
+    const std::string threads = compare("--threads 2").out;
+    EXPECT_NE(threads.find("sheet.json: settings differ: threads 2 (before 1)\n"), std::string::npos) << threads;
+    EXPECT_EQ(threads.find("result differs"), std::string::npos) << threads;
+    const std::string finer = compare("--substeps 40").out;
+    EXPECT_NE(finer.find("settings differ: substeps 40 (before 20)\n"), std::string::npos) << finer;
+    EXPECT_NE(finer.find("sheet.json: the result differs: state "), std::string::npos) << finer;
+
+    // Written over the very file that it is compared with.
+    EXPECT_EQ(compare("--json b.json").status, 0);
+    fs::rename(folder_ / "sheet.json", folder_ / "new.json");
+    const Outcome other = weft("bench new.json --quiet --frames 1 --compare b.json");
+    EXPECT_EQ(other.status, 0) << other.err;
+    EXPECT_NE(other.out.find("new.json: nothing to compare with: not in b.json"), std::string::npos) << other.out;
+    EXPECT_NE(other.out.find("sheet.json: not measured now: in b.json only"), std::string::npos) << other.out;
+}
+
+TEST_F(CliBench, refuses_what_is_no_report) {
+    const auto refused = [&](const std::string& text, const std::string& says) {
+        write("b.json", text);
+        expect_usage_error("bench sheet.json --compare b.json", "b.json: " + says);
+    };
+    refused("no report", "line 1, column 2: ");
+    refused("", "is empty");
+    refused("[1, 2]", "is no report of weft bench");
+    refused(R"({ "frames": 3 })", "is no report of weft bench");
+    refused(R"({ "weft_bench": 2 })", "/weft_bench: must be 1");
+    expect_usage_error("bench sheet.json --compare nowhere.json", "nowhere.json: cannot be opened: No such file");
+    expect_usage_error("bench sheet.json --compare .", ".: is a folder");
+
+    Json report = bench("sheet.json");
+    report["scenes"][0]["ms_per_frame"]["median"] = "fast";
+    refused(report.dump(), "/scenes/0/ms_per_frame/median: must be a number, got \"fast\"");
+    report["scenes"][0] = 7;
+    refused(report.dump(), "/scenes/0: must be an object, got ");
+    report["scenes"] = Json::object();
+    refused(report.dump(), "/scenes: must be a list, got ");
+    report.erase("scenes");
+    refused(report.dump(), "/scenes: is missing");
+}
+
+TEST_F(CliBench, wrong_usage_is_one_line_and_status_2) {
+    expect_usage_error("bench nowhere.json", "nowhere.json");
+    expect_usage_error("bench sheet.json nowhere.json", "nowhere.json");
+    expect_usage_error("bench --threads 0", "threads: must be from 1 to 256, got 0");
+    expect_usage_error("bench sheet.json --isa mmx", "instruction set 'mmx'");
+    expect_usage_error("bench sheet.json --repeat 0", "--repeat: must be from 1 to 1000, got 0");
+    expect_usage_error("bench sheet.json --warmup 1000001", "--warmup: must be from 0 to 1000000");
+    expect_usage_error("bench sheet.json --warmup -1", "--warmup");
+    expect_usage_error("bench sheet.json --frames 0", "--frames: must come to 1 to 1000000 frames, got 0");
+    expect_usage_error("bench sheet.json --frames 5 --seconds 1", "--frames");
+    expect_usage_error("bench sheet.json --json nowhere/b.json", "nowhere/b.json");
+}
+
+}  // namespace
