@@ -10,7 +10,8 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(st
     now.carry.resize(capacity);
     last_good = now;
     for (const ConstraintTable& table : model->constraints) {
-        lambda[static_cast<std::uint32_t>(table.kind)].resize(table.stride);
+        lambda[static_cast<std::uint32_t>(table.kind)].resize(std::size_t{constraint_info(table.kind).lambdas} *
+                                                              table.stride);
     }
     face_normals.resize(model->face_stride);
     normals.resize(capacity);

@@ -48,19 +48,23 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
 
 #define WEFT_PARTICLES_2(v) v[0], v[1]
 #define WEFT_PARTICLES_4(v) v[0], v[1], v[2], v[3]
+#define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
+#define WEFT_LAMBDAS_1(v) v[0]
+#define WEFT_LAMBDAS_3(v) v[0], v[1], v[2]
 #define WEFT_LOAD_FIELD(field) row.field = load(next), next += stride;
 
 // What the generic loops below need to know of a constraint.
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                                                                 \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                                                                 \
     struct Name##Traits {                                                                                      \
-        static constexpr int arity = particles, moves = moved;                                                                \
+        static constexpr int arity = particles, moves = moved, multipliers = lambdas;                                                                \
         using Row = Name##Row;                                                                                 \
         WEFT_FN static Row load_row(const float* next, std::size_t stride) {                                   \
             Row row;                                                                                           \
             WEFT_ROW_##name(WEFT_LOAD_FIELD) return row;                                                       \
         }                                                                                                      \
-        WEFT_FN static void project(vec3* x, const real* w, real& lambda, const Row& row, const Step& step) {  \
-            project_##name(WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w), lambda, row, step);   \
+        WEFT_FN static void project(vec3* x, const real* w, real* lambda, const Row& row, const Step& step) {  \
+            project_##name(WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w),                        \
+                           WEFT_LAMBDAS_##lambdas(lambda), row, step);                                         \
         }                                                                                                      \
         WEFT_FN static void damp(vec3* v, const vec3* x, const real* w, const Row& row, real viscous) {        \
             damp_##name(WEFT_PARTICLES_##particles(v), WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w), \
@@ -79,10 +83,17 @@ inline void project_rows(const ParticleView& p, const RowView& rows, Range range
         for (int k = 0; k < Traits::arity; ++k) {
             x[k] = gather_blocks(p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r, w[k]);
         }
-        real lambda = real(0.0f);
-        if constexpr (use == LambdaUse::accumulate) lambda = load(rows.lambda + r);
+        real lambda[Traits::multipliers];
+        for (int k = 0; k < Traits::multipliers; ++k) {
+            lambda[k] = real(0.0f);
+            if constexpr (use == LambdaUse::accumulate) {
+                lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+            }
+        }
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
-        if constexpr (use != LambdaUse::discard) store(lambda, rows.lambda + r);
+        for (int k = 0; use != LambdaUse::discard && k < Traits::multipliers; ++k) {
+            store(lambda[k], rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+        }
         for (int k = 0; k < Traits::moves; ++k) {
             scatter_blocks(x[k], w[k], p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
         }
@@ -184,12 +195,12 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .lanes = lane_count,
         .predict = predict_pass,
         .velocities = velocities_pass,
-#define WEFT_CONSTRAINT(name, Name, particles, moved) project_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) project_pass<Name##Traits>,
         .project = {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
-#define WEFT_CONSTRAINT(name, Name, particles, moved) damp_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) damp_pass<Name##Traits>,
         .damp = {
 #include "physics/constraints.def"
         },
@@ -207,4 +218,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
 
 #undef WEFT_PARTICLES_2
 #undef WEFT_PARTICLES_4
+#undef WEFT_PARTICLES_6
+#undef WEFT_LAMBDAS_1
+#undef WEFT_LAMBDAS_3
 #undef WEFT_LOAD_FIELD

@@ -10,6 +10,7 @@
 #include "physics/tether/tether.kernel.h"
 #include "physics/stretch/stretch.kernel.h"
 #include "physics/bend/bend.kernel.h"
+#include "physics/plate/plate.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/plane.kernel.h"

@@ -4,6 +4,7 @@
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
 #include "physics/parameter.h"
+#include "physics/plate/plate.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 
@@ -32,7 +33,7 @@ inline constexpr Parameter body_parameters[] = {
 struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
-#define WEFT_CONSTRAINT(name, Name, particles, moved) Name##Material name;
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) Name##Material name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };

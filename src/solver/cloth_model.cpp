@@ -105,7 +105,9 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     rest.held.assign(model->particle_count, 0);
     for (std::uint32_t p : desc.pinned_particles) rest.held[p] = 1;
 
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                      \
+    // The same values for both; which of them makes rows is one of the values.
+    model->fabric.plate = model->fabric.bend;
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)             \
     model->constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
         pack_rows(ConstraintKind::name, build_##name(rest, model->fabric.name), model->particle_count, desc.coloring);
 #include "physics/constraints.def"

@@ -17,10 +17,15 @@ namespace weft {
 /// Which hinges bend: `source` leaves out those that only cutting a rectangle in two has made.
 enum class HingeChoice { all, source };
 
+/// What measures the curvature: the angles across the edges one by one (bend.md), or those of a triangle together
+/// (plate.md).
+enum class BendModel { hinges, plate };
+
 struct BendMaterial {
     float bend[3] = {11.9e-6f, 9.1e-6f, 6.6e-6f};                 ///< N·m: warp, bias, weft
     float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
     HingeChoice hinges = HingeChoice::all;
+    BendModel model = BendModel::hinges;
 };
 
 inline constexpr Parameter bend_parameters[] = {
@@ -30,6 +35,9 @@ inline constexpr Parameter bend_parameters[] = {
      .min = -180, .max = 180, .unit = "°", .what = "dihedral angle at ease: \"mesh\" as the mesh is built, or degrees"},
     {.key = "hinges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, hinges),
      .what = "`all` edges bend, or those of the `source`: not the diagonals of flat rectangles", .choices = "all|source"},
+    {.key = "bend_model", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, model),
+     .what = "what bends: `hinges`, edge by edge and quick, or the `plate`, triangle by triangle and close to `bend`",
+     .choices = "hinges|plate"},
 };
 
 }  // namespace weft
