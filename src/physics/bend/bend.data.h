@@ -36,7 +36,7 @@ inline constexpr Parameter bend_parameters[] = {
     {.key = "hinges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, hinges),
      .what = "`all` edges bend, or those of the `source`: not the diagonals of flat rectangles", .choices = "all|source"},
     {.key = "bend_model", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, model),
-     .what = "what bends: `hinges`, edge by edge and quick, or the `plate`, triangle by triangle and close to `bend`",
+     .what = "`hinges` measure curvature edge by edge, a `plate` triangle by triangle: closer to `bend`, and twice the work",
      .choices = "hinges|plate"},
 };
 
