@@ -8,19 +8,21 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 namespace {
 
 using namespace weft;
 
-std::shared_ptr<const ClothModel> sheet(std::uint32_t side) {
-    static std::map<std::uint32_t, std::shared_ptr<const ClothModel>> made;
-    auto& model = made[side];
+std::shared_ptr<const ClothModel> sheet(std::uint32_t side, BendModel bend) {
+    static std::map<std::pair<std::uint32_t, BendModel>, std::shared_ptr<const ClothModel>> made;
+    auto& model = made[{side, bend}];
     if (!model) {
         TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
         auto topology = build_topology(mesh, {.reorder = false});
         Fabric fabric;
         fabric.tether.enabled = true;
+        fabric.bend.model = bend;
         model = *build_cloth_model(
             {.name = "sheet", .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}},
             std::move(*topology));
@@ -30,7 +32,7 @@ std::shared_ptr<const ClothModel> sheet(std::uint32_t side) {
 
 // All batches of one constraint, once per iteration, as a step does with one iteration a substep.
 void project(benchmark::State& state, const cpu::Passes* passes, ConstraintKind kind, std::uint32_t side) {
-    cpu::ClothState cloth(sheet(side));
+    cpu::ClothState cloth(sheet(side, kind == ConstraintKind::plate ? BendModel::plate : BendModel::hinges));
     const ConstraintTable& table = cloth.model->table(kind);
     const cpu::ParticleView particles = cloth.now.view();
     const cpu::RowView rows = cloth.rows(kind);

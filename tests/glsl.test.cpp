@@ -32,6 +32,7 @@ class Glsl : public testing::Test {
                                  "#include \"physics/tether/tether.data.h\"\n"
                                  "#include \"physics/attachment/attachment.data.h\"\n"
                                  "#include \"physics/bend/bend.data.h\"\n"
+                                 "#include \"physics/plate/plate.data.h\"\n"
                                  "#include \"physics/kernels.inl\"\n"
                                  "layout(std430, binding = 0) buffer Particles { vec4 x[]; };\n"
                                  "layout(std430, binding = 1) buffer Numbers { float n[]; };\n"
@@ -70,10 +71,18 @@ std::string shader_for(const ConstraintInfo& info, const std::string& type) {
     for (std::string_view name : info.fields)
         text += "    row." + std::string(name) + " = n[" + std::to_string(field++) + "];\n";
     const std::string name(info.name);
-    text += "    float lambda = n[i];\n    project_" + name + "(" + list(info.arity, "p") + ", " +
-            list(info.arity, "w") + ", lambda, row, h);\n";
+    for (std::uint32_t k = 0; k < info.lambdas; ++k) {
+        const std::string s = std::to_string(k);
+        text += "    float lambda" + s + " = n[i+" + s + "];\n";
+    }
+    text += "    project_" + name + "(" + list(info.arity, "p") + ", " + list(info.arity, "w") + ", " +
+            list(info.lambdas, "lambda") + ", row, h);\n";
     text += "    damp_" + name + "(" + list(info.arity, "v") + ", " + list(info.arity, "p") + ", " +
-            list(info.arity, "w") + ", row, n[1]);\n    n[i] = lambda;\n";
+            list(info.arity, "w") + ", row, n[1]);\n";
+    for (std::uint32_t k = 0; k < info.lambdas; ++k) {
+        const std::string s = std::to_string(k);
+        text += "    n[i+" + s + "] = lambda" + s + ";\n";
+    }
     for (std::uint32_t k = 0; k < info.arity; ++k) {
         text += "    x[" + std::to_string(info.arity) + "*i+" + std::to_string(k) + "].xyz = p" + std::to_string(k) +
                 " + v" + std::to_string(k) + ";\n";
@@ -82,7 +91,7 @@ std::string shader_for(const ConstraintInfo& info, const std::string& type) {
 }
 
 TEST_F(Glsl, every_constraint_compiles) {
-#define WEFT_CONSTRAINT(name, Name, particles, moved) \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
     EXPECT_EQ(compile(shader_for(constraint_info(ConstraintKind::name), #Name)), "") << #name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT

@@ -13,7 +13,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(st
     now.carry.resize(capacity);
     last_good = now;
     for (const ConstraintTable& table : model->constraints) {
-        lambda[static_cast<std::uint32_t>(table.kind)].resize(table.stride);
+        lambda[static_cast<std::uint32_t>(table.kind)].resize(table.lambda_count());
     }
     face_normals.resize(model->face_stride);
     normals.resize(capacity);
@@ -42,7 +42,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     last_good = now;
     model = std::move(other);
     for (const ConstraintTable& table : model->constraints) {
-        lambda[static_cast<std::uint32_t>(table.kind)].assign(table.stride, 0.0f);
+        lambda[static_cast<std::uint32_t>(table.kind)].assign(table.lambda_count(), 0.0f);
     }
     gather = nullptr;
     contact_sums.clear();

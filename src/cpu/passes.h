@@ -31,7 +31,7 @@ struct RowView {
     std::uint32_t stride;
     const std::uint32_t* particles;  ///< [slot · stride + row]
     const float* fields;             ///< [field · stride + row]
-    float* lambda;                   ///< [row]
+    float* lambda;                   ///< [multiplier · stride + row]
 };
 
 /// What happens to lambda, which restarts at 0 in every substep.

@@ -48,19 +48,23 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
 
 #define WEFT_PARTICLES_2(v) v[0], v[1]
 #define WEFT_PARTICLES_4(v) v[0], v[1], v[2], v[3]
+#define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
+#define WEFT_LAMBDAS_1(v) v[0]
+#define WEFT_LAMBDAS_3(v) v[0], v[1], v[2]
 #define WEFT_LOAD_FIELD(field) row.field = load(next), next += stride;
 
 // What the generic loops below need to know of a constraint.
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                                                                 \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                                                                 \
     struct Name##Traits {                                                                                      \
-        static constexpr int arity = particles, moves = moved;                                                                \
+        static constexpr int arity = particles, moves = moved, multipliers = lambdas;                                                                \
         using Row = Name##Row;                                                                                 \
         WEFT_FN static Row load_row(const float* next, std::size_t stride) {                                   \
             Row row;                                                                                           \
             WEFT_ROW_##name(WEFT_LOAD_FIELD) return row;                                                       \
         }                                                                                                      \
-        WEFT_FN static void project(vec3* x, const real* w, real& lambda, const Row& row, const Step& step) {  \
-            project_##name(WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w), lambda, row, step);   \
+        WEFT_FN static void project(vec3* x, const real* w, real* lambda, const Row& row, const Step& step) {  \
+            project_##name(WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w),                        \
+                           WEFT_LAMBDAS_##lambdas(lambda), row, step);                                         \
         }                                                                                                      \
         WEFT_FN static void damp(vec3* v, const vec3* x, const real* w, const Row& row, real viscous) {        \
             damp_##name(WEFT_PARTICLES_##particles(v), WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w), \
@@ -84,10 +88,17 @@ inline void project_rows(const ParticleView& p, const RowView& rows, Range range
         vec3 x[Traits::arity];
         real w[Traits::arity];
         load_points<Traits>(p, rows, r, x, w);
-        real lambda = real(0.0f);
-        if constexpr (use == LambdaUse::accumulate) lambda = load(rows.lambda + r);
+        real lambda[Traits::multipliers];
+        for (int k = 0; k < Traits::multipliers; ++k) {
+            lambda[k] = real(0.0f);
+            if constexpr (use == LambdaUse::accumulate) {
+                lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+            }
+        }
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
-        if constexpr (use != LambdaUse::discard) store(lambda, rows.lambda + r);
+        for (int k = 0; use != LambdaUse::discard && k < Traits::multipliers; ++k) {
+            store(lambda[k], rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+        }
         for (int k = 0; k < Traits::moves; ++k) {
             scatter_blocks(x[k], w[k], p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
         }
@@ -103,6 +114,9 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
     }
 }
 
+// A step in which every constraint is rigid: compliance over its square is nothing.
+WEFT_FN Step rigid_step() { return {real(1e3f), real(1e-3f), real(0.0f)}; }
+
 // Without compliance, λ is what moved the particles, and its sign tells which way C was.
 WEFT_FN real plain_part(real lambda, std::array<float, 2> stiffness) {
     return select(lambda < real(0.0f), real(stiffness[0]), real(stiffness[1]));
@@ -110,14 +124,15 @@ WEFT_FN real plain_part(real lambda, std::array<float, 2> stiffness) {
 
 template <class Traits>
 inline void project_plain_pass(const ParticleView& p, const RowView& rows, Range range, std::array<float, 2> stiffness) {
-    const Step step = {real(1.0f), real(1.0f), real(0.0f)};
+    const Step step = rigid_step();
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         vec3 x[Traits::arity], before[Traits::arity];
-        real w[Traits::arity], lambda = real(0.0f);
+        real w[Traits::arity], lambda[Traits::multipliers];
         load_points<Traits>(p, rows, r, x, w);
         for (int k = 0; k < Traits::moves; ++k) before[k] = x[k];
+        for (int k = 0; k < Traits::multipliers; ++k) lambda[k] = real(0.0f);
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
-        const real part = plain_part(lambda, stiffness);
+        const real part = plain_part(lambda[0], stiffness);
         for (int k = 0; k < Traits::moves; ++k) {
             scatter_blocks(before[k] + (x[k] - before[k]) * part, w[k], p.position,
                            rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
@@ -128,22 +143,22 @@ inline void project_plain_pass(const ParticleView& p, const RowView& rows, Range
 template <class Traits>
 inline void correct_pass(const ParticleView& p, const RowView& rows, const CorrectionView& out, Range range, float h,
                          LambdaUse use) {
-    Step step = make_step(h);
-    if (!out.share) step.inv_h2 = real(0.0f);
+    const Step step = out.share ? make_step(h) : rigid_step();
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         vec3 x[Traits::arity], before[Traits::arity];
         real w[Traits::arity];
         load_points<Traits>(p, rows, r, x, w);
         for (int k = 0; k < Traits::moves; ++k) before[k] = x[k];
-        const real lambda_before = use == LambdaUse::accumulate ? load(rows.lambda + r) : real(0.0f);
-        real lambda = lambda_before;
+        real lambda[Traits::multipliers], lambda_before[Traits::multipliers];
+        for (int k = 0; k < Traits::multipliers; ++k) {
+            const float* kept = rows.lambda + static_cast<std::size_t>(k) * rows.stride + r;
+            lambda[k] = lambda_before[k] = use == LambdaUse::accumulate ? load(kept) : real(0.0f);
+        }
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
-        real part;
-        if (out.share) {
-            part = load(out.share + r);
-            if (use != LambdaUse::discard) store(lambda_before + (lambda - lambda_before) * part, rows.lambda + r);
-        } else {
-            part = plain_part(lambda, out.stiffness);
+        const real part = out.share ? load(out.share + r) : plain_part(lambda[0], out.stiffness);
+        for (int k = 0; out.share && use != LambdaUse::discard && k < Traits::multipliers; ++k) {
+            store(lambda_before[k] + (lambda[k] - lambda_before[k]) * part,
+                  rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
         }
         for (int k = 0; k < Traits::moves; ++k) {
             store_blocks((x[k] - before[k]) * part, real(0.0f),
@@ -293,23 +308,23 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .lanes = lane_count,
         .predict = predict_pass,
         .velocities = velocities_pass,
-#define WEFT_CONSTRAINT(name, Name, particles, moved) project_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) project_pass<Name##Traits>,
         .project = {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
-#define WEFT_CONSTRAINT(name, Name, particles, moved) project_plain_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) project_plain_pass<Name##Traits>,
         .project_plain = {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
-#define WEFT_CONSTRAINT(name, Name, particles, moved) correct_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) correct_pass<Name##Traits>,
         .correct = {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
         .average = average_pass,
-#define WEFT_CONSTRAINT(name, Name, particles, moved) damp_pass<Name##Traits>,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) damp_pass<Name##Traits>,
         .damp = {
 #include "physics/constraints.def"
         },
@@ -334,4 +349,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
 
 #undef WEFT_PARTICLES_2
 #undef WEFT_PARTICLES_4
+#undef WEFT_PARTICLES_6
+#undef WEFT_LAMBDAS_1
+#undef WEFT_LAMBDAS_3
 #undef WEFT_LOAD_FIELD

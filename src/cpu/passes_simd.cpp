@@ -10,6 +10,7 @@
 #include "cpu/passes.h"
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
+#include "physics/plate/plate.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 

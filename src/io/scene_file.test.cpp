@@ -150,6 +150,8 @@ TEST(SceneFile, PresetsCanBeOverridden) {
     EXPECT_TRUE(std::isnan(fabric(R"({"rest_angle": "mesh"})").bend.rest_angle));
     EXPECT_EQ(fabric(R"({"hinges": "source"})").bend.hinges, HingeChoice::source);
     EXPECT_EQ(fabric(R"("silk")").bend.hinges, HingeChoice::all);
+    EXPECT_EQ(fabric(R"({"bend_model": "plate"})").bend.model, BendModel::plate);
+    EXPECT_EQ(fabric(R"("silk")").bend.model, BendModel::hinges);
 }
 
 TEST(SceneFile, ReadsSpheresAndBoxes) {

@@ -20,7 +20,7 @@ constexpr std::string_view seed_scene = R"({
           "transform": { "position": [1, 2, 3], "rotation": [90, 0, -45], "scale": 2 },
           "fabric": { "preset": "denim", "density": 0.5, "stretch": [100, 200], "rest_angle": "mesh" },
           "pins": [ { "vertices": [0, 4] }, { "box": { "min": [-1, -2, -3], "max": [1, 2, 3] } } ] },
-        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "hinges": "source" },
+        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "hinges": "source", "bend_model": "plate" },
           "drawn": { "box": { "size": [1, 1, 1], "resolution": [3, 4, 5] } } },
         { "mesh": { "file": "bunny.obj", "up": "z" }, "fabric": "silk", "pins": [ { "color": [1, 0, 0.5] } ] } ],
     "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7 }, { "sphere": { "radius": 0.1 } } ]

@@ -14,13 +14,6 @@ constexpr std::uint8_t overflow_color = word_colors;
 
 using ColorCounts = std::array<std::uint32_t, word_colors + 1>;  // the overflow last
 
-bool repeats_a_particle(std::span<const std::uint32_t> row) {
-    for (std::size_t i = 1; i < row.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (row[i] == row[j]) return true;
-    return false;
-}
-
 /// The first color that no particle of a row has yet, row by row.
 std::vector<std::uint8_t> first_fit(std::span<const std::uint32_t> particles, std::size_t arity,
                                     std::uint32_t particle_count, std::uint32_t max_colors) {
@@ -34,8 +27,7 @@ std::vector<std::uint8_t> first_fit(std::span<const std::uint32_t> particles, st
             assert(particle < particle_count);
             taken |= used[particle];
         }
-        // A row that names a particle twice would race with itself when its ends are scattered lane by lane.
-        if (taken == ~std::uint64_t{0} || repeats_a_particle(row)) continue;
+        if (taken == ~std::uint64_t{0}) continue;
         color[i] = static_cast<std::uint8_t>(std::countr_one(taken));
         for (const std::uint32_t particle : row) used[particle] |= std::uint64_t{1} << color[i];
     }

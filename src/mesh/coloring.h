@@ -24,8 +24,8 @@ struct ColoringOptions {
     std::uint32_t min_rows = 8;
 };
 
-/// Greedy, in row order, deterministic. `particles` holds `arity` indices per row, each < particle_count. A row that
-/// names a particle twice goes to the overflow.
+/// Greedy, in row order, deterministic. `particles` holds `arity` indices per row, each < particle_count. A row
+/// may name a particle twice: it does not get in its own way.
 Coloring color_rows(std::span<const std::uint32_t> particles, std::uint32_t arity, std::uint32_t particle_count,
                     const ColoringOptions& options = {});
 

@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<std::uint32_t>;
 
-/// Every row once, ascending within colors and overflow, no particle twice in a color.
+/// Every row once, ascending within colors and overflow, no particle in two rows of a color.
 void expect_valid(const Coloring& coloring, const Rows& particles, std::uint32_t arity, std::uint32_t particle_count,
                   const ColoringOptions& options = {}) {
     const std::size_t row_count = particles.size() / arity;
@@ -28,7 +28,7 @@ void expect_valid(const Coloring& coloring, const Rows& particles, std::uint32_t
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t i = 0; i < row_count; ++i) ASSERT_EQ(sorted[i], i);
 
-    Rows color_of_last_use(particle_count, 0xffffffffu);
+    Rows color_of_last_use(particle_count, 0xffffffffu), row_of_last_use(particle_count);
     for (std::uint32_t c = 0; c < coloring.color_count(); ++c) {
         const auto begin = coloring.order.begin() + coloring.color_begin[c];
         const auto end = coloring.order.begin() + coloring.color_begin[c + 1];
@@ -36,9 +36,11 @@ void expect_valid(const Coloring& coloring, const Rows& particles, std::uint32_t
         EXPECT_TRUE(std::is_sorted(begin, end));
         for (auto row = begin; row != end; ++row)
             for (std::uint32_t k = 0; k < arity; ++k) {
-                std::uint32_t& last = color_of_last_use[particles[*row * arity + k]];
-                ASSERT_NE(last, c) << "row " << *row << " shares a particle within color " << c;
-                last = c;
+                const std::uint32_t particle = particles[*row * arity + k];
+                ASSERT_TRUE(color_of_last_use[particle] != c || row_of_last_use[particle] == *row)
+                    << "row " << *row << " shares a particle within color " << c;
+                color_of_last_use[particle] = c;
+                row_of_last_use[particle] = *row;
             }
     }
     EXPECT_TRUE(std::is_sorted(coloring.order.begin() + coloring.color_begin.back(), coloring.order.end()));
@@ -87,12 +89,13 @@ TEST(Coloring, is_first_fit_in_row_order) {
     EXPECT_EQ(coloring.color_begin, (Rows{0, 2, 4, 5}));
 }
 
-TEST(Coloring, row_with_a_particle_twice_runs_alone) {
+TEST(Coloring, row_with_a_particle_twice_is_one_like_others) {
     const Rows rows{0, 1, 2, 2, 3, 4, 5, 5};
     const Coloring coloring = color_rows(rows, 2, 6, {.min_rows = 1});
     expect_valid(coloring, rows, 2, 6, {.min_rows = 1});
-    EXPECT_EQ(coloring.order, (Rows{0, 2, 1, 3}));
-    EXPECT_EQ(coloring.overflow, 2u);
+    EXPECT_EQ(coloring.order, (Rows{0, 1, 2, 3}));
+    EXPECT_EQ(coloring.color_begin, (Rows{0, 4}));
+    EXPECT_EQ(coloring.overflow, 0u);
     const Rows wild = random_rows(2, 1000, 4, 40, false);
     expect_valid(color_rows(wild, 4, 40), wild, 4, 40);
 }

@@ -6,14 +6,14 @@ namespace weft {
 namespace {
 
 #define WEFT_FIELD_NAME(field) std::string_view(#field),
-#define WEFT_CONSTRAINT(name, Name, particles, moved) \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
     constexpr std::array name##_fields = {WEFT_ROW_##name(WEFT_FIELD_NAME)};
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 #undef WEFT_FIELD_NAME
 
 constexpr ConstraintInfo infos[] = {
-#define WEFT_CONSTRAINT(name, Name, particles, moved) {#name, particles, moved, name##_fields},
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) {#name, particles, moved, lambdas, name##_fields},
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };

@@ -3,6 +3,7 @@
 
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
+#include "physics/plate/plate.data.h"
 #include "physics/rest_shape.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
@@ -15,12 +16,12 @@
 namespace weft {
 
 enum class ConstraintKind : std::uint32_t {
-#define WEFT_CONSTRAINT(name, Name, particles, moved) name,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) name,
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };
 
-#define WEFT_CONSTRAINT(name, Name, particles, moved) +1
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) +1
 inline constexpr std::uint32_t constraint_kind_count = 0
 #include "physics/constraints.def"
     ;
@@ -30,6 +31,7 @@ struct ConstraintInfo {
     std::string_view name;
     std::uint32_t arity;                       ///< particles per row
     std::uint32_t moved;                       ///< of them, how many, from the first, a row may move
+    std::uint32_t lambdas;                     ///< Lagrange multipliers per row
     std::span<const std::string_view> fields;  ///< names of the row's numbers
 };
 
@@ -52,7 +54,7 @@ struct RowList {
 RowList make_rows(ConstraintKind kind);
 
 // One builder per kind: build_stretch, build_bend, …
-#define WEFT_CONSTRAINT(name, Name, particles, moved) \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
     RowList build_##name(const RestShape& rest, const Name##Material& material);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT

@@ -18,6 +18,7 @@
 #include "physics/attachment/attachment.kernel.h"
 #include "physics/stretch/stretch.kernel.h"
 #include "physics/bend/bend.kernel.h"
+#include "physics/plate/plate.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/plane.kernel.h"

@@ -6,6 +6,7 @@
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
 #include "physics/kernel_language.h"
+#include "physics/plate/plate.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 

@@ -42,7 +42,7 @@ constexpr FabricPreset presets[] = {
 
 constexpr FabricTable tables[] = {
     {body_parameters, offsetof(Fabric, body)},
-#define WEFT_CONSTRAINT(name, Name, particles, moved) {name##_parameters, offsetof(Fabric, name)},
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) {name##_parameters, offsetof(Fabric, name)},
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
     {contact_parameters, offsetof(Fabric, contact)},

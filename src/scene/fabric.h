@@ -6,6 +6,7 @@
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
 #include "physics/parameter.h"
+#include "physics/plate/plate.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 
@@ -43,7 +44,7 @@ struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
     AirMaterial air;
-#define WEFT_CONSTRAINT(name, Name, particles, moved) Name##Material name;
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) Name##Material name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };

@@ -121,7 +121,9 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
 
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                     \
+    // The same values for both; which of them makes rows is one of the values.
+    model.fabric.plate = model.fabric.bend;
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)            \
     model.constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
         pack_rows(ConstraintKind::name, build_##name(rest, model.fabric.name), model.point_count(), coloring);
 #include "physics/constraints.def"

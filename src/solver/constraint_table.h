@@ -36,6 +36,8 @@ struct ConstraintTable {
     std::vector<std::uint32_t> source;       ///< row -> row of the RowList, or `none` for padding
     std::vector<Batch> batches;
 
+    /// Multipliers of all rows: [multiplier · stride + row].
+    std::size_t lambda_count() const { return std::size_t{constraint_info(kind).lambdas} * stride; }
     std::uint32_t overflow() const { return !batches.empty() && batches.back().serial ? batches.back().rows : 0; }
 };
 
@@ -44,9 +46,9 @@ struct ConstraintTable {
 constexpr std::uint32_t first_dummy(std::uint32_t particle_count) {
     return padded(particle_count);
 }
-/// Length of a particle array, dummies included (four slots at most).
+/// Length of a particle array, dummies included (six slots at most).
 constexpr std::uint32_t particle_capacity(std::uint32_t particle_count) {
-    return first_dummy(particle_count) + 4 * lane_padding;
+    return first_dummy(particle_count) + 6 * lane_padding;
 }
 
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,

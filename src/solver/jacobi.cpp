@@ -5,6 +5,10 @@
 namespace weft {
 namespace {
 
+std::uint32_t particle_of(const ConstraintTable& table, std::uint32_t row, std::uint32_t slot) {
+    return table.particles[std::size_t{slot} * table.stride + row];
+}
+
 /// f(table, row, slot) for every particle that a row moves.
 template <class F>
 void for_each_moved(const ClothModel& model, F&& f) {
@@ -12,13 +16,16 @@ void for_each_moved(const ClothModel& model, F&& f) {
         const std::uint32_t moved = constraint_info(table.kind).moved;
         for (std::uint32_t row = 0; row < table.stride; ++row) {
             if (table.source[row] == none) continue;
-            for (std::uint32_t slot = 0; slot < moved; ++slot) f(table, row, slot);
+            for (std::uint32_t slot = 0; slot < moved; ++slot) {
+                // Of a particle that a row names twice, the last one counts.
+                bool again = false;
+                for (std::uint32_t later = slot + 1; later < moved; ++later) {
+                    again = again || particle_of(table, row, later) == particle_of(table, row, slot);
+                }
+                if (!again) f(table, row, slot);
+            }
         }
     }
-}
-
-std::uint32_t particle_of(const ConstraintTable& table, std::uint32_t row, std::uint32_t slot) {
-    return table.particles[std::size_t{slot} * table.stride + row];
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
                   .frame_begin = {},
                   .substep = {},
                   .frame_end = {}};
-#define WEFT_CONSTRAINT(name, Name, particles, moved)                  \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)         \
     plan.stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = \
         plain_stiffness<Name##Material>(model.fabric, settings.iterations);
 #include "physics/constraints.def"

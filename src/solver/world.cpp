@@ -190,7 +190,7 @@ Result<Done> World::restore(const Snapshot& snapshot) {
         const ClothSnapshot& saved = snapshot.cloths[i];
         const std::size_t points = cloths_[i].model->point_count();
         std::size_t rows = 0;
-        for (const ConstraintTable& table : cloths_[i].model->constraints) rows += table.stride;
+        for (const ConstraintTable& table : cloths_[i].model->constraints) rows += table.lambda_count();
         const std::string of_cloth = "particles in cloth '" + cloths_[i].model->name + "'";
         for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.carry}) {
             if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);

@@ -9,12 +9,14 @@ namespace {
 // changelog; if you did not, you have found a bug.
 constexpr const char* golden = "92ffcbe6876d1ce8";
 
-std::string drape(const CpuOptions& options, std::uint32_t iterations) {
+std::string drape(const CpuOptions& options, std::uint32_t iterations, BendModel bend = BendModel::hinges) {
+    Fabric silk = find_fabric("silk")->fabric;
+    silk.bend.model = bend;
     World world = make_world({.substeps = 10, .iterations = iterations}, options);
     world.add(make_sheet({.size = {1, 1},
                           .resolution = {40, 37},
                           .position = {0.01f, 0.4f, 0.02f},
-                          .fabric = find_fabric("silk")->fabric,
+                          .fabric = silk,
                           .pinned = [](Vec3 p) { return p.x < -0.49f && p.z < -0.49f; }}));
     world.add(make_sheet({.size = {0.4f, 0.4f},
                           .resolution = {12, 12},
@@ -41,6 +43,15 @@ TEST(Determinism, holds_with_iterations_too) {
     for (std::string_view isa : cpu_instruction_sets()) {
         for (const unsigned workers : {1u, 4u}) EXPECT_EQ(drape({workers, std::string(isa)}, 3), expected);
     }
+}
+
+TEST(Determinism, holds_for_the_plate) {
+    const std::string expected = drape({0, "scalar"}, 2, BendModel::plate);
+    EXPECT_NE(expected, drape({0, "scalar"}, 2));
+    for (std::string_view isa : cpu_instruction_sets()) {
+        EXPECT_EQ(drape({0, std::string(isa)}, 2, BendModel::plate), expected) << isa;
+    }
+    EXPECT_EQ(drape({1, ""}, 2, BendModel::plate), expected) << "two threads";
 }
 
 }  // namespace

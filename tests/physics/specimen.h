@@ -77,7 +77,20 @@ class Specimen {
     std::array<double, stage_count> stage_ms_{};
 };
 
-/// J. What a cloth holds: by its height over y = 0, by its motion, and in its stretch and bend rows.
+/// J. What one row of the plate holds with particle p at `at(p)`.
+template <class At>
+double plate_energy(const ConstraintTable& plate, std::uint32_t row, At&& at) {
+    reference::vec3 x[6];
+    for (std::uint32_t slot = 0; slot < 6; ++slot) x[slot] = at(plate.particles[slot * plate.stride + row]);
+    double f[9];
+    for (std::uint32_t k = 0; k < 9; ++k) f[k] = plate.fields[k * plate.stride + row];
+    const reference::PlateRow numbers{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8]};
+    const auto t = reference::plate_angles(x[0], x[1], x[2], x[3], x[4], x[5], 1, 1, 1, 1, 1, 1, numbers);
+    const auto strain = reference::plate_strains(numbers, {t.a.theta, t.b.theta, t.c.theta});
+    return 0.5 * reference::dot(strain, strain);
+}
+
+/// J. What a cloth holds: by its height over y = 0, by its motion, and in its stretch and bend rows, of whatever model.
 struct Energy {
     double height = 0, motion = 0, stretch = 0, bend = 0;
     double total() const { return height + motion + stretch + bend; }
@@ -109,6 +122,10 @@ inline Energy measure_energy(const Specimen& cloth) {
         const auto corner = [&](std::uint32_t slot) { return at(bend.particles[slot * bend.stride + r]); };
         const double c = reference::hinge_angle(corner(0), corner(1), corner(2), corner(3)).theta - bend.fields[r];
         energy.bend += 0.5 * c * c / bend.fields[bend.stride + r];
+    }
+    const ConstraintTable& plate = cloth.model().table(ConstraintKind::plate);
+    for (std::uint32_t r = 0; r < plate.stride; ++r) {
+        if (plate.source[r] != none) energy.bend += plate_energy(plate, r, at);
     }
     return energy;
 }

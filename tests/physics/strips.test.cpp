@@ -8,7 +8,7 @@
 namespace weft::physical {
 namespace {
 
-Fabric strip_fabric(double bend) {
+Fabric strip_fabric(double bend, BendModel model) {
     constexpr double density = 0.2;
     const auto b = static_cast<float>(bend);
     // A thousandth of strain under its own weight: what that adds to the drop is a thousandth too, and a stiffer strip
@@ -17,7 +17,7 @@ Fabric strip_fabric(double bend) {
     Fabric fabric;
     fabric.body = {.density = static_cast<float>(density), .damping = 0};
     fabric.stretch = {.stretch = {k, k}, .compression = {k, k}, .shear = 0.5f * k};
-    fabric.bend = {.bend = {b, b, b}};
+    fabric.bend = {.bend = {b, b, b}, .model = model};
     return fabric;
 }
 
@@ -28,9 +28,9 @@ struct Resolution {
 };
 
 /// Drop over reach of the tip, of a strip 1 m long.
-double cantilever(const StripMesh& strip, double gamma, const Resolution& resolution) {
+double cantilever(const StripMesh& strip, BendModel bend, double gamma, const Resolution& resolution) {
     constexpr double density = 0.2;
-    const Fabric fabric = strip_fabric(density * Specimen::gravity / gamma);
+    const Fabric fabric = strip_fabric(density * Specimen::gravity / gamma, bend);
     const auto model = make_specimen(strip.mesh, fabric, [&](Vec3 p) { return strip.along(p) < strip.clamp; });
     Specimen cloth(model, {.dt = 10 * resolution.h, .substeps = 10, .iterations = resolution.iterations});
     // Twice the lowest frequency is critical damping.
@@ -52,6 +52,10 @@ const char* name_of(GridDiagonal diagonal) {
     return diagonal == GridDiagonal::uniform ? "uniform" : diagonal == GridDiagonal::cross ? "cross" : "alternating";
 }
 
+const char* name_of(BendModel model) {
+    return model == BendModel::plate ? "plate" : "hinges";
+}
+
 const char* name_of(Cut cut) {
     constexpr const char* names[] = {"warp", "weft", "bias, diagonals along", "bias, diagonals across", "irregular"};
     return names[static_cast<int>(cut)];
@@ -62,11 +66,11 @@ struct Strip {
     GridDiagonal diagonal;
 };
 
-double cantilever_error(const Strip& strip, const CurvePoint& point, const Resolution& resolution) {
+double cantilever_error(const Strip& strip, BendModel bend, const CurvePoint& point, const Resolution& resolution) {
     const StripMesh mesh = make_strip(strip.cut, strip.diagonal, resolution.cells, 2);
-    const double error = cantilever(mesh, point.gamma, resolution) / point.drop_over_reach - 1;
-    std::printf("  cantilever  %-24s %-12s gamma %3.0f  %2u cells  drop/reach %+6.2f %%\n", name_of(strip.cut),
-                name_of(strip.diagonal), point.gamma, resolution.cells, 100 * error);
+    const double error = cantilever(mesh, bend, point.gamma, resolution) / point.drop_over_reach - 1;
+    std::printf("  cantilever  %-6s  %-24s %-12s gamma %3.0f  %2u cells  drop/reach %+6.2f %%\n", name_of(bend),
+                name_of(strip.cut), name_of(strip.diagonal), point.gamma, resolution.cells, 100 * error);
     return error;
 }
 
@@ -90,17 +94,23 @@ class Cantilever : public testing::TestWithParam<Strip> {};
 // Hinges give B exactly if a sheet is rolled, but a sheet that is free does better than a cylinder: it dimples (with
 // alternating diagonals, every second vertex lifts) or twists (with uniform ones), and then needs 4/5 of the energy. So
 // the strip sags too far, and most where stiffness decides. The bounds are what was measured, so that nothing gets
-// worse unnoticed; the test below is what has to hold.
+// worse unnoticed.
 TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
     for (const Case& one : cases) {
-        const double error = cantilever_error(GetParam(), one.point, one.resolution);
+        const double error = cantilever_error(GetParam(), BendModel::hinges, one.point, one.resolution);
         EXPECT_GT(error, -0.02);
         EXPECT_LT(error, one.point.gamma < 5 ? 0.22 : one.point.gamma < 20 ? 0.17 : 0.12);
     }
 }
 
-TEST_P(Cantilever, DISABLED_follows_the_curve_within_two_percent) {
-    for (const Case& one : cases) EXPECT_NEAR(cantilever_error(GetParam(), one.point, one.resolution), 0, 0.02);
+// A strip as limp as Γ = 50 turns by its 90° close to the clamp, which ten cells are too few for: they measure chords,
+// and 3 % less of the drop.
+TEST_P(Cantilever, of_plate_follows_the_curve_within_two_percent) {
+    for (const Case& one : cases) {
+        const bool too_coarse = one.point.gamma > 20 && one.resolution.cells < 14;
+        const double error = cantilever_error(GetParam(), BendModel::plate, one.point, one.resolution);
+        EXPECT_NEAR(error, 0, too_coarse ? 0.035 : 0.02);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Strips, Cantilever,
@@ -109,55 +119,65 @@ INSTANTIATE_TEST_SUITE_P(Strips, Cantilever,
                                          Strip{Cut::weft, GridDiagonal::uniform},
                                          Strip{Cut::weft, GridDiagonal::alternating}));
 
-// Printed rather than judged: hinges do not promise anything here.
+// Printed rather than judged: neither model promises anything here.
 TEST(CantileverElsewhere, prints_its_errors) {
-    for (const Strip& strip :
-         {Strip{Cut::warp, GridDiagonal::cross}, Strip{Cut::bias_along, GridDiagonal::uniform},
-          Strip{Cut::bias_across, GridDiagonal::uniform}, Strip{Cut::irregular, GridDiagonal::alternating}}) {
-        cantilever_error(strip, cantilever_curve[1], {14, coarse, 15});
-        cantilever_error(strip, cantilever_curve[2], {14, coarse, 15});
+    for (const BendModel bend : {BendModel::hinges, BendModel::plate}) {
+        for (const Strip& strip :
+             {Strip{Cut::warp, GridDiagonal::cross}, Strip{Cut::bias_along, GridDiagonal::uniform},
+              Strip{Cut::bias_across, GridDiagonal::uniform}, Strip{Cut::irregular, GridDiagonal::alternating}}) {
+            cantilever_error(strip, bend, cantilever_curve[1], {14, coarse, 15});
+            cantilever_error(strip, bend, cantilever_curve[2], {14, coarse, 15});
+        }
     }
 }
 
 /// Bending energy of a sheet laid onto a cylinder, over B/(2R²) per area, away from the borders. `turn` in degrees is
 /// the angle between the x axis and the direction that curves.
-double rolled_energy(GridDiagonal diagonal, double turn) {
+double rolled_energy(GridDiagonal diagonal, BendModel bend_model, double turn) {
     constexpr std::uint32_t n = 41;
     constexpr double radius = 0.5, stiffness = 1e-5;
-    const Fabric fabric = strip_fabric(stiffness);
+    const Fabric fabric = strip_fabric(stiffness, bend_model);
     const auto model = make_specimen(make_grid({1, 1}, {n, n}, diagonal), fabric, [](Vec3) { return false; });
     const double c = std::cos(turn * std::numbers::pi / 180), s = std::sin(turn * std::numbers::pi / 180);
-    const auto roll = [&](Vec3 p) {
+    const auto rest = [&](std::uint32_t particle) { return model->topology.rest_positions[particle]; };
+    const auto rolled = [&](std::uint32_t particle) {
+        const Vec3 p = rest(particle);
         const double u = c * p.x + s * p.z, v = -s * p.x + c * p.z;
         const double x = radius * std::sin(u / radius), y = radius * std::cos(u / radius);
         return reference::vec3(c * x - s * v, y, s * x + c * v);
     };
+    // Whatever lies on the border of this square counts half, as its other half belongs to the next square.
+    const auto share = [](float x) { return std::abs(x) < 0.2499f ? 1.0 : std::abs(x) < 0.2501f ? 0.5 : 0.0; };
     double energy = 0;
     const ConstraintTable& bend = model->table(ConstraintKind::bend);
     for (std::uint32_t r = 0; r < bend.stride; ++r) {
         if (bend.source[r] == none) continue;
-        Vec3 rest[4];
-        for (std::uint32_t slot = 0; slot < 4; ++slot) {
-            rest[slot] = model->topology.rest_positions[bend.particles[slot * bend.stride + r]];
-        }
-        const Vec3 middle = (rest[0] + rest[1]) * 0.5f;
-        // An edge on the border of this square counts half, as its other half belongs to the next square.
-        const auto share = [](float x) { return std::abs(x) < 0.2499f ? 1.0 : std::abs(x) < 0.2501f ? 0.5 : 0.0; };
-        const double theta = reference::hinge_angle(roll(rest[0]), roll(rest[1]), roll(rest[2]), roll(rest[3])).theta;
+        const auto at = [&](std::uint32_t slot) { return bend.particles[slot * bend.stride + r]; };
+        const Vec3 middle = (rest(at(0)) + rest(at(1))) * 0.5f;
+        const double theta = reference::hinge_angle(rolled(at(0)), rolled(at(1)), rolled(at(2)), rolled(at(3))).theta;
         energy += share(middle.x) * share(middle.z) * 0.5 * theta * theta / bend.fields[bend.stride + r];
+    }
+    const ConstraintTable& plate = model->table(ConstraintKind::plate);
+    for (std::uint32_t r = 0; r < plate.stride; ++r) {
+        if (plate.source[r] == none) continue;
+        const auto corner = [&](std::uint32_t k) { return rest(plate.particles[(3 + k) * plate.stride + r]); };
+        const Vec3 middle = (corner(0) + corner(1) + corner(2)) * (1.0f / 3);
+        energy += share(middle.x) * share(middle.z) * plate_energy(plate, r, rolled);
     }
     return energy / (0.25 * stiffness / (2 * radius * radius));
 }
 
 TEST(RolledSheet, stores_what_its_bending_stiffness_says) {
-    for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
-        EXPECT_NEAR(rolled_energy(diagonal, 0), 1, 2e-3) << "along the warp, " << name_of(diagonal);
-        EXPECT_NEAR(rolled_energy(diagonal, 90), 1, 2e-3) << "along the weft, " << name_of(diagonal);
-    }
-    for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating, GridDiagonal::cross}) {
-        for (const double turn : {0.0, 45.0, 90.0, 135.0}) {
-            std::printf("  rolled sheet  %-12s curved at %3.0f degrees to the warp: %.3f of B/(2R^2)\n",
-                        name_of(diagonal), turn, rolled_energy(diagonal, turn));
+    for (const BendModel model : {BendModel::hinges, BendModel::plate}) {
+        for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
+            EXPECT_NEAR(rolled_energy(diagonal, model, 0), 1, 2e-3) << "along the warp, " << name_of(diagonal);
+            EXPECT_NEAR(rolled_energy(diagonal, model, 90), 1, 2e-3) << "along the weft, " << name_of(diagonal);
+        }
+        for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating, GridDiagonal::cross}) {
+            for (const double turn : {0.0, 45.0, 90.0, 135.0}) {
+                std::printf("  rolled sheet  %-6s  %-12s curved at %3.0f degrees to the warp: %.3f of B/(2R^2)\n",
+                            name_of(model), name_of(diagonal), turn, rolled_energy(diagonal, model, turn));
+            }
         }
     }
 }

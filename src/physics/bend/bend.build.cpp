@@ -40,6 +40,7 @@ bool cuts_a_rectangle(const Topology& topology, const Hinge& h) {
 RowList build_bend(const RestShape& rest, const BendMaterial& material) {
     const auto [warp, bias, weft] = material.bend;
     RowList rows = make_rows(ConstraintKind::bend);
+    if (material.model != BendModel::hinges) return rows;
     for (const Hinge& hinge : rest.topology.hinges) {
         if (material.hinges == HingeChoice::source && cuts_a_rectangle(rest.topology, hinge)) continue;
         const Edge& edge = rest.topology.edges[hinge.edge];

@@ -17,12 +17,17 @@ namespace weft {
 /// Which hinges bend: `source` leaves out those that only cutting a rectangle in two has made.
 enum class HingeChoice { all, source };
 
+/// What measures the curvature: the angles across the edges one by one (bend.md), or those of a triangle together
+/// (plate.md).
+enum class BendModel { hinges, plate };
+
 struct BendMaterial {
     static constexpr int plain[2] = {2, 2};
 
     float bend[3] = {11.9e-6f, 9.1e-6f, 6.6e-6f};                 ///< N·m: warp, bias, weft
     float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
     HingeChoice hinges = HingeChoice::all;
+    BendModel model = BendModel::hinges;
 };
 
 inline constexpr Parameter bend_parameters[] = {
@@ -32,6 +37,9 @@ inline constexpr Parameter bend_parameters[] = {
      .min = -180, .max = 180, .unit = "°", .what = "dihedral angle at ease: \"mesh\" as the mesh is built, or degrees"},
     {.key = "hinges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, hinges),
      .what = "`all` edges bend, or those of the `source`: not the diagonals of flat rectangles", .choices = "all|source"},
+    {.key = "bend_model", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, model),
+     .what = "`hinges` measure curvature edge by edge, a `plate` triangle by triangle: closer to `bend`, and twice the work",
+     .choices = "hinges|plate"},
 };
 
 }  // namespace weft

@@ -1,0 +1,166 @@
+// Plate: turns a triangle's three neighbors toward their rest angles, all at once. C = transposed L (theta - rest).
+//
+//     dc---a---db       triangle (a, b, c); d* lies across the edge opposite *
+//       \ / \ /         theta > 0 where d* rises toward the side that the normal of (a, b, c) points to
+//        b---c
+//         \ /
+//          da
+
+struct PlateRow { WEFT_ROW_plate(WEFT_ROW_MEMBER) };
+
+// The angle across the edge from p to q, between the triangle (p, q, o) and the one beyond, (q, p, d). All zero where a
+// triangle or the edge has collapsed, and where no particle can move.
+struct PlateAngle {
+    real theta;           // rad, less the angle at ease
+    vec3 go, gp, gq, gd;  // gradient of theta, 1/m
+    real weight;          // sum of weight times gradient squared, 1/(kg m2)
+};
+
+// n is the normal of (p, q, o), as long as twice the area.
+WEFT_FN PlateAngle plate_angle(vec3 n, vec3 o, vec3 p, vec3 q, vec3 d, real rest,
+                               real wo, real wp, real wq, real wd)
+{
+    vec3 e = q - p;
+    vec3 po = o - p;
+    vec3 pd = d - p;
+    vec3 m = cross(pd, e);
+    real len = sqrt(dot(e, e));
+    real n_2 = dot(n, n);
+    real m_2 = dot(m, m);
+
+    // A tip turns about the edge at a lever |n|/|e|; the ends of the edge take what balances force and torque.
+    vec3 turn_o = n * (real(1) / max(n_2, real(1e-30)));
+    vec3 turn_d = m * (real(1) / max(m_2, real(1e-30)));
+    real inv_len = real(1) / max(len, real(1e-10));
+    real to = dot(po, e) * inv_len;
+    real td = dot(pd, e) * inv_len;
+    vec3 go = turn_o * len;
+    vec3 gd = turn_d * len;
+    vec3 gp = turn_o * (to - len) + turn_d * (td - len);
+    vec3 gq = -(turn_o * to + turn_d * td);
+    real w = wo * dot(go, go) + wp * dot(gp, gp) + wq * dot(gq, gq) + wd * dot(gd, gd);
+    mask able = len > real(1e-10) && n_2 > real(1e-30) && m_2 > real(1e-30) && w > real(0);
+
+    PlateAngle h;
+    // Sine and cosine, both times |n| |m|; as sharp at 0 and at +-pi as between.
+    h.theta = select(able, wrap_angle(angle_of(dot(n, pd) * len, dot(n, m)) - rest), real(0));
+    h.go = select(able, go, vec3(real(0)));
+    h.gp = select(able, gp, vec3(real(0)));
+    h.gq = select(able, gq, vec3(real(0)));
+    h.gd = select(able, gd, vec3(real(0)));
+    h.weight = select(able, w, real(0));
+    return h;
+}
+
+// The three angles, opposite a, b and c.
+struct PlateAngles { PlateAngle a, b, c; };
+
+WEFT_FN PlateAngles plate_angles(vec3 da, vec3 db, vec3 dc, vec3 a, vec3 b, vec3 c,
+                                 real wda, real wdb, real wdc, real wa, real wb, real wc, PlateRow row)
+{
+    vec3 n = cross(b - a, c - a);
+    PlateAngles t;
+    t.a = plate_angle(n, a, b, c, da, row.rest_a, wa, wb, wc, wda);
+    t.b = plate_angle(n, b, c, a, db, row.rest_b, wb, wc, wa, wdb);
+    t.c = plate_angle(n, c, a, b, dc, row.rest_c, wc, wa, wb, wdc);
+    return t;
+}
+
+// Solves (1 + k S) x = r, where S is transposed L times W times L and W what the three angles weigh, each on each:
+// the sum of a particle's weight times grad_i times grad_j.
+WEFT_FN vec3 plate_solve(PlateAngles t, real wa, real wb, real wc, PlateRow row, real k, vec3 r)
+{
+    real w_ab = wa * dot(t.a.go, t.b.gq) + wb * dot(t.a.gp, t.b.go) + wc * dot(t.a.gq, t.b.gp);
+    real w_ac = wa * dot(t.a.go, t.c.gp) + wb * dot(t.a.gp, t.c.gq) + wc * dot(t.a.gq, t.c.go);
+    real w_bc = wa * dot(t.b.gq, t.c.gp) + wb * dot(t.b.go, t.c.gq) + wc * dot(t.b.gp, t.c.go);
+
+    // V = k W L, S = transposed L V.
+    real v_aa = k * (t.a.weight * row.l_aa + w_ab * row.l_ba + w_ac * row.l_ca);
+    real v_ba = k * (w_ab * row.l_aa + t.b.weight * row.l_ba + w_bc * row.l_ca);
+    real v_ca = k * (w_ac * row.l_aa + w_bc * row.l_ba + t.c.weight * row.l_ca);
+    real v_bb = k * (t.b.weight * row.l_bb + w_bc * row.l_cb);
+    real v_cb = k * (w_bc * row.l_bb + t.c.weight * row.l_cb);
+    real v_cc = k * (t.c.weight * row.l_cc);
+    real s_aa = row.l_aa * v_aa + row.l_ba * v_ba + row.l_ca * v_ca;
+    real s_ab = row.l_bb * v_ba + row.l_cb * v_ca;
+    real s_ac = row.l_cc * v_ca;
+    real s_bb = row.l_bb * v_bb + row.l_cb * v_cb;
+    real s_bc = row.l_cc * v_cb;
+    real s_cc = row.l_cc * v_cc;
+
+    // Elimination. S has no negative eigenvalue, so no pivot is below 1 but by rounding.
+    real one = real(1);
+    real inv_a = one / max(one + s_aa, one);
+    real f_ab = s_ab * inv_a;
+    real f_ac = s_ac * inv_a;
+    real inv_b = one / max(one + (s_bb - f_ab * s_ab), one);
+    real left_bc = s_bc - f_ab * s_ac;
+    real f_bc = left_bc * inv_b;
+    real inv_c = one / max(one + (s_cc - f_ac * s_ac - f_bc * left_bc), one);
+    real y_b = r.y - f_ab * r.x;
+    real y_c = r.z - f_ac * r.x - f_bc * y_b;
+    vec3 x;
+    x.z = y_c * inv_c;
+    x.y = y_b * inv_b - f_bc * x.z;
+    x.x = r.x * inv_a - f_ab * x.y - f_ac * x.z;
+    // Beyond, squares leave the range of a float: the row waits.
+    return select(s_aa + s_bb + s_cc < real(1e30), x, vec3(real(0)));
+}
+
+// L x: from the row's three numbers to moments of the three angles, or to anything that goes with them.
+WEFT_FN vec3 plate_moments(PlateRow row, vec3 x)
+{
+    return vec3(row.l_aa * x.x, row.l_ba * x.x + row.l_bb * x.y, row.l_ca * x.x + row.l_cb * x.y + row.l_cc * x.z);
+}
+
+// Transposed L x: from the three angles to the row's three numbers.
+WEFT_FN vec3 plate_strains(PlateRow row, vec3 x)
+{
+    return vec3(row.l_aa * x.x + row.l_ba * x.y + row.l_ca * x.z, row.l_bb * x.y + row.l_cb * x.z, row.l_cc * x.z);
+}
+
+WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
+                           inout_(vec3) a, inout_(vec3) b, inout_(vec3) c,
+                           real wda, real wdb, real wdc, real wa, real wb, real wc,
+                           inout_(real) lambda_a, inout_(real) lambda_b, inout_(real) lambda_c,
+                           PlateRow row, Step step)
+{
+    PlateAngles t = plate_angles(da, db, dc, a, b, c, wda, wdb, wdc, wa, wb, wc, row);
+    real h2 = step.h * step.h;
+    vec3 lambda = vec3(lambda_a, lambda_b, lambda_c);
+    vec3 strain = plate_strains(row, vec3(t.a.theta, t.b.theta, t.c.theta));
+    // The compliance is 1/h2, times which everything is.
+    vec3 dl = plate_solve(t, wa, wb, wc, row, h2, -(strain * h2 + lambda));
+    lambda_a = lambda_a + dl.x;
+    lambda_b = lambda_b + dl.y;
+    lambda_c = lambda_c + dl.z;
+    vec3 m = plate_moments(row, dl);
+    da = da + t.a.gd * (wda * m.x);
+    db = db + t.b.gd * (wdb * m.y);
+    dc = dc + t.c.gd * (wdc * m.z);
+    a = a + (t.a.go * m.x + t.b.gq * m.y + t.c.gp * m.z) * wa;
+    b = b + (t.a.gp * m.x + t.b.go * m.y + t.c.gq * m.z) * wb;
+    c = c + (t.a.gq * m.x + t.b.gp * m.y + t.c.go * m.z) * wc;
+}
+
+// Viscosity beside the spring: against the rates at which the angles change, implicit. `viscous` is the retardation
+// time times the time step, s2.
+WEFT_FN void damp_plate(inout_(vec3) vda, inout_(vec3) vdb, inout_(vec3) vdc,
+                        inout_(vec3) va, inout_(vec3) vb, inout_(vec3) vc,
+                        vec3 da, vec3 db, vec3 dc, vec3 a, vec3 b, vec3 c,
+                        real wda, real wdb, real wdc, real wa, real wb, real wc,
+                        PlateRow row, real viscous)
+{
+    PlateAngles t = plate_angles(da, db, dc, a, b, c, wda, wdb, wdc, wa, wb, wc, row);
+    vec3 rate = vec3(dot(t.a.gd, vda) + dot(t.a.go, va) + dot(t.a.gp, vb) + dot(t.a.gq, vc),
+                     dot(t.b.gd, vdb) + dot(t.b.gq, va) + dot(t.b.go, vb) + dot(t.b.gp, vc),
+                     dot(t.c.gd, vdc) + dot(t.c.gp, va) + dot(t.c.gq, vb) + dot(t.c.go, vc));
+    vec3 s = plate_solve(t, wa, wb, wc, row, viscous, -(plate_strains(row, rate) * viscous));
+    vec3 m = plate_moments(row, s);
+    vda = vda + t.a.gd * (wda * m.x);
+    vdb = vdb + t.b.gd * (wdb * m.y);
+    vdc = vdc + t.c.gd * (wdc * m.z);
+    va = va + (t.a.go * m.x + t.b.gq * m.y + t.c.gp * m.z) * wa;
+    vb = vb + (t.a.gp * m.x + t.b.go * m.y + t.c.gq * m.z) * wb;
+    vc = vc + (t.a.gq * m.x + t.b.gp * m.y + t.c.go * m.z) * wc;
+}
