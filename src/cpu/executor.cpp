@@ -1,5 +1,7 @@
 #include "cpu/executor.h"
 
+#include "base/flush_subnormals.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -124,6 +126,7 @@ std::uint32_t Executor::run(ClothState& cloth, const StepPlan& plan, const StepI
 }
 
 void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, stage_count>& stage_ms) {
+    const FlushSubnormals flush;
     std::array<double, stage_count> mine{};
     StageClock clock(mine);
     keep_last_good(frame, rank);
@@ -302,6 +305,7 @@ void Executor::check_finite(const Frame& frame, unsigned rank) {
 
 std::string Executor::find_non_finite(ClothState& cloth, const StepPlan& plan, const StepInput& input) {
     if (std::string culprit = name_input(cloth, input); !culprit.empty()) return culprit;
+    const FlushSubnormals flush;
     WorkerTeam alone;
     Executor single(passes_, alone);
     const Frame frame = make_frame(cloth, plan, input);
