@@ -5,15 +5,8 @@
 #include "cpu/cpu_backend.h"
 #include "weft/session.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -41,28 +34,12 @@ double heap_bytes() {
 
 // --- Built-in scenes
 
-std::string sheet_scene(std::uint32_t side) {
-    const std::string n = std::to_string(side);
-    return R"({ "weft": 1, "name": "sheet )" + n + R"(", "cloths": [ { "name": "sheet",
-        "mesh": { "grid": { "size": [1, 1], "resolution": [)" +
-           n + ", " + n + R"(] } },
-        "transform": { "position": [0, 1, 0], "rotation": [90, 0, 0] }, "fabric": "cotton",
-        "pins": [ { "vertices": [0, )" +
-           std::to_string(side - 1) + "] } ] } ] }\n";
-}
-
-// By way of a file, gone again at once: so a built-in scene takes exactly the way of any other.
-Result<Session> open_text(const std::string& text, const Options& options) {
-    std::string folder = (std::filesystem::temp_directory_path() / "weft-bench-XXXXXX").string();
-    if (!::mkdtemp(folder.data())) {
-        return Error{folder, "cannot be made: " + std::generic_category().message(errno)};
-    }
-    const std::filesystem::path file = std::filesystem::path(folder) / "scene.json";
-    std::ofstream(file) << text;
-    auto session = Session::open(file, options);
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
-    return session;
+SceneDesc sheet_scene(std::uint32_t side) {
+    SceneCloth sheet{.name = "sheet",
+                     .mesh = GridDesc{.size = {1, 1}, .resolution = {side, side}},
+                     .transform = {.position = {0, 1, 0}, .rotation_degrees = {90, 0, 0}},
+                     .pins = {{.select = VertexPins{{0, side - 1}}}}};
+    return {.name = "sheet " + std::to_string(side), .cloths = {std::move(sheet)}};
 }
 
 // --- Runs
@@ -193,7 +170,7 @@ std::vector<BenchSubject> built_in_subjects() {
     std::vector<BenchSubject> subjects;
     for (const std::uint32_t side : {32u, 64u, 128u, 256u}) {
         subjects.push_back({"sheet " + std::to_string(side),
-                            [side](const Options& options) { return open_text(sheet_scene(side), options); }});
+                            [side](const Options& options) { return Session::create(sheet_scene(side), options); }});
     }
     return subjects;
 }
