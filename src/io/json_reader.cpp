@@ -125,11 +125,11 @@ std::vector<std::uint32_t> ObjectReader::indices(std::string_view key) {
     return result;
 }
 
-std::string_view ObjectReader::one_of(std::initializer_list<std::string_view> keys) {
+std::string_view ObjectReader::one_of(std::span<const std::string_view> keys) {
     std::vector<std::string_view> present;
     std::ranges::copy_if(keys, std::back_inserter(present), [this](std::string_view key) { return has(key); });
     if (present.size() == 1) return present.front();
-    const std::string wanted = "must have one of " + alternatives({keys.begin(), keys.size()});
+    const std::string wanted = "must have one of " + alternatives(keys);
     if (given_) problems_.add(pointer_, present.empty() ? wanted : wanted + ", got " + std::to_string(present.size()));
     return {};
 }

@@ -44,7 +44,8 @@ class ObjectReader {
     std::vector<std::uint32_t> indices(std::string_view key);
 
     /// Which one of these keys there is; none of them or several is a problem, and the answer is then empty.
-    std::string_view one_of(std::initializer_list<std::string_view> keys);
+    std::string_view one_of(std::span<const std::string_view> keys);
+    std::string_view one_of(std::initializer_list<std::string_view> keys) { return one_of(std::span(keys)); }
     /// Reports keys of `table` that stand without `companion`, to which they belong.
     void only_with(std::string_view companion, std::span<const Parameter> table);
 

@@ -136,25 +136,18 @@ void read_motion(ObjectReader& o, ColliderDesc& collider) {
     });
 }
 
+template <class Shape>
+void read_shape(ObjectReader& collider, std::string_view kind, std::span<const Parameter> keys, Shape& shape) {
+    collider.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
+}
+
 void read_collider(ObjectReader& o, ColliderDesc& collider) {
     o.values(collider_keys, &collider);
-    const std::string_view kind = o.one_of({"plane", "sphere", "box", "capsule"});
-    if (kind == "plane") {
-        auto& plane = collider.shape.emplace<PlaneDesc>();
-        o.object("plane", [&](ObjectReader& shape) { shape.values(plane_keys, &plane); });
-    }
-    if (kind == "sphere") {
-        auto& sphere = collider.shape.emplace<SphereDesc>();
-        o.object("sphere", [&](ObjectReader& shape) { shape.values(sphere_keys, &sphere); });
-    }
-    if (kind == "box") {
-        auto& box = collider.shape.emplace<BoxDesc>();
-        o.object("box", [&](ObjectReader& shape) { shape.values(box_shape_keys, &box); });
-    }
-    if (kind == "capsule") {
-        auto& capsule = collider.shape.emplace<CapsuleDesc>();
-        o.object("capsule", [&](ObjectReader& shape) { shape.values(capsule_keys, &capsule); });
-    }
+    const std::string_view kind = o.one_of(shape_keys);
+#define WEFT_SHAPE(name, Name) \
+    if (kind == #name) read_shape(o, kind, name##_parameters, collider.shape.emplace<Name##Desc>());
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
     o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
     read_motion(o, collider);
 }

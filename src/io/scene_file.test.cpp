@@ -1,6 +1,8 @@
 #include "io/scene_file.h"
 
 #include "io/json_text.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_keys.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -330,10 +332,9 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
         {cloth(R"("pins": [{"box": {"max": [1, 1, 1]}}])"), {"s.json: /cloths/0/pins/0/box/min: is missing"}},
         {cloth(R"("pins": [{"color": [1, 0, 0]}])"),
          {"s.json: /cloths/0/pins/0/color: needs a mesh with vertex colors, which a grid has not"}},
-        {scene(R"("colliders": [{}])"),
-         {"s.json: /colliders/0: must have one of \"plane\", \"sphere\", \"box\" or \"capsule\""}},
+        {scene(R"("colliders": [{}])"), {"s.json: /colliders/0: must have one of " + alternatives(shape_keys)}},
         {scene(R"("colliders": [{"plane": {}, "sphere": {}}])"),
-         {"s.json: /colliders/0: must have one of \"plane\", \"sphere\", \"box\" or \"capsule\", got 2"}},
+         {"s.json: /colliders/0: must have one of " + alternatives(shape_keys) + ", got 2"}},
         {R"({"weft": 1, "cloths": [{"name": "a"}, {"name": "a"}]})",
          {"s.json: /cloths/1/name: is taken: another before it is called \"a\""}},
         {scene(R"("colliders": [{"name": "a", "plane": {}}, {"name": "a", "plane": {}}])"),
@@ -395,18 +396,16 @@ TEST(SceneFile, KnowsWhatCannotMove) {
 }
 
 TEST(SceneFile, ReportsAllAtOnce) {
-    EXPECT_THAT(
-        errors_of(R"({"weft": 1, "gravty": 0, "frame_rate": -1,
+    EXPECT_THAT(errors_of(R"({"weft": 1, "gravty": 0, "frame_rate": -1,
                               "cloths": [{"fabric": {"density": -1, "shear": "x"}, "mesh": {"grid": {"size": [0, 1]}}}],
-                              "colliders": [{"sphere": {"radius": -1}, "color": 3}]})"),
-        ElementsAre("s.json: /cloths/0/fabric/shear: must be a number, got \"x\"",
-                    "s.json: /colliders/0/color: unknown key \"color\"; known are \"name\", \"plane\", \"sphere\", "
-                    "\"box\", \"capsule\", \"transform\", \"motion\" and \"friction\"",
-                    "s.json: /gravty: unknown key \"gravty\"; did you mean \"gravity\"?",
-                    "s.json: /frame_rate: must be > 0 frames/s, got -1",
-                    "s.json: /cloths/0/mesh/grid/size/0: must be > 0 m, got 0",
-                    "s.json: /cloths/0/fabric/density: must be > 0 kg/m², got -1",
-                    "s.json: /colliders/0/sphere/radius: must be > 0 m, got -1"));
+                              "colliders": [{"sphere": {"radius": -1}, "moton": 3}]})"),
+                ElementsAre("s.json: /cloths/0/fabric/shear: must be a number, got \"x\"",
+                            "s.json: /colliders/0/moton: unknown key \"moton\"; did you mean \"motion\"?",
+                            "s.json: /gravty: unknown key \"gravty\"; did you mean \"gravity\"?",
+                            "s.json: /frame_rate: must be > 0 frames/s, got -1",
+                            "s.json: /cloths/0/mesh/grid/size/0: must be > 0 m, got 0",
+                            "s.json: /cloths/0/fabric/density: must be > 0 kg/m², got -1",
+                            "s.json: /colliders/0/sphere/radius: must be > 0 m, got -1"));
 }
 
 // A value that could not be read has its default; nothing is said about that.

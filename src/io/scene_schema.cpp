@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -29,7 +30,7 @@ const Kinds kinds[] = {
     {"/cloths/*/mesh", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/drawn", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/pins/*", {"vertices", "box", "color"}},
-    {"/colliders/*", {"plane", "sphere", "box", "capsule"}},
+    {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
 };
 
 std::vector<const SceneTable*> tables_at(std::string_view place) {

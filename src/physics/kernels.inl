@@ -1,7 +1,6 @@
 // Every kernel, to be included inside a namespace that has the lanes. Kernels carry no include guards: each namespace
 // compiles its own copy of the same text. The *.data.h files come before, outside any namespace. The preprocessor
-// cannot make an #include from constraints.def, so a new constraint, shape or
-// wind is named here too.
+// cannot make an #include from constraints.def, so a new constraint or wind is named here too.
 
 // clang-format off: each file builds on those before it
 #include "physics/trigonometry.kernel.h"
@@ -21,8 +20,7 @@
 #include "physics/plate/plate.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
-#include "physics/contact/plane.kernel.h"
-#include "physics/contact/sphere.kernel.h"
-#include "physics/contact/box.kernel.h"
-#include "physics/contact/capsule.kernel.h"
+#define WEFT_SHAPE_KERNELS
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE_KERNELS
 // clang-format on

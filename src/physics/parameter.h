@@ -8,6 +8,9 @@
 
 namespace weft {
 
+/// Farther from the origin a float no longer resolves a fiber: 10⁶ m is told in steps of 6 cm.
+inline constexpr double far_away = 1e6;
+
 enum class ParameterKind {
     number,         ///< `count` floats; one number may stand for all of them
     flag,           ///< bool

@@ -14,9 +14,6 @@
 namespace weft {
 namespace {
 
-// Shorter than this, a direction is an accident.
-constexpr double min_normal_length = 1e-9;
-
 // Element `index` of a value; memcpy because the struct behind `base` is known by its offsets alone.
 template <class T>
 T element(const Parameter& parameter, const void* base, std::size_t index) {
@@ -161,10 +158,11 @@ void check_pin(const PinDesc& pin, const std::optional<MadeMesh>& made, const st
         problems.add(at(pointer, "motion"), "must not stand beside \"attach\": the collider moves the pin");
 }
 
-void check_plane(const PlaneDesc& plane, const std::string& pointer, Problems& problems) {
-    check_values(plane_keys, &plane, pointer, problems);
-    const double x = plane.normal.x, y = plane.normal.y, z = plane.normal.z;
-    if (std::sqrt(x * x + y * y + z * z) < min_normal_length) problems.add(at(pointer, "normal"), "must not be zero");
+template <class Shape>
+void check_shape(const Shape& shape, std::span<const Parameter> keys, const std::string& pointer, Problems& problems) {
+    check_values(keys, &shape, pointer, problems);
+    if (const ShapeProblem problem = shape_problem(shape); !problem.what.empty())
+        problems.add(at(pointer, problem.key), std::string(problem.what));
 }
 
 template <class Named>
@@ -303,14 +301,11 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
 
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
     check_values(collider_keys, &collider, pointer, problems);
-    if (const auto* plane = std::get_if<PlaneDesc>(&collider.shape))
-        check_plane(*plane, at(pointer, "plane"), problems);
-    else if (const auto* sphere = std::get_if<SphereDesc>(&collider.shape))
-        check_values(sphere_keys, sphere, at(pointer, "sphere"), problems);
-    else if (const auto* box = std::get_if<BoxDesc>(&collider.shape))
-        check_values(box_shape_keys, box, at(pointer, "box"), problems);
-    else if (const auto* capsule = std::get_if<CapsuleDesc>(&collider.shape))
-        check_values(capsule_keys, capsule, at(pointer, "capsule"), problems);
+#define WEFT_SHAPE(name, Name)                                        \
+    if (const auto* shape = std::get_if<Name##Desc>(&collider.shape)) \
+        check_shape(*shape, name##_parameters, at(pointer, #name), problems);
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
     check_values(pose_keys, &collider.transform, at(pointer, "transform"), problems);
     check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
 }

@@ -11,12 +11,18 @@
 
 namespace weft {
 
-// weft/scene.h names every wind that there is.
-#define WEFT_WIND(name, Name) static_cast<int>(WindKind::name) >= 0 &&
-static_assert(
+// weft/scene.h names every wind that there is, in the same order.
+#define WEFT_WIND(name, Name) WindKind::name,
+inline constexpr WindKind wind_order[] = {
 #include "physics/air/winds.def"
-    true);
+};
 #undef WEFT_WIND
+static_assert([] {
+    int number = 0;
+    for (const WindKind kind : wind_order)
+        if (static_cast<int>(kind) != number++) return false;
+    return true;
+}());
 
 /// A ClothDesc whose fabric has been looked up.
 struct SceneCloth {

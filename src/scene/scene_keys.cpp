@@ -17,10 +17,9 @@ const SphereMeshDesc sphere_mesh;
 const BoxMeshDesc box_mesh;
 const ColorPins color_pins;
 const ColliderDesc collider;
-const PlaneDesc plane;
-const SphereDesc sphere;
-const BoxDesc box;
-const CapsuleDesc capsule;
+#define WEFT_SHAPE(name, Name) const Name##Desc name##_shape;
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
 const PinDesc pin;
 const OffsetKey offset_key;
 const PoseKey pose_key;
@@ -57,10 +56,9 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/pins/*/box", box_keys, nullptr},
         {"/colliders/*", collider_keys, &collider},
         {"/colliders/*/transform", pose_keys, &collider.transform},
-        {"/colliders/*/plane", plane_keys, &plane},
-        {"/colliders/*/sphere", sphere_keys, &sphere},
-        {"/colliders/*/box", box_shape_keys, &box},
-        {"/colliders/*/capsule", capsule_keys, &capsule},
+#define WEFT_SHAPE(name, Name) {"/colliders/*/" #name, name##_parameters, &name##_shape},
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
         {"/colliders/*/motion", motion_keys, nullptr},
         {"/colliders/*/motion/keys/*", pose_key_keys, &pose_key},
     };

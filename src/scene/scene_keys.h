@@ -1,7 +1,9 @@
-// Every key of a scene beside those of a fabric: where its value goes, its range, unit and meaning. Reader, checks and
-// documentation work through these tables, so a new value is a member in scene_desc.h and a line here.
+// Every key of a scene beside those of a fabric and of a collider's shape: where its value goes, its range, unit and
+// meaning. Reader, checks and documentation work through these tables, so a new value is a member in scene_desc.h and a
+// line here.
 #pragma once
 
+#include "physics/contact/shapes.def"
 #include "physics/parameter.h"
 #include "scene/scene_desc.h"
 
@@ -16,8 +18,6 @@ namespace weft {
 
 inline constexpr std::uint32_t scene_format = 1;
 
-/// Farther from the origin a float no longer resolves a fiber: 10⁶ m is told in steps of 6 cm.
-inline constexpr double far_away = 1e6;
 inline constexpr double any_float = std::numeric_limits<float>::max();
 
 /// Vertices of all meshes together that a scene describes by numbers; 2²⁴ is a grid of 4096 × 4096.
@@ -70,9 +70,15 @@ inline constexpr Parameter air_keys[] = {
     {.key = "wind", .kind = ParameterKind::list, .what = "what moves the air; the sum acts"},
 };
 
+#define WEFT_WIND(name, Name) "|" #name
+inline constexpr std::string_view wind_choices = std::string_view(
+#include "physics/air/winds.def"
+    ).substr(1);
+#undef WEFT_WIND
+
 inline constexpr Parameter wind_keys[] = {
     {.key = "kind", .kind = ParameterKind::choice, .offset = offsetof(WindDesc, kind),
-     .what = "`directional`: the same everywhere", .choices = "directional"},
+     .what = "`directional`: the same everywhere", .choices = wind_choices},
     {.key = "velocity", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(WindDesc, velocity), .min = -1e4,
      .max = 1e4, .unit = "m/s", .what = "where it blows to, and how fast"},
     {.key = "gust", .kind = ParameterKind::object, .what = "how it swells and drops"},
@@ -207,14 +213,20 @@ inline constexpr Parameter box_keys[] = {
 inline constexpr Parameter collider_keys[] = {
     {.key = "name", .kind = ParameterKind::text, .offset = offsetof(ColliderDesc, name),
      .what = "no two colliders share one; a collider without is called `collider 0`, `collider 1`, …"},
-    {.key = "plane", .kind = ParameterKind::object, .what = "everything below a plane is solid"},
-    {.key = "sphere", .kind = ParameterKind::object, .what = "a ball around the collider's origin"},
-    {.key = "box", .kind = ParameterKind::object, .what = "a box around the collider's origin"},
-    {.key = "capsule", .kind = ParameterKind::object, .what = "a segment of the collider's y axis with a radius"},
+#define WEFT_SHAPE(name, Name) {.key = #name, .kind = ParameterKind::object, .what = name##_what},
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
     {.key = "transform", .kind = ParameterKind::object, .what = "where it is"},
     {.key = "motion", .kind = ParameterKind::object, .what = "`\"static\"`, or how it moves"},
     {.key = "friction", .count = 2, .offset = offsetof(ColliderDesc, friction), .min = 0, .max = 100,
      .what = "static and kinetic friction; a pair's is the geometric mean of its two sides"},
+};
+
+/// Those of collider_keys of which a collider has exactly one.
+inline constexpr std::string_view shape_keys[] = {
+#define WEFT_SHAPE(name, Name) #name,
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
 };
 
 inline constexpr Parameter motion_keys[] = {
@@ -228,30 +240,6 @@ inline constexpr Parameter pose_key_keys[] = {
      .min = -far_away, .max = far_away, .unit = "m", .what = "in place of the transform's"},
     {.key = "rotation", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PoseKey, rotation_degrees),
      .min = -any_float, .unit = "°", .what = "in place of the transform's; 360 more is one turn more"},
-};
-
-inline constexpr Parameter box_shape_keys[] = {
-    {.key = "half_extents", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(BoxDesc, half_extents),
-     .min = 0, .max = far_away, .min_excluded = true, .unit = "m", .what = "half its size along its x, y and z"},
-};
-
-inline constexpr Parameter capsule_keys[] = {
-    {.key = "radius", .offset = offsetof(CapsuleDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
-     .unit = "m", .what = "of its round ends and its side"},
-    {.key = "half_height", .offset = offsetof(CapsuleDesc, half_height), .min = 0, .max = far_away, .unit = "m",
-     .what = "half the length between the centers of its ends, along its y"},
-};
-
-inline constexpr Parameter plane_keys[] = {
-    {.key = "normal", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PlaneDesc, normal),
-     .min = -far_away, .max = far_away, .what = "points out of the solid; any length but 0"},
-    {.key = "offset", .offset = offsetof(PlaneDesc, offset), .min = -far_away, .max = far_away, .unit = "m",
-     .what = "distance of the plane from the collider's origin, along the normal"},
-};
-
-inline constexpr Parameter sphere_keys[] = {
-    {.key = "radius", .offset = offsetof(SphereDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
-     .unit = "m", .what = "how far it reaches from the collider's origin"},
 };
 
 // clang-format on

@@ -1,30 +1,18 @@
 #include "solver/collider.h"
 
+#include "physics/contact/shapes.def"
 #include "physics/scalar.h"
 
 namespace weft {
 namespace {
 
-void set_shape(Collider& collider, const PlaneDesc& plane) {
-    const Vec3 n = normalized(plane.normal);
-    collider.shape = ShapeKind::plane;
-    collider.numbers = {n.x, n.y, n.z, plane.offset};
-}
-
-void set_shape(Collider& collider, const SphereDesc& sphere) {
-    collider.shape = ShapeKind::sphere;
-    collider.numbers = {sphere.radius, 0, 0, 0};
-}
-
-void set_shape(Collider& collider, const BoxDesc& box) {
-    collider.shape = ShapeKind::box;
-    collider.numbers = {box.half_extents.x, box.half_extents.y, box.half_extents.z, 0};
-}
-
-void set_shape(Collider& collider, const CapsuleDesc& capsule) {
-    collider.shape = ShapeKind::capsule;
-    collider.numbers = {capsule.radius, capsule.half_height, 0, 0};
-}
+#define WEFT_SHAPE(name, Name)                                    \
+    void set_shape(Collider& collider, const Name##Desc& shape) { \
+        collider.shape = ShapeKind::name;                         \
+        collider.numbers = shape_numbers(shape);                  \
+    }
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
 
 // The key before `time`, the one after it, and how far between them it is, 0…1.
 template <class Key>

@@ -1,0 +1,19 @@
+// Box around the collider's origin. What a scene says of it; box.kernel.h has the maths.
+#pragma once
+
+#include "physics/contact/shape.h"
+
+namespace weft {
+
+inline constexpr std::string_view box_what = "a box around the collider's origin";
+
+inline constexpr Parameter box_parameters[] = {
+    {.key = "half_extents", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(BoxDesc, half_extents),
+     .min = 0, .max = far_away, .min_excluded = true, .unit = "m", .what = "half its size along its x, y and z"},
+};
+
+inline std::array<float, 4> shape_numbers(const BoxDesc& box) {
+    return {box.half_extents.x, box.half_extents.y, box.half_extents.z, 0};
+}
+
+}  // namespace weft

@@ -1,0 +1,21 @@
+// Capsule along the collider's y axis. What a scene says of it; capsule.kernel.h has the maths.
+#pragma once
+
+#include "physics/contact/shape.h"
+
+namespace weft {
+
+inline constexpr std::string_view capsule_what = "a segment of the collider's y axis with a radius";
+
+inline constexpr Parameter capsule_parameters[] = {
+    {.key = "radius", .offset = offsetof(CapsuleDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "of its round ends and its side"},
+    {.key = "half_height", .offset = offsetof(CapsuleDesc, half_height), .min = 0, .max = far_away, .unit = "m",
+     .what = "half the length between the centers of its ends, along its y"},
+};
+
+inline std::array<float, 4> shape_numbers(const CapsuleDesc& capsule) {
+    return {capsule.radius, capsule.half_height, 0, 0};
+}
+
+}  // namespace weft

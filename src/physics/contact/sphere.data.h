@@ -1,0 +1,19 @@
+// Sphere around the collider's origin. What a scene says of it; sphere.kernel.h has the maths.
+#pragma once
+
+#include "physics/contact/shape.h"
+
+namespace weft {
+
+inline constexpr std::string_view sphere_what = "a ball around the collider's origin";
+
+inline constexpr Parameter sphere_parameters[] = {
+    {.key = "radius", .offset = offsetof(SphereDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "how far it reaches from the collider's origin"},
+};
+
+inline std::array<float, 4> shape_numbers(const SphereDesc& sphere) {
+    return {sphere.radius, 0, 0, 0};
+}
+
+}  // namespace weft
