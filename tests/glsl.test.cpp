@@ -28,6 +28,7 @@ class Glsl : public testing::Test {
         std::ofstream(shader) << "#version 450\n"
                                  "layout(local_size_x = 64) in;\n"
                                  "#include \"physics/lanes.glsl\"\n"
+                                 "#include \"physics/reach/reach.data.h\"\n"
                                  "#include \"physics/stretch/stretch.data.h\"\n"
                                  "#include \"physics/tether/tether.data.h\"\n"
                                  "#include \"physics/attachment/attachment.data.h\"\n"

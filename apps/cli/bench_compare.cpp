@@ -72,6 +72,7 @@ std::string settings_differences(const SceneFigures& now, const SceneFigures& be
     settings.check("device", now.device, before.device);
     settings.check("instruction set", now.isa, before.isa);
     settings.check("threads", now.threads, before.threads);
+    settings.check("solver", now.solver, before.solver);
     settings.check("substeps", now.substeps, before.substeps);
     settings.check("iterations", now.iterations, before.iterations);
     settings.check("frame rate", fixed(now.frame_rate, 3), fixed(before.frame_rate, 3));

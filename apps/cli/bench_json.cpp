@@ -31,6 +31,7 @@ Json scene_json(const SceneFigures& scene) {
     out["device"] = scene.device;
     out["isa"] = scene.isa;
     out["threads"] = scene.threads;
+    out["solver"] = scene.solver;
     out["substeps"] = scene.substeps;
     out["iterations"] = scene.iterations;
     out["frame_rate"] = scene.frame_rate;
@@ -140,6 +141,7 @@ SceneFigures scene_of(Fields fields) {
     fields.get("device", scene.device);
     fields.get("isa", scene.isa);
     fields.get("threads", scene.threads);
+    fields.get("solver", scene.solver);
     fields.get("substeps", scene.substeps);
     fields.get("iterations", scene.iterations);
     fields.get("frame_rate", scene.frame_rate);

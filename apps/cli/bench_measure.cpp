@@ -126,6 +126,7 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     figures.device = world.backend().device();
     figures.isa = options.isa.empty() ? std::string(cpu_instruction_sets().front()) : options.isa;
     figures.threads = world.backend().threads();
+    figures.solver = solver_text(world.settings());
     figures.substeps = world.settings().substeps;
     figures.iterations = world.settings().iterations;
     figures.frame_rate = session.scene().frame_rate;

@@ -54,6 +54,7 @@ struct ConstraintFigures {
 struct SceneFigures {
     std::string name;
     std::string backend, device, isa;
+    std::string solver;  ///< method, projection and whether there is a hierarchy, in words
     std::uint64_t threads = 0, substeps = 0, iterations = 0;
     double frame_rate = 0;
     std::uint64_t warmup = 0, frames = 0, runs = 0;

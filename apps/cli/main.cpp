@@ -27,6 +27,8 @@ void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--isa", options.isa, "instruction set, see weft info; never changes the result");
     command.add_option("--substeps", options.substeps, "per frame, instead of the scene's");
     command.add_option("--iterations", options.iterations, "per substep, instead of the scene's");
+    command.add_flag("--hierarchy,!--no-hierarchy", options.hierarchy,
+                     "coarse levels first, or not, whatever the scene says");
     command.add_option("--method", options.method, "xpbd or pbd, instead of the scene's");
     command.add_option("--projection", options.projection, "gauss-seidel or jacobi, instead of the scene's");
 }

@@ -1,6 +1,8 @@
 #include "cli/stats.h"
 
 #include "io/atomic_file.h"
+#include "scene/check.h"
+#include "scene/scene_keys.h"
 #include "solver/statistics.h"
 
 #include <algorithm>
@@ -84,6 +86,7 @@ Json RunStatistics::gather(const Session& session, const std::string& scene_file
     stats["backend"] = world.backend().name();
     stats["device"] = world.backend().device();
     stats["threads"] = world.backend().threads();
+    stats["solver"] = solver_text(world.settings());
     stats["substeps"] = world.settings().substeps;
     stats["iterations"] = world.settings().iterations;
     stats["frames"] = step_ms_.size();
@@ -107,6 +110,15 @@ Json RunStatistics::gather(const Session& session, const std::string& scene_file
     stats["state_hash"] = world.state_hash();
     stats["finite"] = all_finite(frame);
     return stats;
+}
+
+std::string solver_text(const WorldSettings& settings) {
+    const auto name = [](std::string_view key, auto value) {
+        const auto names = choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
+        return std::string(names[static_cast<std::size_t>(value)]);
+    };
+    return name("method", settings.method) + ", " + name("projection", settings.projection) +
+           (settings.hierarchy ? ", hierarchy" : "");
 }
 
 Result<Done> write_stats(const Json& stats, const std::filesystem::path& file) {

@@ -26,6 +26,7 @@ struct SolverDesc {
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
     Method method = Method::xpbd;
     Projection projection = Projection::gauss_seidel;
+    bool hierarchy = false;  ///< coarse levels first: large cloths stretch less
 };
 
 enum class WindKind { directional };

@@ -45,6 +45,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
         lambda[static_cast<std::uint32_t>(table.kind)].assign(table.lambda_count(), 0.0f);
     }
     gather = nullptr;
+    levels.clear();
     contact_sums.clear();
     face_normals.assign(model->face_stride, Vec4{});
     normals.assign(model->capacity(), Vec4{});
@@ -101,6 +102,32 @@ SurfaceView ClothState::surface() {
             around.offsets.data(), around.items.data(), &normals[0].x};
 }
 
+LevelView ClothState::level(std::uint32_t i) {
+    LevelState& state = levels[i];
+    return {&state.position[0].x, &state.origin[0].x, &state.displacement[0].x, model->hierarchy[i].particle.data()};
+}
+
+// Rows between nodes are rows like any other.
+ParticleView ClothState::level_particles(std::uint32_t i) {
+    return {&levels[i].position[0].x, nullptr, nullptr, nullptr};
+}
+
+RowView ClothState::level_rows(std::uint32_t i) {
+    const ConstraintTable& table = model->hierarchy[i].reach;
+    return {table.stride, table.particles.data(), table.fields.data(), levels[i].lambda.data()};
+}
+
+CarryView ClothState::carry_to_level(std::uint32_t i) const {
+    if (i + 1 == levels.size()) return {};
+    const Carry& carry = model->hierarchy[i + 1].carry;
+    return {&levels[i + 1].displacement[0].x, carry.stride, carry.node.data(), carry.weight.data()};
+}
+
+CarryView ClothState::carry_to_particles() const {
+    const Carry& carry = model->hierarchy[0].carry;
+    return {&levels[0].displacement[0].x, carry.stride, carry.node.data(), carry.weight.data()};
+}
+
 AirView ClothState::air(float density) {
     const Adjacency& around = model->topology.particle_triangles;
     const AirMaterial& fabric = model->fabric.air;
@@ -135,6 +162,16 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders) {
     };
     wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
     air_impulse.resize(has(plan.substep, PassKind::air) ? model->face_stride : 0);
+    if (has(plan.substep, PassKind::spread) && levels.empty()) {
+        for (const CoarseLevel& coarse : model->hierarchy) {
+            LevelState& state = levels.emplace_back();
+            state.position.resize(coarse.capacity());
+            state.origin.resize(coarse.capacity());
+            state.displacement.resize(coarse.capacity());
+            state.lambda.resize(coarse.reach.stride);
+            for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
+        }
+    }
     const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
     if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
     if (plan.projection == Projection::jacobi && !gather) {

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 namespace weft::cpu {
 
@@ -18,6 +19,12 @@ struct Particles {
     AlignedVector<Vec4> position, start, velocity, carry;  ///< as in ParticleView
 
     ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
+};
+
+/// What one coarse level works with in an iteration; nothing of it outlives that.
+struct LevelState {
+    AlignedVector<Vec4> position, origin, displacement;
+    AlignedVector<float> lambda;
 };
 
 struct ClothState {
@@ -29,6 +36,7 @@ struct ClothState {
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
     AlignedVector<Vec4> face_normals, normals;
+    std::vector<LevelState> levels;              ///< as many as the model has, if a plan uses them
     AlignedVector<Vec4> wind, air_impulse;       ///< per triangle; empty until a plan has them
     std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
     AlignedVector<Vec4> corrections;
@@ -41,6 +49,12 @@ struct ClothState {
 
     RowView rows(ConstraintKind kind);
     SurfaceView surface();
+    LevelView level(std::uint32_t i);
+    ParticleView level_particles(std::uint32_t i);
+    RowView level_rows(std::uint32_t i);
+    /// From level i + 1 to level i.
+    CarryView carry_to_level(std::uint32_t i) const;
+    CarryView carry_to_particles() const;
     AirView air(float density);
     GatherView gather_view(bool mean) const;
     CorrectionView correction(ConstraintKind kind, const StepPlan& plan);

@@ -172,6 +172,15 @@ void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t subs
         case PassKind::contact:
             run_contacts(frame, pass, substep, rank);
             break;
+        case PassKind::lift:
+        case PassKind::reach:
+        case PassKind::settle:
+            run_level(frame, pass, rank);
+            break;
+        case PassKind::spread:
+            passes_.spread(frame.particles.position, frame.cloth.carry_to_particles(),
+                           level_range(model.particle_count, rank));
+            break;
         case PassKind::correct:
             run_corrections(frame, pass, substep, rank);
             break;
@@ -231,6 +240,35 @@ void Executor::run_corrections(const Frame& frame, const Pass& pass, std::uint32
     passes_.correct[static_cast<std::uint32_t>(pass.constraint)](
         frame.particles, frame.cloth.rows(pass.constraint), frame.cloth.correction(pass.constraint, frame.plan),
         {share.begin, share.end}, frame.h, lambda_use(frame, pass, substep));
+}
+
+Range Executor::level_range(std::uint32_t count, unsigned rank) const {
+    const Share share = share_of(padded(count), lane_padding, rank, team_.ranks());
+    return {share.begin, share.end};
+}
+
+void Executor::run_level(const Frame& frame, const Pass& pass, unsigned rank) {
+    ClothState& cloth = frame.cloth;
+    const CoarseLevel& level = cloth.model->hierarchy[pass.level];
+    if (pass.kind == PassKind::lift) {
+        passes_.lift(frame.particles.position, cloth.level(pass.level), cloth.carry_to_level(pass.level),
+                     level_range(level.count, rank));
+        return;
+    }
+    if (pass.kind == PassKind::settle) {
+        passes_.settle(cloth.level(pass.level), level_range(level.count, rank));
+        return;
+    }
+    const Batch& batch = level.reach.batches[pass.batch];
+    const auto kind = static_cast<std::uint32_t>(ConstraintKind::reach);
+    const Range mine = level_range(batch.rows, rank);
+    if (!batch.serial) {
+        passes_.project[kind](cloth.level_particles(pass.level), cloth.level_rows(pass.level),
+                              {batch.begin + mine.begin, batch.begin + mine.end}, frame.h, LambdaUse::discard);
+    } else if (rank == 0) {
+        scalar_passes().project[kind](cloth.level_particles(pass.level), cloth.level_rows(pass.level),
+                                      {batch.begin, batch.begin + batch.rows}, frame.h, LambdaUse::discard);
+    }
 }
 
 void Executor::run_faces(const Frame& frame, const Pass& pass, unsigned rank) {

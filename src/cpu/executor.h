@@ -33,6 +33,8 @@ class Executor {
     void run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_corrections(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
+    Range level_range(std::uint32_t count, unsigned rank) const;
+    void run_level(const Frame& frame, const Pass& pass, unsigned rank);
     void run_faces(const Frame& frame, const Pass& pass, unsigned rank);
     void run_holds(const Frame& frame, std::uint32_t substep, Share mine);
     void run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);

@@ -5,6 +5,7 @@
 #include "physics/constraint.h"
 #include "solver/air.h"
 #include "solver/collider.h"
+#include "solver/hierarchy.h"
 
 #include <array>
 #include <cstdint>
@@ -65,6 +66,22 @@ struct GatherView {
     bool mean;  ///< the sum divided by its terms; otherwise the sum
 };
 
+/// One coarse level. Blocks of four floats per node.
+struct LevelView {
+    float* position;      ///< w: inverse mass
+    float* origin;        ///< where its particle is
+    float* displacement;  ///< what the level's rows, and those of coarser levels, make of it
+    const std::uint32_t* particle;
+};
+
+/// From a level's displacements to nodes of the finer one, or to particles.
+struct CarryView {
+    const float* displacement;  ///< of the coarser level; nullptr if there is none
+    std::uint32_t stride;
+    const std::uint32_t* node;  ///< [parent · stride + finer node]
+    const float* weight;
+};
+
 struct AirView {
     const float* position;
     const float* velocity;
@@ -104,6 +121,9 @@ struct Passes {
                constraint_kind_count>
         correct;
     void (*average)(const ParticleView&, const GatherView&, Range);
+    void (*lift)(const float* particle_position, const LevelView&, const CarryView&, Range);
+    void (*settle)(const LevelView&, Range);
+    void (*spread)(float* particle_position, const CarryView&, Range);
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;

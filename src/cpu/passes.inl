@@ -167,6 +167,42 @@ inline void correct_pass(const ParticleView& p, const RowView& rows, const Corre
     }
 }
 
+WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
+    vec3 sum(real(0.0f));
+    for (std::size_t k = 0; k < Carry::parents; ++k) {
+        real unused;
+        const std::size_t at = k * carry.stride + i;
+        sum = sum + gather_blocks(carry.displacement, carry.node + at, unused) * load(carry.weight + at);
+    }
+    return sum;
+}
+
+inline void lift_pass(const float* particle_position, const LevelView& level, const CarryView& carry, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real unused, w;
+        const vec3 x = gather_blocks(particle_position, level.particle + i, unused);
+        load_blocks(level.position + 4 * i, w);
+        store_blocks(x, real(0.0f), level.origin + 4 * i);
+        store_blocks(carry.displacement ? x + carried(carry, i) : x, w, level.position + 4 * i);
+    }
+}
+
+inline void settle_pass(const LevelView& level, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real unused;
+        const vec3 now = load_blocks(level.position + 4 * i, unused), before = load_blocks(level.origin + 4 * i, unused);
+        store_blocks(now - before, real(0.0f), level.displacement + 4 * i);
+    }
+}
+
+inline void spread_pass(float* particle_position, const CarryView& carry, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real w;
+        const vec3 x = load_blocks(particle_position + 4 * i, w);
+        store_blocks(x + carried(carry, i), w, particle_position + 4 * i);
+    }
+}
+
 template <class Traits>
 inline void damp_pass(const ParticleView& p, const RowView& rows, Range range, float viscous) {
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
@@ -324,6 +360,9 @@ inline constexpr Passes make_passes(std::string_view isa) {
         },
 #undef WEFT_CONSTRAINT
         .average = average_pass,
+        .lift = lift_pass,
+        .settle = settle_pass,
+        .spread = spread_pass,
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) damp_pass<Name##Traits>,
         .damp = {
 #include "physics/constraints.def"

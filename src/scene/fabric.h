@@ -7,6 +7,7 @@
 #include "physics/contact/contact.data.h"
 #include "physics/parameter.h"
 #include "physics/plate/plate.data.h"
+#include "physics/reach/reach.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 

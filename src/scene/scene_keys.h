@@ -58,6 +58,8 @@ inline constexpr Parameter solver_keys[] = {
     {.key = "projection", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, projection),
      .what = "`gauss-seidel`: rows one after another, color by color; `jacobi`: all at once, averaged, slower to converge",
      .choices = "gauss-seidel|jacobi"},
+    {.key = "hierarchy", .kind = ParameterKind::flag, .offset = offsetof(SolverDesc, hierarchy),
+     .what = "coarse levels over each cloth, projected first: far less stretch of large ones; little for soft fabrics"},
     {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,
      .max = 10000, .what = "steps per frame; twice as many cost twice the time and leave about a quarter of the stretch"},
     {.key = "iterations", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, iterations), .min = 1,

@@ -105,7 +105,7 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
 
 // Everything that material and pins decide, on a model that has its topology.
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
-                     const ColoringOptions& coloring) {
+                     const ColoringOptions& coloring, bool hierarchy) {
     const float density = fabric.body.density;
     if (!(density > 0) || !std::isfinite(density))
         return Error{"density", "must be > 0 kg/m², got " + std::to_string(density)};
@@ -129,6 +129,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
+    if (hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start);
     lay_out_faces(model, rest);
     measure_edges(model, rest);
     return Done{};
@@ -140,7 +141,8 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->topology = std::move(topology);
-    if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring); !done) return done.errors();
+    if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring, desc.hierarchy); !done)
+        return done.errors();
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
         model->binding = bind_mesh(*desc.drawn, model->topology);
@@ -150,13 +152,14 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 }
 
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
-                                                             const Fabric& fabric, const ClothPins& pins) {
+                                                             const Fabric& fabric, const ClothPins& pins,
+                                                             bool hierarchy) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
     model->mesh = from.mesh;
     model->binding = from.binding;
     model->topology = from.topology;
-    if (auto done = lay_out(*model, mesh, fabric, pins, {}); !done) return done.errors();
+    if (auto done = lay_out(*model, mesh, fabric, pins, {}, hierarchy); !done) return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

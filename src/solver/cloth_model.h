@@ -5,6 +5,7 @@
 #include "scene/fabric.h"
 #include "solver/binding.h"
 #include "solver/constraint_table.h"
+#include "solver/hierarchy.h"
 
 #include <weft/result.h>
 
@@ -28,6 +29,7 @@ struct ClothModelDesc {
     std::optional<TriangleMesh> drawn = {};  ///< what is drawn in its place and follows it; without, `mesh`
     Fabric fabric = {};
     ClothPins pins = {};
+    bool hierarchy = false;  ///< make coarse levels too, for steps that use them
     ColoringOptions coloring = {};
 };
 
@@ -47,6 +49,7 @@ struct ClothModel {
     std::vector<float> mass;    ///< kg, per particle, pinned ones included
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
+    std::vector<CoarseLevel> hierarchy;  ///< the finest level first; empty if none was asked for, or none is of use
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
     AlignedVector<std::uint32_t> faces;
     std::uint32_t face_stride = 0;
@@ -68,6 +71,7 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 
 /// Another material or other pins for the same mesh. `mesh` is the simulated one that `from` was built of.
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
-                                                             const Fabric& fabric, const ClothPins& pins);
+                                                             const Fabric& fabric, const ClothPins& pins,
+                                                             bool hierarchy = false);
 
 }  // namespace weft

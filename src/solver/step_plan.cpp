@@ -31,7 +31,24 @@ std::array<float, 2> plain_stiffness(const Fabric& fabric, std::uint32_t iterati
     return {of(Material::plain[0]), of(Material::plain[1])};
 }
 
+// Sweeps over the rows of a level. A level is small, and the more of its error is gone the less is left to the finer
+// one.
+constexpr std::uint32_t sweeps = 4;
+
+void plan_hierarchy(const ClothModel& model, std::vector<Pass>& passes) {
+    for (std::uint32_t i = static_cast<std::uint32_t>(model.hierarchy.size()); i-- > 0;) {
+        const auto batches = static_cast<std::uint32_t>(model.hierarchy[i].reach.batches.size());
+        passes.push_back({.kind = PassKind::lift, .level = i});
+        for (std::uint32_t batch = 0; batch < sweeps * batches; ++batch) {
+            passes.push_back({.kind = PassKind::reach, .batch = batch % batches, .level = i});
+        }
+        passes.push_back({.kind = PassKind::settle, .level = i});
+    }
+    if (!model.hierarchy.empty()) passes.push_back({.kind = PassKind::spread});
+}
+
 void plan_iteration(const ClothModel& model, const StepSettings& settings, bool first, std::vector<Pass>& passes) {
+    if (settings.hierarchy) plan_hierarchy(model, passes);
     if (settings.projection == Projection::jacobi) {
         bool any = false;
         for (const ConstraintTable& table : model.constraints) {
@@ -110,6 +127,7 @@ namespace {
 enum Stage : std::uint32_t {
     stage_air = constraint_kind_count,
     stage_predict,
+    stage_hierarchy,
     stage_average,
     stage_contact,
     stage_velocities,
@@ -130,6 +148,11 @@ std::uint32_t stage_of(const Pass& pass) {
         case PassKind::predict:
         case PassKind::hold:
             return stage_predict;
+        case PassKind::lift:
+        case PassKind::reach:
+        case PassKind::settle:
+        case PassKind::spread:
+            return stage_hierarchy;
         case PassKind::project:
         case PassKind::correct:
             return static_cast<std::uint32_t>(pass.constraint);
@@ -150,7 +173,7 @@ std::uint32_t stage_of(const Pass& pass) {
 
 std::string_view stage_name(std::uint32_t stage) {
     constexpr std::array<std::string_view, stage_count - constraint_kind_count> others = {
-        "air", "predict", "average", "contact", "velocities", "damp", "surface"};
+        "air", "predict", "hierarchy", "average", "contact", "velocities", "damp", "surface"};
     return stage < constraint_kind_count ? constraint_info(static_cast<ConstraintKind>(stage)).name
                                          : others[stage - constraint_kind_count];
 }

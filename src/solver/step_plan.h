@@ -18,6 +18,10 @@ enum class PassKind : std::uint8_t {
     push,        ///< per particle: the sum of that over its triangles, on its velocity
     predict,     ///< per particle: gravity, then where it would go
     hold,        ///< per held particle: to where it is carried
+    lift,        ///< per node of a coarse level: to where its particle is, and what the coarser level makes of that
+    reach,       ///< one batch of a coarse level's rows
+    settle,      ///< per node: how far the rows have moved it
+    spread,      ///< per particle: along with the nodes around it
     project,     ///< one batch of one constraint, row after row
     correct,     ///< all rows of one constraint, side by side: what they want of their particles
     average,     ///< per particle: the mean of that
@@ -31,8 +35,9 @@ enum class PassKind : std::uint8_t {
 struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp
-    std::uint32_t batch = 0;      ///< of project and damp
+    std::uint32_t batch = 0;      ///< of project, reach and damp
     bool first_iteration = true;  ///< of project, correct and contact: no lambda, no friction from before
+    std::uint32_t level = 0;      ///< of lift, reach and settle
 };
 
 /// Whether a pass may begin on one thread while another is still in the one before.
@@ -41,11 +46,12 @@ bool needs_barrier(PassKind before, PassKind after);
 struct StepSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
-    bool contacts = true;  ///< there is something to touch
-    bool holds = false;    ///< some particles are carried along
-    bool air = false;      ///< there is air
-    bool wind = false;     ///< and it moves
-    bool surface = true;   ///< compute normals
+    bool contacts = true;    ///< there is something to touch
+    bool holds = false;      ///< some particles are carried along
+    bool air = false;        ///< there is air
+    bool wind = false;       ///< and it moves
+    bool surface = true;     ///< compute normals
+    bool hierarchy = false;  ///< coarse levels first, where the model has them
     Method method = Method::xpbd;
     Projection projection = Projection::gauss_seidel;
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
@@ -66,10 +72,11 @@ struct StepPlan {
 
 StepPlan plan_step(const ClothModel& model, const StepSettings& settings);
 
-/// What timings are kept by: one per constraint, then air, predict, average, contact, velocities, damp, surface.
+/// What timings are kept by: one per constraint, then air, predict, hierarchy, average, contact, velocities, damp,
+/// surface.
 std::uint32_t stage_of(const Pass& pass);
 std::string_view stage_name(std::uint32_t stage);
-inline constexpr std::uint32_t stage_count = constraint_kind_count + 7;
+inline constexpr std::uint32_t stage_count = constraint_kind_count + 8;
 
 /// One line per run of alike passes.
 std::string describe(const StepPlan& plan);

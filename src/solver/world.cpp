@@ -97,6 +97,7 @@ void World::replan() {
                           .air = air,
                           .wind = air && !settings_.air->wind.empty(),
                           .surface = settings_.surface,
+                          .hierarchy = settings_.hierarchy,
                           .method = settings_.method,
                           .projection = settings_.projection};
     const std::size_t places = std::size_t{settings_.substeps} + 1;

@@ -16,6 +16,7 @@ struct WorldSettings {
     std::uint32_t iterations = 1;
     Method method = Method::xpbd;
     Projection projection = Projection::gauss_seidel;
+    bool hierarchy = false;           ///< coarse levels first, for cloths whose model has them
     std::optional<AirDesc> air = {};  ///< without, a vacuum
     bool surface = true;              ///< keep normals up to date
 };

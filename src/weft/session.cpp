@@ -110,6 +110,7 @@ Errors apply(const Options& options, SceneDesc& scene) {
     };
     choose(options.method, names_of("method"), scene.solver.method, "method");
     choose(options.projection, names_of("projection"), scene.solver.projection, "projection");
+    if (options.hierarchy) scene.solver.hierarchy = *options.hierarchy;
     set(options.substeps, scene.solver.substeps, "substeps");
     set(options.iterations, scene.solver.iterations, "iterations");
     if (options.threads < 1 || options.threads > 256) {
@@ -157,6 +158,7 @@ Result<Session> Session::create(SceneDesc scene, const Options& options, const s
                                                                                 .iterations = scene.solver.iterations,
                                                                                 .method = scene.solver.method,
                                                                                 .projection = scene.solver.projection,
+                                                                                .hierarchy = scene.solver.hierarchy,
                                                                                 .air = scene.air});
     for (const ColliderDesc& collider : scene.colliders) session.world_->add(make_collider(collider));
     Errors errors;
@@ -208,7 +210,8 @@ Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer
                                     .mesh = std::move(loaded->mesh),
                                     .drawn = std::move(drawn),
                                     .fabric = fabric_of(cloth),
-                                    .pins = std::move(pinned->pins)},
+                                    .pins = std::move(pinned->pins),
+                                    .hierarchy = world_->settings().hierarchy},
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes_);
@@ -225,7 +228,7 @@ void Session::remove(ClothId id) {
 Result<Done> Session::rebuild(Entry& entry, const SceneCloth& desc, const ClothPins& pins, Holds holds) {
     const ClothModel& now = *world_->model(entry.id);
     const TriangleMesh& mesh = entry.simulated ? *entry.simulated : now.mesh;
-    auto model = change_cloth_model(now, mesh, fabric_of(desc), pins);
+    auto model = change_cloth_model(now, mesh, fabric_of(desc), pins, world_->settings().hierarchy);
     if (!model) return model.errors();
     // A place for what the cloth is now, taken before anything of it changes.
     entry.desc = desc;
@@ -239,6 +242,16 @@ Session::Entry& Session::entry(ClothId id) {
     const auto it = std::ranges::find(entries_, id, &Entry::id);
     assert(it != entries_.end());
     return *it;
+}
+
+Result<Done> Session::configure(const WorldSettings& settings) {
+    const bool levels = settings.hierarchy && !world_->settings().hierarchy;
+    world_->configure(settings);
+    for (Entry& one : entries_) {
+        if (!levels) break;
+        if (auto done = rebuild(one, SceneCloth(one.desc), ClothPins(one.pins), Holds(one.holds)); !done) return done;
+    }
+    return Done{};
 }
 
 Result<Done> Session::set_fabric(ClothId id, const Fabric& fabric) {

@@ -44,6 +44,8 @@ class Session {
     /// `pointer` is the place of the cloth in errors. It has been checked.
     Result<ClothId> add(const SceneCloth& cloth, const std::string& pointer);
     void remove(ClothId id);
+    /// Makes coarse levels where they are wanted now and were not before.
+    Result<Done> configure(const WorldSettings& settings);
     /// Cloth goes on moving as it was.
     Result<Done> set_fabric(ClothId id, const Fabric& fabric);
     /// Particles are held where they are now; boxes are where particles are now.

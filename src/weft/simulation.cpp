@@ -261,8 +261,10 @@ Result<Done> Simulation::set_solver(const SolverDesc& solver) {
     settings.iterations = solver.iterations;
     settings.method = solver.method;
     settings.projection = solver.projection;
-    impl_->world().configure(settings);
-    return Done{};
+    settings.hierarchy = solver.hierarchy;
+    auto done = impl_->session.configure(settings);
+    impl_->draw();
+    return done;
 }
 
 Result<Done> Simulation::set_air(const std::optional<AirDesc>& air) {

@@ -172,6 +172,11 @@ TEST(Simulation, changes_while_it_runs) {
     for (int i = 0; i < 60; ++i) ASSERT_TRUE(simulation.step(1.0 / 30).ok());
     EXPECT_GT(simulation.surface(cloth).positions[0].y, before.y + 0.3f) << "up is down now";
     EXPECT_LT(simulation.measure().mean_stretch, 0.05);
+    const Vec3 there = simulation.surface(cloth).positions[0];
+    ASSERT_TRUE(simulation.set_solver({.substeps = 4, .hierarchy = true}).ok());
+    EXPECT_EQ(simulation.surface(cloth).positions[0], there) << "levels come without a jump";
+    for (int i = 0; i < 10; ++i) simulation.step();
+    EXPECT_LT(simulation.measure().mean_stretch, 0.02);
     // A box selects what is in it now; of nothing there is nothing to pin, and the old pins stay.
     EXPECT_FALSE(simulation.set_pins(cloth, {{.select = BoxPins{{{8, 8, 8}, {9, 9, 9}}}}}).ok());
     simulation.step();

@@ -1,0 +1,25 @@
+// Reach: two places of a cloth no farther apart than the way over it. Read by C++ and by GLSL (reach.md has the law).
+#ifndef WEFT_REACH_DATA_H
+#define WEFT_REACH_DATA_H
+
+// The numbers of one row.
+//   length  m  largest distance, reserve included
+#define WEFT_ROW_reach(FIELD) FIELD(length)
+
+#ifdef __cplusplus
+#include "physics/parameter.h"
+
+#include <array>
+
+namespace weft {
+
+struct ReachMaterial {
+    static constexpr int plain[2] = {-1, -1};
+};
+
+// Its rows are between the nodes of coarse levels, not between particles: solver/hierarchy.h makes them.
+inline constexpr std::array<Parameter, 0> reach_parameters{};
+
+}  // namespace weft
+#endif
+#endif

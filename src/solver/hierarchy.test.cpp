@@ -1,0 +1,134 @@
+#include "solver/hierarchy.h"
+
+#include "mesh/procedural.h"
+#include "solver/cloth_model.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace weft {
+namespace {
+
+std::shared_ptr<const ClothModel> model_of(TriangleMesh mesh, const Fabric& fabric = {},
+                                           std::vector<std::uint32_t> pinned = {0}) {
+    auto topology = build_topology(mesh, {.reorder = false});
+    EXPECT_TRUE(topology.ok());
+    return *build_cloth_model(
+        {.mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = std::move(pinned)}, .hierarchy = true},
+        std::move(*topology));
+}
+
+TriangleMesh jittered(std::uint32_t n) {
+    TriangleMesh mesh = make_grid({1, 1}, {n, n}, GridDiagonal::uniform);
+    std::mt19937 random(3);
+    const auto shift = [&] { return 0.25f / static_cast<float>(n) * (static_cast<float>(random() % 2001) / 1000 - 1); };
+    for (Vec3& p : mesh.positions) p += {shift(), 0, shift()};
+    return mesh;
+}
+
+TEST(Hierarchy, of_a_square_grid_takes_every_second_particle_again_and_again) {
+    constexpr std::uint32_t n = 65;
+    const auto model = model_of(make_grid({1, 1}, {n, n}, GridDiagonal::alternating));
+    ASSERT_GE(model->hierarchy.size(), 3u);
+    std::uint32_t step = 2;
+    for (const CoarseLevel& level : model->hierarchy) {
+        const std::uint32_t side = (n - 1) / step + 1;
+        EXPECT_EQ(level.count, side * side);
+        EXPECT_EQ(level.reach.rows, 2 * side * (side - 1)) << "along warp and weft; diagonals say nothing more";
+        for (std::uint32_t node = 0; node < level.count; ++node) {
+            EXPECT_EQ(level.particle[node] % n % step, 0u);
+            EXPECT_EQ(level.particle[node] / n % step, 0u);
+        }
+        const float way = static_cast<float>(step) / (n - 1);
+        for (std::uint32_t row = 0; row < level.reach.stride; ++row) {
+            if (level.reach.source[row] == none) continue;
+            EXPECT_GE(level.reach.fields[row], way * 0.99999f);
+            EXPECT_LE(level.reach.fields[row], way * 1.002f);
+        }
+        step *= 2;
+    }
+}
+
+// A displacement that is the same everywhere is carried as it is; one that grows evenly nearly so, away from borders.
+TEST(Hierarchy, carries_what_its_nodes_do) {
+    for (const TriangleMesh& mesh :
+         {make_grid({1, 1}, {33, 33}, GridDiagonal::alternating), jittered(33), make_sphere(0.5f, 4)}) {
+        const auto model = model_of(mesh);
+        ASSERT_FALSE(model->hierarchy.empty());
+        std::uint32_t finer = model->particle_count;
+        double off = 0;
+        for (const CoarseLevel& level : model->hierarchy) {
+            for (std::uint32_t i = 0; i < finer; ++i) {
+                double sum = 0, x = 0;
+                for (std::uint32_t k = 0; k < Carry::parents; ++k) {
+                    const std::size_t at = std::size_t{k} * level.carry.stride + i;
+                    ASSERT_LT(level.carry.node[at], level.count);
+                    EXPECT_GE(level.carry.weight[at], 0);
+                    sum += level.carry.weight[at];
+                    x +=
+                        level.carry.weight[at] * model->topology.rest_positions[level.particle[level.carry.node[at]]].x;
+                }
+                if (&level == &model->hierarchy[0]) {
+                    const bool pinned = !(model->start[i].w > 0);
+                    EXPECT_NEAR(sum, pinned ? 0 : 1, 1e-6);
+                    if (!pinned) off = std::max(off, std::abs(x - model->topology.rest_positions[i].x));
+                }
+            }
+            finer = level.count;
+        }
+        EXPECT_LT(off, 0.06) << "m: no farther than a cell or two";
+    }
+}
+
+TEST(Hierarchy, weighs_what_it_carries_and_lets_no_row_be_shorter_than_the_way) {
+    for (const TriangleMesh& mesh : {make_grid({1, 1}, {40, 40}, GridDiagonal::alternating), jittered(40)}) {
+        const auto model = model_of(mesh);
+        const double cloth = std::accumulate(model->mass.begin(), model->mass.end(), -double{model->mass[0]});
+        for (const CoarseLevel& level : model->hierarchy) {
+            double sum = 0;
+            for (std::uint32_t node = 0; node < level.count; ++node) {
+                if (level.weight[node] > 0) sum += 1 / double{level.weight[node]};
+            }
+            EXPECT_LE(sum, cloth * 1.0001);
+            EXPECT_GT(sum, 0.8 * cloth) << "what hangs on the pin is not counted";
+            EXPECT_EQ(level.weight[0], 0) << "the pinned particle is a node of every level";
+            const auto& x = model->topology.rest_positions;
+            for (std::uint32_t row = 0; row < level.reach.stride; ++row) {
+                if (level.reach.source[row] == none) continue;
+                const Vec3 a = x[level.particle[level.reach.particles[row]]];
+                const Vec3 b = x[level.particle[level.reach.particles[level.reach.stride + row]]];
+                EXPECT_GE(level.reach.fields[row], length(a - b) * 0.9999f);
+            }
+        }
+    }
+}
+
+TEST(Hierarchy, is_left_out_where_it_is_of_no_use) {
+    Fabric soft;
+    soft.stretch = {.stretch = {10, 10}, .compression = {10, 10}, .shear = 1};
+    EXPECT_TRUE(model_of(make_grid({1, 1}, {33, 33}, GridDiagonal::alternating), soft)->hierarchy.empty());
+    EXPECT_TRUE(model_of(make_grid({1, 1}, {3, 3}, GridDiagonal::alternating))->hierarchy.empty());
+    Fabric free;
+    free.stretch = {.stretch = {0, 4000}, .compression = {0, 0}, .shear = 0};
+    EXPECT_TRUE(model_of(make_grid({1, 1}, {33, 33}, GridDiagonal::alternating), free)->hierarchy.empty());
+}
+
+TEST(Hierarchy, survives_what_topology_survives) {
+    TriangleMesh mesh = make_grid({1, 1}, {12, 12}, GridDiagonal::cross);
+    mesh.triangles.push_back({0, 5, 140});  // a third triangle at some edges, long and thin
+    const auto far = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{5, 0, 0}, {5, 0, 1e-3f}, {6, 0, 0}});  // a piece apart
+    mesh.uvs.clear();
+    mesh.normals.clear();
+    mesh.triangles.push_back({far, far + 1, far + 2});
+    const auto model = model_of(mesh);
+    for (const CoarseLevel& level : model->hierarchy) {
+        for (float w : level.weight) EXPECT_TRUE(std::isfinite(w));
+        for (float w : level.carry.weight) EXPECT_TRUE(std::isfinite(w));
+    }
+}
+
+}  // namespace
+}  // namespace weft

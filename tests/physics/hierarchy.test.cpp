@@ -1,0 +1,98 @@
+// Coarse levels: what they must bring, and what they must not change.
+
+#include "sheet.h"
+
+#include <cstdio>
+
+namespace weft::physical {
+namespace {
+
+World hung(std::uint32_t side, const WorldSettings& settings, const Fabric& fabric = {},
+           const CpuOptions& options = {}) {
+    TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
+    for (Vec3& p : mesh.positions) p = {p.x, -0.995f * p.z, 0.1f * p.z};
+    auto topology = build_topology(mesh, {.reorder = false});
+    ClothModelDesc desc{
+        .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}, .hierarchy = true};
+    World world = make_world(settings, options);
+    world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+    return world;
+}
+
+double mean_stretch(World& world, double seconds) {
+    run(world, seconds - 1);
+    double sum = 0;
+    for (int i = 0; i < 60; ++i) {
+        world.step(1.0 / 60);
+        sum += measure_strain(world.frame()).stretch.mean / 60;
+    }
+    return sum;
+}
+
+TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
+    for (const std::uint32_t substeps : {5u, 10u}) {
+        World with = hung(64, {.substeps = substeps, .hierarchy = true}), without = hung(64, {.substeps = substeps});
+        const double a = mean_stretch(with, 4), b = mean_stretch(without, 4);
+        std::printf("  hung 64²  %2u substeps  stretch %.2f %%, without levels %.2f %%\n", substeps, 100 * a, 100 * b);
+        EXPECT_LT(a, 0.5 * b);
+    }
+}
+
+// Where the rows are solved, levels have nothing to say: the sheet hangs as far as its fabric lets it.
+TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
+    for (const float stiffness : {300.0f, 4000.0f}) {
+        SheetDesc sheet{.size = {0.25f, 1},
+                        .resolution = {9, 33},
+                        .rotation_degrees = {90, 0, 0},
+                        .position = {0, -0.5f, 0},
+                        .pinned = [](Vec3 p) { return p.z < -0.49f; }};
+        sheet.fabric.body = {.density = 0.2f, .damping = 0.2f};
+        sheet.fabric.stretch = {.stretch = {stiffness, stiffness}, .compression = {stiffness, stiffness}, .shear = 40};
+        double sag[2] = {};
+        for (const bool hierarchy : {false, true}) {
+            TriangleMesh mesh = make_grid(sheet.size, sheet.resolution, sheet.diagonal);
+            const Mat3 turn = rotation_from_degrees(sheet.rotation_degrees);
+            ClothModelDesc desc{.fabric = sheet.fabric, .hierarchy = true};
+            for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+                if (sheet.pinned(mesh.positions[v])) desc.pins.particles.push_back(v);
+                mesh.positions[v] = turn * mesh.positions[v] + sheet.position;
+            }
+            auto topology = build_topology(mesh, {.reorder = false});
+            desc.mesh = std::move(mesh);
+            World world = make_world({.substeps = 20, .iterations = 20, .hierarchy = hierarchy});
+            world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+            run(world, 3);
+            double lowest = 0;
+            for (const Vec4& p : world.frame().cloths[0].positions) lowest = std::min(lowest, double{p.y});
+            sag[hierarchy] = -1 - lowest;
+        }
+        std::printf("  sag at %.0f N/m  %.5f m, with levels %.5f m\n", static_cast<double>(stiffness), sag[0], sag[1]);
+        EXPECT_NEAR(sag[1] / sag[0], 1, 0.02) << stiffness;
+    }
+}
+
+TEST(HierarchyOf, a_falling_sheet_does_not_disturb_its_fall) {
+    TriangleMesh mesh = make_grid({1, 1}, {33, 33}, GridDiagonal::alternating);
+    auto topology = build_topology(mesh, {.reorder = false});
+    World world = make_world({.hierarchy = true});
+    world.add(*build_cloth_model({.mesh = std::move(mesh), .hierarchy = true}, std::move(*topology)));
+    run(world, 1);
+    const double h = 1.0 / 1200;
+    EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);
+}
+
+TEST(HierarchyOf, a_sheet_has_the_same_bits_on_every_thread_count_and_instruction_set) {
+    std::string first;
+    for (const std::string_view isa : cpu_instruction_sets()) {
+        for (const unsigned workers : {0u, 1u, 3u}) {
+            World world =
+                hung(40, {.substeps = 3, .hierarchy = true}, {}, {.workers = workers, .isa = std::string(isa)});
+            run(world, 0.3);
+            if (first.empty()) first = world.state_hash();
+            EXPECT_EQ(world.state_hash(), first) << isa << ' ' << workers;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace weft::physical
