@@ -132,14 +132,15 @@ namespace {
 // Their squares still fit a float.
 constexpr float largest = 1e18f;
 
-bool sound(float x) {
-    return std::abs(x) <= largest;  // false for what is not finite
-}
 bool sound(const Vec3& v) {
-    return sound(v.x) && sound(v.y) && sound(v.z);
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= largest && finite(v);
 }
 bool sound(const Vec4& v) {
-    return sound(v.xyz()) && sound(v.w);
+    return sound(v.xyz()) && std::abs(v.w) <= largest;  // false for what is not finite
+}
+// Of heavy cloth they are larger than any place or speed, and nothing squares them.
+bool sound(float lambda) {
+    return std::isfinite(lambda);
 }
 bool is_unit(const Vec3& v) {
     return std::abs(dot(v, v) - 1) < 1e-3f;
@@ -161,9 +162,6 @@ std::optional<std::size_t> first_unsound(const std::vector<T>& values) {
 }  // namespace
 
 Result<Done> check_numbers(const Snapshot& snapshot) {
-    const auto bad = [](const std::string& what, std::size_t index) {
-        return Error{"state", what + ' ' + std::to_string(index) + " must have finite numbers of at most 1e18"};
-    };
     if (!sound_time(snapshot.time)) return Error{"state", "its time must be finite and ≥ 0 s"};
     if (const auto i = first_unsound(snapshot.colliders))
         return Error{"state", "collider " + std::to_string(*i) + " must have a rotation and a finite position"};
@@ -171,9 +169,12 @@ Result<Done> check_numbers(const Snapshot& snapshot) {
         const ClothSnapshot& cloth = snapshot.cloths[c];
         const std::string of_cloth = "cloth " + std::to_string(c) + ": ";
         for (const auto* array : {&cloth.position, &cloth.start, &cloth.velocity, &cloth.carry}) {
-            if (const auto i = first_unsound(*array)) return bad(of_cloth + "particle", *i);
+            if (const auto i = first_unsound(*array))
+                return Error{"state",
+                             of_cloth + "particle " + std::to_string(*i) + " must have finite numbers of at most 1e18"};
         }
-        if (const auto i = first_unsound(cloth.lambda)) return bad(of_cloth + "row", *i);
+        if (const auto i = first_unsound(cloth.lambda))
+            return Error{"state", of_cloth + "row " + std::to_string(*i) + " must be finite"};
         if (!sound_time(cloth.substep_seconds))
             return Error{"state", of_cloth + "its substep must be finite and ≥ 0 s"};
     }
