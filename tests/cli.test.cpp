@@ -83,6 +83,8 @@ TEST_F(Cli, wrong_usage_is_one_line_and_status_2) {
     expect_usage_error("run sheet.json --threads 0", "threads: must be from 1 to 256, got 0");
     expect_usage_error("run sheet.json --substeps 0", "substeps: must be from 1 to 10000, got 0");
     expect_usage_error("run sheet.json --backend gpu", "backend: must be auto or cpu, got 'gpu'");
+    expect_usage_error("run sheet.json --backend vulkan", "backend: must be auto or cpu, got 'vulkan'");
+    expect_usage_error("run sheet.json --isa nonsense", "instruction set 'nonsense': this machine has ");
     expect_usage_error("run sheet.json --isa mmx", "instruction set 'mmx'");
     expect_usage_error("run sheet.json --out film.avi", ".glb");
     expect_usage_error("run sheet.json --out %d%d.obj", "%d");
@@ -131,6 +133,59 @@ TEST_F(Cli, a_failed_export_is_status_1_and_leaves_nothing) {
     EXPECT_FALSE(fs::exists(folder_ / "film.glb"));
     for (const auto& entry : fs::directory_iterator(folder_)) {
         EXPECT_EQ(entry.path().filename().string().rfind(".weft", 0), std::string::npos) << entry.path();
+    }
+}
+
+TEST_F(Cli, figures_that_cannot_be_written_are_an_error_before_the_run_or_after_it) {
+    expect_usage_error("run sheet.json --stats nowhere/s.json",
+                       "nowhere/s.json: cannot be written: No such file or directory");
+    expect_usage_error("run sheet.json --stats .", ".: cannot be written: it is a folder");
+    expect_usage_error("run sheet.json --stats /dev/full", "/dev/full: cannot be written: it is not a regular file");
+    for (const char* command : {"run sheet.json --frames 2 --quiet --stats s.json",
+                                "bench sheet.json --frames 2 --warmup 0 --repeat 1 --json s.json"}) {
+        write("s.json", "earlier");
+        const Outcome full = weft(command, "ulimit -f 0;");
+        EXPECT_EQ(full.status, 1) << command;
+        EXPECT_EQ(read_file(folder_ / "s.json"), "earlier");
+    }
+    for (const auto& entry : fs::directory_iterator(folder_))
+        EXPECT_EQ(entry.path().filename().string().rfind(".weft", 0), std::string::npos) << entry.path();
+}
+
+TEST_F(Cli, a_full_disk_behind_standard_output_is_an_error) {
+    for (const char* command : {"info", "info --json", "info --schema", "check sheet.json", "run sheet.json --frames 2",
+                                "bench sheet.json --frames 2 --warmup 0 --repeat 1"}) {
+        const Outcome full = weft(std::string(command) + " >/dev/full 2>err.txt; echo $? >status.txt; exec true");
+        EXPECT_EQ(read_file(folder_ / "status.txt"), "1\n") << command;
+        EXPECT_NE(read_file(folder_ / "err.txt")
+                      .find("weft: error: standard output: cannot be written: No space left on device\n"),
+                  std::string::npos)
+            << command << ": " << read_file(folder_ / "err.txt");
+    }
+    weft("info --schema 2>err.txt | true");
+    EXPECT_EQ(read_file(folder_ / "err.txt"), "") << "who closes a pipe has read enough";
+}
+
+TEST_F(Cli, a_folder_that_is_missing_is_made_if_it_can_be) {
+    EXPECT_EQ(weft("run sheet.json --frames 2 --quiet --out new/deep/a.obj --out new/er/%d.ply").status, 0);
+    EXPECT_TRUE(fs::exists(folder_ / "new/deep/a.obj"));
+    EXPECT_TRUE(fs::exists(folder_ / "new/er/2.ply"));
+    expect_usage_error("run sheet.json --frames 2 --out /proc/weft/a.obj",
+                       "/proc/weft/a.obj: its folder cannot be made");
+    expect_usage_error("run sheet.json --frames 2 --out sheet.json/a.glb", "sheet.json/a.glb: ");
+}
+
+TEST_F(Cli, what_is_no_scene_is_one_line_and_status_2) {
+    write("empty.json", "");
+    write("short.json", R"({ "weft": 1, "cloths": [{ "mesh": { "gri)");
+    write("garbage.json", std::string("\x7f"
+                                      "ELF\x02\x01\0\xff\xfe\n\0\r\n\x80",
+                                      14));
+    for (const char* command : {"check", "run", "bench"}) {
+        expect_usage_error(std::string(command) + " empty.json", "empty.json: is empty");
+        expect_usage_error(std::string(command) + " short.json", "short.json: line 1, column 4");
+        expect_usage_error(std::string(command) + " garbage.json", "garbage.json: line 1, column 1: ");
+        expect_usage_error(std::string(command) + " .", ".: is a folder, not a scene file");
     }
 }
 

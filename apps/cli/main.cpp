@@ -1,7 +1,11 @@
 #include "cli/command.h"
 
+#include "io/buffered_file.h"
+
+#include <unistd.h>
 #include <weft/weft.h>
 
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -102,6 +106,16 @@ int run_program(int argc, char** argv) {
     return commands.at(program.get_subcommands().front()->get_name())();
 }
 
+// What was printed may stand in a buffer still, and the file that it is sent to on a full disk.
+int after_output(int code) {
+    errno = 0;
+    const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout);
+    if (written || errno == EPIPE) return code;  // who closes a pipe has read enough
+    print_errors(
+        {{"standard output", errno == 0 ? "cannot be written" : "cannot be written: " + system_reason(errno)}});
+    return code == exit_done ? exit_failed : code;
+}
+
 }  // namespace
 }  // namespace weft::cli
 
@@ -109,8 +123,11 @@ int main(int argc, char** argv) {
     // A file past the system's size limit is an error to report, not a reason to die.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    // As much as any command prints: the last flush then knows why output could not be written.
+    static char buffer[1 << 18];
+    if (!::isatty(STDOUT_FILENO)) std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     try {
-        return weft::cli::run_program(argc, argv);
+        return weft::cli::after_output(weft::cli::run_program(argc, argv));
     } catch (const std::bad_alloc&) {
         weft::cli::print_errors({{"", "out of memory"}});
     } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 
 #include "cli/progress.h"
 #include "cli/stats.h"
+#include "io/atomic_file.h"
 #include "io/export_plan.h"
 #include "weft/session.h"
 
@@ -96,6 +97,9 @@ int run(const RunOptions& options) {
     if (!frames) return wrong(frames.errors());
     const auto estimates = plan(*exporters, *session, *frames);
     if (!estimates) return wrong(estimates.errors());
+    if (!options.stats.empty()) {  // made and gone again: at the end it would be too late to say that it cannot be
+        if (const auto file = AtomicFile::create(options.stats); !file) return wrong(file.errors());
+    }
     for (const std::string& note : session->notes()) print_warning(note);
     if (const auto note = large_export_note(*estimates)) print_warning(*note);
 

@@ -57,6 +57,8 @@ class CpuBackend final : public Backend {
             state.now = state.last_good;
             frame.detail = executor_.find_non_finite(state, plan, input);
             state.now = state.last_good;
+            // What was solved was not of this place; a residual and a saved state still read it.
+            for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
             state.update_normals();
         }
         read(id, frame);

@@ -1,7 +1,10 @@
 #include "io/mesh_checks.h"
+#include "io/node_tree.h"
 
+#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 namespace weft {
@@ -10,12 +13,21 @@ namespace {
 using nlohmann::json;
 
 /// A binary file is a header of 12 bytes and chunks, the first of them the JSON text (glTF 2.0 specification, 4.4).
+constexpr std::size_t text_begin = 20;
+
+bool is_binary(std::string_view content) {
+    return content.starts_with("glTF") && content.size() >= text_begin;
+}
+
+/// As the file says it.
+std::size_t text_size(std::string_view content) {
+    std::size_t size = 0;
+    for (std::size_t b = 4; b-- > 0;) size = size << 8 | static_cast<unsigned char>(content[12 + b]);
+    return size;
+}
+
 std::string_view json_text(std::string_view content) {
-    constexpr std::size_t begin = 20;
-    if (!content.starts_with("glTF") || content.size() < begin) return content;
-    std::size_t length = 0;
-    for (std::size_t b = 4; b-- > 0;) length = length << 8 | static_cast<unsigned char>(content[12 + b]);
-    return content.substr(begin, length);
+    return is_binary(content) ? content.substr(text_begin, text_size(content)) : content;
 }
 
 std::uint64_t triangles_of(const json& primitive, const json& accessors) {
@@ -60,7 +72,57 @@ std::uint64_t count_triangles(const json& document) {
     return total;
 }
 
+std::size_t deepest_bracket(std::string_view text) {
+    std::size_t depth = 0, deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\') ++i;
+        if (c == '"') in_string = !in_string;
+        if (in_string) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+    }
+    return deepest;
+}
+
+/// By number, or by name as glTF 1 has it.
+const json* element(const json& all, const json& which) {
+    if (all.is_array() && which.is_number_unsigned() && which < all.size()) return &all[which.get<std::size_t>()];
+    if (!all.is_object() || !which.is_string()) return nullptr;
+    const auto found = all.find(which.get_ref<const std::string&>());
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<const json*> elements(const json& all, const json& owner, const char* key) {
+    std::vector<const json*> found;
+    const auto list = owner.is_object() ? owner.find(key) : owner.end();
+    if (list == owner.end() || !list->is_array()) return found;
+    for (const json& which : *list)
+        if (const json* one = element(all, which)) found.push_back(one);
+    return found;
+}
+
 }  // namespace
+
+std::string problem_of_gltf(std::string_view content) {
+    if (is_binary(content) && text_size(content) > content.size() - text_begin)  // which Assimp would make room for
+        return "is cut short: its text ends at byte " + std::to_string(text_begin + text_size(content)) + " of " +
+               std::to_string(content.size());
+    const std::string_view text = json_text(content);
+    if (deepest_bracket(text) > deepest_nesting)
+        return "has brackets nested more than " + std::to_string(deepest_nesting) + " deep";
+    const json document = json::parse(text, nullptr, false);
+    if (!document.is_object() || !document.contains("nodes") || !document.contains("scenes")) return {};
+    const json& nodes = document["nodes"];
+    std::vector<const json*> roots;
+    for (const json& scene : document["scenes"]) {
+        const auto of_scene = elements(nodes, scene, "nodes");
+        roots.insert(roots.end(), of_scene.begin(), of_scene.end());
+    }
+    return problem_of_tree(roots, roots.size() + nodes.size(),
+                           [&](const json* node) { return elements(nodes, *node, "children"); });
+}
 
 std::optional<std::uint64_t> gltf_triangle_count(std::string_view content) {
     try {

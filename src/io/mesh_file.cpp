@@ -231,6 +231,8 @@ Result<TriangleMesh> load_other(const std::filesystem::path& path, std::string_v
     if (ending == ".ply") problem = problem_of_ply(content);
     if (ending == ".3ds") problem = problem_of_3ds(content);
     if (ending == ".stl") problem = problem_of_stl(content);
+    if (ending == ".gltf" || ending == ".glb") problem = problem_of_gltf(content);
+    if (ending == ".fbx") problem = problem_of_fbx(content);
     if (!problem.empty()) return Error{file, std::move(problem)};
 
     Assimp::Importer importer;

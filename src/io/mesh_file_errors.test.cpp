@@ -145,6 +145,73 @@ TEST_F(MeshFileErrors, OtherFormatsWithIndicesOutOfRange) {
     EXPECT_EQ(problem("a.fbx", fixtures::fbx_ascii("0,1,30,-4")), "has no triangles");
 }
 
+// Assimp follows each of these until the stack is full, or for longer than anyone waits.
+TEST_F(MeshFileErrors, PartsWithinPartsWithoutEnd) {
+    const auto repeated = [](std::string_view text, int times) {
+        std::string all;
+        for (int i = 0; i < times; ++i) all += text;
+        return all;
+    };
+    EXPECT_EQ(problem("a.gltf", R"({"asset":{"version":"2.0"},"extras":)" + repeated("[", 500000)),
+              "has brackets nested more than 200 deep");
+    EXPECT_EQ(problem("a.gltf", R"({"asset":{"version":"2.0"},"extras":"\")" + repeated("[", 500) + "\"}"),
+              "cannot be read: GLTF: No scene")
+        << "in a text they mean nothing";
+    EXPECT_EQ(problem("a.fbx", "; FBX 7.4.0 project file\n" + repeated("A: {\n", 500000)),
+              "has blocks nested more than 200 deep");
+
+    const std::string head = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"meshes":[],"nodes":[)";
+    const std::string circle = "has nodes that lie under themselves, or under many others at once";
+    std::string chain, twice;
+    for (int i = 1; i <= 100000; ++i) chain += "{\"children\":[" + std::to_string(i) + "]},";
+    for (int i = 1; i <= 60; ++i) twice += "{\"children\":[" + std::to_string(i) + ',' + std::to_string(i) + "]},";
+    EXPECT_EQ(problem("a.gltf", head + chain + "{}]}"), "has nodes that lie more than 1000 deep");
+    EXPECT_EQ(problem("a.gltf", head + twice + "{}]}"), circle);
+    EXPECT_EQ(problem("a.gltf", head + R"({"children":[1]},{"children":[0]}]})"), circle);
+
+    std::string text = fixtures::fbx_ascii("0,1,2,-4");
+    ASSERT_EQ(problem("a.fbx", text), "none");
+    const std::string link = "\tC: \"OO\",2000,0\n";
+    EXPECT_EQ(problem("a.fbx", text.replace(text.find(link), 0, "\tC: \"OO\",2000,2000\n")), circle);
+    EXPECT_EQ(problem("a.fbx", fixtures::fbx_binary({{1, 0}, {2, 1}, {3, 2}})), "none");
+    EXPECT_EQ(problem("a.fbx", fixtures::fbx_binary({{1, 0}, {2, 1}, {1, 2}, {3, 2}})), circle);
+    std::string deep = fixtures::fbx_binary({}).substr(0, 27);
+    for (std::size_t level = 0; level < 100000; ++level) {  // each ends where the one around it does, less its zeros
+        fixtures::append(deep, static_cast<std::uint32_t>(27 + 100000 * 27 - level * 13));
+        deep.append(8, '\0').append("\1A");
+    }
+    EXPECT_EQ(problem("a.fbx", deep.append(100000 * 13, '\0')), "has blocks nested more than 200 deep");
+}
+
+TEST_F(MeshFileErrors, GlbThatClaimsMoreThanItHas) {
+    std::string glb = "glTF";
+    for (const std::uint32_t word : {2u, 40u, 0x7fffffffu, 0x4e4f534au}) fixtures::append(glb, word);
+    EXPECT_EQ(problem("a.glb", glb + R"({"asset":{"version":"2.0"}})"),
+              "is cut short: its text ends at byte 2147483667 of 47");
+}
+
+TEST_F(MeshFileErrors, EveryFormatCutShortOrDamaged) {
+    const std::pair<const char*, std::string> files[] = {
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n"},
+        {"a.gltf", fixtures::gltf({.indices = {0, 1, 2}})},
+        {"a.fbx", fixtures::fbx_ascii("0,1,2,-4")},
+        {"b.fbx", fixtures::fbx_binary({{1, 0}, {2, 1}, {3, 2}})},
+        {"a.3ds", fixtures::three_ds({0, 1, 2})},
+        {"a.stl", fixtures::stl_binary()},
+        {"a.ply", fixtures::ply_binary(false)},
+    };
+    std::mt19937 random(2);
+    for (const auto& [name, whole] : files) {
+        for (std::size_t size = 1; size < whole.size(); size += 1 + whole.size() / 200)
+            problem(name, std::string_view(whole).substr(0, size));
+        for (int i = 0; i < 200; ++i) {
+            std::string damaged = whole;
+            for (int n = 0; n < 1 + i % 3; ++n) damaged[random() % whole.size()] = static_cast<char>(random());
+            problem(name, damaged);
+        }
+    }
+}
+
 TEST_F(MeshFileErrors, StlCutShort) {
     const std::string ascii = fixtures::stl_ascii(), binary = fixtures::stl_binary();
     for (std::size_t size = 1; size < ascii.find("endsolid"); ++size) {

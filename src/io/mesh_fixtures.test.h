@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace weft::fixtures {
@@ -113,6 +114,73 @@ inline std::string fbx_ascii(std::string_view polygon) {
            "\t\tProperties70:  {\n\t\t\tP: \"Lcl Translation\", \"Lcl Translation\", \"\", "
            "\"A\",10,0,0\n\t\t}\n\t}\n}\n"
            "Connections:  {\n\tC: \"OO\",2000,0\n\tC: \"OO\",1000,2000\n}\n";
+}
+
+/// Of a binary FBX file of version 7.4; properties as they stand there.
+struct FbxRecord {
+    std::string name, properties;
+    std::uint32_t count = 0;  ///< of the properties
+    std::vector<FbxRecord> within = {};
+
+    std::string bytes(std::size_t at) const {
+        std::string out, inner;
+        const std::size_t begin = at + 13 + name.size() + properties.size();
+        for (const FbxRecord& record : within) inner += record.bytes(begin + inner.size());
+        if (!within.empty()) inner.append(13, '\0');
+        append(out, static_cast<std::uint32_t>(begin + inner.size()));
+        append(out, count);
+        append(out, static_cast<std::uint32_t>(properties.size()));
+        out.push_back(static_cast<char>(name.size()));
+        return out + name + properties + inner;
+    }
+};
+
+inline std::string fbx_text(std::string_view text) {
+    std::string out = "S";
+    append(out, static_cast<std::uint32_t>(text.size()));
+    return out.append(text);
+}
+
+inline std::string fbx_number(std::int64_t number) {
+    std::string out = "L";
+    append(out, number);
+    return out;
+}
+
+template <class T>
+std::string fbx_array(char type, const std::vector<T>& values) {
+    std::string out(1, type);
+    for (const std::size_t head : {values.size(), std::size_t{0}, sizeof(T) * values.size()})
+        append(out, static_cast<std::uint32_t>(head));
+    for (const T value : values) append(out, value);
+    return out;
+}
+
+/// Two models, 1 and 2, and a triangle, 3, which hang together as the pairs say: below, above. 0 is the root.
+inline std::string fbx_binary(const std::vector<std::pair<int, int>>& connections) {
+    const auto integer = [](const char* name, std::int32_t value) {
+        std::string property = "I";
+        append(property, value);
+        return FbxRecord{name, property, 1};
+    };
+    const auto object = [](const char* kind, int number, std::vector<FbxRecord> within) {
+        const std::string name = std::string("part\0\x01", 6) + kind;
+        return FbxRecord{kind, fbx_number(number) + fbx_text(name) + fbx_text("Mesh"), 3, std::move(within)};
+    };
+    FbxRecord head{"FBXHeaderExtension", "", 0, {integer("FBXHeaderVersion", 1003), integer("FBXVersion", 7400)}};
+    FbxRecord objects{"Objects", "", 0, {}}, pairs{"Connections", "", 0, {}};
+    for (const int model : {1, 2}) objects.within.push_back(object("Model", model, {integer("Version", 232)}));
+    const std::vector<double> corners{0, 0, 0, 1, 0, 0, 1, 1, 0};
+    objects.within.push_back(object("Geometry", 3,
+                                    {{"Vertices", fbx_array('d', corners), 1},
+                                     {"PolygonVertexIndex", fbx_array('i', std::vector<std::int32_t>{0, 1, -3}), 1},
+                                     integer("GeometryVersion", 124)}));
+    for (const auto& [below, above] : connections)
+        pairs.within.push_back({"C", fbx_text("OO") + fbx_number(below) + fbx_number(above), 3});
+    std::string out("Kaydara FBX Binary  \0\x1a\0", 23);
+    append(out, std::uint32_t{7400});
+    for (const FbxRecord& record : {head, objects, pairs}) out += record.bytes(out.size());
+    return out.append(13, '\0');
 }
 
 inline std::string three_ds_chunk(std::uint16_t kind, std::string_view body) {

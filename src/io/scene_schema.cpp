@@ -165,7 +165,7 @@ Json type_json(const Parameter& p, const std::string& place) {
             // The only lists without keys of their own are lists of vertices.
             Json items = {{"type", "integer"}, {"minimum", 0}};
             Json schema = {{"type", "array"}, {"items", below.empty() ? items : object_schema(below)}};
-            if (p.required) schema["minItems"] = 1;
+            if (p.required || below.empty()) schema["minItems"] = 1;
             return schema;
         }
     }

@@ -143,6 +143,7 @@ void check_keys(const std::vector<Key>& keys, std::span<const Parameter> table, 
 void check_pin(const PinDesc& pin, const std::optional<MadeMesh>& made, const std::string& pointer,
                Problems& problems) {
     if (const auto* vertices = std::get_if<VertexPins>(&pin.select)) {
+        if (vertices->vertices.empty()) problems.add(at(pointer, "vertices"), "must name at least one vertex");
         if (made) check_vertex_pins(*vertices, made->vertices, at(pointer, "vertices"), problems);
     } else if (const auto* box = std::get_if<BoxPins>(&pin.select)) {
         check_box(box->box, at(pointer, "box"), problems);

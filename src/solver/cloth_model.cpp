@@ -1,5 +1,6 @@
 #include "solver/cloth_model.h"
 
+#include "scene/problems.h"
 #include "scene/scene_keys.h"
 
 #include <algorithm>
@@ -24,8 +25,8 @@ Result<Done> place_particles(ClothModel& model, const std::vector<std::uint32_t>
         const Vec3 x = model.topology.rest_positions[p];
         const float weight = 1 / model.mass[p];
         if (!(std::isfinite(weight) && weight > 0)) {
-            return Error{"particle " + std::to_string(p), "its mass of " + std::to_string(model.mass[p]) +
-                                                              " kg has no finite inverse in single precision"};
+            return Error{"particle " + std::to_string(p),
+                         "its mass of " + number_text(model.mass[p]) + " kg has no finite inverse in single precision"};
         }
         model.start[p] = {x.x, x.y, x.z, weight};
     }
@@ -48,7 +49,7 @@ Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& att
             return Error{where, "there are only " + std::to_string(model.particle_count) + " particles, got number " +
                                     std::to_string(particle)};
         if (!(compliance > 0 && std::isfinite(compliance)))
-            return Error{where, "compliance must be > 0 m/N, got " + std::to_string(compliance)};
+            return Error{where, "compliance must be > 0 m/N, got " + number_text(compliance)};
         if (!finite(place)) return Error{where, "place is not finite"};
         model.start[model.particle_count + i] = {place.x, place.y, place.z, 0};
     }
@@ -108,7 +109,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
                      const ColoringOptions& coloring, bool hierarchy) {
     const float density = fabric.body.density;
     if (!(density > 0) || !std::isfinite(density))
-        return Error{"density", "must be > 0 kg/m², got " + std::to_string(density)};
+        return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
     model.fabric = fabric;
     model.particle_count = model.topology.particle_count;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());

@@ -2,8 +2,10 @@
 
 #include "base/hash.h"
 
-#include <bit>
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -123,6 +125,60 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
     }
     if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};
     return snapshot;
+}
+
+namespace {
+
+// Their squares still fit a float.
+constexpr float largest = 1e18f;
+
+bool sound(const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= largest && finite(v);
+}
+bool sound(const Vec4& v) {
+    return sound(v.xyz()) && std::abs(v.w) <= largest;  // false for what is not finite
+}
+// Of heavy cloth they are larger than any place or speed, and nothing squares them.
+bool sound(float lambda) {
+    return std::isfinite(lambda);
+}
+bool is_unit(const Vec3& v) {
+    return std::abs(dot(v, v) - 1) < 1e-3f;
+}
+bool sound(const Pose& pose) {
+    return sound(pose.position) && is_unit(pose.rotation.x) && is_unit(pose.rotation.y) && is_unit(pose.rotation.z);
+}
+bool sound_time(double seconds) {
+    return seconds >= 0 && std::isfinite(seconds);
+}
+
+template <class T>
+std::optional<std::size_t> first_unsound(const std::vector<T>& values) {
+    const auto it = std::ranges::find_if(values, [](const T& value) { return !sound(value); });
+    if (it == values.end()) return std::nullopt;
+    return static_cast<std::size_t>(it - values.begin());
+}
+
+}  // namespace
+
+Result<Done> check_numbers(const Snapshot& snapshot) {
+    if (!sound_time(snapshot.time)) return Error{"state", "its time must be finite and ≥ 0 s"};
+    if (const auto i = first_unsound(snapshot.colliders))
+        return Error{"state", "collider " + std::to_string(*i) + " must have a rotation and a finite position"};
+    for (std::size_t c = 0; c < snapshot.cloths.size(); ++c) {
+        const ClothSnapshot& cloth = snapshot.cloths[c];
+        const std::string of_cloth = "cloth " + std::to_string(c) + ": ";
+        for (const auto* array : {&cloth.position, &cloth.start, &cloth.velocity, &cloth.carry}) {
+            if (const auto i = first_unsound(*array))
+                return Error{"state",
+                             of_cloth + "particle " + std::to_string(*i) + " must have finite numbers of at most 1e18"};
+        }
+        if (const auto i = first_unsound(cloth.lambda))
+            return Error{"state", of_cloth + "row " + std::to_string(*i) + " must be finite"};
+        if (!sound_time(cloth.substep_seconds))
+            return Error{"state", of_cloth + "its substep must be finite and ≥ 0 s"};
+    }
+    return Done{};
 }
 
 }  // namespace weft

@@ -33,4 +33,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot);
 /// Fails on what to_bytes did not write, or what was changed or cut off since.
 Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes);
 
+/// Fails on numbers that no world has: a checksum says that they are as they were written, not by whom.
+Result<Done> check_numbers(const Snapshot& snapshot);
+
 }  // namespace weft

@@ -198,6 +198,7 @@ Result<Done> World::restore(const Snapshot& snapshot) {
         }
         if (saved.lambda.size() != rows) return differs("rows of constraints", saved.lambda.size(), rows);
     }
+    if (auto checked = check_numbers(snapshot); !checked) return checked;
     for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->restore(cloths_[i].handle, snapshot.cloths[i]);
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = snapshot.colliders[i];

@@ -1,7 +1,7 @@
 // Any bytes as a mesh: through topology, model and some frames on the CPU. What is not refused must stay finite.
 //
-// The first byte chooses: 'p' makes the whole input a .ply, 'o', 'v' and '#' an .obj, read by load_mesh; any other is
-// followed by numbers as `ByteReader` takes them.
+// The first byte chooses what load_mesh makes of the whole input, see `ending_of`; any other is followed by numbers as
+// `ByteReader` takes them.
 #include "cpu/cpu_backend.h"
 #include "io/mesh_file.h"
 #include "scene/check.h"
@@ -151,6 +151,32 @@ void simulate(TriangleMesh mesh, ByteReader& in) {
     }
 }
 
+/// As files of each format begin; null for what is none.
+const char* ending_of(std::uint8_t first) {
+    switch (first) {
+        case 'p':
+            return ".ply";
+        case 'o':
+        case 'v':
+        case '#':
+            return ".obj";
+        case '{':
+            return ".gltf";
+        case 'g':
+            return ".glb";
+        case 's':
+        case ' ':
+            return ".stl";
+        case ';':
+        case 'K':
+            return ".fbx";
+        case 'M':
+            return ".3ds";
+        default:
+            return nullptr;
+    }
+}
+
 std::optional<TriangleMesh> read_as_file(std::span<const std::uint8_t> bytes, const char* ending) {
     static const std::string stem =
         (std::filesystem::temp_directory_path() / ("weft_fuzz_" + std::to_string(::getpid()))).string();
@@ -187,13 +213,13 @@ extern "C" const char* __lsan_default_suppressions() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span bytes(data, size);
-    const std::uint8_t first = bytes.empty() ? 0 : bytes.front();
     ByteReader in(bytes);
-    if (first != 'p' && first != 'o' && first != 'v' && first != '#') {
+    const char* ending = ending_of(bytes.empty() ? 0 : bytes.front());
+    if (!ending) {
         simulate(take_mesh(in), in);
         return 0;
     }
-    std::optional<TriangleMesh> mesh = read_as_file(bytes, first == 'p' ? ".ply" : ".obj");
+    std::optional<TriangleMesh> mesh = read_as_file(bytes, ending);
     if (!mesh) return 0;
     check_loaded(*mesh);
     if (mesh->triangles.size() <= most_triangles * 4) simulate(std::move(*mesh), in);

@@ -1,7 +1,9 @@
 // Input that no cloth could follow: the result is finite, the report says what happened.
+// What files can do of that kind is in src/weft/hostile.test.cpp.
 
 #include "sheet.h"
 
+#include <cmath>
 #include <limits>
 
 namespace weft::physical {
@@ -43,6 +45,8 @@ TEST_F(Hostile, gravity_that_is_no_number_is_caught_and_named) {
         EXPECT_TRUE(reports & report_non_finite);
         EXPECT_EQ(world.state_hash(), before) << "the cloth is where it was";
         EXPECT_EQ(world.frame().cloths[0].detail, "gravity is not finite");
+        EXPECT_TRUE(std::isfinite(world.stretch_residual().max));
+        EXPECT_TRUE(world.restore(world.save()).ok()) << "a state of it is one to come back to";
     }
 }
 
@@ -77,6 +81,154 @@ TEST_F(Hostile, extreme_fabrics) {
             step_and_check(world, 1.0 / 60);
         }
     }
+}
+
+// Three leaves on one spine, a triangle given twice and once more the other way round, one that is a point, one that is
+// a line, a vertex that nothing uses, and a triangle that hangs on a single corner.
+TriangleMesh messy_mesh() {
+    return {.positions = {{0, 0, 0},
+                          {0, 1, 0},
+                          {1, 0.5f, 0},
+                          {-1, 0.5f, 0.2f},
+                          {0, 0.5f, 1},
+                          {5, 5, 5},
+                          {0, 2, 0},
+                          {0.5f, 3, 0},
+                          {-0.5f, 3, 0.1f}},
+            .triangles = {
+                {0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 2, 0}, {2, 1, 0}, {3, 3, 3}, {0, 1, 6}, {6, 7, 8}, {1, 2, 6}}};
+}
+
+/// Folded onto itself, so that two triangles lie in one place and turn their backs to each other.
+TriangleMesh folded_mesh() {
+    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1e-7f, 0, 1}, {1, 1e-7f, 0.1f}},
+            .triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}}};
+}
+
+/// Two needles and a crumb between them.
+TriangleMesh needle_mesh() {
+    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 1e-6f, 0}, {0.5f, -1e-6f, 1e-6f}, {0.5f, 0, 100}},
+            .triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {1, 4, 2}}};
+}
+
+TriangleMesh scaled(TriangleMesh mesh, float scale, Vec3 offset) {
+    for (Vec3& p : mesh.positions) p = p * scale + offset;
+    return mesh;
+}
+
+TEST_F(Hostile, meshes_by_every_method) {
+    const TriangleMesh grid = make_grid({1, 1}, {5, 5}, GridDiagonal::cross);
+    const TriangleMesh meshes[] = {messy_mesh(),
+                                   folded_mesh(),
+                                   needle_mesh(),
+                                   scaled(grid, 1e-4f, {0, 0, 0}),
+                                   scaled(grid, 1e6f, {0, 0, 0}),
+                                   scaled(grid, 1, {1e6f, 0, 0})};
+    int followed = 0;
+    for (const TriangleMesh& mesh : meshes) {
+        for (int choice = 0; choice < 8; ++choice) {
+            Fabric fabric;
+            fabric.bend.model = choice & 1 ? BendModel::plate : BendModel::hinges;
+            fabric.tether.enabled = true;
+            auto topology = build_topology(mesh);
+            if (!topology) continue;  // far out nothing is left of the grid
+            auto model = build_cloth_model({.name = "hostile",
+                                            .mesh = mesh,
+                                            .fabric = fabric,
+                                            .pins = {.particles = {0}, .attachments = {{1, 1e-3f, {0, 1, 0}}}}},
+                                           std::move(*topology));
+            ASSERT_TRUE(model.ok()) << model.error().message();
+            World world = make_world({.substeps = 5,
+                                      .iterations = 2,
+                                      .method = choice & 2 ? Method::pbd : Method::xpbd,
+                                      .projection = choice & 4 ? Projection::jacobi : Projection::gauss_seidel,
+                                      .air = AirDesc{.wind = {{.velocity = {10, 0, 0}}}}});
+            world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}}));
+            world.add(*model);
+            step_and_check(world, 1.0 / 60);
+            ++followed;
+        }
+    }
+    EXPECT_GE(followed, 5 * 8);
+}
+
+// Equal positions in a mesh are one particle; two can still meet later.
+TEST_F(Hostile, particles_in_one_place_by_every_method) {
+    for (int choice = 0; choice < 8; ++choice) {
+        SheetDesc sheet = hung;
+        sheet.fabric.bend.model = choice & 1 ? BendModel::plate : BendModel::hinges;
+        World world = make_world({.substeps = 5,
+                                  .method = choice & 2 ? Method::pbd : Method::xpbd,
+                                  .projection = choice & 4 ? Projection::jacobi : Projection::gauss_seidel},
+                                 sheet);
+        for (const bool everything : {false, true}) {
+            Snapshot snapshot = world.save();
+            auto& positions = snapshot.cloths[0].position;
+            for (std::size_t p = 20; p < (everything ? positions.size() : 22); ++p) positions[p] = positions[40];
+            ASSERT_TRUE(world.restore(snapshot).ok());
+            step_and_check(world, 1.0 / 60);
+            EXPECT_FALSE(reports & report_non_finite);
+        }
+    }
+}
+
+TEST_F(Hostile, cloth_held_by_springs_alone_however_soft) {
+    for (const float compliance : {1e-12f, 1e6f}) {
+        for (const Method method : {Method::xpbd, Method::pbd}) {
+            for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
+                for (const double dt : {1e-9, 1.0 / 60, 10.0}) {
+                    TriangleMesh mesh = make_grid({1, 1}, {5, 5}, GridDiagonal::alternating);
+                    auto topology = build_topology(mesh);
+                    ClothModelDesc desc{.name = "sprung", .mesh = std::move(mesh)};
+                    for (std::uint32_t p = 0; p < 25; ++p)
+                        desc.pins.attachments.push_back({p, compliance, topology->rest_positions[p]});
+                    World world =
+                        make_world({.substeps = 5, .iterations = 2, .method = method, .projection = projection});
+                    world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+                    step_and_check(world, dt);
+                    EXPECT_FALSE(reports & report_non_finite) << compliance << ' ' << dt;
+                }
+            }
+        }
+    }
+}
+
+// Each has a right checksum, so nothing but its numbers can tell.
+TEST_F(Hostile, saved_states_of_no_world) {
+    World world = make_world({.substeps = 5}, hung);
+    world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}}));
+    world.step(1.0 / 60);
+    const auto before = world.state_hash();
+    const Snapshot good = world.save();
+    const auto refusal = [&](auto&& spoil) {
+        Snapshot bad = good;
+        spoil(bad);
+        const auto read = snapshot_from_bytes(to_bytes(bad));
+        EXPECT_TRUE(read.ok());
+        const auto restored = world.restore(*read);
+        EXPECT_EQ(world.state_hash(), before);
+        return restored ? "none" : restored.error().message();
+    };
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(refusal([](Snapshot&) {}), "none");
+    const std::string particle = "state: cloth 0: particle 7 must have finite numbers of at most 1e18";
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].position[7].y = nan; }), particle);
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].velocity[7].w = infinity; }), particle);
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].start[7].x = -1e30f; }), particle);
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].carry[7].z = nan; }), particle);
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].lambda[3] = nan; }), "state: cloth 0: row 3 must be finite");
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].substep_seconds = nan; }),
+              "state: cloth 0: its substep must be finite and ≥ 0 s");
+    EXPECT_EQ(refusal([](Snapshot& s) { s.time = infinity; }), "state: its time must be finite and ≥ 0 s");
+    const std::string collider = "state: collider 0 must have a rotation and a finite position";
+    EXPECT_EQ(refusal([](Snapshot& s) { s.colliders[0].position.x = nan; }), collider);
+    EXPECT_EQ(refusal([](Snapshot& s) { s.colliders[0].rotation.y = {}; }), collider);
+
+    Snapshot far = good;  // as far as it may be
+    for (Vec4& p : far.cloths[0].position) p = {1e18f, -p.y, 1e18f * p.z, 0};
+    for (Vec4& v : far.cloths[0].velocity) v = {-1e18f, 1e18f, 0, 1e18f};
+    ASSERT_TRUE(world.restore(far).ok());
+    step_and_check(world, 1.0 / 60);
 }
 
 TEST(Model, refuses_values_that_no_simulation_could_follow) {

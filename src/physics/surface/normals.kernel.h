@@ -3,9 +3,9 @@
 // Twice the area times the unit normal.
 WEFT_FN vec3 face_normal(vec3 a, vec3 b, vec3 c) { return cross(b - a, c - a); }
 
-// A particle whose faces cancel or vanish gets +y rather than NaN.
+// A particle whose faces cancel, vanish or leave the range of a float gets +y rather than NaN.
 WEFT_FN vec3 unit_normal(vec3 sum)
 {
     real len2 = dot(sum, sum);
-    return select(len2 > real(1e-30), sum * inversesqrt(max(len2, real(1e-30))), vec3(real(0), real(1), real(0)));
+    return select(len2 > real(1e-30) && len2 < real(1e38), sum * inversesqrt(max(len2, real(1e-30))), vec3(real(0), real(1), real(0)));
 }

@@ -27,6 +27,16 @@ TEST(Normals, of_nothing_point_up) {
     EXPECT_EQ(n.y, 1);
 }
 
+TEST(Normals, of_faces_beyond_floats_point_up) {
+    for (const float size : {1e10f, 1e15f, 1e30f}) {
+        const scalar::vec3 a(size, 0.0f, 0.0f), b(0.0f, size, 0.0f), c(0.0f, 0.0f, size);
+        const scalar::vec3 n = scalar::unit_normal(scalar::face_normal(a, b, c));
+        EXPECT_EQ(n.x, 0);
+        EXPECT_EQ(n.y, 1);
+        EXPECT_EQ(n.z, 0);
+    }
+}
+
 // A height field y = a sin(kx): the normal at a vertex of a fine grid is that of the surface.
 TEST(Normals, of_a_wave_converge_to_the_surface_s) {
     const double amplitude = 0.1, k = 3, cell = 0.01;
