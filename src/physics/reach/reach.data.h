@@ -3,8 +3,8 @@
 #define WEFT_REACH_DATA_H
 
 // The numbers of one row.
-//   length  m  largest distance, reserve included
-#define WEFT_ROW_reach(FIELD) FIELD(length)
+//   limit  m  largest distance, reserve included
+#define WEFT_ROW_reach(FIELD) FIELD(limit)
 
 #ifdef __cplusplus
 #include "physics/parameter.h"

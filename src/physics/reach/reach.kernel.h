@@ -1,4 +1,4 @@
-// Reach: C = |a - b| - length, at most 0. Hard.
+// Reach: C = |a - b| - limit, at most 0. Hard.
 
 struct ReachRow { WEFT_ROW_reach(WEFT_ROW_MEMBER) };
 
@@ -8,9 +8,9 @@ WEFT_FN void project_reach(inout_(vec3) a, inout_(vec3) b, real wa, real wb,
     vec3 d = a - b;
     real len2 = dot(d, d);
     real w = wa + wb;
-    mask taut = len2 > row.length * row.length && len2 > real(1e-20) && w > real(0);
+    mask taut = len2 > row.limit * row.limit && len2 > real(1e-20) && w > real(0);
     real len = sqrt(max(len2, real(1e-20)));
-    real s = select(taut, (row.length - len) / (len * max(w, real(1e-30))), real(0));
+    real s = select(taut, (row.limit - len) / (len * max(w, real(1e-30))), real(0));
     lambda = lambda + s * len;
     a = a + d * (wa * s);
     b = b - d * (wb * s);
