@@ -70,6 +70,18 @@ TEST_F(Cli, the_state_does_not_depend_on_threads_or_instruction_set_but_on_subst
     EXPECT_EQ(finer["substeps"], 40);
 }
 
+TEST_F(Cli, options_override_the_scene_s_solver_and_nothing_else_does) {
+    EXPECT_EQ(stats("--frames 2")["solver"], "xpbd, gauss-seidel");
+    EXPECT_EQ(stats("--frames 2 --method pbd --projection jacobi --hierarchy")["solver"], "pbd, jacobi, hierarchy");
+    write("sheet.json", R"({ "weft": 1, "solver": { "method": "pbd", "projection": "jacobi", "hierarchy": true },
+                             "cloths": [{ "mesh": { "grid": { "resolution": [40, 40] } }, "pins": [{ "vertices": [0] }] }] })");
+    const Json as_written = stats("--frames 2");
+    EXPECT_EQ(as_written["solver"], "pbd, jacobi, hierarchy");
+    EXPECT_GT(as_written["stage_ms"]["hierarchy"], 0);
+    EXPECT_EQ(stats("--frames 2 --no-hierarchy --method xpbd")["solver"], "xpbd, jacobi");
+    expect_usage_error("run sheet.json --method magic", "must be \"xpbd\" or \"pbd\", got \"magic\"");
+}
+
 TEST_F(Cli, wrong_usage_is_one_line_and_status_2) {
     expect_usage_error("", "subcommand");
     expect_usage_error("run", "scene");

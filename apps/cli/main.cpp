@@ -31,8 +31,10 @@ void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--isa", options.isa, "instruction set, see weft info; never changes the result");
     command.add_option("--substeps", options.substeps, "per frame, instead of the scene's");
     command.add_option("--iterations", options.iterations, "per substep, instead of the scene's");
-    command.add_flag("--hierarchy,!--no-hierarchy", options.hierarchy,
-                     "coarse levels first, or not, whatever the scene says");
+    // add_flag would set an option that was not given, too.
+    command.add_flag_function(
+        "--hierarchy,!--no-hierarchy", [&options](std::int64_t count) { options.hierarchy = count > 0; },
+        "coarse levels first, or not, whatever the scene says");
     command.add_option("--method", options.method, "xpbd or pbd, instead of the scene's");
     command.add_option("--projection", options.projection, "gauss-seidel or jacobi, instead of the scene's");
 }
