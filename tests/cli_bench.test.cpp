@@ -111,6 +111,22 @@ TEST_F(CliBench, compares_with_a_former_report) {
     EXPECT_NE(other.out.find("sheet.json: not measured now: in b.json only"), std::string::npos) << other.out;
 }
 
+TEST_F(CliBench, draws_curves_of_error_against_time) {
+    const Outcome outcome = weft("bench --curves 8 --frames 2 --warmup 0 --repeat 1 --json c.json --plot c.svg");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json report = Json::parse(read_file(folder_ / "c.json"));
+    EXPECT_EQ(report["scenes"].size(), 50u) << "five methods, five numbers of substeps, a grid and its irregular twin";
+    EXPECT_NE(outcome.out.find("irregular 8², hierarchy, tethers"), std::string::npos);
+    EXPECT_NE(outcome.out.find('*'), std::string::npos) << "something is always best";
+    const std::string svg = read_file(folder_ / "c.svg");
+    EXPECT_EQ(std::count(svg.begin(), svg.end(), '\n') > 100, true);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    expect_usage_error("bench --curves 4", "must be from 8 to 1024, got 4");
+    expect_usage_error("bench sheet.json --curves 8", "takes no scenes");
+    expect_usage_error("bench sheet.json --plot c.svg", "needs --curves");
+}
+
 TEST_F(CliBench, refuses_what_is_no_report) {
     const auto refused = [&](const std::string& text, const std::string& says) {
         write("b.json", text);

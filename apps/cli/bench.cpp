@@ -1,3 +1,4 @@
+#include "cli/bench_curves.h"
 #include "cli/bench_report.h"
 #include "cli/stats.h"
 #include "io/atomic_file.h"
@@ -13,6 +14,8 @@ struct BenchOptions {
     std::vector<std::string> scenes;
     BenchSettings settings;
     std::string json, compare;
+    std::vector<std::uint32_t> curves;  ///< sides of the sheets; empty: no curves
+    std::string plot;
 };
 
 void append(Errors& all, const Errors& more) {
@@ -33,6 +36,11 @@ Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subje
     };
     range("--repeat", options.settings.repeat, 1, 1000);
     range("--warmup", options.settings.warmup, 0, 1000000);
+    for (const std::uint32_t side : options.curves) range("--curves", side, 8, 1024);
+    if (!options.curves.empty() && !options.scenes.empty())
+        append(errors, {{"--curves", "has sheets of its own and takes no scenes"}});
+    if (!options.plot.empty() && options.curves.empty()) append(errors, {{"--plot", "needs --curves"}});
+    if (!errors.empty()) return errors;  // what is out of range need not be tried
     for (const BenchSubject& subject : subjects) {
         const auto session = subject.open(options.settings.common);
         if (!session) {
@@ -42,6 +50,9 @@ Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subje
         for (const std::string& note : session->notes()) print_warning(subject.name + ": " + note);
         const auto frames = frame_count(options.settings.length, session->frame_seconds());
         if (!frames) append(errors, frames.errors());
+    }
+    if (!options.plot.empty()) {
+        if (const auto file = AtomicFile::create(options.plot); !file) append(errors, file.errors());
     }
     if (!options.json.empty()) {  // made and gone again: at the end it would be too late to say that it cannot be
         if (const auto file = AtomicFile::create(options.json); !file) append(errors, file.errors());
@@ -55,6 +66,8 @@ int bench(const BenchOptions& options) {
         return code;
     };
     std::vector<BenchSubject> subjects;
+    const std::vector<CurveSubject> curves = curve_subjects(options.curves);
+    for (const CurveSubject& curve : curves) subjects.push_back(curve.subject);
     for (const std::string& scene : options.scenes) subjects.push_back(scene_subject(scene));
     if (subjects.empty()) subjects = built_in_subjects();
     std::optional<BenchReport> before;
@@ -75,7 +88,13 @@ int bench(const BenchOptions& options) {
             return failed(written.errors(), exit_failed);
         }
     }
-    if (!options.settings.quiet) std::fputs(tables(report).c_str(), stdout);
+    if (!options.plot.empty()) {
+        if (auto written = write_curves(curves, report.scenes, options.plot); !written) {
+            return failed(written.errors(), exit_failed);
+        }
+    }
+    if (!options.settings.quiet)
+        std::fputs((curves.empty() ? tables(report) : curves_table(curves, report.scenes)).c_str(), stdout);
     if (before) {
         std::printf("%s%s", options.settings.quiet ? "" : "\n", comparison(report, *before, options.compare).c_str());
     }
@@ -95,12 +114,16 @@ Command add_bench(CLI::App& program) {
     command->add_option("--repeat", options->settings.repeat, "runs, each from a fresh load")->capture_default_str();
     command->add_option("--json", options->json, "write all figures to this file");
     command->add_option("--compare", options->compare, "print ratios to the figures of this file, now / before");
+    command->add_option("--curves", options->curves,
+                        "error against time: hung sheets of these sides, every method, 3 to 40 substeps");
+    command->add_option("--plot", options->plot, "draw the curves into this SVG file");
     command->add_flag("--quiet", options->settings.quiet, "no progress, no figures but the ratios");
     add_common_options(*command, options->settings.common);
     command->footer(
         "Examples:\n"
         "  weft bench --json before.json\n"
         "  weft bench --compare before.json\n"
+        "  weft bench --curves 32 64 128 --plot curves.svg --warmup 180 --repeat 1\n"
         "  weft bench scenes/banner.json scenes/curtain.json --threads 2 --repeat 5\n"
         "One run more than --repeat goes first, without a clock: it measures stretch, shear and residual.");
     return [options] { return bench(*options); };

@@ -37,7 +37,8 @@ double heap_bytes() {
 SceneDesc sheet_scene(std::uint32_t side) {
     SceneCloth sheet{.name = "sheet",
                      .mesh = GridDesc{.size = {1, 1}, .resolution = {side, side}},
-                     .transform = {.position = {0, 1, 0}, .rotation_degrees = {90, 0, 0}},
+                     .transform = {.position = {0, 1, 0},
+                                   .rotation_degrees = {85, 0, 0}},  // leaning, so that it may leave its plane
                      .pins = {{.select = VertexPins{{0, side - 1}}}}};
     return {.name = "sheet " + std::to_string(side), .cloths = {std::move(sheet)}};
 }

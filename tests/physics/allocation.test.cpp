@@ -1,0 +1,76 @@
+// A step that has run before asks for no memory: counted, for every way to project, with air, pins and colliders.
+
+#include "sheet.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::uint64_t> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    void* memory = alignment > alignof(std::max_align_t)
+                       ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
+                       : std::malloc(size > 0 ? size : 1);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+}  // namespace
+
+// The whole program's, this being the only place to count at.
+void* operator new(std::size_t size) {
+    return counted(size, 0);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace weft::physical {
+namespace {
+
+TEST(Allocation, is_over_when_the_first_frame_is) {
+    for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
+        for (const unsigned workers : {0u, 1u}) {
+            World world =
+                make_world({.substeps = 3,
+                            .iterations = 2,
+                            .projection = projection,
+                            .hierarchy = true,
+                            .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .turbulence = {.strength = 0.4f}}}}},
+                           {.workers = workers});
+            const ColliderId ball =
+                world.add(make_collider({.shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {9, {1, 0, 0}, {}}}}));
+            TriangleMesh mesh = make_grid({1, 1}, {24, 24}, GridDiagonal::alternating);
+            auto topology = build_topology(mesh, {.reorder = false});
+            const Vec3 corner = mesh.positions[0];
+            const auto model = *build_cloth_model(
+                {.mesh = std::move(mesh), .pins = {.particles = {0}}, .hierarchy = true}, std::move(*topology));
+            world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
+            world.step(1.0 / 60);
+            const std::uint64_t before = allocations;
+            for (int i = 0; i < 10; ++i) world.step(1.0 / 60);
+            EXPECT_EQ(allocations - before, 0u) << workers << " workers";
+        }
+    }
+    const std::uint64_t before = allocations;
+    int* volatile one = new int;
+    delete one;
+    EXPECT_GT(allocations, before) << "it does count";
+}
+
+}  // namespace
+}  // namespace weft::physical
