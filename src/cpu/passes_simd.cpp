@@ -1,7 +1,13 @@
 // Compiled once per instruction set: foreach_target.h includes this very file again for each of them.
 
 // Left out: instruction sets that bring nothing here beyond their neighbors.
+#if defined(WEFT_ONE_TARGET)
+// The sanitizers make so much of these loops that a compiler takes minutes and gigabytes for each set: one is enough to
+// find what they find.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
+#else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/passes_simd.cpp"
