@@ -12,7 +12,7 @@
 
 #if defined(__SANITIZE_ADDRESS__)
 // Assimp does not give back everything that it took for a file it then refused. That is known, and not ours.
-extern "C" const char* __lsan_default_suppressions();
+extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libassimp";
 }
