@@ -98,13 +98,13 @@ struct Hold {
     float compliance = 0;
 };
 
-ColliderId find_collider(const World& world, const std::string& name) {
+}  // namespace
+
+ColliderId find_collider(const World& world, std::string_view name) {
     const auto& all = world.colliders();
     const auto found = std::ranges::find(all, name, &Collider::name);
     return found == all.end() ? ColliderId{} : world.collider_id(static_cast<std::size_t>(found - all.begin()));
 }
-
-}  // namespace
 
 Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& cloth, const World& world,
                            const std::string& pointer) {

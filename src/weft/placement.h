@@ -8,6 +8,7 @@
 #include <weft/result.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace weft {
@@ -19,6 +20,9 @@ struct Pinned {
     ClothPins pins;  ///< all of them, those of `holds` included
     Holds holds;     ///< of pinned particles and anchors
 };
+
+/// No id if there is none of that name.
+ColliderId find_collider(const World& world, std::string_view name);
 
 /// What the pins of a cloth are selected from.
 struct PinnedCloth {

@@ -3,6 +3,7 @@
 #include "scene/check.h"
 #include "scene/scene_keys.h"
 #include "solver/statistics.h"
+#include "weft/placement.h"
 
 #include <weft/weft.h>
 
@@ -196,10 +197,7 @@ ClothId Simulation::find_cloth(std::string_view name) const {
 }
 
 ColliderId Simulation::find_collider(std::string_view name) const {
-    const auto& all = impl_->world().colliders();
-    const auto found = std::ranges::find(all, name, &Collider::name);
-    return found == all.end() ? ColliderId{}
-                              : impl_->world().collider_id(static_cast<std::size_t>(found - all.begin()));
+    return weft::find_collider(impl_->world(), name);
 }
 
 Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
