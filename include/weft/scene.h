@@ -19,13 +19,14 @@
 namespace weft {
 
 enum class Method { xpbd, pbd };
-enum class Projection { gauss_seidel, jacobi };
+/// `automatic`: lines with xpbd, gauss_seidel with pbd.
+enum class Projection { automatic, lines, gauss_seidel, jacobi };
 
 struct SolverDesc {
     std::uint32_t substeps = 20;   ///< per frame, 1…10000
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
     Method method = Method::xpbd;
-    Projection projection = Projection::gauss_seidel;
+    Projection projection = Projection::automatic;
     bool hierarchy = false;  ///< coarse levels first: large cloths stretch less
 };
 

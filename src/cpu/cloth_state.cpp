@@ -156,7 +156,7 @@ CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan)
             .stiffness = plan.stiffness[index]};
 }
 
-void ClothState::prepare(const StepPlan& plan, std::size_t colliders) {
+void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
@@ -172,6 +172,10 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders) {
             for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
         }
     }
+    std::uint32_t longest = 0;
+    for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks) longest = std::max(longest, block.length);
+    line_scratch.resize(ranks);
+    for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
     if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
     if (plan.projection == Projection::jacobi && !gather) {

@@ -40,6 +40,7 @@ struct ClothState {
     AlignedVector<Vec4> wind, air_impulse;       ///< per triangle; empty until a plan has them
     std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
     AlignedVector<Vec4> corrections;
+    std::vector<AlignedVector<float>> line_scratch;  ///< per rank
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
 
     /// The same particles; anchors may come or go.
@@ -59,7 +60,7 @@ struct ClothState {
     GatherView gather_view(bool mean) const;
     CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
     /// Makes room for what the plan needs beyond the particles.
-    void prepare(const StepPlan& plan, std::size_t colliders);
+    void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
     void update_normals();
 };
 

@@ -45,6 +45,18 @@ bool finite4(const Vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
+// Whole blocks, about as many rows for every rank.
+std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const Batch& batch, unsigned rank,
+                                           unsigned ranks) {
+    const auto blocks = std::span(table.blocks).subspan(batch.first_block, batch.blocks);
+    const auto bound = [&](unsigned r) {
+        const std::uint64_t row = batch.begin + std::uint64_t{batch.rows} * r / ranks;
+        return std::ranges::lower_bound(blocks, row, {}, &LineBlock::begin) - blocks.begin();
+    };
+    const auto begin = static_cast<std::size_t>(bound(rank)), end = static_cast<std::size_t>(bound(rank + 1));
+    return blocks.subspan(begin, end - begin);
+}
+
 std::uint32_t first_non_finite(const ClothState& cloth) {
     for (std::uint32_t p = 0; p < cloth.model->point_count(); ++p) {
         if (!finite4(cloth.now.position[p]) || !finite4(cloth.now.velocity[p])) return p;
@@ -56,6 +68,7 @@ std::string row_at(const ClothState& cloth, const Pass& pass, std::uint32_t part
     const ConstraintTable& table = cloth.model->table(pass.constraint);
     const Batch& batch = table.batches[pass.batch];
     for (std::uint32_t row = batch.begin; row < batch.begin + batch.rows; ++row) {
+        if (table.source[row] == none) continue;
         for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
             if (table.particles[std::size_t{slot} * table.stride + row] == particle) {
                 return " row " + std::to_string(table.source[row]);
@@ -112,7 +125,7 @@ Executor::Frame Executor::make_frame(ClothState& cloth, const StepPlan& plan, co
 
 std::uint32_t Executor::run(ClothState& cloth, const StepPlan& plan, const StepInput& input,
                             std::array<double, stage_count>& stage_ms) {
-    cloth.prepare(plan, input.colliders.size());
+    cloth.prepare(plan, input.colliders.size(), team_.ranks());
     const Frame frame = make_frame(cloth, plan, input);
     std::array<double, stage_count> unused{};
     for (Rank& rank : ranks_) rank.reports = report_none;
@@ -211,9 +224,29 @@ LambdaUse Executor::lambda_use(const Frame& frame, const Pass& pass, std::uint32
     return kept ? LambdaUse::store : LambdaUse::discard;
 }
 
+void Executor::run_lines(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
+    const ConstraintTable& table = frame.cloth.model->table(pass.constraint);
+    const std::span<const LineBlock> blocks = share_of_blocks(table, table.batches[pass.batch], rank, team_.ranks());
+    const RowView rows = frame.cloth.rows(pass.constraint);
+    if (blocks.empty()) return;
+    const Range range{blocks.front().begin, blocks.back().end()};
+    const auto kind = static_cast<std::uint32_t>(pass.constraint);
+    if (pass.kind == PassKind::damp) {
+        passes_.damp[kind](frame.particles, rows, range, frame.viscous);
+    } else if (frame.plan.method == Method::pbd) {
+        passes_.project_plain[kind](frame.particles, rows, range, frame.plan.stiffness[kind]);
+    } else if (frame.plan.projection == Projection::lines) {
+        passes_.lines(frame.particles, rows, blocks, frame.h, lambda_use(frame, pass, substep),
+                      frame.cloth.line_scratch[rank].data());
+    } else {
+        passes_.project[kind](frame.particles, rows, range, frame.h, lambda_use(frame, pass, substep));
+    }
+}
+
 void Executor::run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
     const ConstraintTable& table = frame.cloth.model->table(pass.constraint);
     const Batch& batch = table.batches[pass.batch];
+    if (batch.blocks > 0) return run_lines(frame, pass, substep, rank);
     const Passes& passes = batch.serial ? scalar_passes() : passes_;
     Range range{batch.begin, batch.begin + batch.rows};
     if (batch.serial) {

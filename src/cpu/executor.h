@@ -31,6 +31,7 @@ class Executor {
 
     void run_rank(const Frame& frame, unsigned rank, std::array<double, stage_count>& stage_ms);
     void run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
+    void run_lines(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_corrections(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     Range level_range(std::uint32_t count, unsigned rank) const;

@@ -5,6 +5,7 @@
 #include "physics/constraint.h"
 #include "solver/air.h"
 #include "solver/collider.h"
+#include "solver/constraint_table.h"
 #include "solver/hierarchy.h"
 
 #include <array>
@@ -117,6 +118,8 @@ struct Passes {
     std::array<void (*)(const ParticleView&, const RowView&, Range, std::array<float, 2> stiffness),
                constraint_kind_count>
         project_plain;
+    /// Rows of stretch, a line at a time. `scratch`: line_scratch_floats(…) of the longest block, at 64 bytes.
+    void (*lines)(const ParticleView&, const RowView&, std::span<const LineBlock>, float h, LambdaUse, float* scratch);
     std::array<void (*)(const ParticleView&, const RowView&, const CorrectionView&, Range, float h, LambdaUse),
                constraint_kind_count>
         correct;
@@ -136,6 +139,11 @@ struct Passes {
     /// Whether every float in [begin, end) is finite; both multiples of lane_padding.
     bool (*all_finite)(const float*, std::size_t begin, std::size_t end);
 };
+
+/// Of a block that long: what elimination leaves for the way back.
+constexpr std::size_t line_scratch_floats(std::uint32_t block_length) {
+    return std::size_t{10} * lane_padding * block_length;
+}
 
 /// Sums over each particle's own list of triangles or rows: one particle at a time on every instruction set.
 void normals_pass(const SurfaceView&, Range);

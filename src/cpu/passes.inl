@@ -114,6 +114,8 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
     }
 }
 
+#include "cpu/lines.inl"
+
 // A step in which every constraint is rigid: compliance over its square is nothing.
 WEFT_FN Step rigid_step() { return {real(1e3f), real(1e-3f), real(0.0f)}; }
 
@@ -354,6 +356,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
+        .lines = lines_pass,
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) correct_pass<Name##Traits>,
         .correct = {
 #include "physics/constraints.def"

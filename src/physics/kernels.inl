@@ -17,6 +17,7 @@
 #include "physics/attachment/attachment.kernel.h"
 #include "physics/reach/reach.kernel.h"
 #include "physics/stretch/stretch.kernel.h"
+#include "physics/stretch/line.kernel.h"
 #include "physics/bend/bend.kernel.h"
 #include "physics/plate/plate.kernel.h"
 

@@ -261,6 +261,8 @@ void check_values(std::span<const Parameter> table, const void* base, const std:
 
 void check_solver(const SolverDesc& solver, const std::string& pointer, Problems& problems) {
     check_values(solver_keys, &solver, pointer, problems);
+    if (solver.method == Method::pbd && solver.projection == Projection::lines)
+        problems.add(at(pointer, "projection"), "must not be \"lines\" with method \"pbd\", which has no such form");
 }
 
 void check_air(const AirDesc& air, const std::string& pointer, Problems& problems) {

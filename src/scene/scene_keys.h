@@ -56,8 +56,10 @@ inline constexpr Parameter solver_keys[] = {
      .what = "`xpbd`: stiffness in N/m, whatever the substeps; `pbd`: plain, stiffness as in the fabric's `stiffness`",
      .choices = "xpbd|pbd"},
     {.key = "projection", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, projection),
-     .what = "`gauss-seidel`: rows one after another, color by color; `jacobi`: all at once, averaged, slower to converge",
-     .choices = "gauss-seidel|jacobi"},
+     .what = "`lines`: stretch along each line of the mesh at once, the rest as in `gauss-seidel`: rows one after "
+             "another, color by color; `jacobi`: all at once, averaged, slower to converge; `auto`: `lines`, with "
+             "`pbd` `gauss-seidel`",
+     .choices = "auto|lines|gauss-seidel|jacobi"},
     {.key = "hierarchy", .kind = ParameterKind::flag, .offset = offsetof(SolverDesc, hierarchy),
      .what = "coarse levels over each cloth, projected first: far less stretch of large ones; little for soft fabrics"},
     {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,

@@ -2,6 +2,7 @@
 
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
+#include "solver/lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +107,7 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
 
 // Everything that material and pins decide, on a model that has its topology.
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
-                     const ColoringOptions& coloring, bool hierarchy) {
+                     const ColoringOptions& coloring, const ClothLayout& layout) {
     const float density = fabric.body.density;
     if (!(density > 0) || !std::isfinite(density))
         return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
@@ -124,13 +125,18 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
 
     // The same values for both; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.bend;
+    const auto pack = [&](ConstraintKind kind, const RowList& rows) {
+        const bool lines = layout.lines && kind == ConstraintKind::stretch;
+        return lines ? pack_lines(rows, model.topology.rest_positions, model.point_count(), coloring)
+                     : pack_rows(kind, rows, model.point_count(), coloring);
+    };
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)            \
     model.constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
-        pack_rows(ConstraintKind::name, build_##name(rest, model.fabric.name), model.point_count(), coloring);
+        pack(ConstraintKind::name, build_##name(rest, model.fabric.name));
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    if (hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start);
+    if (layout.hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start);
     lay_out_faces(model, rest);
     measure_edges(model, rest);
     return Done{};
@@ -142,7 +148,7 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->topology = std::move(topology);
-    if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring, desc.hierarchy); !done)
+    if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring, desc.layout); !done)
         return done.errors();
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
@@ -154,13 +160,13 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Fabric& fabric, const ClothPins& pins,
-                                                             bool hierarchy) {
+                                                             const ClothLayout& layout) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
     model->mesh = from.mesh;
     model->binding = from.binding;
     model->topology = from.topology;
-    if (auto done = lay_out(*model, mesh, fabric, pins, {}, hierarchy); !done) return done.errors();
+    if (auto done = lay_out(*model, mesh, fabric, pins, {}, layout); !done) return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

@@ -23,13 +23,20 @@ struct ClothPins {
     std::vector<Attachment> attachments = {};   ///< springs to anchors
 };
 
+/// What a model has beyond the plain rows, for steps that use it.
+struct ClothLayout {
+    bool lines = false;      ///< rows of stretch along lines
+    bool hierarchy = false;  ///< coarse levels
+    friend bool operator==(const ClothLayout&, const ClothLayout&) = default;
+};
+
 struct ClothModelDesc {
     std::string name = {};
     TriangleMesh mesh = {};                  ///< what is simulated, in world space, m
     std::optional<TriangleMesh> drawn = {};  ///< what is drawn in its place and follows it; without, `mesh`
     Fabric fabric = {};
     ClothPins pins = {};
-    bool hierarchy = false;  ///< make coarse levels too, for steps that use them
+    ClothLayout layout = {};
     ColoringOptions coloring = {};
 };
 
@@ -72,6 +79,6 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 /// Another material or other pins for the same mesh. `mesh` is the simulated one that `from` was built of.
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Fabric& fabric, const ClothPins& pins,
-                                                             bool hierarchy = false);
+                                                             const ClothLayout& layout = {});
 
 }  // namespace weft

@@ -38,7 +38,8 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
                           .particles = {},
                           .fields = {},
                           .source = {},
-                          .batches = lay_out(coloring)};
+                          .batches = lay_out(coloring),
+                          .blocks = {}};
     if (table.batches.empty()) return table;
 
     table.stride = table.batches.back().padded_end();
@@ -54,7 +55,7 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
             for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
                 table.particles[std::size_t{slot} * table.stride + row] =
                     real_row ? list.particles[std::size_t{table.source[row]} * table.arity + slot]
-                             : first_dummy(particle_count) + slot * lane_padding + row % lane_padding;
+                             : dummy(particle_count, slot, row);
             }
             for (std::uint32_t field = 0; real_row && field < table.field_count; ++field) {
                 table.fields[std::size_t{field} * table.stride + row] =

@@ -22,8 +22,18 @@ constexpr std::uint32_t padded(std::uint32_t count) {
 struct Batch {
     std::uint32_t begin = 0, rows = 0;
     bool serial = false;  ///< the overflow: rows that share particles and run one after another, in order
+    /// Where rows follow one another along lines: the blocks that they are in. They share particles along a line and
+    /// nowhere else.
+    std::uint32_t first_block = 0, blocks = 0;
 
     std::uint32_t padded_end() const { return begin + padded(rows); }
+};
+
+/// Lines side by side, as many as lane_padding: row `begin + k · lane_padding + lane` is the k-th of its line, and its
+/// second particle is the first of the row after it. Shorter lines end in rows without stiffness.
+struct LineBlock {
+    std::uint32_t begin = 0, length = 0;
+    std::uint32_t end() const { return begin + length * lane_padding; }
 };
 
 struct ConstraintTable {
@@ -35,6 +45,7 @@ struct ConstraintTable {
     AlignedVector<float> fields;             ///< [field · stride + row]
     std::vector<std::uint32_t> source;       ///< row -> row of the RowList, or `none` for padding
     std::vector<Batch> batches;
+    std::vector<LineBlock> blocks;  ///< in the order of their rows; empty where rows are laid out one by one
 
     /// Multipliers of all rows: [multiplier · stride + row].
     std::size_t lambda_count() const { return std::size_t{constraint_info(kind).lambdas} * stride; }
@@ -49,6 +60,11 @@ constexpr std::uint32_t first_dummy(std::uint32_t particle_count) {
 /// Length of a particle array, dummies included (six slots at most).
 constexpr std::uint32_t particle_capacity(std::uint32_t particle_count) {
     return first_dummy(particle_count) + 6 * lane_padding;
+}
+
+/// Particles that row `row` of padding acts on.
+inline std::uint32_t dummy(std::uint32_t particle_count, std::uint32_t slot, std::uint32_t row) {
+    return first_dummy(particle_count) + slot * lane_padding + row % lane_padding;
 }
 
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,

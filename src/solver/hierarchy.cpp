@@ -25,6 +25,23 @@ struct Link {
 };
 using Graph = std::vector<std::vector<Link>>;
 
+// m: from c to d, straight across the edge once its two triangles lie in one plane; 0 if that line leaves them.
+double distance_across(const Topology& topology, const Hinge& hinge) {
+    const auto at = [&](std::uint32_t p) {
+        const Vec3 x = topology.rest_positions[p];
+        return std::array<double, 3>{x.x, x.y, x.z};
+    };
+    const auto minus = [](const auto& a, const auto& b) { return std::array{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
+    const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    const auto a = at(hinge.a), e = minus(at(hinge.b), a), c = minus(at(hinge.c), a), d = minus(at(hinge.d), a);
+    const double along = std::sqrt(dot(e, e));
+    const double cx = dot(c, e) / along, dx = dot(d, e) / along;
+    const double cy = std::sqrt(std::max(dot(c, c) - cx * cx, 0.0)), dy = std::sqrt(std::max(dot(d, d) - dx * dx, 0.0));
+    if (!(cy + dy > 0)) return 0;
+    const double crossing = cx + (dx - cx) * cy / (cy + dy);
+    return crossing >= 0 && crossing <= along ? std::hypot(cx - dx, cy + dy) : 0;
+}
+
 Graph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
     const auto [warp, weft] = std::array{fabric.stretch.stretch[0], fabric.stretch.stretch[1]};
     const bool turns = !fabric.stretch.inextensible && fabric.stretch.shear < std::min(warp, weft) / 3;
@@ -36,6 +53,13 @@ Graph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
         const double reach = length_at_rest * (turns ? std::sqrt(cos2) + std::sqrt(1 - cos2) : 1.0);
         graph[edge.a].push_back({edge.b, length_at_rest, reach});
         graph[edge.b].push_back({edge.a, length_at_rest, reach});
+    }
+    // What turns goes the way of its threads, which is that of the edges.
+    for (const Hinge& hinge : turns ? std::span<const Hinge>() : std::span<const Hinge>(rest.topology.hinges)) {
+        const double across = distance_across(rest.topology, hinge);
+        if (!(across > 0)) continue;
+        graph[hinge.c].push_back({hinge.d, across, across});
+        graph[hinge.d].push_back({hinge.c, across, across});
     }
     return graph;
 }

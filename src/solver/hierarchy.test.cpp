@@ -16,7 +16,7 @@ std::shared_ptr<const ClothModel> model_of(TriangleMesh mesh, const Fabric& fabr
     auto topology = build_topology(mesh, {.reorder = false});
     EXPECT_TRUE(topology.ok());
     return *build_cloth_model(
-        {.mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = std::move(pinned)}, .hierarchy = true},
+        {.mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = std::move(pinned)}, .layout = {.hierarchy = true}},
         std::move(*topology));
 }
 

@@ -80,7 +80,7 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
     StepPlan plan{.substeps = settings.substeps,
                   .iterations = settings.iterations,
                   .method = settings.method,
-                  .projection = settings.projection,
+                  .projection = resolve(settings.projection, settings.method),
                   .frame_begin = {},
                   .substep = {},
                   .frame_end = {}};

@@ -43,6 +43,12 @@ struct Pass {
 /// Whether a pass may begin on one thread while another is still in the one before.
 bool needs_barrier(PassKind before, PassKind after);
 
+/// What `automatic` stands for.
+constexpr Projection resolve(Projection projection, Method method) {
+    if (projection != Projection::automatic) return projection;
+    return method == Method::xpbd ? Projection::lines : Projection::gauss_seidel;
+}
+
 struct StepSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
@@ -53,7 +59,7 @@ struct StepSettings {
     bool surface = true;     ///< compute normals
     bool hierarchy = false;  ///< coarse levels first, where the model has them
     Method method = Method::xpbd;
-    Projection projection = Projection::gauss_seidel;
+    Projection projection = Projection::automatic;
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
@@ -62,7 +68,7 @@ struct StepPlan {
     std::uint32_t substeps = 0;
     std::uint32_t iterations = 0;
     Method method = Method::xpbd;
-    Projection projection = Projection::gauss_seidel;
+    Projection projection = Projection::lines;  ///< resolved; lines where the model has them
     /// What an iteration undoes of a constraint, 0…1, while C > 0 and while C < 0. Method pbd only.
     std::array<std::array<float, 2>, constraint_kind_count> stiffness{};
     std::vector<Pass> frame_begin;

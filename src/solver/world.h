@@ -15,10 +15,15 @@ struct WorldSettings {
     std::uint32_t substeps = 20;
     std::uint32_t iterations = 1;
     Method method = Method::xpbd;
-    Projection projection = Projection::gauss_seidel;
+    Projection projection = Projection::automatic;
     bool hierarchy = false;           ///< coarse levels first, for cloths whose model has them
     std::optional<AirDesc> air = {};  ///< without, a vacuum
     bool surface = true;              ///< keep normals up to date
+
+    /// What the models of a world with these settings should have.
+    ClothLayout layout() const {
+        return {.lines = resolve(projection, method) == Projection::lines, .hierarchy = hierarchy};
+    }
 };
 
 /// Everything may be added, removed and changed between two steps. Ids must name what is there.

@@ -211,7 +211,7 @@ Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer
                                     .drawn = std::move(drawn),
                                     .fabric = fabric_of(cloth),
                                     .pins = std::move(pinned->pins),
-                                    .hierarchy = world_->settings().hierarchy},
+                                    .layout = world_->settings().layout()},
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes_);
@@ -228,7 +228,7 @@ void Session::remove(ClothId id) {
 Result<Done> Session::rebuild(Entry& entry, const SceneCloth& desc, const ClothPins& pins, Holds holds) {
     const ClothModel& now = *world_->model(entry.id);
     const TriangleMesh& mesh = entry.simulated ? *entry.simulated : now.mesh;
-    auto model = change_cloth_model(now, mesh, fabric_of(desc), pins, world_->settings().hierarchy);
+    auto model = change_cloth_model(now, mesh, fabric_of(desc), pins, world_->settings().layout());
     if (!model) return model.errors();
     // A place for what the cloth is now, taken before anything of it changes.
     entry.desc = desc;
@@ -245,10 +245,11 @@ Session::Entry& Session::entry(ClothId id) {
 }
 
 Result<Done> Session::configure(const WorldSettings& settings) {
-    const bool levels = settings.hierarchy && !world_->settings().hierarchy;
+    const ClothLayout before = world_->settings().layout(), after = settings.layout();
+    const bool enough = after.lines == before.lines && (before.hierarchy || !after.hierarchy);
     world_->configure(settings);
     for (Entry& one : entries_) {
-        if (!levels) break;
+        if (enough) break;
         if (auto done = rebuild(one, SceneCloth(one.desc), ClothPins(one.pins), Holds(one.holds)); !done) return done;
     }
     return Done{};

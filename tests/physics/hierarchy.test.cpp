@@ -13,7 +13,7 @@ World hung(std::uint32_t side, const WorldSettings& settings, const Fabric& fabr
     for (Vec3& p : mesh.positions) p = {p.x, -0.995f * p.z, 0.1f * p.z};
     auto topology = build_topology(mesh, {.reorder = false});
     ClothModelDesc desc{
-        .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}, .hierarchy = true};
+        .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}, .layout = {.hierarchy = true}};
     World world = make_world(settings, options);
     world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
     return world;
@@ -52,7 +52,7 @@ TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
         for (const bool hierarchy : {false, true}) {
             TriangleMesh mesh = make_grid(sheet.size, sheet.resolution, sheet.diagonal);
             const Mat3 turn = rotation_from_degrees(sheet.rotation_degrees);
-            ClothModelDesc desc{.fabric = sheet.fabric, .hierarchy = true};
+            ClothModelDesc desc{.fabric = sheet.fabric, .layout = {.hierarchy = true}};
             for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
                 if (sheet.pinned(mesh.positions[v])) desc.pins.particles.push_back(v);
                 mesh.positions[v] = turn * mesh.positions[v] + sheet.position;
@@ -75,7 +75,7 @@ TEST(HierarchyOf, a_falling_sheet_does_not_disturb_its_fall) {
     TriangleMesh mesh = make_grid({1, 1}, {33, 33}, GridDiagonal::alternating);
     auto topology = build_topology(mesh, {.reorder = false});
     World world = make_world({.hierarchy = true});
-    world.add(*build_cloth_model({.mesh = std::move(mesh), .hierarchy = true}, std::move(*topology)));
+    world.add(*build_cloth_model({.mesh = std::move(mesh), .layout = {.hierarchy = true}}, std::move(*topology)));
     run(world, 1);
     const double h = 1.0 / 1200;
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);

@@ -1,0 +1,138 @@
+#include "mesh/paths.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+constexpr std::uint32_t nothing = 0xFFFFFFFF;
+
+// Beyond this a path has a corner, and what is at its one end says little about the other: cos 45°.
+constexpr double straight_enough = 0.7071;
+
+// With more links than this at a point no two of them stand out, and to try all pairs would take long.
+constexpr std::size_t most_links_at_a_point = 32;
+
+// The links at every point, ascending: 2·link + end, where end 0 is the link's first point.
+struct Stubs {
+    std::vector<std::uint32_t> offsets, items;
+
+    Stubs(std::span<const std::uint32_t> points, std::size_t point_count) : offsets(point_count + 1), items(points.size()) {
+        for (const std::uint32_t p : points) ++offsets[p + 1];
+        for (std::size_t p = 0; p < point_count; ++p) offsets[p + 1] += offsets[p];
+        std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
+        for (std::uint32_t stub = 0; stub < points.size(); ++stub) items[next[points[stub]]++] = stub;
+    }
+    std::span<const std::uint32_t> at(std::size_t p) const {
+        return std::span(items).subspan(offsets[p], offsets[p + 1] - offsets[p]);
+    }
+};
+
+struct Turn {
+    double cosine;  // of the angle between the two links: -1 is straight on
+    std::uint32_t a, b;
+};
+
+// For each stub the one that a path goes on with, or `nothing`.
+std::vector<std::uint32_t> join_stubs(std::span<const std::uint32_t> points, std::span<const Vec3> positions) {
+    const Stubs stubs(points, positions.size());
+    std::vector<std::uint32_t> partner(points.size(), nothing);
+    std::vector<Turn> turns;
+    std::vector<std::array<double, 3>> away;
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+        const auto here = stubs.at(p);
+        if (here.size() < 2 || here.size() > most_links_at_a_point) continue;
+        away.clear(), turns.clear();
+        for (const std::uint32_t stub : here) {
+            const Vec3 d = positions[points[stub ^ 1]] - positions[p];
+            const std::array<double, 3> v = {d.x, d.y, d.z};
+            const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            const double scale = length > 0 ? 1 / length : 0;
+            away.push_back({v[0] * scale, v[1] * scale, v[2] * scale});
+        }
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            for (std::size_t j = i + 1; j < here.size(); ++j) {
+                const double cosine = away[i][0] * away[j][0] + away[i][1] * away[j][1] + away[i][2] * away[j][2];
+                if (cosine < -straight_enough) turns.push_back({cosine, here[i], here[j]});
+            }
+        }
+        std::ranges::stable_sort(turns, {}, &Turn::cosine);
+        for (const Turn& turn : turns) {
+            if (partner[turn.a] != nothing || partner[turn.b] != nothing) continue;
+            partner[turn.a] = turn.b;
+            partner[turn.b] = turn.a;
+        }
+    }
+    return partner;
+}
+
+class PathWriter {
+  public:
+    PathWriter(std::span<const std::uint32_t> points, std::size_t point_count, std::uint32_t max_length)
+        : points_(points), seen_in_(point_count, nothing), max_length_(max_length) {}
+
+    /// Cuts a trail of stubs, each the end at which its link is entered, into paths.
+    void write(std::span<const std::uint32_t> trail) {
+        const std::size_t pieces = (trail.size() + max_length_ - 1) / max_length_;
+        for (std::size_t piece = 0; piece < pieces; ++piece) {
+            const std::size_t begin = trail.size() * piece / pieces, end = trail.size() * (piece + 1) / pieces;
+            for (std::size_t i = begin; i < end; ++i) append(trail[i], i == begin);
+            close();
+        }
+    }
+
+    Paths take() { return std::move(paths_); }
+
+  private:
+    void append(std::uint32_t stub, bool first) {
+        const std::uint32_t from = points_[stub], to = points_[stub ^ 1];
+        // A trail may cross itself.
+        if (!first && seen_in_[to] == paths_.size()) close(), first = true;
+        if (first) seen_in_[from] = paths_.size();
+        seen_in_[to] = paths_.size();
+        paths_.links.push_back(stub / 2);
+        paths_.turned.push_back(static_cast<std::uint8_t>(stub & 1));
+    }
+    void close() {
+        if (paths_.links.size() > paths_.offsets.back()) {
+            paths_.offsets.push_back(static_cast<std::uint32_t>(paths_.links.size()));
+        }
+    }
+
+    std::span<const std::uint32_t> points_;
+    std::vector<std::uint32_t> seen_in_;
+    std::uint32_t max_length_;
+    Paths paths_;
+};
+
+}  // namespace
+
+Paths find_paths(std::span<const std::uint32_t> points, std::span<const Vec3> positions, std::uint32_t max_length) {
+    assert(max_length > 0 && points.size() % 2 == 0);
+    const std::vector<std::uint32_t> partner = join_stubs(points, positions);
+    std::vector<std::uint8_t> done(points.size() / 2);
+    PathWriter writer(points, positions.size(), max_length);
+    std::vector<std::uint32_t> trail;
+    const auto follow = [&](std::uint32_t stub) {
+        trail.clear();
+        while (stub != nothing && !done[stub / 2]) {
+            done[stub / 2] = 1;
+            trail.push_back(stub);
+            stub = partner[stub ^ 1];
+        }
+        writer.write(trail);
+    };
+    for (std::uint32_t stub = 0; stub < points.size(); ++stub) {
+        if (partner[stub] == nothing && !done[stub / 2]) follow(stub);
+    }
+    // What is left runs in circles.
+    for (std::uint32_t stub = 0; stub < points.size(); ++stub) {
+        if (!done[stub / 2]) follow(stub);
+    }
+    return writer.take();
+}
+
+}  // namespace weft

@@ -1,0 +1,74 @@
+// Rows of stretch that follow one another along a line, solved together. (line.md)
+//
+// Row k of a line holds its points k and k + 1. Neighboring rows share a point and nothing else, so the system of one
+// Newton step is tridiagonal: elimination runs along the line, substitution comes back.
+
+// What elimination leaves of a row.
+struct LineRow {
+    vec3 n;          // from the second point to the first, unit; 0 if there is no direction
+    real g;          // delta lambda where the next row's is 0
+    real factor;     // minus its change with the next row's
+    real limit;      // of |delta lambda|
+    // Only for the next row:
+    real inverse;    // of the pivot
+    real couples;    // 1; 0 for a row that does not depend on its neighbors
+};
+
+// A line that is taut between two pins has no exact solution, and nearly none when it is almost straight. This much of
+// the weights on the diagonal keeps pivots away from 0; it takes as little from the longest waves only.
+#define WEFT_LINE_REGULARIZATION 1e-3
+
+// A tension moves the points of a kinked line sideways, and more than to the straight line if it is large for the time
+// step: the line would swing about. Up to this part of the rest length per weight it does not.
+#define WEFT_LINE_PULL 0.5
+
+WEFT_FN LineRow line_start()
+{
+    LineRow none;
+    none.n = vec3(real(0), real(0), real(0));
+    none.g = real(0);
+    none.factor = real(0);
+    none.limit = real(0);
+    none.inverse = real(0);
+    none.couples = real(0);
+    return none;
+}
+
+// a is the point that the row shares with the one before, whose `factor` it completes.
+WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real wa, real wb, real lambda,
+                                  StretchRow row, Step step)
+{
+    vec3 d = a - b;
+    real len2 = dot(d, d);
+    real len = sqrt(len2);
+    real c = len - row.rest;
+    real compliance = select(c > real(0), row.compliance, row.compression);
+    real alpha = compliance * step.inv_h2;
+    real w = wa + wb;
+    mask slack = compliance < real(0);            // no stiffness on this side: any lambda left over unwinds
+    mask able = w > real(0) && len2 > real(1e-20);
+    mask stiff = able && !slack;
+
+    real rhs = select(slack, -lambda, -(c + alpha * lambda));
+    real diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + alpha, real(1));
+    LineRow now;
+    now.couples = select(stiff, real(1), real(0));
+    now.n = d * select(able, real(1) / len, real(0));
+    real shared = -wa * dot(before.n, now.n);
+    before.factor = before.couples * shared * before.inverse;
+    real lower = now.couples * shared;
+    now.inverse = real(1) / (diagonal - lower * before.factor);
+    now.g = select(able, (rhs - lower * before.g) * now.inverse, real(0));
+    now.factor = real(0);
+    // Never less than the row alone would take.
+    real alone = abs(rhs) / select(stiff, w + alpha, real(1));
+    now.limit = max(alone, row.rest * real(WEFT_LINE_PULL) / max(max(wa, wb), real(1e-30)));
+    return now;
+}
+
+// Delta lambda of a row from that of the next one.
+WEFT_FN real substitute_stretch(LineRow now, real next)
+{
+    real change = now.g - now.factor * next;
+    return max(-now.limit, min(now.limit, change));
+}
