@@ -104,12 +104,22 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
     return Done{};
 }
 
+void add_table(ClothModel& model, ConstraintKind kind, const RowList& rows, const ColoringOptions& options,
+               BuildClock& clock) {
+    clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
+    const Coloring coloring = color_rows(kind, rows, model.point_count(), options);
+    clock.spent_on(BuildPart::coloring);
+    model.constraints[static_cast<std::uint32_t>(kind)] = pack_rows(kind, rows, model.point_count(), coloring);
+    clock.spent_on(BuildPart::tables);
+}
+
 // Everything that material and pins decide, on a model that has its topology.
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
                      const ColoringOptions& coloring, bool hierarchy) {
     const float density = fabric.body.density;
     if (!(density > 0) || !std::isfinite(density))
         return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
+    BuildClock clock(model.build_times);
     model.fabric = fabric;
     model.particle_count = model.topology.particle_count;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
@@ -121,18 +131,20 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
     rest.attachments = pins.attachments;
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
+    clock.spent_on(BuildPart::rest);
 
     // The same values for both; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.bend;
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)            \
-    model.constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
-        pack_rows(ConstraintKind::name, build_##name(rest, model.fabric.name), model.point_count(), coloring);
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
+    add_table(model, ConstraintKind::name, build_##name(rest, model.fabric.name), coloring, clock);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
     if (hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start);
+    clock.spent_on(BuildPart::hierarchy);
     lay_out_faces(model, rest);
     measure_edges(model, rest);
+    clock.spent_on(BuildPart::rest);
     return Done{};
 }
 
@@ -142,13 +154,16 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->topology = std::move(topology);
+    model->build_times = desc.build_times;
     if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring, desc.hierarchy); !done)
         return done.errors();
+    BuildClock clock(model->build_times);
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
         model->binding = bind_mesh(*desc.drawn, model->topology);
     }
     model->mesh = desc.drawn ? std::move(*desc.drawn) : std::move(desc.mesh);
+    clock.spent_on(BuildPart::rest);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

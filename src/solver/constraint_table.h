@@ -51,6 +51,11 @@ constexpr std::uint32_t particle_capacity(std::uint32_t particle_count) {
     return first_dummy(particle_count) + 6 * lane_padding;
 }
 
+Coloring color_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
+                    const ColoringOptions& options = {});
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
+                          const Coloring& coloring);
+/// Both.
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
                           const ColoringOptions& options = {});
 
