@@ -54,6 +54,10 @@ TEST_F(CliBench, writes_every_figure) {
         EXPECT_GT(s["stage_ms"][stage], 0);
     EXPECT_GT(s["load_ms"], 0);
     EXPECT_GT(s["first_frame_ms"], s["load_ms"]);
+    EXPECT_GT(s["build_ms"], 0);
+    EXPECT_LT(s["build_ms"], s["load_ms"]);
+    EXPECT_EQ(s["build_part_ms"].size(), 7u);
+    for (const char* part : {"topology", "rows", "coloring", "tables", "rest"}) EXPECT_GT(s["build_part_ms"][part], 0);
     for (const char* key : {"stretch", "shear", "residual"}) {
         EXPECT_GT(s[key]["mean"], 0);
         EXPECT_LE(s[key]["mean"], s[key]["max"]);
@@ -84,6 +88,20 @@ TEST_F(CliBench, prints_tables_and_has_scenes_of_its_own) {
     }
     EXPECT_NE(outcome.err.find("measuring sheet 256 2/2"), std::string::npos) << outcome.err;
     EXPECT_NE(weft("bench --help").out.find("Examples:"), std::string::npos);
+}
+
+TEST_F(CliBench, builds_sheets_with_tethers_and_coarse_levels) {
+    const Json report = bench("--build 20 33");
+    ASSERT_EQ(report["scenes"].size(), 2u);
+    EXPECT_EQ(report["scenes"][0]["scene"], "build 20");
+    EXPECT_EQ(report["scenes"][1]["particles"], 33 * 33);
+    EXPECT_EQ(report["scenes"][1]["constraints"]["tether"]["rows"], 2 * (33 * 33 - 2));
+    for (const Json& s : report["scenes"]) {
+        for (const char* part : {"topology", "tethers", "hierarchy"}) EXPECT_GT(s["build_part_ms"][part], 0);
+        EXPECT_GT(s["stage_ms"]["hierarchy"], 0);
+    }
+    expect_usage_error("bench --build 4", "--build: must be from 8 to 2048, got 4");
+    expect_usage_error("bench --build 20 --curves 8", "does not go with --curves");
 }
 
 TEST_F(CliBench, compares_with_a_former_report) {

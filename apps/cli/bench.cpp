@@ -16,6 +16,7 @@ struct BenchOptions {
     std::string json, compare;
     std::vector<std::uint32_t> curves;  ///< sides of the sheets; empty: no curves
     std::string plot;
+    std::vector<std::uint32_t> build;  ///< sides of sheets with all that takes time to build
 };
 
 void append(Errors& all, const Errors& more) {
@@ -39,6 +40,8 @@ Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subje
     for (const std::uint32_t side : options.curves) range("--curves", side, 8, 1024);
     if (!options.curves.empty() && !options.scenes.empty())
         append(errors, {{"--curves", "has sheets of its own and takes no scenes"}});
+    for (const std::uint32_t side : options.build) range("--build", side, 8, 2048);
+    if (!options.build.empty() && !options.curves.empty()) append(errors, {{"--build", "does not go with --curves"}});
     if (!options.plot.empty() && options.curves.empty()) append(errors, {{"--plot", "needs --curves"}});
     if (!errors.empty()) return errors;  // what is out of range need not be tried
     for (const BenchSubject& subject : subjects) {
@@ -69,6 +72,7 @@ int bench(const BenchOptions& options) {
     const std::vector<CurveSubject> curves = curve_subjects(options.curves);
     for (const CurveSubject& curve : curves) subjects.push_back(curve.subject);
     for (const std::string& scene : options.scenes) subjects.push_back(scene_subject(scene));
+    for (BenchSubject& subject : build_subjects(options.build)) subjects.push_back(std::move(subject));
     if (subjects.empty()) subjects = built_in_subjects();
     std::optional<BenchReport> before;
     if (!options.compare.empty()) {
@@ -114,6 +118,8 @@ Command add_bench(CLI::App& program) {
     command->add_option("--repeat", options->settings.repeat, "runs, each from a fresh load")->capture_default_str();
     command->add_option("--json", options->json, "write all figures to this file");
     command->add_option("--compare", options->compare, "print ratios to the figures of this file, now / before");
+    command->add_option("--build", options->build,
+                        "hung sheets of these sides, with tethers and coarse levels: how long a cloth takes to make");
     command->add_option("--curves", options->curves,
                         "error against time: hung sheets of these sides, every method, 3 to 40 substeps");
     command->add_option("--plot", options->plot, "draw the curves into this SVG file");
@@ -123,6 +129,7 @@ Command add_bench(CLI::App& program) {
         "Examples:\n"
         "  weft bench --json before.json\n"
         "  weft bench --compare before.json\n"
+        "  weft bench --build 128 317 --frames 1 --warmup 0 --repeat 5\n"
         "  weft bench --curves 32 64 128 --plot curves.svg --warmup 180 --repeat 1\n"
         "  weft bench scenes/banner.json scenes/curtain.json --threads 2 --repeat 5\n"
         "One run more than --repeat goes first, without a clock: it measures stretch, shear and residual.");

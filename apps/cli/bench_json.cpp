@@ -19,11 +19,12 @@ constexpr std::uint64_t report_format = 1;
 
 Json scene_json(const SceneFigures& scene) {
     const auto mean_max = [](const MeanMax& value) { return Json{{"mean", value.mean}, {"max", value.max}}; };
-    Json constraints = Json::object(), stages = Json::object();
+    Json constraints = Json::object(), stages = Json::object(), parts = Json::object();
     for (const ConstraintFigures& constraint : scene.constraints) {
         constraints[constraint.name] = {{"rows", constraint.rows}, {"ns_per_row", constraint.ns_per_row}};
     }
     for (const StageFigures& stage : scene.stages) stages[stage.name] = stage.ms;
+    for (const PartFigures& part : scene.build) parts[part.name] = part.ms;
 
     Json out;
     out["scene"] = scene.name;
@@ -47,6 +48,8 @@ Json scene_json(const SceneFigures& scene) {
     if (const auto between_runs = spread(scene)) out["spread"] = *between_runs;
     out["stage_ms"] = stages;
     out["load_ms"] = scene.load_ms;
+    out["build_ms"] = scene.build_ms;
+    out["build_part_ms"] = parts;
     out["first_frame_ms"] = scene.first_frame_ms;
     out["stretch"] = mean_max(scene.stretch);
     out["shear"] = mean_max(scene.shear);

@@ -88,12 +88,22 @@ void run_for_quality(Session& session, const Plan& plan, double heap_before, Pro
 struct Timings {
     std::vector<double> step_ms;
     std::array<std::vector<double>, stage_count> stage_ms;
-    std::vector<double> run_medians, load_ms, first_frame_ms;
+    std::vector<double> run_medians, load_ms, build_ms, first_frame_ms;
+    std::array<std::vector<double>, build_part_count> part_ms;
 };
 
 double median_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return median(values);
+}
+
+void add_build_times(const Session& session, Timings& timings) {
+    BuildTimes sum;
+    for (const ClothFrame& cloth : session.world().frame().cloths) {
+        for (std::uint32_t part = 0; part < build_part_count; ++part) sum.ms[part] += cloth.model->build_times.ms[part];
+    }
+    timings.build_ms.push_back(sum.total());
+    for (std::uint32_t part = 0; part < build_part_count; ++part) timings.part_ms[part].push_back(sum.ms[part]);
 }
 
 /// The state that the run ended in.
@@ -103,6 +113,7 @@ Result<std::string> run_for_time(const BenchSubject& subject, const Options& opt
     auto session = subject.open(options);
     if (!session) return session.errors();
     timings.load_ms.push_back(ms_since(begin));
+    add_build_times(*session, timings);
     std::vector<double> steps;
     steps.reserve(plan.frames);
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
@@ -149,6 +160,10 @@ void sum_up(Timings timings, SceneFigures& figures) {
                   timings.step_ms.back()};
     figures.run_medians = std::move(timings.run_medians);
     figures.load_ms = median_of(std::move(timings.load_ms));
+    figures.build_ms = median_of(std::move(timings.build_ms));
+    for (std::uint32_t part = 0; part < build_part_count; ++part) {
+        figures.build.push_back({std::string(build_part_name(part)), median_of(std::move(timings.part_ms[part]))});
+    }
     figures.first_frame_ms = median_of(std::move(timings.first_frame_ms));
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
         figures.stages.push_back({std::string(stage_name(stage)), median_of(std::move(timings.stage_ms[stage]))});
@@ -173,6 +188,19 @@ std::vector<BenchSubject> built_in_subjects() {
     for (const std::uint32_t side : {32u, 64u, 128u, 256u}) {
         subjects.push_back({"sheet " + std::to_string(side),
                             [side](const Options& options) { return Session::create(sheet_scene(side), options); }});
+    }
+    return subjects;
+}
+
+std::vector<BenchSubject> build_subjects(const std::vector<std::uint32_t>& sides) {
+    std::vector<BenchSubject> subjects;
+    for (const std::uint32_t side : sides) {
+        subjects.push_back({"build " + std::to_string(side), [side](const Options& options) {
+                                SceneDesc scene = sheet_scene(side);
+                                scene.cloths.front().tethers = true;
+                                scene.solver.hierarchy = true;
+                                return Session::create(std::move(scene), options);
+                            }});
     }
     return subjects;
 }

@@ -34,6 +34,8 @@ struct BenchSubject {
 BenchSubject scene_subject(const std::string& file);
 /// A sheet of cotton, 1 m by 1 m, hung by two corners, of 32² to 256² particles.
 std::vector<BenchSubject> built_in_subjects();
+/// Such sheets with all that takes time to build, tethers and coarse levels included.
+std::vector<BenchSubject> build_subjects(const std::vector<std::uint32_t>& sides);
 
 struct Distribution {
     double median = 0, p95 = 0, min = 0, max = 0;
@@ -42,6 +44,11 @@ struct Distribution {
 struct StageFigures {
     std::string name;
     double ms = 0;  ///< a frame: median over the frames
+};
+
+struct PartFigures {
+    std::string name;
+    double ms = 0;  ///< all cloths: median over the runs
 };
 
 struct ConstraintFigures {
@@ -65,6 +72,8 @@ struct SceneFigures {
     std::vector<double> run_medians;  ///< ms
     std::vector<StageFigures> stages;
     double load_ms = 0;                ///< from the file to a world that can step; median over the runs
+    double build_ms = 0;               ///< of that, the making of cloths from meshes
+    std::vector<PartFigures> build;    ///< part by part
     double first_frame_ms = 0;         ///< and to the end of its first frame
     MeanMax stretch, shear, residual;  ///< averages over the frames of the last second
     /// What the heap holds for the scene, file and drawn mesh included; nothing where that cannot be known.

@@ -79,6 +79,18 @@ std::string times_table(const BenchReport& report) {
     return table.text();
 }
 
+std::string build_table(const BenchReport& report) {
+    std::vector<std::string> heads{"ms to build", "particles", "all"};
+    for (std::uint32_t part = 0; part < build_part_count; ++part) heads.emplace_back(build_part_name(part));
+    Table table(heads);
+    for (const SceneFigures& scene : report.scenes) {
+        std::vector<std::string> cells{scene.name, std::to_string(scene.particles), fixed(scene.build_ms, 1)};
+        for (const PartFigures& part : scene.build) cells.push_back(fixed(part.ms, 1));
+        table.add(std::move(cells));
+    }
+    return table.text();
+}
+
 std::string stages_table(const BenchReport& report) {
     std::vector<std::string> heads{"ms by stage"};
     std::vector<std::size_t> shown;
@@ -141,8 +153,8 @@ BenchReport empty_report() {
 }
 
 std::string tables(const BenchReport& report) {
-    return head_lines(report) + '\n' + times_table(report) + '\n' + stages_table(report) + '\n' + rows_table(report) +
-           '\n' + quality_table(report);
+    return head_lines(report) + '\n' + times_table(report) + '\n' + build_table(report) + '\n' + stages_table(report) +
+           '\n' + rows_table(report) + '\n' + quality_table(report);
 }
 
 }  // namespace weft::cli

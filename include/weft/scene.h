@@ -27,7 +27,7 @@ struct SolverDesc {
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
-    bool hierarchy = false;  ///< coarse levels first: large cloths stretch less
+    bool hierarchy = true;  ///< coarse levels first: large cloths stretch less
 };
 
 enum class WindKind { directional };

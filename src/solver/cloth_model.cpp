@@ -105,12 +105,28 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
     return Done{};
 }
 
+void add_table(ClothModel& model, ConstraintKind kind, const RowList& rows, bool lines, const ColoringOptions& options,
+               BuildClock& clock) {
+    clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
+    if (lines) {
+        model.constraints[static_cast<std::uint32_t>(kind)] =
+            pack_lines(rows, model.topology.rest_positions, model.point_count(), options);
+        clock.spent_on(BuildPart::tables);
+        return;
+    }
+    const Coloring coloring = color_rows(kind, rows, model.point_count(), options);
+    clock.spent_on(BuildPart::coloring);
+    model.constraints[static_cast<std::uint32_t>(kind)] = pack_rows(kind, rows, model.point_count(), coloring);
+    clock.spent_on(BuildPart::tables);
+}
+
 // Everything that material and pins decide, on a model that has its topology.
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
                      const ColoringOptions& coloring, const ClothLayout& layout) {
     const float density = fabric.body.density;
     if (!(density > 0) || !std::isfinite(density))
         return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
+    BuildClock clock(model.build_times);
     model.fabric = fabric;
     model.particle_count = model.topology.particle_count;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
@@ -122,23 +138,21 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
     rest.attachments = pins.attachments;
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
+    clock.spent_on(BuildPart::rest);
 
     // The same values for both; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.bend;
-    const auto pack = [&](ConstraintKind kind, const RowList& rows) {
-        const bool lines = layout.lines && kind == ConstraintKind::stretch;
-        return lines ? pack_lines(rows, model.topology.rest_positions, model.point_count(), coloring)
-                     : pack_rows(kind, rows, model.point_count(), coloring);
-    };
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)            \
-    model.constraints[static_cast<std::uint32_t>(ConstraintKind::name)] = \
-        pack(ConstraintKind::name, build_##name(rest, model.fabric.name));
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                                             \
+    add_table(model, ConstraintKind::name, build_##name(rest, model.fabric.name),                             \
+              layout.lines && ConstraintKind::name == ConstraintKind::stretch, coloring, clock);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    if (layout.hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start);
+    if (layout.hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start, layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
+    clock.spent_on(BuildPart::hierarchy);
     lay_out_faces(model, rest);
     measure_edges(model, rest);
+    clock.spent_on(BuildPart::rest);
     return Done{};
 }
 
@@ -148,13 +162,16 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->topology = std::move(topology);
+    model->build_times = desc.build_times;
     if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring, desc.layout); !done)
         return done.errors();
+    BuildClock clock(model->build_times);
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
         model->binding = bind_mesh(*desc.drawn, model->topology);
     }
     model->mesh = desc.drawn ? std::move(*desc.drawn) : std::move(desc.mesh);
+    clock.spent_on(BuildPart::rest);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

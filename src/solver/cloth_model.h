@@ -4,6 +4,7 @@
 #include "mesh/topology.h"
 #include "scene/fabric.h"
 #include "solver/binding.h"
+#include "solver/build_times.h"
 #include "solver/constraint_table.h"
 #include "solver/hierarchy.h"
 
@@ -38,6 +39,7 @@ struct ClothModelDesc {
     ClothPins pins = {};
     ClothLayout layout = {};
     ColoringOptions coloring = {};
+    BuildTimes build_times = {};  ///< what went before: its topology
 };
 
 struct ClothModel {
@@ -64,6 +66,8 @@ struct ClothModel {
 
     std::vector<std::uint8_t> edge_is_axial;  ///< per edge: 1 if it runs along warp or weft (within 10°)
     float mean_edge = 0;                      ///< m
+
+    BuildTimes build_times;
 
     /// Particles and anchors: what a step moves.
     std::uint32_t point_count() const { return particle_count + anchor_count; }

@@ -20,16 +20,26 @@ std::vector<Batch> lay_out(const Coloring& coloring) {
 
 }  // namespace
 
-ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
-                          const ColoringOptions& options) {
+Coloring color_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                    const ColoringOptions& options) {
     const std::uint32_t moved = constraint_info(kind).moved;
+    if (moved == list.arity) return color_rows(list.particles, moved, particle_count, options);
     std::vector<std::uint32_t> written;  // what a row only reads, rows of one color may share
     written.reserve(std::size_t{moved} * list.size());
     for (std::uint32_t row = 0; row < list.size(); ++row) {
         const auto first = list.particles.begin() + static_cast<std::ptrdiff_t>(row) * list.arity;
         written.insert(written.end(), first, first + moved);
     }
-    const Coloring coloring = color_rows(written, moved, particle_count, options);
+    return color_rows(written, moved, particle_count, options);
+}
+
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                          const ColoringOptions& options) {
+    return pack_rows(kind, list, particle_count, color_rows(kind, list, particle_count, options));
+}
+
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                          const Coloring& coloring) {
     ConstraintTable table{.kind = kind,
                           .arity = list.arity,
                           .field_count = list.field_count,

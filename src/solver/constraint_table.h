@@ -67,6 +67,11 @@ inline std::uint32_t dummy(std::uint32_t particle_count, std::uint32_t slot, std
     return first_dummy(particle_count) + slot * lane_padding + row % lane_padding;
 }
 
+Coloring color_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
+                    const ColoringOptions& options = {});
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
+                          const Coloring& coloring);
+/// Both.
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
                           const ColoringOptions& options = {});
 

@@ -1,9 +1,11 @@
 #include "solver/hierarchy.h"
 
+#include "mesh/grouping.h"
+#include "solver/link_graph.h"
+
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <queue>
+#include <limits>
 
 namespace weft {
 namespace {
@@ -17,131 +19,56 @@ constexpr double spacing = 1.6;
 // How far a node's influence goes, likewise: on a square grid to the middle of four.
 constexpr double influence = 2.25;
 
-// What holds a level together: for the particles its edges, for a coarse level its rows.
-struct Link {
-    std::uint32_t to = 0;
-    double length = 0;  // m, along the surface at rest
-    double reach = 0;   // m, as far as the two ends can come apart
-};
-using Graph = std::vector<std::vector<Link>>;
+// Likewise, of a first level that leaves all nearer to the fine rows: four edges on a square grid.
+constexpr double far = 2;
 
-// m: from c to d, straight across the edge once its two triangles lie in one plane; 0 if that line leaves them.
-double distance_across(const Topology& topology, const Hinge& hinge) {
-    const auto at = [&](std::uint32_t p) {
-        const Vec3 x = topology.rest_positions[p];
-        return std::array<double, 3>{x.x, x.y, x.z};
-    };
-    const auto minus = [](const auto& a, const auto& b) { return std::array{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
-    const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-    const auto a = at(hinge.a), e = minus(at(hinge.b), a), c = minus(at(hinge.c), a), d = minus(at(hinge.d), a);
-    const double along = std::sqrt(dot(e, e));
-    const double cx = dot(c, e) / along, dx = dot(d, e) / along;
-    const double cy = std::sqrt(std::max(dot(c, c) - cx * cx, 0.0)), dy = std::sqrt(std::max(dot(d, d) - dx * dx, 0.0));
-    if (!(cy + dy > 0)) return 0;
-    const double crossing = cx + (dx - cx) * cy / (cy + dy);
-    return crossing >= 0 && crossing <= along ? std::hypot(cx - dx, cy + dy) : 0;
-}
+constexpr double unreached = std::numeric_limits<double>::infinity();
 
-Graph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
-    const auto [warp, weft] = std::array{fabric.stretch.stretch[0], fabric.stretch.stretch[1]};
-    const bool turns = !fabric.stretch.inextensible && fabric.stretch.shear < std::min(warp, weft) / 3;
-    Graph graph(rest.topology.particle_count);
-    for (const Edge& edge : rest.topology.edges) {
-        const double length_at_rest =
-            length(rest.topology.rest_positions[edge.a] - rest.topology.rest_positions[edge.b]);
-        const double cos2 = std::clamp(static_cast<double>(cos2_to_warp(rest, edge)), 0.0, 1.0);
-        const double reach = length_at_rest * (turns ? std::sqrt(cos2) + std::sqrt(1 - cos2) : 1.0);
-        graph[edge.a].push_back({edge.b, length_at_rest, reach});
-        graph[edge.b].push_back({edge.a, length_at_rest, reach});
-    }
-    // What turns goes the way of its threads, which is that of the edges.
-    for (const Hinge& hinge : turns ? std::span<const Hinge>() : std::span<const Hinge>(rest.topology.hinges)) {
-        const double across = distance_across(rest.topology, hinge);
-        if (!(across > 0)) continue;
-        graph[hinge.c].push_back({hinge.d, across, across});
-        graph[hinge.d].push_back({hinge.c, across, across});
-    }
-    return graph;
-}
+// Per finer node, the nodes that it follows: up to four, the nearest first.
+struct Parents {
+    std::array<std::uint32_t, Carry::parents> node;
+    std::array<double, Carry::parents> weight, distance;
+    std::uint32_t count = 0;
 
-double mean_length(const Graph& graph) {
-    double sum = 0, count = 0;
-    for (const auto& links : graph) {
-        for (const Link& link : links) sum += link.length, count += 1;
-    }
-    return count > 0 ? sum / count : 0;
-}
-
-struct Near {
-    std::uint32_t node = 0;
-    double distance = 0;
-};
-
-// Every node within a distance of one, by one of the two measures of a link. Keeps its arrays from call to call.
-class Neighborhood {
-  public:
-    explicit Neighborhood(std::size_t count) : distance_(count, unseen) {}
-
-    const std::vector<Near>& around(const Graph& graph, std::uint32_t from, double limit, double Link::*measure) {
-        for (const Near& near : found_) distance_[near.node] = unseen;
-        for (std::uint32_t node : touched_) distance_[node] = unseen;
-        found_.clear(), touched_.clear();
-        offer(from, 0);
-        while (!queue_.empty()) {
-            const auto [d, node] = queue_.top();
-            queue_.pop();
-            if (d > distance_[node]) continue;
-            found_.push_back({node, d});
-            for (const Link& link : graph[node]) {
-                if (d + link.*measure <= limit) offer(link.to, d + link.*measure);
-            }
+    /// Among equal ones those come first that were added first.
+    void add(std::uint32_t new_node, double new_weight, double new_distance) {
+        std::uint32_t at = count;
+        while (at > 0 && weight[at - 1] < new_weight) --at;
+        if (at == Carry::parents) return;
+        count = std::min(count + 1, Carry::parents);
+        for (std::uint32_t i = count - 1; i > at; --i) {
+            node[i] = node[i - 1], weight[i] = weight[i - 1], distance[i] = distance[i - 1];
         }
-        return found_;
+        node[at] = new_node, weight[at] = new_weight, distance[at] = new_distance;
     }
-
-  private:
-    static constexpr double unseen = 1e300;
-
-    void offer(std::uint32_t node, double d) {
-        if (!(d < distance_[node])) return;
-        if (distance_[node] == unseen) touched_.push_back(node);
-        distance_[node] = d;
-        queue_.push({d, node});
-    }
-
-    using Entry = std::pair<double, std::uint32_t>;
-    std::vector<double> distance_;
-    std::vector<std::uint32_t> touched_;
-    std::vector<Near> found_;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
-};
-
-struct Parent {
-    std::uint32_t node = 0;
-    double weight = 0;
+    /// Four nodes are at least as near: whoever comes by now can do nothing for this one, nor for those behind it,
+    /// which the four reach in no longer a way. So a search may stop here, and searches around many nodes stay linear.
+    bool complete_within(double d) const { return count == Carry::parents && std::ranges::max(distance) <= d; }
 };
 
 // Nodes that keep a distance from one another and leave no gap; pinned ones come first, as everything hangs on them.
 // Each leaves its mark on those around it.
 struct Selection {
     std::vector<std::uint32_t> chosen;
-    std::vector<std::vector<Parent>> parents;  // of every node
+    std::vector<Parents> parents;  // of every node
 };
 
-Selection select_nodes(const Graph& graph, const std::vector<std::uint8_t>& pinned) {
-    const double unit = mean_length(graph);
-    Neighborhood neighborhood(graph.size());
+Selection select_nodes(const LinkGraph& graph, double unit, const std::vector<std::uint8_t>& pinned) {
     Selection selection;
     selection.parents.resize(graph.size());
+    auto& parents = selection.parents;
+    LocalSearch search(graph);
     std::vector<std::uint8_t> taken(graph.size());
     const auto choose = [&](std::uint32_t from) {
         if (taken[from]) return;
         const auto node = static_cast<std::uint32_t>(selection.chosen.size());
         selection.chosen.push_back(from);
-        for (const auto& [other, distance] : neighborhood.around(graph, from, influence * unit, &Link::length)) {
+        search.run<&Link::length>(from, influence * unit, [&](std::uint32_t other, double distance) {
+            if (parents[other].complete_within(distance)) return LocalSearch::Go::back;
             if (distance < spacing * unit) taken[other] = 1;
-            selection.parents[other].push_back({node, 1 - distance / (influence * unit * 1.001)});
-        }
+            parents[other].add(node, 1 - distance / (influence * unit * 1.001), distance);
+            return LocalSearch::Go::on;
+        });
     };
     for (const bool first : {true, false}) {
         for (std::uint32_t node = 0; node < graph.size(); ++node) {
@@ -149,73 +76,122 @@ Selection select_nodes(const Graph& graph, const std::vector<std::uint8_t>& pinn
         }
     }
     for (std::uint32_t node = 0; node < selection.chosen.size(); ++node) {
-        selection.parents[selection.chosen[node]] = {{node, 1}};
+        Parents& own = parents[selection.chosen[node]];
+        own.count = 1, own.node[0] = node, own.weight[0] = 1;
     }
-    for (auto& parents : selection.parents) {
-        std::ranges::stable_sort(parents, std::ranges::greater(), &Parent::weight);
-        parents.resize(std::min<std::size_t>(parents.size(), Carry::parents));
+    for (Parents& of : parents) {
         double sum = 0;
-        for (const Parent& parent : parents) sum += parent.weight;
-        for (Parent& parent : parents) parent.weight /= sum;
+        for (std::uint32_t k = 0; k < of.count; ++k) sum += of.weight[k];
+        for (std::uint32_t k = 0; k < of.count; ++k) of.weight[k] /= sum;
     }
     return selection;
 }
 
-// Two nodes are neighbors if a node between them follows both, or if nodes that follow them most are linked.
-Graph graph_of_nodes(const Graph& fine, const Selection& selection) {
+// Two nodes are neighbors if a node between them follows both, or if nodes that follow them most are linked. Ascending.
+Adjacency neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) {
     constexpr double clearly = 0.15;
-    std::vector<std::map<std::uint32_t, double>> neighbors(selection.chosen.size());
-    for (std::uint32_t node = 0; node < fine.size(); ++node) {
-        for (const Parent& a : selection.parents[node]) {
-            for (const Parent& b : selection.parents[node]) {
-                if (a.node != b.node && std::min(a.weight, b.weight) > clearly) neighbors[a.node].emplace(b.node, 0);
+    const auto count = static_cast<std::uint32_t>(selection.chosen.size());
+    const auto followers = group_items<std::uint32_t>(count, [&](auto put) {
+        for (std::uint32_t i = 0; i < fine.size(); ++i) {
+            const Parents& parents = selection.parents[i];
+            for (std::uint32_t k = 0; k < parents.count; ++k) {
+                if (k == 0 || parents.weight[k] > clearly) put(parents.node[k], i);
             }
         }
-        for (const Link& link : fine[node]) {
-            const std::uint32_t a = selection.parents[node].front().node, b = selection.parents[link.to].front().node;
-            if (a != b) neighbors[a].emplace(b, 0), neighbors[b].emplace(a, 0);
+    });
+    Adjacency neighbors{.offsets = {0}, .items = {}};
+    std::vector<std::uint32_t> seen(count, none);  // by which node last
+    for (std::uint32_t node = 0; node < count; ++node) {
+        seen[node] = node;
+        const auto add = [&](std::uint32_t other) {
+            if (seen[other] == node) return;
+            seen[other] = node;
+            neighbors.items.push_back(other);
+        };
+        for (std::uint32_t f = followers.offsets[node]; f < followers.offsets[node + 1]; ++f) {
+            const std::uint32_t follower = followers.items[f];
+            const Parents& parents = selection.parents[follower];
+            double weight = 0;
+            for (std::uint32_t k = 0; k < parents.count; ++k) {
+                if (parents.node[k] == node) weight = parents.weight[k];
+            }
+            for (std::uint32_t k = 0; k < parents.count && weight > clearly; ++k) {
+                if (parents.weight[k] > clearly) add(parents.node[k]);
+            }
+            if (parents.node[0] != node) continue;
+            for (const Link& link : fine[follower]) add(selection.parents[link.to].node[0]);
         }
+        std::sort(neighbors.items.begin() + neighbors.offsets.back(), neighbors.items.end());
+        neighbors.offsets.push_back(static_cast<std::uint32_t>(neighbors.items.size()));
     }
-    std::vector<std::uint32_t> node_of(fine.size(), none);
-    for (std::uint32_t node = 0; node < selection.chosen.size(); ++node) node_of[selection.chosen[node]] = node;
+    return neighbors;
+}
 
-    const double unit = mean_length(fine);
-    Neighborhood by_reach(fine.size()), by_length(fine.size());
-    Graph graph(selection.chosen.size());
-    for (std::uint32_t node = 0; node < selection.chosen.size(); ++node) {
-        std::map<std::uint32_t, Link> links;
-        for (const Near& near : by_reach.around(fine, selection.chosen[node], 4 * spacing * unit, &Link::reach)) {
-            const std::uint32_t other = node_of[near.node];
-            if (other != none && neighbors[node].contains(other)) links[other] = {other, 0, near.distance};
+// Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough
+// searches pass: each of its thousands of neighbors would visit all the others. What is lost there is a row that helps,
+// or it is longer than it could be; never one shorter than the way.
+LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection) {
+    const Adjacency neighbors = neighbors_of_nodes(fine, selection);
+    LinkGraph graph{.offsets = {0}, .links = {}, .turns = fine.turns};
+    graph.links.reserve(neighbors.items.size());
+    LocalSearch search(fine);
+    std::vector<Link*> sought(fine.size());  // what is known of a finer node that is a neighbor
+    std::vector<Link> found;
+    constexpr std::size_t hub_links = 64, hub_passes = 64;
+    std::vector<std::uint8_t> passes(fine.size());
+    const auto is_closed = [&](std::uint32_t at) {
+        if (fine[at].size() <= hub_links) return false;
+        if (passes[at] == hub_passes) return true;
+        ++passes[at];
+        return false;
+    };
+    for (std::uint32_t node = 0; node < neighbors.size(); ++node) {
+        const std::uint32_t from = selection.chosen[node];
+        found.clear();
+        for (const std::uint32_t other : neighbors[node]) found.push_back({other, unreached, unreached});
+        for (Link& link : found) sought[selection.chosen[link.to]] = &link;
+        const auto measure = [&]<double Link::*Measure>() {
+            std::size_t missing = found.size();
+            search.run<Measure>(from, 4 * spacing * unit, [&](std::uint32_t at, double distance) {
+                if (sought[at]) {
+                    sought[at]->*Measure = distance;
+                    if (--missing == 0) return LocalSearch::Go::home;
+                }
+                return at != from && is_closed(at) ? LocalSearch::Go::back : LocalSearch::Go::on;
+            });
+        };
+        if (!found.empty()) measure.template operator()<&Link::reach>();
+        if (!found.empty() && fine.turns) measure.template operator()<&Link::length>();
+        for (const Link& link : found) {
+            sought[selection.chosen[link.to]] = nullptr;
+            if (!(link.reach < unreached)) continue;
+            graph.links.push_back({link.to, std::min(link.length, link.reach), link.reach});
         }
-        for (const Near& near : by_length.around(fine, selection.chosen[node], 4 * spacing * unit, &Link::length)) {
-            const std::uint32_t other = node_of[near.node];
-            if (other != none && links.contains(other)) links[other].length = near.distance;
-        }
-        for (const auto& [other, link] : links) graph[node].push_back(link);
+        graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
     }
     return graph;
 }
 
-// A link that says no more than two others together do.
-bool is_implied(const Graph& graph, std::uint32_t from, const Link& link) {
-    for (const Link& first : graph[from]) {
-        for (const Link& second : graph[first.to]) {
-            if (second.to == link.to && first.reach + second.reach <= 1.001 * link.reach) return true;
-        }
-    }
-    return false;
+// A link that says no more than two others together do. The search runs over the links of the end with fewer of them:
+// a hub's are then not gone through again for each of them.
+bool is_implied(const LinkGraph& graph, std::uint32_t from, const Link& link) {
+    std::uint32_t few = from, many = link.to;
+    if (graph[few].size() > graph[many].size()) std::swap(few, many);
+    return std::ranges::any_of(graph[few], [&](const Link& first) {
+        const Link* second = find_link(graph, many, first.to);
+        return second && first.reach + second->reach <= 1.001 * link.reach;
+    });
 }
 
-Carry carry_to(const std::vector<std::vector<Parent>>& parents, std::span<const std::uint8_t> pinned) {
+Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> pinned) {
     Carry carry;
     carry.stride = padded(static_cast<std::uint32_t>(parents.size()));
     carry.node.resize(std::size_t{Carry::parents} * carry.stride);
     carry.weight.resize(std::size_t{Carry::parents} * carry.stride);
     for (std::uint32_t i = 0; i < parents.size(); ++i) {
-        for (std::uint32_t k = 0; k < parents[i].size() && !pinned[i]; ++k) {
-            carry.node[std::size_t{k} * carry.stride + i] = parents[i][k].node;
-            carry.weight[std::size_t{k} * carry.stride + i] = static_cast<float>(parents[i][k].weight);
+        for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
+            carry.node[std::size_t{k} * carry.stride + i] = parents[i].node[k];
+            carry.weight[std::size_t{k} * carry.stride + i] = static_cast<float>(parents[i].weight[k]);
         }
     }
     return carry;
@@ -232,14 +208,15 @@ double reserve_of(const RestShape& rest, const Fabric& fabric) {
 
 }  // namespace
 
-std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start) {
+std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
+                                         FinestLevel finest) {
     // Beyond this the levels would let anything pass.
     constexpr double useless_reserve = 0.1;
     std::vector<CoarseLevel> levels;
     const double reserve = reserve_of(rest, fabric);
     if (reserve > useless_reserve) return levels;
 
-    Graph graph = graph_of_edges(rest, fabric);
+    LinkGraph graph = graph_of_edges(rest, fabric);
     std::vector<std::uint32_t> particle(graph.size());
     std::vector<std::uint8_t> pinned(graph.size());
     std::vector<double> mass(graph.size());
@@ -249,7 +226,9 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         mass[p] = pinned[p] ? 0 : 1.0 / static_cast<double>(start[p].w);
     }
     while (true) {
-        const Selection selection = select_nodes(graph, pinned);
+        const bool far_apart = levels.empty() && finest == FinestLevel::every_fourth;
+        const double unit = mean_length(graph) * (far_apart ? far : 1);
+        const Selection selection = select_nodes(graph, unit, pinned);
         const auto count = static_cast<std::uint32_t>(selection.chosen.size());
         if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
         CoarseLevel level{.count = count, .particle = {}, .weight = {}, .reach = {}, .carry = {}};
@@ -257,7 +236,8 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
 
         std::vector<double> carried(count);
         for (std::uint32_t i = 0; i < graph.size(); ++i) {
-            for (const Parent& parent : selection.parents[i]) carried[parent.node] += parent.weight * mass[i];
+            const Parents& parents = selection.parents[i];
+            for (std::uint32_t k = 0; k < parents.count; ++k) carried[parents.node[k]] += parents.weight[k] * mass[i];
         }
         std::vector<std::uint8_t> held(count);
         std::vector<std::uint32_t> nodes(count);
@@ -268,7 +248,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
             nodes[node] = level.particle[node] = particle[selection.chosen[node]];
             level.weight[node] = held[node] || !(carried[node] > 0) ? 0 : static_cast<float>(1 / carried[node]);
         }
-        Graph coarse = graph_of_nodes(graph, selection);
+        LinkGraph coarse = graph_of_nodes(graph, unit, selection);
         RowList rows = make_rows(ConstraintKind::reach);
         for (std::uint32_t node = 0; node < count; ++node) {
             for (const Link& link : coarse[node]) {

@@ -36,8 +36,12 @@ struct CoarseLevel {
     std::uint32_t capacity() const { return particle_capacity(count); }
 };
 
+/// How far apart the nodes of the finest level are, in edges. Lines carry an error over several edges by themselves.
+enum class FinestLevel { every_second, every_fourth };
+
 /// The finest level first; each has about a quarter of the nodes of the one before. Empty for cloths so small that they
 /// have no use for it. `weight`: inverse mass of each particle, 0 for pinned ones.
-std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start);
+std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
+                                         FinestLevel finest = FinestLevel::every_second);
 
 }  // namespace weft

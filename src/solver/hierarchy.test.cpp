@@ -130,5 +130,72 @@ TEST(Hierarchy, survives_what_topology_survives) {
     }
 }
 
+// A vertex of thousands of triangles, which everything is near to.
+TriangleMesh fan(std::uint32_t rim) {
+    TriangleMesh mesh;
+    mesh.positions.push_back({});
+    for (std::uint32_t i = 0; i < rim; ++i) {
+        const double angle = 6.283185307179586 * i / rim;
+        mesh.positions.push_back({static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))});
+    }
+    for (std::uint32_t i = 0; i < rim; ++i) mesh.triangles.push_back({0, 1 + (i + 1) % rim, 1 + i});
+    return mesh;
+}
+
+// An edge of thousands of strips, each two by `rows` vertices.
+TriangleMesh book(std::uint32_t pages, std::uint32_t rows) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {0, 0, 0.1f}};
+    for (std::uint32_t i = 0; i < pages; ++i) {
+        const double angle = 6.283185307179586 * i / pages;
+        const auto x = static_cast<float>(0.1 * std::cos(angle)), y = static_cast<float>(0.1 * std::sin(angle));
+        std::uint32_t before[2] = {0, 1};
+        for (std::uint32_t row = 1; row < rows; ++row) {
+            const auto a = static_cast<std::uint32_t>(mesh.positions.size()), r = row;
+            const auto f = static_cast<float>(r);
+            mesh.positions.insert(mesh.positions.end(), {{f * x, f * y, 0}, {f * x, f * y, 0.1f}});
+            mesh.triangles.insert(mesh.triangles.end(), {{before[0], before[1], a}, {before[1], a + 1, a}});
+            before[0] = a, before[1] = a + 1;
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh pieces(std::uint32_t count) {
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto a = static_cast<std::uint32_t>(mesh.positions.size());
+        const auto x = static_cast<float>(i);
+        mesh.positions.insert(mesh.positions.end(), {{x, 0, 0}, {x, 0, 0.5f}, {x + 0.5f, 0, 0}});
+        mesh.triangles.push_back({a, a + 1, a + 2});
+    }
+    return mesh;
+}
+
+TEST(Hierarchy, is_sound_on_hubs_strips_and_pieces) {
+    Fabric stiff;  // so that nothing is too long to have levels
+    stiff.stretch = {.stretch = {1e6f, 1e6f}, .compression = {1e5f, 1e5f}, .shear = 1e5f};
+    for (const TriangleMesh& mesh :
+         {fan(20000), book(3000, 7), make_grid({100, 0.01f}, {10000, 2}, GridDiagonal::uniform), pieces(5000)}) {
+        for (const std::vector<std::uint32_t>& pinned : {std::vector<std::uint32_t>{}, {0}, {7}}) {
+            const auto model = model_of(mesh, stiff, pinned);
+            std::uint32_t finer = model->particle_count;
+            for (const CoarseLevel& level : model->hierarchy) {
+                EXPECT_LT(level.count, finer);
+                for (std::uint32_t i = 0; i < finer; ++i) {
+                    double sum = 0;
+                    for (std::uint32_t k = 0; k < Carry::parents; ++k)
+                        sum += level.carry.weight[std::size_t{k} * level.carry.stride + i];
+                    ASSERT_TRUE(sum == 0 || std::abs(sum - 1) < 1e-6) << sum;
+                }
+                for (std::uint32_t row = 0; row < level.reach.stride; ++row) {
+                    ASSERT_TRUE(level.reach.source[row] == none || std::isfinite(level.reach.fields[row]));
+                }
+                finer = level.count;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weft

@@ -195,8 +195,11 @@ Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer
         drawn = std::move(other->mesh);
     }
     // A generated grid comes in rows, which vector loads like better than any order found afterwards.
+    BuildTimes build_times;
+    BuildClock clock(build_times);
     auto topology = build_topology(loaded->mesh, {.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)});
     if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
+    clock.spent_on(BuildPart::topology);
     note_report(cloth.name, topology->report, notes_);
 
     auto pinned = select_pins(cloth.pins, {loaded->mesh, *topology, {}}, *world_, pointer + "/pins");
@@ -211,7 +214,8 @@ Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer
                                     .drawn = std::move(drawn),
                                     .fabric = fabric_of(cloth),
                                     .pins = std::move(pinned->pins),
-                                    .layout = world_->settings().layout()},
+                                    .layout = world_->settings().layout(),
+                                    .build_times = build_times},
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes_);

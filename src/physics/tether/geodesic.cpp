@@ -1,23 +1,17 @@
 #include "physics/tether/geodesic.h"
 
+#include "base/lowest_first.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <queue>
+#include <utility>
 
 namespace weft {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-struct Visit {
-    double distance;
-    std::uint32_t particle;
-    // Equal distances in the order of their numbers, so that the result does not depend on the heap.
-    friend bool operator<(const Visit& a, const Visit& b) {
-        return a.distance != b.distance ? a.distance > b.distance : a.particle > b.particle;
-    }
-};
 
 double dot_exact(Vec3 a, Vec3 b) {
     return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y + static_cast<double>(a.z) * b.z;
@@ -39,47 +33,145 @@ double through_triangle(Vec3 a, Vec3 b, Vec3 c, double da, double db) {
     const double cy = std::sqrt(cy2);
     const double crossing = sx + (cx - sx) * (-sy) / (cy - sy);
     if (crossing < 0 || crossing > ab) return infinity;
-    return std::hypot(cx - sx, cy - sy);
+    return std::sqrt((cx - sx) * (cx - sx) + (cy - sy) * (cy - sy));
 }
+
+// Half a cache line, all that most visits read of a triangle: a front comes by every one three times, in an order that
+// no cache likes.
+struct MarchTriangle {
+    Triangle corners;
+    float twice_area;           // m²
+    std::array<float, 3> side;  // m, each opposite the corner of the same number
+
+    std::size_t number_of(std::uint32_t corner) const {
+        return corners[0] == corner ? 0 : corners[1] == corner ? 1 : 2;
+    }
+
+    /// No front that was at the two other corners at da and db is at this one before. By way of a point X of the side,
+    /// |SC| = |SX| + |XC|, with |SX| >= |SA| - |XA|, |SX| >= |SB| - |XB| and |XC| no less than the height.
+    double earliest(std::size_t corner, double da, double db) const {
+        constexpr double rounding = 1e-6;  // more than that of the floats
+        const float ab = side[corner], height = twice_area / ab;
+        return (da + db - ab) / 2 + height - rounding * (da + db + ab + height);
+    }
+};
+
+std::vector<MarchTriangle> measure_triangles(const Topology& topology) {
+    std::vector<MarchTriangle> result;
+    result.reserve(topology.triangles.size());
+    for (const Triangle& t : topology.triangles) {
+        const Vec3 a = topology.rest_positions[t[0]], b = topology.rest_positions[t[1]],
+                   c = topology.rest_positions[t[2]];
+        result.push_back({t, length(cross(b - a, c - a)), {length(c - b), length(a - c), length(b - a)}});
+    }
+    return result;
+}
+
+// Every way that is known has a number, most · particle + i; it is final once it has come out of the queue.
+class March {
+  public:
+    March(const Topology& topology, std::uint32_t most)
+        : topology_(topology),
+          triangles_(measure_triangles(topology)),
+          ways_{most, std::vector<Way>(std::size_t{most} * topology.particle_count)},
+          final_(ways_.ways.size()),
+          queue_(ways_.ways.size()) {}
+
+    WaysToPlaces run(std::span<const std::vector<std::uint32_t>> places) {
+        for (std::uint32_t place = 0; place < places.size(); ++place) {
+            for (const std::uint32_t source : places[place]) offer(source, {0, place, source});
+        }
+        while (!queue_.empty()) {
+            const std::uint32_t way = queue_.pop().item;
+            final_[way] = 1;
+            const Way front = ways_.ways[way];
+            for (const std::uint32_t t : topology_.particle_triangles[way / ways_.most]) {
+                pass(triangles_[t], way / ways_.most, front);
+            }
+        }
+        return std::move(ways_);
+    }
+
+  private:
+    std::span<Way> ways_from(std::uint32_t particle) {
+        return std::span(ways_.ways).subspan(std::size_t{ways_.most} * particle, ways_.most);
+    }
+    bool is_final(const Way& way) const { return final_[static_cast<std::size_t>(&way - ways_.ways.data())]; }
+
+    /// What is known of the way from there to a place, or null.
+    const Way* find(std::uint32_t particle, std::uint32_t place) {
+        for (const Way& way : ways_from(particle)) {
+            if (way.place == place) return &way;
+        }
+        return nullptr;
+    }
+
+    /// Takes what is nearer than what is known. A final way may still become shorter, where a front comes round an
+    /// obtuse triangle; nothing goes on from it once more.
+    void offer(std::uint32_t particle, const Way& offered) {
+        Way* taken = nullptr;
+        for (Way& way : ways_from(particle)) {
+            if (way.place == offered.place || way.place == none) {
+                taken = &way;
+                break;
+            }
+            // If there is no room, in place of the farthest.
+            if (!is_final(way) && (!taken || taken->distance < way.distance)) taken = &way;
+        }
+        if (!taken || (taken->place != none && !(offered.distance < taken->distance))) return;
+        *taken = offered;
+        if (!is_final(*taken)) queue_.put(static_cast<std::uint32_t>(taken - ways_.ways.data()), offered.distance);
+    }
+
+    /// The front has come to corner p: what that means for the two others.
+    void pass(const MarchTriangle& triangle, std::uint32_t p, const Way& front) {
+        const std::size_t at = triangle.number_of(p);
+        const std::size_t others[2] = {(at + 1) % 3, (at + 2) % 3};
+        const Way* known[2] = {find(triangle.corners[others[0]], front.place),
+                               find(triangle.corners[others[1]], front.place)};
+        const bool final[2] = {known[0] && is_final(*known[0]), known[1] && is_final(*known[1])};
+        const auto& x = topology_.rest_positions;
+        for (const std::size_t i : {0, 1}) {
+            const std::uint32_t q = triangle.corners[others[i]], r = triangle.corners[others[1 - i]];
+            if (!final[i]) {  // along the edge
+                const double d = front.distance + std::sqrt(dot_exact(x[q] - x[p], x[q] - x[p]));
+                offer(q, {d, front.place, front.source});
+                continue;
+            }
+            // Fronts from different sources do not make one front.
+            const double dq = known[i]->distance;
+            if (known[i]->source != front.source) continue;
+            if (known[1 - i] && triangle.earliest(others[1 - i], front.distance, dq) > known[1 - i]->distance) continue;
+            const double arrival = through_triangle(x[p], x[q], x[r], front.distance, dq);
+            if (arrival < infinity) offer(r, {arrival, front.place, front.source});
+        }
+    }
+
+    const Topology& topology_;
+    const std::vector<MarchTriangle> triangles_;
+    WaysToPlaces ways_;
+    std::vector<std::uint8_t> final_;  // per way
+    LowestFirst queue_;
+};
 
 }  // namespace
 
+WaysToPlaces ways_to_places(const Topology& topology, std::span<const std::vector<std::uint32_t>> places,
+                            std::uint32_t most) {
+    return March(topology, most).run(places);
+}
+
 Geodesic geodesic_distance(const Topology& topology, std::span<const std::uint32_t> sources) {
-    const auto& x = topology.rest_positions;
-    std::vector<double> distance(topology.particle_count, infinity);
-    std::vector<std::uint8_t> done(topology.particle_count);
-    Geodesic result{{}, std::vector<std::uint32_t>(topology.particle_count, none)};
-    std::priority_queue<Visit> queue;
-    const auto offer = [&](std::uint32_t p, double d, std::uint32_t from) {
-        if (!(d < distance[p])) return;
-        distance[p] = d;
-        result.nearest[p] = from;
-        queue.push({d, p});
-    };
-    for (std::uint32_t source : sources) offer(source, 0, source);
-    while (!queue.empty()) {
-        const auto [d, p] = queue.top();
-        queue.pop();
-        if (done[p]) continue;
-        done[p] = 1;
-        for (std::uint32_t e : topology.particle_edges[p]) {
-            const std::uint32_t q = topology.edges[e].a == p ? topology.edges[e].b : topology.edges[e].a;
-            offer(q, d + std::sqrt(dot_exact(x[q] - x[p], x[q] - x[p])), result.nearest[p]);
-        }
-        for (std::uint32_t t : topology.particle_triangles[p]) {
-            const Triangle& corners = topology.triangles[t];
-            const auto at = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), p) - corners.begin());
-            const std::uint32_t q = corners[(at + 1) % 3], r = corners[(at + 2) % 3];
-            // Fronts from different sources do not make one front.
-            if (done[q] && result.nearest[q] == result.nearest[p]) {
-                offer(r, through_triangle(x[p], x[q], x[r], d, distance[q]), result.nearest[p]);
-            }
-            if (done[r] && result.nearest[r] == result.nearest[p]) {
-                offer(q, through_triangle(x[p], x[r], x[q], d, distance[r]), result.nearest[p]);
-            }
+    const std::vector<std::uint32_t> place(sources.begin(), sources.end());
+    const WaysToPlaces ways = ways_to_places(topology, std::span(&place, 1), 1);
+    Geodesic result{std::vector<float>(topology.particle_count, std::numeric_limits<float>::infinity()),
+                    std::vector<std::uint32_t>(topology.particle_count, none)};
+    for (std::uint32_t p = 0; p < topology.particle_count; ++p) {
+        for (const Way& way : ways[p]) {
+            result.distance[p] = static_cast<float>(way.distance);
+            result.nearest[p] = way.source;
         }
     }
-    result.distance.assign(distance.begin(), distance.end());
     return result;
 }
 

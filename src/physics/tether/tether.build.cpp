@@ -2,6 +2,7 @@
 #include "physics/tether/geodesic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace weft {
@@ -10,6 +11,8 @@ namespace {
 // Tethers per particle, each to another place where the cloth is held. More of them cost time and change little: what
 // holds is the nearest few.
 constexpr std::size_t max_tethers = 4;
+// So many ways are followed for them: the last of them may be a little too long (geodesic.h).
+constexpr std::size_t max_ways = max_tethers + 2;
 
 // Held particles that hang together over edges between them: a corner, a hem, the tip of an ear.
 std::vector<std::vector<std::uint32_t>> held_places(const RestShape& rest) {
@@ -47,24 +50,25 @@ RowList build_tether(const RestShape& rest, const TetherMaterial& material) {
     RowList rows = make_rows(ConstraintKind::tether);
     if (!material.enabled || rest.held.empty()) return rows;
 
-    std::vector<std::vector<Tether>> tethers(rest.topology.particle_count);
-    for (const auto& place : held_places(rest)) {
-        const Geodesic way = geodesic_distance(rest.topology, place);
-        for (std::uint32_t p = 0; p < rest.topology.particle_count; ++p) {
-            if (rest.held[p] || way.nearest[p] == none) continue;
-            auto& mine = tethers[p];
-            mine.push_back({way.distance[p], way.nearest[p]});
-            std::sort(mine.begin(), mine.end());
-            if (mine.size() > max_tethers) mine.pop_back();
+    const auto places = held_places(rest);
+    if (places.empty()) return rows;
+    const auto most = static_cast<std::uint32_t>(std::min(places.size(), max_ways));
+    const WaysToPlaces ways = ways_to_places(rest.topology, places, most);
+    // Rank by rank, so that the rows of a color run through the particles in order.
+    std::array<RowList, max_tethers> ranks;
+    std::vector<Tether> tethers;
+    for (std::uint32_t p = 0; p < rest.topology.particle_count; ++p) {
+        if (rest.held[p]) continue;
+        tethers.clear();
+        for (const Way& way : ways[p]) tethers.push_back({static_cast<float>(way.distance), way.source});
+        std::sort(tethers.begin(), tethers.end());
+        for (std::size_t rank = 0; rank < std::min(tethers.size(), max_tethers); ++rank) {
+            ranks[rank].add({p, tethers[rank].anchor}, {tethers[rank].distance * (1 + material.slack)});
         }
     }
-    // Rank by rank, so that the rows of a color run through the particles in order.
-    for (std::size_t rank = 0; rank < max_tethers; ++rank) {
-        for (std::uint32_t p = 0; p < rest.topology.particle_count; ++p) {
-            if (rank >= tethers[p].size()) continue;
-            const auto& [distance, anchor] = tethers[p][rank];
-            rows.add({p, anchor}, {distance * (1 + material.slack)});
-        }
+    for (const RowList& rank : ranks) {
+        rows.particles.insert(rows.particles.end(), rank.particles.begin(), rank.particles.end());
+        rows.fields.insert(rows.fields.end(), rank.fields.begin(), rank.fields.end());
     }
     return rows;
 }

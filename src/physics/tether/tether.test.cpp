@@ -75,6 +75,55 @@ TEST(Geodesic, knows_what_it_cannot_reach) {
     EXPECT_TRUE(std::isinf(way.distance[4]));
 }
 
+TEST(WaysToPlaces, are_those_to_each_place_by_itself) {
+    const TriangleMesh mesh = make_grid({1, 1}, {25, 25}, GridDiagonal::uniform);
+    const auto topology = build_topology(mesh, {.reorder = false});
+    const std::vector<std::vector<std::uint32_t>> places{{0, 1}, {24}, {300}, {600, 601, 602}, {624}};
+    const WaysToPlaces all = ways_to_places(*topology, places, 5), near = ways_to_places(*topology, places, 2);
+    std::vector<Geodesic> alone;
+    for (const auto& place : places) alone.push_back(geodesic_distance(*topology, place));
+    for (std::uint32_t p = 0; p < topology->particle_count; ++p) {
+        ASSERT_EQ(all[p].size(), 5u);
+        std::vector<double> sorted;
+        for (const Way& way : all[p]) {
+            EXPECT_EQ(static_cast<float>(way.distance), alone[way.place].distance[p]);
+            EXPECT_EQ(way.source, alone[way.place].nearest[p]);
+            sorted.push_back(way.distance);
+        }
+        std::sort(sorted.begin(), sorted.end());
+        ASSERT_EQ(near[p].size(), 2u);
+        const auto [first, second] = std::minmax(near[p][0].distance, near[p][1].distance);
+        EXPECT_EQ(first, sorted[0]) << "nothing stops the nearest front";
+        EXPECT_GE(second, sorted[1]);
+        EXPECT_LE(second, sorted[1] + 1.0 / 24) << "by a part of an edge";
+    }
+}
+
+TEST(WaysToPlaces, lead_through_hubs_and_end_where_a_piece_does) {
+    constexpr std::uint32_t rim = 2000;
+    TriangleMesh mesh;
+    mesh.positions.push_back({});
+    for (std::uint32_t i = 0; i < rim; ++i) {
+        const double angle = 6.283185307179586 * i / rim;
+        mesh.positions.push_back({static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))});
+    }
+    for (std::uint32_t i = 0; i < rim; ++i) mesh.triangles.push_back({0, 1 + (i + 1) % rim, 1 + i});
+    mesh.positions.insert(mesh.positions.end(), {{5, 0, 0}, {6, 0, 0}, {5, 0, 1}});
+    mesh.triangles.push_back({rim + 1, rim + 3, rim + 2});
+    const auto topology = build_topology(mesh, {.reorder = false});
+    const std::vector<std::vector<std::uint32_t>> places{{1}, {1 + rim / 2}};
+    const WaysToPlaces ways = ways_to_places(*topology, places, 2);
+    for (std::uint32_t p = rim + 1; p < topology->particle_count; ++p) EXPECT_TRUE(ways[p].empty());
+    for (std::uint32_t p = 0; p <= rim; ++p) {
+        ASSERT_EQ(ways[p].size(), 2u);
+        for (const Way& way : ways[p]) {
+            const float straight = length(topology->rest_positions[p] - topology->rest_positions[way.source]);
+            EXPECT_GE(way.distance, straight * (1 - 1e-5));
+            EXPECT_LE(way.distance, 2.0001) << "through the middle";
+        }
+    }
+}
+
 TEST(TetherRows, lead_to_every_place_where_the_cloth_is_held) {
     const TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::alternating);
     const auto topology = build_topology(mesh, {.reorder = false});

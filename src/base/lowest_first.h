@@ -1,0 +1,80 @@
+// A priority queue in which a key may be lowered: every item stands in it once, however often it is offered.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace weft {
+
+/// The item of the lowest key comes out first, of equal keys the lowest item, so that the order does not depend on how
+/// the queue was filled. Four children per node: half as deep as two, and they share a cache line.
+class LowestFirst {
+  public:
+    struct Entry {
+        double key = 0;
+        std::uint32_t item = 0;
+        friend bool operator<(const Entry& a, const Entry& b) {
+            return a.key != b.key ? a.key < b.key : a.item < b.item;
+        }
+    };
+
+    /// Items are < item_count.
+    explicit LowestFirst(std::size_t item_count) : place_(item_count, absent) {}
+
+    bool empty() const { return heap_.empty(); }
+
+    /// Adds an item, or gives one that is in the queue a lower key than it has.
+    void put(std::uint32_t item, double key) {
+        std::uint32_t at = place_[item];
+        if (at == absent) {
+            at = static_cast<std::uint32_t>(heap_.size());
+            heap_.emplace_back();
+        }
+        const Entry entry{key, item};
+        while (at > 0 && entry < heap_[(at - 1) / children]) {
+            set(at, heap_[(at - 1) / children]);
+            at = (at - 1) / children;
+        }
+        set(at, entry);
+    }
+
+    Entry pop() {
+        const Entry lowest = heap_.front(), last = heap_.back();
+        place_[lowest.item] = absent;
+        heap_.pop_back();
+        if (!heap_.empty()) sink(last);
+        return lowest;
+    }
+
+  private:
+    static constexpr std::uint32_t absent = ~std::uint32_t{0};
+    static constexpr std::size_t children = 4;
+
+    void set(std::size_t at, const Entry& entry) {
+        heap_[at] = entry;
+        place_[entry.item] = static_cast<std::uint32_t>(at);
+    }
+    // From the root to where it belongs.
+    void sink(const Entry& entry) {
+        std::size_t at = 0;
+        while (true) {
+            const std::size_t first = children * at + 1, end = std::min(first + children, heap_.size());
+            if (first >= end) break;
+            std::size_t least = first;
+            for (std::size_t child = first + 1; child < end; ++child) {
+                if (heap_[child] < heap_[least]) least = child;
+            }
+            if (!(heap_[least] < entry)) break;
+            set(at, heap_[least]);
+            at = least;
+        }
+        set(at, entry);
+    }
+
+    std::vector<Entry> heap_;
+    std::vector<std::uint32_t> place_;  // of each item in heap_
+};
+
+}  // namespace weft
