@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 namespace weft {
 namespace {
@@ -22,7 +22,7 @@ constexpr double influence = 2.25;
 // Likewise, of a first level that leaves all nearer to the fine rows: four edges on a square grid.
 constexpr double far = 2;
 
-constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr double unreached = LocalWays::unreached;
 
 // Per finer node, the nodes that it follows: up to four, the nearest first.
 struct Parents {
@@ -77,7 +77,7 @@ Selection select_nodes(const LinkGraph& graph, double unit, const std::vector<st
     }
     for (std::uint32_t node = 0; node < selection.chosen.size(); ++node) {
         Parents& own = parents[selection.chosen[node]];
-        own.count = 1, own.node[0] = node, own.weight[0] = 1;
+        own.count = 1, own.node[0] = node, own.weight[0] = 1, own.distance[0] = 0;
     }
     for (Parents& of : parents) {
         double sum = 0;
@@ -87,8 +87,13 @@ Selection select_nodes(const LinkGraph& graph, double unit, const std::vector<st
     return selection;
 }
 
-// Two nodes are neighbors if a node between them follows both, or if nodes that follow them most are linked. Ascending.
-Adjacency neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) {
+struct Neighbors {
+    Adjacency of;               // every node, ascending
+    std::vector<double> limit;  // m, per node: by length no neighbor is farther than that
+};
+
+// Two nodes are neighbors if a node between them follows both, or if nodes that follow them most are linked.
+Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) {
     constexpr double clearly = 0.15;
     const auto count = static_cast<std::uint32_t>(selection.chosen.size());
     const auto followers = group_items<std::uint32_t>(count, [&](auto put) {
@@ -99,44 +104,57 @@ Adjacency neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
             }
         }
     });
-    Adjacency neighbors{.offsets = {0}, .items = {}};
+    Neighbors result{.of = {.offsets = {0}, .items = {}}, .limit = {}};
+    Adjacency& neighbors = result.of;
     std::vector<std::uint32_t> seen(count, none);  // by which node last
+    std::vector<double> way(count);                // to that node, as far as it is known
     for (std::uint32_t node = 0; node < count; ++node) {
-        seen[node] = node;
-        const auto add = [&](std::uint32_t other) {
-            if (seen[other] == node) return;
-            seen[other] = node;
+        const auto add = [&](std::uint32_t other, double length) {
+            if (other == node) return;
+            if (seen[other] == node) {
+                way[other] = std::min(way[other], length);
+                return;
+            }
+            seen[other] = node, way[other] = length;
             neighbors.items.push_back(other);
         };
         for (std::uint32_t f = followers.offsets[node]; f < followers.offsets[node + 1]; ++f) {
             const std::uint32_t follower = followers.items[f];
             const Parents& parents = selection.parents[follower];
-            double weight = 0;
+            double weight = 0, to_node = 0;
             for (std::uint32_t k = 0; k < parents.count; ++k) {
-                if (parents.node[k] == node) weight = parents.weight[k];
+                if (parents.node[k] == node) weight = parents.weight[k], to_node = parents.distance[k];
             }
             for (std::uint32_t k = 0; k < parents.count && weight > clearly; ++k) {
-                if (parents.weight[k] > clearly) add(parents.node[k]);
+                if (parents.weight[k] > clearly) add(parents.node[k], to_node + parents.distance[k]);
             }
             if (parents.node[0] != node) continue;
-            for (const Link& link : fine[follower]) add(selection.parents[link.to].node[0]);
+            for (const Link& link : fine[follower]) {
+                const Parents& others = selection.parents[link.to];
+                add(others.node[0], to_node + link.length + others.distance[0]);
+            }
         }
         std::sort(neighbors.items.begin() + neighbors.offsets.back(), neighbors.items.end());
+        double limit = 0;
+        for (std::size_t i = neighbors.offsets.back(); i < neighbors.items.size(); ++i) {
+            limit = std::max(limit, way[neighbors.items[i]]);
+        }
+        result.limit.push_back(limit);
         neighbors.offsets.push_back(static_cast<std::uint32_t>(neighbors.items.size()));
     }
-    return neighbors;
+    return result;
 }
 
 // Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough
 // searches pass: each of its thousands of neighbors would visit all the others. What is lost there is a row that helps,
 // or it is longer than it could be; never one shorter than the way.
 LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection) {
-    const Adjacency neighbors = neighbors_of_nodes(fine, selection);
+    const Neighbors neighbors = neighbors_of_nodes(fine, selection);
     LinkGraph graph{.offsets = {0}, .links = {}, .turns = fine.turns};
-    graph.links.reserve(neighbors.items.size());
-    LocalSearch search(fine);
-    std::vector<Link*> sought(fine.size());  // what is known of a finer node that is a neighbor
+    graph.links.reserve(neighbors.of.items.size());
+    LocalWays ways(fine);
     std::vector<Link> found;
+    std::vector<std::uint32_t> goals;
     constexpr std::size_t hub_links = 64, hub_passes = 64;
     std::vector<std::uint8_t> passes(fine.size());
     const auto is_closed = [&](std::uint32_t at) {
@@ -145,25 +163,21 @@ LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& se
         ++passes[at];
         return false;
     };
-    for (std::uint32_t node = 0; node < neighbors.size(); ++node) {
-        const std::uint32_t from = selection.chosen[node];
-        found.clear();
-        for (const std::uint32_t other : neighbors[node]) found.push_back({other, unreached, unreached});
-        for (Link& link : found) sought[selection.chosen[link.to]] = &link;
-        const auto measure = [&]<double Link::*Measure>() {
-            std::size_t missing = found.size();
-            search.run<Measure>(from, 4 * spacing * unit, [&](std::uint32_t at, double distance) {
-                if (sought[at]) {
-                    sought[at]->*Measure = distance;
-                    if (--missing == 0) return LocalSearch::Go::home;
-                }
-                return at != from && is_closed(at) ? LocalSearch::Go::back : LocalSearch::Go::on;
-            });
+    for (std::uint32_t node = 0; node < neighbors.of.size(); ++node) {
+        found.clear(), goals.clear();
+        for (const std::uint32_t other : neighbors.of[node]) {
+            found.push_back({other, unreached, unreached});
+            goals.push_back(selection.chosen[other]);
+        }
+        const double limit = 1.000001 * neighbors.limit[node];  // a little more, for rounding
+        const auto measure = [&]<double Link::*Measure>(double farthest) {
+            const auto keep = [&](std::size_t i, double distance) { found[i].*Measure = distance; };
+            ways.run<Measure>(selection.chosen[node], goals, std::min(farthest, 4 * spacing * unit), keep, is_closed);
         };
-        if (!found.empty()) measure.template operator()<&Link::reach>();
-        if (!found.empty() && fine.turns) measure.template operator()<&Link::length>();
+        // What turns reaches at most as far as two sides of a square do along its diagonal.
+        measure.template operator()<&Link::reach>(fine.turns ? std::numbers::sqrt2 * limit : limit);
+        if (fine.turns) measure.template operator()<&Link::length>(limit);
         for (const Link& link : found) {
-            sought[selection.chosen[link.to]] = nullptr;
             if (!(link.reach < unreached)) continue;
             graph.links.push_back({link.to, std::min(link.length, link.reach), link.reach});
         }

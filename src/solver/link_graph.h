@@ -5,6 +5,7 @@
 #include "scene/fabric.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -48,7 +49,6 @@ class LocalSearch {
     enum class Go {
         on,
         back,  ///< not beyond this node
-        home,  ///< all is known
     };
 
     explicit LocalSearch(const LinkGraph& graph) : graph_(graph), distance_(graph.size(), unseen) {}
@@ -64,7 +64,6 @@ class LocalSearch {
             queue_.pop_back();
             if (d > distance_[node]) continue;
             const Go go = visit(node, d);
-            if (go == Go::home) break;
             if (go == Go::back) continue;
             for (const Link& link : graph_[node]) {
                 if (d + link.*Measure <= limit) offer(link.to, d + link.*Measure);
@@ -91,6 +90,64 @@ class LocalSearch {
     std::vector<double> distance_;
     std::vector<std::uint32_t> touched_;
     std::vector<Entry> queue_;
+};
+
+/// The same where the goals are known and the order of visits is no matter: nodes wait in buckets of distance in place
+/// of a heap (Meyer, Sanders 2003, "Δ-stepping"), and a node that was taken too early is taken again. What a shortest
+/// way adds up to is the same.
+class LocalWays {
+  public:
+    explicit LocalWays(const LinkGraph& graph) : graph_(graph), distance_(graph.size(), unreached) {}
+
+    static constexpr double unreached = std::numeric_limits<double>::infinity();
+
+    /// found(i, distance) for every goal within `limit`. No way leads on from nodes, `from` excepted, that are closed.
+    template <double Link::*Measure, class Found, class Closed>
+    void run(std::uint32_t from, std::span<const std::uint32_t> goals, double limit, Found&& found, Closed&& closed) {
+        const double inverse_width = limit > 0 ? buckets / limit : 0;
+        const auto bucket_of = [&](double d) {
+            return std::min(static_cast<std::size_t>(d * inverse_width), buckets - 1);
+        };
+        distance_[from] = 0;
+        touched_.push_back(from);
+        waiting_[0].push_back({0, from});
+        std::size_t missing = goals.size();  // from the last one on, all others are known
+        for (std::size_t bucket = 0; bucket < buckets && missing > 0; ++bucket) {
+            for (std::size_t i = 0; i < waiting_[bucket].size(); ++i) {
+                const auto [d, node] = waiting_[bucket][i];
+                if (d > distance_[node] || (node != from && closed(node))) continue;
+                for (const Link& link : graph_[node]) {
+                    const double along = d + link.*Measure;
+                    if (!(along <= limit && along < distance_[link.to])) continue;
+                    if (distance_[link.to] == unreached) touched_.push_back(link.to);
+                    distance_[link.to] = along;
+                    waiting_[bucket_of(along)].push_back({along, link.to});
+                }
+            }
+            const auto is_known = [&](std::uint32_t goal) {
+                return distance_[goal] <= limit && bucket_of(distance_[goal]) <= bucket;
+            };
+            while (missing > 0 && is_known(goals[missing - 1])) --missing;
+        }
+        for (auto& bucket : waiting_) bucket.clear();
+        for (std::size_t i = 0; i < goals.size(); ++i) {
+            if (distance_[goals[i]] < unreached) found(i, distance_[goals[i]]);
+        }
+        for (const std::uint32_t node : touched_) distance_[node] = unreached;
+        touched_.clear();
+    }
+
+  private:
+    static constexpr std::size_t buckets = 16;
+
+    struct Waiting {
+        double distance;
+        std::uint32_t node;
+    };
+    const LinkGraph& graph_;
+    std::vector<double> distance_;
+    std::vector<std::uint32_t> touched_;
+    std::array<std::vector<Waiting>, buckets> waiting_;
 };
 
 }  // namespace weft
