@@ -185,6 +185,7 @@ void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t subs
         case PassKind::contact:
             run_contacts(frame, pass, substep, rank);
             break;
+        case PassKind::collect:
         case PassKind::lift:
         case PassKind::reach:
         case PassKind::settle:
@@ -283,8 +284,13 @@ Range Executor::level_range(std::uint32_t count, unsigned rank) const {
 void Executor::run_level(const Frame& frame, const Pass& pass, unsigned rank) {
     ClothState& cloth = frame.cloth;
     const CoarseLevel& level = cloth.model->hierarchy[pass.level];
+    if (pass.kind == PassKind::collect) {
+        const float* finer = pass.level == 0 ? frame.particles.position : cloth.level(pass.level - 1).origin;
+        passes_.collect(finer, cloth.level(pass.level), level_range(level.count, rank));
+        return;
+    }
     if (pass.kind == PassKind::lift) {
-        passes_.lift(frame.particles.position, cloth.level(pass.level), cloth.carry_to_level(pass.level),
+        passes_.lift(cloth.level(pass.level), cloth.carry_to_level(pass.level),
                      level_range(level.count, rank));
         return;
     }

@@ -70,9 +70,10 @@ struct GatherView {
 /// One coarse level. Blocks of four floats per node.
 struct LevelView {
     float* position;      ///< w: inverse mass
-    float* origin;        ///< where its particle is
+    float* origin;        ///< where what is around it is, in the mean
     float* displacement;  ///< what the level's rows, and those of coarser levels, make of it
-    const std::uint32_t* particle;
+    const std::uint32_t* around;  ///< [member · stride + node]
+    std::uint32_t stride;
 };
 
 /// From a level's displacements to nodes of the finer one, or to particles.
@@ -124,7 +125,9 @@ struct Passes {
                constraint_kind_count>
         correct;
     void (*average)(const ParticleView&, const GatherView&, Range);
-    void (*lift)(const float* particle_position, const LevelView&, const CarryView&, Range);
+    /// `finer`: positions of particles, or origins of the finer level.
+    void (*collect)(const float* finer, const LevelView&, Range);
+    void (*lift)(const LevelView&, const CarryView&, Range);
     void (*settle)(const LevelView&, Range);
     void (*spread)(float* particle_position, const CarryView&, Range);
     /// `viscous`: retardation time times time step, s².

@@ -179,12 +179,22 @@ WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
     return sum;
 }
 
-inline void lift_pass(const float* particle_position, const LevelView& level, const CarryView& carry, Range range) {
+inline void collect_pass(const float* finer, const LevelView& level, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real unused;
+        vec3 sum = gather_blocks(finer, level.around + i, unused);
+        for (std::size_t k = 1; k < Surroundings::members; ++k) {
+            sum = sum + gather_blocks(finer, level.around + k * level.stride + i, unused);
+        }
+        store_blocks(sum * real(1.0f / Surroundings::members), real(0.0f), level.origin + 4 * i);
+    }
+}
+
+inline void lift_pass(const LevelView& level, const CarryView& carry, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real unused, w;
-        const vec3 x = gather_blocks(particle_position, level.particle + i, unused);
+        const vec3 x = load_blocks(level.origin + 4 * i, unused);
         load_blocks(level.position + 4 * i, w);
-        store_blocks(x, real(0.0f), level.origin + 4 * i);
         store_blocks(carry.displacement ? x + carried(carry, i) : x, w, level.position + 4 * i);
     }
 }
@@ -363,6 +373,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
         },
 #undef WEFT_CONSTRAINT
         .average = average_pass,
+        .collect = collect_pass,
         .lift = lift_pass,
         .settle = settle_pass,
         .spread = spread_pass,

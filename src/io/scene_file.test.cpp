@@ -296,7 +296,7 @@ TEST(SceneFile, NamesUnknownKeysAndChoices) {
          {"s.json: /colliders/0/transform/scale: unknown key \"scale\"; known are \"position\" and \"rotation\""}},
         {scene(R"("solver": {"method": "pdb"})"), {"s.json: /solver/method: must be \"xpbd\" or \"pbd\", got \"pdb\""}},
         {scene(R"("solver": {"projection": "jakobi"})"),
-         {"s.json: /solver/projection: must be \"gauss-seidel\" or \"jacobi\", got \"jakobi\""}},
+         {"s.json: /solver/projection: must be \"auto\", \"lines\", \"gauss-seidel\" or \"jacobi\", got \"jakobi\""}},
         {cloth(R"("mesh": {"grid": {"diagonal": "both"}})"),
          {"s.json: /cloths/0/mesh/grid/diagonal: must be \"uniform\", \"alternating\" or \"cross\", got \"both\""}},
         {cloth(R"("mesh": {"file": "a.obj", "up": 1})"),

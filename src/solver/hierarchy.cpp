@@ -211,6 +211,65 @@ Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> p
     return carry;
 }
 
+// The finer nodes around one that lie opposite one another, the straightest pairs first: their mean is where it is.
+class Opposites {
+  public:
+    Opposites(const LinkGraph& graph, std::span<const Vec3> place) : graph_(graph), place_(place) {}
+
+    const std::vector<std::uint32_t>& at(std::uint32_t node) {
+        constexpr double straight = -0.9, alike = 1.5;
+        constexpr std::size_t most_links = 24;  // more than these are a hub, where no two stand out
+        chosen_.clear(), pairs_.clear();
+        const auto links = graph_[node];
+        if (links.size() > most_links) return chosen_;
+        for (std::uint32_t i = 0; i < links.size(); ++i) {
+            for (std::uint32_t j = i + 1; j < links.size(); ++j) {
+                const Vec3 a = place_[links[i].to] - place_[node], b = place_[links[j].to] - place_[node];
+                const double la = length(a), lb = length(b);
+                if (!(la > 0 && lb > 0) || la > alike * lb || lb > alike * la) continue;
+                const double cosine = static_cast<double>(dot(a, b)) / (la * lb);
+                if (cosine < straight) pairs_.push_back({cosine, links[i].to, links[j].to});
+            }
+        }
+        std::ranges::stable_sort(pairs_, {}, &Pair::cosine);
+        for (const Pair& pair : pairs_) {
+            const bool taken = std::ranges::count(chosen_, pair.a) + std::ranges::count(chosen_, pair.b) > 0;
+            if (taken || chosen_.size() + 2 > Surroundings::members - 1) continue;
+            chosen_.insert(chosen_.end(), {pair.a, pair.b});
+        }
+        return chosen_;
+    }
+
+  private:
+    struct Pair {
+        double cosine;
+        std::uint32_t a, b;
+    };
+    const LinkGraph& graph_;
+    std::span<const Vec3> place_;
+    std::vector<Pair> pairs_;
+    std::vector<std::uint32_t> chosen_;
+};
+
+Surroundings surroundings(const LinkGraph& fine, std::span<const Vec3> place, std::span<const std::uint32_t> chosen,
+                          std::span<const std::uint8_t> pinned) {
+    Surroundings around;
+    around.stride = padded(static_cast<std::uint32_t>(chosen.size()));
+    around.node.resize(std::size_t{Surroundings::members} * around.stride);
+    Opposites opposites(fine, place);
+    for (std::uint32_t node = 0; node < chosen.size(); ++node) {
+        for (std::uint32_t k = 0; k < Surroundings::members; ++k) {
+            around.node[std::size_t{k} * around.stride + node] = chosen[node];
+        }
+        if (pinned[chosen[node]]) continue;
+        const auto& others = opposites.at(chosen[node]);
+        for (std::uint32_t k = 0; k < others.size(); ++k) {
+            around.node[std::size_t{k + 1} * around.stride + node] = others[k];
+        }
+    }
+    return around;
+}
+
 // What three times its own weight, hung over its whole extent, stretches the cloth by.
 double reserve_of(const RestShape& rest, const Fabric& fabric) {
     if (fabric.stretch.inextensible) return 0;
@@ -234,6 +293,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
     std::vector<std::uint32_t> particle(graph.size());
     std::vector<std::uint8_t> pinned(graph.size());
     std::vector<double> mass(graph.size());
+    std::vector<Vec3> place = rest.topology.rest_positions;
     for (std::uint32_t p = 0; p < graph.size(); ++p) {
         particle[p] = p;
         pinned[p] = !(start[p].w > 0);
@@ -245,8 +305,9 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         const Selection selection = select_nodes(graph, unit, pinned);
         const auto count = static_cast<std::uint32_t>(selection.chosen.size());
         if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
-        CoarseLevel level{.count = count, .particle = {}, .weight = {}, .reach = {}, .carry = {}};
+        CoarseLevel level{.count = count, .particle = {}, .around = {}, .weight = {}, .reach = {}, .carry = {}};
         level.carry = carry_to(selection.parents, pinned);
+        level.around = surroundings(graph, place, selection.chosen, pinned);
 
         std::vector<double> carried(count);
         for (std::uint32_t i = 0; i < graph.size(); ++i) {
@@ -255,9 +316,11 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         }
         std::vector<std::uint8_t> held(count);
         std::vector<std::uint32_t> nodes(count);
+        std::vector<Vec3> places(count);
         level.particle.resize(padded(count));
         level.weight.resize(padded(count));
         for (std::uint32_t node = 0; node < count; ++node) {
+            places[node] = place[selection.chosen[node]];
             held[node] = pinned[selection.chosen[node]];
             nodes[node] = level.particle[node] = particle[selection.chosen[node]];
             level.weight[node] = held[node] || !(carried[node] > 0) ? 0 : static_cast<float>(1 / carried[node]);
@@ -273,7 +336,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         level.reach = pack_rows(ConstraintKind::reach, rows, count);
         levels.push_back(std::move(level));
         graph = std::move(coarse);
-        particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried);
+        particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places);
     }
 }
 

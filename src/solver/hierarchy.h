@@ -26,9 +26,18 @@ struct Carry {
     AlignedVector<float> weight;        ///< likewise; sums to 1, to 0 for what is pinned
 };
 
+/// Where a node takes its place from: itself and up to three pairs of finer nodes (or particles) on opposite sides of it,
+/// SoA, filled up with itself. One particle alone may quiver, and a node that followed it would set all around quivering.
+struct Surroundings {
+    static constexpr std::uint32_t members = 7;
+    std::uint32_t stride = 0;
+    AlignedVector<std::uint32_t> node;  ///< [member · stride + node]
+};
+
 struct CoarseLevel {
     std::uint32_t count = 0;
     AlignedVector<std::uint32_t> particle;  ///< node -> particle; padded
+    Surroundings around;                    ///< in the next finer level; of the first level, particles
     AlignedVector<float> weight;            ///< 1/kg per node: of all that it carries; padded with zeros
     ConstraintTable reach;                  ///< rows between nodes
     Carry carry;                            ///< to the next finer level; of the first level, to the particles

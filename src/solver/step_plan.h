@@ -18,7 +18,8 @@ enum class PassKind : std::uint8_t {
     push,        ///< per particle: the sum of that over its triangles, on its velocity
     predict,     ///< per particle: gravity, then where it would go
     hold,        ///< per held particle: to where it is carried
-    lift,        ///< per node of a coarse level: to where its particle is, and what the coarser level makes of that
+    collect,     ///< per node of a coarse level: where the finer ones around it are
+    lift,        ///< per node of a coarse level: from there to where the coarser level takes it
     reach,       ///< one batch of a coarse level's rows
     settle,      ///< per node: how far the rows have moved it
     spread,      ///< per particle: along with the nodes around it
@@ -37,7 +38,7 @@ struct Pass {
     ConstraintKind constraint{};  ///< of project, correct and damp
     std::uint32_t batch = 0;      ///< of project, reach and damp
     bool first_iteration = true;  ///< of project, correct and contact: no lambda, no friction from before
-    std::uint32_t level = 0;      ///< of lift, reach and settle
+    std::uint32_t level = 0;      ///< of collect, lift, reach and settle
 };
 
 /// Whether a pass may begin on one thread while another is still in the one before.

@@ -54,9 +54,9 @@ WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real w
     LineRow now;
     now.couples = select(stiff, real(1), real(0));
     now.n = d * select(able, real(1) / len, real(0));
-    real shared = -wa * dot(before.n, now.n);
-    before.factor = before.couples * shared * before.inverse;
-    real lower = now.couples * shared;
+    real coupling = -wa * dot(before.n, now.n);
+    before.factor = before.couples * coupling * before.inverse;
+    real lower = now.couples * coupling;
     now.inverse = real(1) / (diagonal - lower * before.factor);
     now.g = select(able, (rhs - lower * before.g) * now.inverse, real(0));
     now.factor = real(0);
