@@ -1,5 +1,7 @@
 #include "cpu/cloth_state.h"
 
+#include "solver/reserve.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -115,7 +117,7 @@ ParticleView ClothState::level_particles(std::uint32_t i) {
 
 RowView ClothState::level_rows(std::uint32_t i) {
     const ConstraintTable& table = model->hierarchy[i].reach;
-    return {table.stride, table.particles.data(), table.fields.data(), levels[i].lambda.data()};
+    return {table.stride, table.particles.data(), levels[i].limits.data(), levels[i].lambda.data()};
 }
 
 CarryView ClothState::carry_to_level(std::uint32_t i) const {
@@ -157,6 +159,17 @@ CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan)
             .stiffness = plan.stiffness[index]};
 }
 
+void ClothState::update_limits() {
+    if (levels.empty()) return;
+    const auto stretch = static_cast<std::uint32_t>(ConstraintKind::stretch);
+    const float allowed =
+        1 + elastic_reserve(model->constraints[stretch], lambda[stretch], substep_seconds, model->fabric);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const AlignedVector<float>& at_rest = model->hierarchy[i].reach.fields;
+        std::ranges::transform(at_rest, levels[i].limits.begin(), [&](float limit) { return limit * allowed; });
+    }
+}
+
 void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
@@ -170,6 +183,7 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
             state.origin.resize(coarse.capacity());
             state.displacement.resize(coarse.capacity());
             state.lambda.resize(coarse.reach.stride);
+            state.limits.resize(coarse.reach.stride);
             for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
         }
     }

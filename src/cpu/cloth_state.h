@@ -25,6 +25,7 @@ struct Particles {
 struct LevelState {
     AlignedVector<Vec4> position, origin, displacement;
     AlignedVector<float> lambda;
+    AlignedVector<float> limits;  ///< of the rows, with what the cloth stretches by its elasticity
 };
 
 struct ClothState {
@@ -59,6 +60,8 @@ struct ClothState {
     AirView air(float density);
     GatherView gather_view(bool mean) const;
     CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
+    /// Lets coarse levels allow for the tension that the last frame left in the cloth.
+    void update_limits();
     /// Makes room for what the plan needs beyond the particles.
     void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
     void update_normals();

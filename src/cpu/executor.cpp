@@ -126,6 +126,7 @@ Executor::Frame Executor::make_frame(ClothState& cloth, const StepPlan& plan, co
 std::uint32_t Executor::run(ClothState& cloth, const StepPlan& plan, const StepInput& input,
                             std::array<double, stage_count>& stage_ms) {
     cloth.prepare(plan, input.colliders.size(), team_.ranks());
+    cloth.update_limits();
     const Frame frame = make_frame(cloth, plan, input);
     std::array<double, stage_count> unused{};
     for (Rank& rank : ranks_) rank.reports = report_none;

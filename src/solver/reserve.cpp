@@ -1,0 +1,40 @@
+#include "solver/reserve.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace weft {
+
+float elastic_reserve(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
+                      const Fabric& fabric) {
+    const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
+    if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
+    // A row stands for a strip about as wide as it is long, so its tension over its length is a tension per width. Counted
+    // in bins, as that gives the same bits in whatever order; the first holds all that is below 1/1000.
+    constexpr int bins_per_doubling = 4;
+    constexpr double least = 1e-3;
+    std::array<std::uint32_t, 48> bins{};
+    std::uint32_t count = 0;
+    const double scale = -1 / (substep_seconds * substep_seconds * softest);
+    for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
+        for (std::uint32_t row = begin; row < begin + lane_padding; ++row) {
+            if (stretch.source[row] == none) continue;
+            const double strain = scale * static_cast<double>(lambda[row]) / static_cast<double>(stretch.fields[row]);
+            ++count;
+            if (!(strain > least)) {
+                ++bins[0];
+                continue;
+            }
+            const double bin = 1 + std::floor(bins_per_doubling * std::log2(strain / least));
+            ++bins[static_cast<std::size_t>(std::min(bin, static_cast<double>(bins.size() - 1)))];
+        }
+    }
+    std::uint32_t above = 0;
+    std::size_t bin = bins.size();
+    while (bin > 1 && 20 * (above + bins[bin - 1]) <= count) above += bins[--bin];
+    // The upper end of the bin.
+    return bin <= 1 ? 0 : static_cast<float>(least * std::exp2(static_cast<double>(bin - 1) / bins_per_doubling));
+}
+
+}  // namespace weft
