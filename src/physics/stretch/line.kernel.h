@@ -16,7 +16,7 @@ struct LineRow {
 
 // A line that is taut between two pins has no exact solution, and nearly none when it is almost straight. This much of
 // the weights on the diagonal keeps pivots away from 0; it takes as little from the longest waves only.
-#define WEFT_LINE_REGULARIZATION 1e-3
+#define WEFT_LINE_REGULARIZATION 1e-4
 
 // A tension moves the points of a kinked line sideways, and more than to the straight line if it is large for the time
 // step: the line would swing about. Up to this part of the rest length per weight it does not.
