@@ -10,7 +10,7 @@
 namespace weft {
 
 /// Rows per line at most: what a line keeps between elimination and substitution should stay in a near cache.
-inline constexpr std::uint32_t longest_line = 128;
+inline constexpr std::uint32_t longest_line = 64;
 
 /// Every row in a line, if only in one of its own; lines of one batch share no particle. Rows that find no place in a
 /// batch make the overflow. `positions`: of the particles, at rest.
