@@ -71,7 +71,7 @@ TEST_F(Cli, the_state_does_not_depend_on_threads_or_instruction_set_but_on_subst
 }
 
 TEST_F(Cli, options_override_the_scene_s_solver_and_nothing_else_does) {
-    EXPECT_EQ(stats("--frames 2")["solver"], "xpbd, gauss-seidel");
+    EXPECT_EQ(stats("--frames 2")["solver"], "xpbd, lines, hierarchy");
     EXPECT_EQ(stats("--frames 2 --method pbd --projection jacobi --hierarchy")["solver"], "pbd, jacobi, hierarchy");
     write("sheet.json", R"({ "weft": 1, "solver": { "method": "pbd", "projection": "jacobi", "hierarchy": true },
                              "cloths": [{ "mesh": { "grid": { "resolution": [40, 40] } }, "pins": [{ "vertices": [0] }] }] })");

@@ -133,8 +133,8 @@ TEST_F(CliBench, draws_curves_of_error_against_time) {
     const Outcome outcome = weft("bench --curves 8 --frames 2 --warmup 0 --repeat 1 --json c.json --plot c.svg");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json report = Json::parse(read_file(folder_ / "c.json"));
-    EXPECT_EQ(report["scenes"].size(), 50u) << "five methods, five numbers of substeps, a grid and its irregular twin";
-    EXPECT_NE(outcome.out.find("irregular 8², hierarchy, tethers"), std::string::npos);
+    EXPECT_EQ(report["scenes"].size(), 70u) << "seven methods, five numbers of substeps, a grid and its irregular twin";
+    EXPECT_NE(outcome.out.find("irregular 8², lines, hierarchy, tethers"), std::string::npos);
     EXPECT_NE(outcome.out.find('*'), std::string::npos) << "something is always best";
     const std::string svg = read_file(folder_ / "c.svg");
     EXPECT_EQ(std::count(svg.begin(), svg.end(), '\n') > 100, true);

@@ -118,11 +118,13 @@ TEST_F(Glsl, every_collider_shape_compiles) {
 }
 
 TEST_F(Glsl, lines_compile) {
-    EXPECT_EQ(compile("    LineRow before = line_start();\n"
-                      "    StretchRow row = StretchRow(n[0], n[1], n[2]);\n"
-                      "    LineRow now = eliminate_stretch(before, x[i].xyz, x[i + 1].xyz, x[i].w, x[i + 1].w, n[3], row, h);\n"
-                      "    x[i].xyz += now.n * substitute_stretch(now, before.factor);\n"),
-              "");
+    EXPECT_EQ(
+        compile(
+            "    LineRow before = line_start();\n"
+            "    StretchRow row = StretchRow(n[0], n[1], n[2]);\n"
+            "    LineRow now = eliminate_stretch(before, x[i].xyz, x[i + 1].xyz, x[i].w, x[i + 1].w, n[3], row, h);\n"
+            "    x[i].xyz += now.n * substitute_stretch(now, before.factor);\n"),
+        "");
 }
 
 TEST_F(Glsl, every_wind_compiles) {

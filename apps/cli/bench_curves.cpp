@@ -22,9 +22,11 @@ struct MethodSettings {
 };
 constexpr MethodSettings methods[] = {
     {"gauss-seidel", false, false, Projection::gauss_seidel, "#d95f02"},
-    {"tethers", true, false, Projection::gauss_seidel, "#7570b3"},
-    {"hierarchy", false, true, Projection::gauss_seidel, "#1b9e77"},
-    {"hierarchy, tethers", true, true, Projection::gauss_seidel, "#222222"},
+    {"gauss-seidel, tethers", true, false, Projection::gauss_seidel, "#7570b3"},
+    {"gauss-seidel, hierarchy", false, true, Projection::gauss_seidel, "#1b9e77"},
+    {"lines", false, false, Projection::lines, "#66a61e"},
+    {"lines, hierarchy", false, true, Projection::lines, "#222222"},
+    {"lines, hierarchy, tethers", true, true, Projection::lines, "#999999"},
     {"jacobi", false, false, Projection::jacobi, "#e7298a"},
 };
 constexpr std::uint32_t substep_counts[] = {3, 5, 10, 20, 40};

@@ -36,7 +36,8 @@ void add_common_options(CLI::App& command, Options& options) {
         "--hierarchy,!--no-hierarchy", [&options](std::int64_t count) { options.hierarchy = count > 0; },
         "coarse levels first, or not, whatever the scene says");
     command.add_option("--method", options.method, "xpbd or pbd, instead of the scene's");
-    command.add_option("--projection", options.projection, "gauss-seidel or jacobi, instead of the scene's");
+    command.add_option("--projection", options.projection,
+                       "auto, lines, gauss-seidel or jacobi, instead of the scene's");
 }
 
 void add_length_options(CLI::App& command, Length& length, const std::string& verb) {

@@ -117,7 +117,7 @@ std::string solver_text(const WorldSettings& settings) {
         const auto names = choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
         return std::string(names[static_cast<std::size_t>(value)]);
     };
-    return name("method", settings.method) + ", " + name("projection", settings.projection) +
+    return name("method", settings.method) + ", " + name("projection", resolve(settings.projection, settings.method)) +
            (settings.hierarchy ? ", hierarchy" : "");
 }
 

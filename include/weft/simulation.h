@@ -28,8 +28,8 @@ struct Options {
     std::optional<std::uint32_t> substeps = {};    ///< per frame, 1…10000
     std::optional<std::uint32_t> iterations = {};  ///< per substep, 1…10000
     std::string method = {};                       ///< "xpbd" or "pbd"; empty: as the scene says
-    std::string projection = {};                   ///< "auto", "lines", "gauss-seidel", "jacobi"; empty: as the scene says
-    std::optional<bool> hierarchy = {};            ///< coarse levels first, instead of what the scene says
+    std::string projection = {};         ///< "auto", "lines", "gauss-seidel", "jacobi"; empty: as the scene says
+    std::optional<bool> hierarchy = {};  ///< coarse levels first, instead of what the scene says
     /// Instruction set: "avx512", "avx2", "sse4", "neon", "scalar"; empty takes the widest. Same bits for all of them.
     std::string isa = {};
 };

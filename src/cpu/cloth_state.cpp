@@ -188,7 +188,8 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
         }
     }
     std::uint32_t longest = 0;
-    for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks) longest = std::max(longest, block.length);
+    for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)
+        longest = std::max(longest, block.length);
     line_scratch.resize(ranks);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;

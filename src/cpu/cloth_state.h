@@ -42,7 +42,7 @@ struct ClothState {
     std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
     AlignedVector<Vec4> corrections;
     std::vector<AlignedVector<float>> line_scratch;  ///< per rank
-    double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
+    double substep_seconds = 0;                      ///< of the last frame, for lambda's scale; 0 before it
 
     /// The same particles; anchors may come or go.
     void set_model(std::shared_ptr<const ClothModel> other);

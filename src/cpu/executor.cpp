@@ -291,8 +291,7 @@ void Executor::run_level(const Frame& frame, const Pass& pass, unsigned rank) {
         return;
     }
     if (pass.kind == PassKind::lift) {
-        passes_.lift(cloth.level(pass.level), cloth.carry_to_level(pass.level),
-                     level_range(level.count, rank));
+        passes_.lift(cloth.level(pass.level), cloth.carry_to_level(pass.level), level_range(level.count, rank));
         return;
     }
     if (pass.kind == PassKind::settle) {

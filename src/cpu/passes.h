@@ -69,9 +69,9 @@ struct GatherView {
 
 /// One coarse level. Blocks of four floats per node.
 struct LevelView {
-    float* position;      ///< w: inverse mass
-    float* origin;        ///< where what is around it is, in the mean
-    float* displacement;  ///< what the level's rows, and those of coarser levels, make of it
+    float* position;              ///< w: inverse mass
+    float* origin;                ///< where what is around it is, in the mean
+    float* displacement;          ///< what the level's rows, and those of coarser levels, make of it
     const std::uint32_t* around;  ///< [member · stride + node]
     std::uint32_t stride;
 };

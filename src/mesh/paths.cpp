@@ -20,7 +20,8 @@ constexpr std::size_t most_links_at_a_point = 32;
 struct Stubs {
     std::vector<std::uint32_t> offsets, items;
 
-    Stubs(std::span<const std::uint32_t> points, std::size_t point_count) : offsets(point_count + 1), items(points.size()) {
+    Stubs(std::span<const std::uint32_t> points, std::size_t point_count)
+        : offsets(point_count + 1), items(points.size()) {
         for (const std::uint32_t p : points) ++offsets[p + 1];
         for (std::size_t p = 0; p < point_count; ++p) offsets[p + 1] += offsets[p];
         std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);

@@ -142,13 +142,15 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
 
     // The same values for both; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.bend;
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                                             \
-    add_table(model, ConstraintKind::name, build_##name(rest, model.fabric.name),                             \
-              layout.lines && ConstraintKind::name == ConstraintKind::stretch, coloring, clock);
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                    \
+    add_table(model, ConstraintKind::name, build_##name(rest, model.fabric.name), \
+              layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, clock);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    if (layout.hierarchy) model.hierarchy = build_hierarchy(rest, model.fabric, model.start, layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
+    if (layout.hierarchy)
+        model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
+                                          layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
     clock.spent_on(BuildPart::hierarchy);
     lay_out_faces(model, rest);
     measure_edges(model, rest);

@@ -26,8 +26,9 @@ struct Carry {
     AlignedVector<float> weight;        ///< likewise; sums to 1, to 0 for what is pinned
 };
 
-/// Where a node takes its place from: itself and up to three pairs of finer nodes (or particles) on opposite sides of it,
-/// SoA, filled up with itself. One particle alone may quiver, and a node that followed it would set all around quivering.
+/// Where a node takes its place from: itself and up to three pairs of finer nodes (or particles) on opposite sides of
+/// it, SoA, filled up with itself. One particle alone may quiver, and a node that followed it would set all around
+/// quivering.
 struct Surroundings {
     static constexpr std::uint32_t members = 7;
     std::uint32_t stride = 0;

@@ -15,9 +15,11 @@ std::shared_ptr<const ClothModel> model_of(TriangleMesh mesh, const Fabric& fabr
                                            std::vector<std::uint32_t> pinned = {0}) {
     auto topology = build_topology(mesh, {.reorder = false});
     EXPECT_TRUE(topology.ok());
-    return *build_cloth_model(
-        {.mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = std::move(pinned)}, .layout = {.hierarchy = true}},
-        std::move(*topology));
+    return *build_cloth_model({.mesh = std::move(mesh),
+                               .fabric = fabric,
+                               .pins = {.particles = std::move(pinned)},
+                               .layout = {.hierarchy = true}},
+                              std::move(*topology));
 }
 
 TriangleMesh jittered(std::uint32_t n) {

@@ -25,14 +25,16 @@ Lines color_lines(const RowList& rows, Paths paths, std::uint32_t particle_count
     Lines lines{.paths = std::move(paths), .colors = {}, .overflow = {}};
     std::vector<std::uint32_t> order(lines.paths.size());
     for (std::uint32_t path = 0; path < order.size(); ++path) order[path] = path;
-    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::uint32_t path) { return lines.paths.length(path); });
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [&](std::uint32_t path) { return lines.paths.length(path); });
 
     const std::uint64_t closed = options.max_colors >= word_colors ? 0 : ~std::uint64_t{0} << options.max_colors;
     std::vector<std::uint64_t> used(particle_count, closed);
     lines.colors.resize(word_colors);
     std::array<std::uint32_t, word_colors> row_count{};
     const auto for_each_row = [&](std::uint32_t path, auto&& f) {
-        for (std::uint32_t i = lines.paths.offsets[path]; i < lines.paths.offsets[path + 1]; ++i) f(lines.paths.links[i]);
+        for (std::uint32_t i = lines.paths.offsets[path]; i < lines.paths.offsets[path + 1]; ++i)
+            f(lines.paths.links[i]);
     };
     for (const std::uint32_t path : order) {
         std::uint64_t taken = 0;

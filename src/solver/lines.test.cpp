@@ -28,7 +28,9 @@ Packed pack(const TriangleMesh& mesh, const ColoringOptions& options = {}) {
 
 void expect_sound(const Packed& packed) {
     const auto& [rows, particles, table] = packed;
-    const auto slot = [&](std::uint32_t k, std::uint32_t row) { return table.particles[std::size_t{k} * table.stride + row]; };
+    const auto slot = [&](std::uint32_t k, std::uint32_t row) {
+        return table.particles[std::size_t{k} * table.stride + row];
+    };
     std::vector<std::uint32_t> seen(rows.size());
     std::uint32_t at = 0;
     for (const Batch& batch : table.batches) {

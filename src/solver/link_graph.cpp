@@ -50,9 +50,8 @@ void add_hinges(const Topology& topology, LinkGraph& graph) {
     }
     for (std::uint32_t node = 0; node < graph.size(); ++node) {
         std::sort(links.begin() + static_cast<std::ptrdiff_t>(offsets[node]),
-                  links.begin() + static_cast<std::ptrdiff_t>(offsets[node + 1]), [](const Link& a, const Link& b) {
-            return a.to != b.to ? a.to < b.to : a.length < b.length;
-        });
+                  links.begin() + static_cast<std::ptrdiff_t>(offsets[node + 1]),
+                  [](const Link& a, const Link& b) { return a.to != b.to ? a.to < b.to : a.length < b.length; });
     }
     graph.offsets = std::move(offsets);
     graph.links = std::move(links);

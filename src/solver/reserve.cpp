@@ -10,8 +10,8 @@ float elastic_reserve(const ConstraintTable& stretch, std::span<const float> lam
                       const Fabric& fabric) {
     const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
     if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
-    // A row stands for a strip about as wide as it is long, so its tension over its length is a tension per width. Counted
-    // in bins, as that gives the same bits in whatever order; the first holds all that is below 1/1000.
+    // A row stands for a strip about as wide as it is long, so its tension over its length is a tension per width.
+    // Counted in bins, as that gives the same bits in whatever order; the first holds all that is below 1/1000.
     constexpr int bins_per_doubling = 4;
     constexpr double least = 1e-3;
     std::array<std::uint32_t, 48> bins{};

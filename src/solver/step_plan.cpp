@@ -36,7 +36,8 @@ std::array<float, 2> plain_stiffness(const Fabric& fabric, std::uint32_t iterati
 constexpr std::uint32_t sweeps = 4;
 
 void plan_hierarchy(const ClothModel& model, std::vector<Pass>& passes) {
-    for (std::uint32_t i = 0; i < model.hierarchy.size(); ++i) passes.push_back({.kind = PassKind::collect, .level = i});
+    for (std::uint32_t i = 0; i < model.hierarchy.size(); ++i)
+        passes.push_back({.kind = PassKind::collect, .level = i});
     for (std::uint32_t i = static_cast<std::uint32_t>(model.hierarchy.size()); i-- > 0;) {
         const auto batches = static_cast<std::uint32_t>(model.hierarchy[i].reach.batches.size());
         passes.push_back({.kind = PassKind::lift, .level = i});

@@ -73,8 +73,9 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
             TriangleMesh mesh = make_grid({1, 1}, {24, 24}, GridDiagonal::alternating);
             auto topology = build_topology(mesh, {.reorder = false});
             const Vec3 corner = mesh.positions[0];
-            const auto model = *build_cloth_model(
-                {.mesh = std::move(mesh), .pins = {.particles = {0}}, .layout = {.hierarchy = true}}, std::move(*topology));
+            const auto model =
+                *build_cloth_model({.mesh = std::move(mesh), .pins = {.particles = {0}}, .layout = {.hierarchy = true}},
+                                   std::move(*topology));
             world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
             world.step(1.0 / 60);
             const std::uint64_t before = allocations;

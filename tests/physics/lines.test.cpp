@@ -14,11 +14,9 @@ World hung(std::uint32_t side, WorldSettings settings, GridDiagonal diagonal, co
     Fabric fabric;
     fabric.body.density = 0.2f;
     World world = make_world(settings, options);
-    world.add(*build_cloth_model({.mesh = std::move(mesh),
-                                  .fabric = fabric,
-                                  .pins = {.particles = {0, side - 1}},
-                                  .layout = settings.layout()},
-                                 std::move(*topology)));
+    world.add(*build_cloth_model(
+        {.mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}, .layout = settings.layout()},
+        std::move(*topology)));
     return world;
 }
 
@@ -40,8 +38,10 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
         };
         const double rows = error(Projection::gauss_seidel, 20, false), lines = error(Projection::lines, 20, false),
                      all = error(Projection::lines, 5, true), few = error(Projection::gauss_seidel, 5, false);
-        std::printf("  hung 64²  20 substeps: rows %.2f %%, lines %.2f %%;  5 substeps: rows %.2f %%, lines and levels %.2f %%\n",
-                    100 * rows, 100 * lines, 100 * few, 100 * all);
+        std::printf(
+            "  hung 64²  20 substeps: rows %.2f %%, lines %.2f %%;  5 substeps: rows %.2f %%, lines and levels %.2f "
+            "%%\n",
+            100 * rows, 100 * lines, 100 * few, 100 * all);
         EXPECT_LT(lines, 0.5 * rows);
         EXPECT_LT(all, 0.2 * few);
     }

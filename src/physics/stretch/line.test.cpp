@@ -21,7 +21,8 @@ struct Line {
         std::vector<LineRow> left(count);
         LineRow before = reference::line_start();
         for (std::size_t k = 0; k < count; ++k) {
-            left[k] = reference::eliminate_stretch(before, x[k], x[k + 1], w[k], w[k + 1], lambda[k], rows[k], make_step(h));
+            left[k] =
+                reference::eliminate_stretch(before, x[k], x[k + 1], w[k], w[k + 1], lambda[k], rows[k], make_step(h));
             if (k > 0) left[k - 1].factor = before.factor;
             before = left[k];
         }
