@@ -107,7 +107,8 @@ SurfaceView ClothState::surface() {
 LevelView ClothState::level(std::uint32_t i) {
     LevelState& state = levels[i];
     const Surroundings& around = model->hierarchy[i].around;
-    return {&state.position[0].x, &state.origin[0].x, &state.displacement[0].x, around.node.data(), around.stride};
+    return {&state.position[0].x, &state.origin[0].x,   &state.displacement[0].x,
+            around.node.data(),   around.weight.data(), around.stride};
 }
 
 // Rows between nodes are rows like any other.

@@ -73,6 +73,7 @@ struct LevelView {
     float* origin;                ///< where what is around it is, in the mean
     float* displacement;          ///< what the level's rows, and those of coarser levels, make of it
     const std::uint32_t* around;  ///< [member · stride + node]
+    const float* weight;          ///< likewise
     std::uint32_t stride;
 };
 

@@ -181,12 +181,13 @@ WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
 
 inline void collect_pass(const float* finer, const LevelView& level, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
-        real unused;
-        vec3 sum = gather_blocks(finer, level.around + i, unused);
-        for (std::size_t k = 1; k < Surroundings::members; ++k) {
-            sum = sum + gather_blocks(finer, level.around + k * level.stride + i, unused);
+        vec3 sum(real(0.0f));
+        for (std::size_t k = 0; k < Surroundings::members; ++k) {
+            real unused;
+            const std::size_t at = k * level.stride + i;
+            sum = sum + gather_blocks(finer, level.around + at, unused) * load(level.weight + at);
         }
-        store_blocks(sum * real(1.0f / Surroundings::members), real(0.0f), level.origin + 4 * i);
+        store_blocks(sum, real(0.0f), level.origin + 4 * i);
     }
 }
 

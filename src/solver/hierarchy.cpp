@@ -211,44 +211,48 @@ Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> p
     return carry;
 }
 
-// The finer nodes around one that lie opposite one another, the straightest pairs first: their mean is where it is.
+// The finer nodes around one that lie opposite one another, the straightest pairs first.
 class Opposites {
   public:
+    struct Pair {
+        double cosine;
+        std::uint32_t a, b;
+        double share_a;  // of the pair's mean that lies nearest to the node
+    };
+
     Opposites(const LinkGraph& graph, std::span<const Vec3> place) : graph_(graph), place_(place) {}
 
-    const std::vector<std::uint32_t>& at(std::uint32_t node) {
-        constexpr double straight = -0.9, alike = 1.5;
+    std::span<const Pair> at(std::uint32_t node) {
+        constexpr double straight = -0.95, alike = 1.5;
         constexpr std::size_t most_links = 24;  // more than these are a hub, where no two stand out
-        chosen_.clear(), pairs_.clear();
+        pairs_.clear();
         const auto links = graph_[node];
-        if (links.size() > most_links) return chosen_;
+        if (links.size() > most_links) return {};
         for (std::uint32_t i = 0; i < links.size(); ++i) {
             for (std::uint32_t j = i + 1; j < links.size(); ++j) {
                 const Vec3 a = place_[links[i].to] - place_[node], b = place_[links[j].to] - place_[node];
                 const double la = length(a), lb = length(b);
                 if (!(la > 0 && lb > 0) || la > alike * lb || lb > alike * la) continue;
                 const double cosine = static_cast<double>(dot(a, b)) / (la * lb);
-                if (cosine < straight) pairs_.push_back({cosine, links[i].to, links[j].to});
+                if (cosine < straight) pairs_.push_back({cosine, links[i].to, links[j].to, lb / (la + lb)});
             }
         }
         std::ranges::stable_sort(pairs_, {}, &Pair::cosine);
-        for (const Pair& pair : pairs_) {
-            const bool taken = std::ranges::count(chosen_, pair.a) + std::ranges::count(chosen_, pair.b) > 0;
-            if (taken || chosen_.size() + 2 > Surroundings::members - 1) continue;
-            chosen_.insert(chosen_.end(), {pair.a, pair.b});
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < pairs_.size() && 2 * kept + 2 < Surroundings::members; ++i) {
+            const auto is_taken = [&](std::uint32_t p) {
+                return std::any_of(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(kept),
+                                   [&](const Pair& other) { return other.a == p || other.b == p; });
+            };
+            if (!is_taken(pairs_[i].a) && !is_taken(pairs_[i].b)) pairs_[kept++] = pairs_[i];
         }
-        return chosen_;
+        return std::span(pairs_).first(kept);
     }
 
   private:
-    struct Pair {
-        double cosine;
-        std::uint32_t a, b;
-    };
     const LinkGraph& graph_;
     std::span<const Vec3> place_;
     std::vector<Pair> pairs_;
-    std::vector<std::uint32_t> chosen_;
 };
 
 Surroundings surroundings(const LinkGraph& fine, std::span<const Vec3> place, std::span<const std::uint32_t> chosen,
@@ -256,18 +260,35 @@ Surroundings surroundings(const LinkGraph& fine, std::span<const Vec3> place, st
     Surroundings around;
     around.stride = padded(static_cast<std::uint32_t>(chosen.size()));
     around.node.resize(std::size_t{Surroundings::members} * around.stride);
+    around.weight.resize(around.node.size());
     Opposites opposites(fine, place);
+    const auto set = [&](std::uint32_t node, std::size_t member, std::uint32_t other, double weight) {
+        around.node[member * around.stride + node] = other;
+        around.weight[member * around.stride + node] = static_cast<float>(weight);
+    };
     for (std::uint32_t node = 0; node < chosen.size(); ++node) {
-        for (std::uint32_t k = 0; k < Surroundings::members; ++k) {
-            around.node[std::size_t{k} * around.stride + node] = chosen[node];
-        }
-        if (pinned[chosen[node]]) continue;
-        const auto& others = opposites.at(chosen[node]);
-        for (std::uint32_t k = 0; k < others.size(); ++k) {
-            around.node[std::size_t{k + 1} * around.stride + node] = others[k];
+        for (std::size_t member = 0; member < Surroundings::members; ++member) set(node, member, chosen[node], 0);
+        const auto pairs = pinned[chosen[node]] ? std::span<const Opposites::Pair>() : opposites.at(chosen[node]);
+        const double each = 1.0 / static_cast<double>(2 * pairs.size() + 1);
+        set(node, 0, chosen[node], each);
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            set(node, 2 * k + 1, pairs[k].a, 2 * each * pairs[k].share_a);
+            set(node, 2 * k + 2, pairs[k].b, 2 * each * (1 - pairs[k].share_a));
         }
     }
     return around;
+}
+
+// Where each node is at rest by the mean of what is around it, in places of the same kind on the finer level.
+std::vector<Vec3> means_of(const Surroundings& around, std::span<const Vec3> finer, std::size_t count) {
+    std::vector<Vec3> means(count);
+    for (std::size_t node = 0; node < count; ++node) {
+        for (std::size_t member = 0; member < Surroundings::members; ++member) {
+            const std::size_t at = member * around.stride + node;
+            means[node] += finer[around.node[at]] * around.weight[at];
+        }
+    }
+    return means;
 }
 
 // What three times its own weight, hung over its whole extent, stretches the cloth by.
@@ -293,7 +314,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
     std::vector<std::uint32_t> particle(graph.size());
     std::vector<std::uint8_t> pinned(graph.size());
     std::vector<double> mass(graph.size());
-    std::vector<Vec3> place = rest.topology.rest_positions;
+    std::vector<Vec3> place = rest.topology.rest_positions, mean = place;
     for (std::uint32_t p = 0; p < graph.size(); ++p) {
         particle[p] = p;
         pinned[p] = !(start[p].w > 0);
@@ -308,6 +329,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         CoarseLevel level{.count = count, .particle = {}, .around = {}, .weight = {}, .reach = {}, .carry = {}};
         level.carry = carry_to(selection.parents, pinned);
         level.around = surroundings(graph, place, selection.chosen, pinned);
+        std::vector<Vec3> means = means_of(level.around, mean, count);
 
         std::vector<double> carried(count);
         for (std::uint32_t i = 0; i < graph.size(); ++i) {
@@ -329,14 +351,17 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         RowList rows = make_rows(ConstraintKind::reach);
         for (std::uint32_t node = 0; node < count; ++node) {
             for (const Link& link : coarse[node]) {
-                if (link.to > node && !is_implied(coarse, node, link))
-                    rows.add({node, link.to}, {static_cast<float>(link.reach * (1 + reserve))});
+                if (link.to < node || is_implied(coarse, node, link)) continue;
+                // What the mean is off by must not pull at the cloth at rest.
+                const double apart = length(means[node] - means[link.to]);
+                rows.add({node, link.to}, {static_cast<float>(std::max(link.reach, apart) * (1 + reserve))});
             }
         }
         level.reach = pack_rows(ConstraintKind::reach, rows, count);
         levels.push_back(std::move(level));
         graph = std::move(coarse);
-        particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places);
+        particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places),
+        mean = std::move(means);
     }
 }
 

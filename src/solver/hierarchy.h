@@ -27,12 +27,13 @@ struct Carry {
 };
 
 /// Where a node takes its place from: itself and up to three pairs of finer nodes (or particles) on opposite sides of
-/// it, SoA, filled up with itself. One particle alone may quiver, and a node that followed it would set all around
-/// quivering.
+/// it, SoA, weighted so that at rest their mean lies where the node does, or nearly so. One particle alone may quiver,
+/// and a node that followed it would set all around quivering.
 struct Surroundings {
     static constexpr std::uint32_t members = 7;
     std::uint32_t stride = 0;
-    AlignedVector<std::uint32_t> node;  ///< [member · stride + node]
+    AlignedVector<std::uint32_t> node;  ///< [member · stride + node]; the first is the node itself
+    AlignedVector<float> weight;        ///< likewise; sums to 1
 };
 
 struct CoarseLevel {

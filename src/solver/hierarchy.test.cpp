@@ -53,6 +53,44 @@ TEST(Hierarchy, of_a_square_grid_takes_every_second_particle_again_and_again) {
     }
 }
 
+// Nodes are where the mean of their surroundings is. At rest no row may pull for that, or the cloth would never be at
+// rest.
+TEST(Hierarchy, leaves_a_cloth_at_rest_alone) {
+    for (const bool lines : {false, true}) {
+        for (const TriangleMesh& mesh :
+             {make_grid({1, 1}, {64, 64}, GridDiagonal::uniform),
+              make_grid({1, 1}, {65, 40}, GridDiagonal::alternating), jittered(50), make_sphere(0.5f, 4)}) {
+            auto topology = build_topology(mesh, {.reorder = false});
+            const auto model = *build_cloth_model(
+                {.mesh = mesh, .pins = {.particles = {0, 7}}, .layout = {.lines = lines, .hierarchy = true}},
+                std::move(*topology));
+            ASSERT_FALSE(model->hierarchy.empty());
+            std::vector<Vec3> finer = model->topology.rest_positions;
+            for (const CoarseLevel& level : model->hierarchy) {
+                std::vector<Vec3> mean(level.count);
+                for (std::uint32_t node = 0; node < level.count; ++node) {
+                    float sum = 0;
+                    for (std::uint32_t k = 0; k < Surroundings::members; ++k) {
+                        const std::size_t at = std::size_t{k} * level.around.stride + node;
+                        ASSERT_LT(level.around.node[at], finer.size());
+                        EXPECT_GE(level.around.weight[at], 0);
+                        mean[node] += finer[level.around.node[at]] * level.around.weight[at];
+                        sum += level.around.weight[at];
+                    }
+                    EXPECT_NEAR(sum, 1, 1e-6);
+                }
+                for (std::uint32_t row = 0; row < level.reach.stride; ++row) {
+                    if (level.reach.source[row] == none) continue;
+                    const Vec3 a = mean[level.reach.particles[row]],
+                               b = mean[level.reach.particles[level.reach.stride + row]];
+                    EXPECT_LE(length(a - b), level.reach.fields[row]) << "row " << row;
+                }
+                finer = std::move(mean);
+            }
+        }
+    }
+}
+
 // A displacement that is the same everywhere is carried as it is; one that grows evenly nearly so, away from borders.
 TEST(Hierarchy, carries_what_its_nodes_do) {
     for (const TriangleMesh& mesh :
