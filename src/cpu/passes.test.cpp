@@ -218,7 +218,10 @@ TEST_P(InstructionSet, padding_rows_touch_no_particle) {
         state.table = pack_rows(static_cast<ConstraintKind>(kind), rows, particle_count, {.min_rows = 1});
         state.lambda.assign(std::size_t{constraint_info(state.table.kind).lambdas} * state.table.stride, 0);
         const Fixture before = state;
-        GetParam()->project[kind](state.view(), state.rows(), {0, state.table.stride}, 1e-3f, LambdaUse::store);
+        for (const Batch& batch : state.table.batches) {
+            GetParam()->project[kind](state.view(), state.rows(), {batch.begin, batch.padded_end()}, 1e-3f,
+                                      LambdaUse::store);
+        }
         for (std::uint32_t p = rows.arity; p < particle_count; ++p) EXPECT_EQ(state.position[p], before.position[p]);
         for (std::uint32_t p = particle_count; p < state.position.size(); ++p) EXPECT_EQ(state.position[p], Vec4{});
     }

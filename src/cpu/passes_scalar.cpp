@@ -2,6 +2,8 @@
 
 #include "physics/scalar.h"
 
+#include <algorithm>
+
 namespace weft::cpu {
 
 void normals_pass(const SurfaceView& s, Range range) {
