@@ -371,6 +371,8 @@ inline void faces_pass(const SurfaceView& s, Range range) {
     }
 }
 
+#include "cpu/around.inl"
+
 inline bool all_finite_pass(const float* data, std::size_t begin, std::size_t end) {
     const real limit = real(3.4028234e38f);
     mask bad = real(0.0f) > real(0.0f);
@@ -421,9 +423,9 @@ inline constexpr Passes make_passes(std::string_view isa) {
         },
 #undef WEFT_WIND
         .air = air_pass,
-        .push = push_pass,
+        .push = push_around_pass,
         .faces = faces_pass,
-        .normals = normals_pass,
+        .normals = normals_around_pass,
         .all_finite = all_finite_pass,
     };
 }
