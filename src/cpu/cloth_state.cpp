@@ -17,7 +17,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(st
     for (const ConstraintTable& table : model->constraints) {
         lambda[static_cast<std::uint32_t>(table.kind)].resize(table.lambda_count());
     }
-    face_normals.resize(model->face_stride);
+    face_normals.resize(std::size_t{model->face_stride} + 1);
     normals.resize(capacity);
     update_normals();
 }
@@ -49,7 +49,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     gather = nullptr;
     levels.clear();
     contact_sums.clear();
-    face_normals.assign(model->face_stride, Vec4{});
+    face_normals.assign(std::size_t{model->face_stride} + 1, Vec4{});
     normals.assign(model->capacity(), Vec4{});
     update_normals();
 }
@@ -98,10 +98,13 @@ RowView ClothState::rows(ConstraintKind kind) {
     return {table.stride, table.particles.data(), table.fields.data(), lambda[static_cast<std::uint32_t>(kind)].data()};
 }
 
+AroundView ClothState::around() const {
+    const Adjacency& lists = model->topology.particle_triangles;
+    return {lists.offsets.data(), lists.items.data(), model->around.begin.data(), model->around.triangles.data()};
+}
+
 SurfaceView ClothState::surface() {
-    const Adjacency& around = model->topology.particle_triangles;
-    return {&now.position[0].x,    model->faces.data(), model->face_stride, &face_normals[0].x,
-            around.offsets.data(), around.items.data(), &normals[0].x};
+    return {&now.position[0].x, model->faces.data(), model->face_stride, &face_normals[0].x, around(), &normals[0].x};
 }
 
 LevelView ClothState::level(std::uint32_t i) {
@@ -133,7 +136,6 @@ CarryView ClothState::carry_to_particles() const {
 }
 
 AirView ClothState::air(float density) {
-    const Adjacency& around = model->topology.particle_triangles;
     const AirMaterial& fabric = model->fabric.air;
     return {.position = &now.position[0].x,
             .velocity = &now.velocity[0].x,
@@ -145,8 +147,7 @@ AirView ClothState::air(float density) {
             .drag = 0.5f * density * fabric.drag,
             .lift = 0.5f * density * fabric.lift,
             .listing = fabric.lift_model == LiftModel::listing,
-            .offsets = around.offsets.data(),
-            .triangles = around.items.data()};
+            .around = around()};
 }
 
 GatherView ClothState::gather_view(bool mean) const {
@@ -176,7 +177,7 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
     wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
-    air_impulse.resize(has(plan.substep, PassKind::air) ? model->face_stride : 0);
+    air_impulse.resize(has(plan.substep, PassKind::air) ? std::size_t{model->face_stride} + 1 : 0);
     if (has(plan.substep, PassKind::spread) && levels.empty()) {
         for (const CoarseLevel& coarse : model->hierarchy) {
             LevelState& state = levels.emplace_back();

@@ -50,6 +50,7 @@ struct ClothState {
     void restore(const ClothSnapshot& snapshot);
 
     RowView rows(ConstraintKind kind);
+    AroundView around() const;
     SurfaceView surface();
     LevelView level(std::uint32_t i);
     ParticleView level_particles(std::uint32_t i);

@@ -241,7 +241,11 @@ void Executor::run_lines(const Frame& frame, const Pass& pass, std::uint32_t sub
         passes_.lines(frame.particles, rows, blocks, frame.h, lambda_use(frame, pass, substep),
                       frame.cloth.line_scratch[rank].data());
     } else {
-        passes_.project[kind](frame.particles, rows, range, frame.h, lambda_use(frame, pass, substep));
+        // The next ones go on along the lines, from particles that these move.
+        for (std::uint32_t r = range.begin; r < range.end; r += lane_padding) {
+            passes_.project[kind](frame.particles, rows, {r, r + lane_padding}, frame.h,
+                                  lambda_use(frame, pass, substep));
+        }
     }
 }
 

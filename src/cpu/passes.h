@@ -85,6 +85,14 @@ struct CarryView {
     const float* weight;
 };
 
+/// Triangles at each particle.
+struct AroundView {
+    const std::uint32_t* offsets;  ///< of each particle's own list
+    const std::uint32_t* triangles;
+    const std::uint32_t* begin;  ///< FacesAround: the same, side by side
+    const std::uint32_t* abreast;
+};
+
 struct AirView {
     const float* position;
     const float* velocity;
@@ -92,20 +100,18 @@ struct AirView {
     std::uint32_t stride;
     const float* mass;  ///< kg per triangle
     float* wind;        ///< blocks of four per triangle, m/s; nullptr where the air stands still
-    float* impulse;     ///< blocks of four per triangle, kg·m/s: a corner's third
+    float* impulse;     ///< blocks of four per triangle, kg·m/s: a corner's third; then one of zeros
     float drag, lift;   ///< ½ρC, kg/m³
     bool listing;
-    const std::uint32_t* offsets;  ///< triangles at each particle
-    const std::uint32_t* triangles;
+    AroundView around;
 };
 
 struct SurfaceView {
     const float* position;
     const std::uint32_t* faces;  ///< [corner · stride + triangle]
     std::uint32_t stride;
-    float* face_normals;           ///< blocks of four
-    const std::uint32_t* offsets;  ///< triangles at each particle
-    const std::uint32_t* triangles;
+    float* face_normals;  ///< blocks of four, then one of zeros
+    AroundView around;
     float* normals;  ///< blocks of four
 };
 
@@ -115,6 +121,8 @@ struct Passes {
     /// Returns whether the speed cap acted.
     bool (*predict)(const ParticleView&, Range, Vec3 gravity, float max_speed, float h);
     bool (*velocities)(const ParticleView&, Range, float max_speed, float h);
+    /// No two rows of the range may share a particle that one of them moves, except on one lane, which takes row by
+    /// row.
     std::array<void (*)(const ParticleView&, const RowView&, Range, float h, LambdaUse), constraint_kind_count> project;
     /// Plain position-based dynamics: as if compliance were 0, but only a part of it.
     std::array<void (*)(const ParticleView&, const RowView&, Range, std::array<float, 2> stiffness),
@@ -149,7 +157,7 @@ constexpr std::size_t line_scratch_floats(std::uint32_t block_length) {
     return std::size_t{10} * lane_padding * block_length;
 }
 
-/// Sums over each particle's own list of triangles or rows: one particle at a time on every instruction set.
+/// Sums over each particle's own list of triangles or rows, one particle at a time.
 void normals_pass(const SurfaceView&, Range);
 void push_pass(const ParticleView&, const AirView&, Range);
 void average_pass(const ParticleView&, const GatherView&, Range);

@@ -51,6 +51,7 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
 #define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
 #define WEFT_LAMBDAS_1(v) v[0]
 #define WEFT_LAMBDAS_3(v) v[0], v[1], v[2]
+#define WEFT_UNROLL _Pragma("GCC unroll 8")  // arrays of registers stay registers
 #define WEFT_LOAD_FIELD(field) row.field = load(next), next += stride;
 
 // What the generic loops below need to know of a constraint.
@@ -74,34 +75,61 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
+// Particles of lane_count rows.
+template <class Traits>
+struct Points {
+    vec3 x[Traits::arity];
+    real w[Traits::arity];
+};
+
 template <class Traits>
 WEFT_FN void load_points(const ParticleView& p, const RowView& rows, std::size_t r, vec3* x, real* w) {
+    WEFT_UNROLL
     for (int k = 0; k < Traits::arity; ++k) {
         x[k] = gather_blocks(p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r, w[k]);
     }
 }
 
+template <class Traits>
+WEFT_FN void store_points(const ParticleView& p, const RowView& rows, std::size_t r, const Points<Traits>& points) {
+    WEFT_UNROLL
+    for (int k = 0; k < Traits::moves; ++k) {
+        scatter_blocks(points.x[k], points.w[k], p.position,
+                       rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
+    }
+}
+
+template <class Traits, LambdaUse use>
+WEFT_FN void project_points(const RowView& rows, std::size_t r, const Step& step, Points<Traits>& points) {
+    real lambda[Traits::multipliers];
+    for (int k = 0; k < Traits::multipliers; ++k) {
+        lambda[k] = real(0.0f);
+        if constexpr (use == LambdaUse::accumulate) {
+            lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+        }
+    }
+    Traits::project(points.x, points.w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
+    for (int k = 0; use != LambdaUse::discard && k < Traits::multipliers; ++k) {
+        store(lambda[k], rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+    }
+}
+
 template <class Traits, LambdaUse use>
 inline void project_rows(const ParticleView& p, const RowView& rows, Range range, float h) {
+    if (range.begin == range.end) return;
     const Step step = make_step(h);
+    Points<Traits> points, ahead;
+    load_points<Traits>(p, rows, range.begin, points.x, points.w);
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
-        vec3 x[Traits::arity];
-        real w[Traits::arity];
-        load_points<Traits>(p, rows, r, x, w);
-        real lambda[Traits::multipliers];
-        for (int k = 0; k < Traits::multipliers; ++k) {
-            lambda[k] = real(0.0f);
-            if constexpr (use == LambdaUse::accumulate) {
-                lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
-            }
-        }
-        Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
-        for (int k = 0; use != LambdaUse::discard && k < Traits::multipliers; ++k) {
-            store(lambda[k], rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
-        }
-        for (int k = 0; k < Traits::moves; ++k) {
-            scatter_blocks(x[k], w[k], p.position, rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
-        }
+        // One lane also runs the overflow, whose rows share particles.
+        if (lane_count == 1) load_points<Traits>(p, rows, r, points.x, points.w);
+        project_points<Traits, use>(rows, r, step, points);
+        // The next particles come in while the arithmetic is still at work: what waits to be stored fills the
+        // processor's queues, and loads behind it would not even begin.
+        const std::size_t next = std::min<std::size_t>(r + lane_count, range.end - lane_count);
+        if (lane_count > 1) load_points<Traits>(p, rows, next, ahead.x, ahead.w);
+        store_points<Traits>(p, rows, r, points);
+        if (lane_count > 1) points = ahead;
     }
 }
 
@@ -344,6 +372,8 @@ inline void faces_pass(const SurfaceView& s, Range range) {
     }
 }
 
+#include "cpu/around.inl"
+
 inline bool all_finite_pass(const float* data, std::size_t begin, std::size_t end) {
     const real limit = real(3.4028234e38f);
     mask bad = real(0.0f) > real(0.0f);
@@ -394,9 +424,9 @@ inline constexpr Passes make_passes(std::string_view isa) {
         },
 #undef WEFT_WIND
         .air = air_pass,
-        .push = push_pass,
+        .push = push_around_pass,
         .faces = faces_pass,
-        .normals = normals_pass,
+        .normals = normals_around_pass,
         .all_finite = all_finite_pass,
     };
 }
@@ -407,3 +437,4 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #undef WEFT_LAMBDAS_1
 #undef WEFT_LAMBDAS_3
 #undef WEFT_LOAD_FIELD
+#undef WEFT_UNROLL

@@ -1,6 +1,8 @@
 // Every instruction set against one lane, constraint by constraint, on random and degenerate input: equal to the bit.
 #include "cpu/passes.h"
 
+#include "solver/faces_around.h"
+
 #include "base/aligned.h"
 #include "solver/constraint_table.h"
 
@@ -168,6 +170,18 @@ TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
     }
 }
 
+// The triangles at each particle; the first particles have so many that one packet is left to itself.
+Adjacency lists_of(const std::vector<std::uint32_t>& corners, std::uint32_t faces) {
+    Adjacency lists{.offsets = {0}, .items = {}};
+    for (std::uint32_t p = 0; p < particle_count; ++p) {
+        for (std::uint32_t i = 0; i < corners.size(); ++i) {
+            if (corners[i] == p || (p == 3 && i % 2 == 0)) lists.items.push_back(i % faces);
+        }
+        lists.offsets.push_back(static_cast<std::uint32_t>(lists.items.size()));
+    }
+    return lists;
+}
+
 TEST_P(InstructionSet, blows_and_pushes_alike) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const Fixture state = random_state(seed, seed % 2);
@@ -177,7 +191,11 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
             std::vector<std::uint32_t> corners(3 * faces);
             for (std::uint32_t& c : corners) c = random.below(particle_count);
             AlignedVector<float> mass(faces, 1e-4f);
-            AlignedVector<Vec4> wind(faces), impulse(faces);
+            AlignedVector<Vec4> wind(faces), impulse(faces + 1), normals(padded(particle_count));
+            const Adjacency lists = lists_of(corners, faces);
+            const FacesAround abreast = lay_out_around(lists, faces);
+            const AroundView around{lists.offsets.data(), lists.items.data(), abreast.begin.data(),
+                                    abreast.triangles.data()};
             const AirView air{.position = &f.position[0].x,
                               .velocity = &f.velocity[0].x,
                               .faces = corners.data(),
@@ -188,8 +206,7 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
                               .drag = 0.7f,
                               .lift = 0.4f,
                               .listing = seed % 3 == 0,
-                              .offsets = nullptr,
-                              .triangles = nullptr};
+                              .around = around};
             for (std::uint32_t kind = 0; kind < wind_kind_count; ++kind) {
                 const WindNow now{.kind = static_cast<WindKind>(kind),
                                   .numbers = {Vec3{3, 1, 0}, Vec3{0, 0, 1}, Vec3{-0.3f, 0.9f, 0}},
@@ -204,7 +221,11 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
                 passes.wind[kind](air, now, kind == 0, {0, faces});
             }
             passes.air(air, {0, faces}, 1e-3f);
+            passes.push(f.view(), air, {0, particle_count});
+            passes.normals({&f.position[0].x, corners.data(), faces, &impulse[0].x, around, &normals[0].x},
+                           {0, particle_count});
             for (std::uint32_t t = 0; t < faces; ++t) f.start[t] = impulse[t], f.carry[t] = wind[t];
+            for (std::uint32_t p = 0; p < particle_count; ++p) f.position[p] = normals[p];
         });
     }
 }
@@ -218,7 +239,10 @@ TEST_P(InstructionSet, padding_rows_touch_no_particle) {
         state.table = pack_rows(static_cast<ConstraintKind>(kind), rows, particle_count, {.min_rows = 1});
         state.lambda.assign(std::size_t{constraint_info(state.table.kind).lambdas} * state.table.stride, 0);
         const Fixture before = state;
-        GetParam()->project[kind](state.view(), state.rows(), {0, state.table.stride}, 1e-3f, LambdaUse::store);
+        for (const Batch& batch : state.table.batches) {
+            GetParam()->project[kind](state.view(), state.rows(), {batch.begin, batch.padded_end()}, 1e-3f,
+                                      LambdaUse::store);
+        }
         for (std::uint32_t p = rows.arity; p < particle_count; ++p) EXPECT_EQ(state.position[p], before.position[p]);
         for (std::uint32_t p = particle_count; p < state.position.size(); ++p) EXPECT_EQ(state.position[p], Vec4{});
     }

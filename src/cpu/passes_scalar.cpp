@@ -2,14 +2,16 @@
 
 #include "physics/scalar.h"
 
+#include <algorithm>
+
 namespace weft::cpu {
 
 void normals_pass(const SurfaceView& s, Range range) {
     using namespace scalar;
     for (std::size_t i = range.begin; i < range.end; ++i) {
         vec3 sum(0.0f);
-        for (std::uint32_t k = s.offsets[i]; k < s.offsets[i + 1]; ++k) {
-            const float* n = s.face_normals + std::size_t{4} * s.triangles[k];
+        for (std::uint32_t k = s.around.offsets[i]; k < s.around.offsets[i + 1]; ++k) {
+            const float* n = s.face_normals + std::size_t{4} * s.around.triangles[k];
             sum = sum + vec3(n[0], n[1], n[2]);
         }
         store_blocks(unit_normal(sum), 0.0f, s.normals + 4 * i);
@@ -22,8 +24,8 @@ void push_pass(const ParticleView& p, const AirView& air, Range range) {
         const float w = p.position[4 * i + 3];
         if (!(w > 0)) continue;
         vec3 sum(0.0f);
-        for (std::uint32_t k = air.offsets[i]; k < air.offsets[i + 1]; ++k) {
-            const float* j = air.impulse + std::size_t{4} * air.triangles[k];
+        for (std::uint32_t k = air.around.offsets[i]; k < air.around.offsets[i + 1]; ++k) {
+            const float* j = air.impulse + std::size_t{4} * air.around.triangles[k];
             sum = sum + vec3(j[0], j[1], j[2]);
         }
         float *v = p.velocity + 4 * i, *x_dropped = p.carry + 4 * i, *start = p.start + 4 * i;

@@ -21,6 +21,8 @@
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 
+#include <algorithm>
+
 // The portable fallback among Highway's targets is slower than our own single lane.
 #if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
 

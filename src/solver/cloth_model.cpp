@@ -61,6 +61,7 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     const auto count = static_cast<std::uint32_t>(model.topology.triangles.size());
     model.face_stride = padded(count);
     model.faces.resize(std::size_t{3} * model.face_stride);
+    model.around = lay_out_around(model.topology.particle_triangles, model.face_stride);
     model.face_mass.assign(model.face_stride, 0.0f);
     for (std::uint32_t t = 0; t < count; ++t) model.face_mass[t] = model.fabric.body.density * rest.area[t];
     for (std::uint32_t t = 0; t < model.face_stride; ++t) {

@@ -6,6 +6,7 @@
 #include "solver/binding.h"
 #include "solver/build_times.h"
 #include "solver/constraint_table.h"
+#include "solver/faces_around.h"
 #include "solver/hierarchy.h"
 
 #include <weft/result.h>
@@ -62,6 +63,7 @@ struct ClothModel {
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
     AlignedVector<std::uint32_t> faces;
     std::uint32_t face_stride = 0;
+    FacesAround around;              ///< `nothing` is face_stride
     AlignedVector<float> face_mass;  ///< kg, per triangle, padded with zeros
 
     std::vector<std::uint8_t> edge_is_axial;  ///< per edge: 1 if it runs along warp or weft (within 10°)

@@ -8,38 +8,61 @@
 
 struct BendRow { WEFT_ROW_bend(WEFT_ROW_MEMBER) };
 
-struct HingeAngle {
+struct Hinge {
     real theta;
-    vec3 ga, gb, gc, gd;  // gradient of theta, 1/m
-    mask able;            // neither triangle nor the edge has collapsed
+    vec3 n1, n2;         // m2   normals of the triangles, twice their area long
+    real inv_len;        // 1/m  of the edge
+    real tc, td;         //      where the wing tips stand along the edge: 0 at a, 1 at b
+    real h11, h22, h12;  // m2   heights of the triangles over the edge, squared, and their scalar product
+    mask able;           // neither triangle nor the edge has collapsed
 };
 
-WEFT_FN HingeAngle hinge_angle(vec3 a, vec3 b, vec3 c, vec3 d)
+WEFT_FN Hinge measure_hinge(vec3 a, vec3 b, vec3 c, vec3 d)
 {
     vec3 e = b - a;
     vec3 ac = c - a;
     vec3 ad = d - a;
-    vec3 n1 = cross(e, ac);
-    vec3 n2 = cross(ad, e);
     real e2 = dot(e, e);
-    real n1_2 = dot(n1, n1);
-    real n2_2 = dot(n2, n2);
+    real inv_e2 = real(1) / max(e2, real(1e-20));
     real len = sqrt(e2);
 
-    HingeAngle h;
-    h.able = e2 > real(1e-20) && n1_2 > real(1e-30) && n2_2 > real(1e-30);
-    // atan2 of sine and cosine, both times |n1||n2||e|: no normalization, and sharp at 0 and at +-pi alike.
-    h.theta = angle_of(-dot(cross(n1, n2), e), dot(n1, n2) * len);
-
-    // A wing tip turns about the edge at a lever |n|/|e|; the ends of the edge take what balances force and torque.
-    h.gc = n1 * (len / max(n1_2, real(1e-30)));
-    h.gd = n2 * (len / max(n2_2, real(1e-30)));
-    real inv_e2 = real(1) / max(e2, real(1e-20));
-    real tc = dot(ac, e) * inv_e2;
-    real td = dot(ad, e) * inv_e2;
-    h.ga = h.gc * (tc - real(1)) + h.gd * (td - real(1));
-    h.gb = -(h.gc * tc + h.gd * td);
+    Hinge h;
+    h.n1 = cross(e, ac);
+    h.n2 = cross(ad, e);
+    real n11 = dot(h.n1, h.n1);
+    real n22 = dot(h.n2, h.n2);
+    real n12 = dot(h.n1, h.n2);
+    h.able = e2 > real(1e-20) && n11 > real(1e-30) && n22 > real(1e-30);
+    // atan2 of sine and cosine, both times |n1||n2|: no normalization, and sharp at 0 and at +-pi alike. The sine is
+    // that of n1 x n2 = -(n1.ad) e.
+    h.theta = angle_of(dot(h.n1, ad) * len, n12);
+    h.inv_len = len * inv_e2;
+    h.tc = dot(ac, e) * inv_e2;
+    h.td = dot(ad, e) * inv_e2;
+    h.h11 = n11 * inv_e2;
+    h.h22 = n22 * inv_e2;
+    h.h12 = n12 * inv_e2;
     return h;
+}
+
+struct HingeAngle {
+    real theta;
+    vec3 ga, gb, gc, gd;  // gradient of theta, 1/m
+    mask able;
+};
+
+// A wing tip turns about the edge at the lever of its height; the ends of the edge take what balances force and torque.
+WEFT_FN HingeAngle hinge_angle(vec3 a, vec3 b, vec3 c, vec3 d)
+{
+    Hinge h = measure_hinge(a, b, c, d);
+    HingeAngle g;
+    g.theta = h.theta;
+    g.able = h.able;
+    g.gc = h.n1 * (h.inv_len / max(h.h11, real(1e-30)));
+    g.gd = h.n2 * (h.inv_len / max(h.h22, real(1e-30)));
+    g.ga = g.gc * (h.tc - real(1)) + g.gd * (h.td - real(1));
+    g.gb = -(g.gc * h.tc + g.gd * h.td);
+    return g;
 }
 
 WEFT_FN real hinge_weight(HingeAngle h, real wa, real wb, real wc, real wd)
@@ -52,24 +75,39 @@ WEFT_FN real wrap_angle(real angle)
 {
     real two_pi = real(6.283185307179586);
     real pi = real(3.141592653589793);
-    angle = select(angle > pi, angle - two_pi, angle);
-    return select(angle < -pi, angle + two_pi, angle);
+    return select(angle > pi, angle - two_pi, select(angle < -pi, angle + two_pi, angle));
 }
 
+// The gradients of hinge_angle, all of them times h11 h22: that leaves one division, and all that it needs is there
+// before the angle is. Processors wait for that chain of operations, not for their number.
 WEFT_FN void project_bend(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, inout_(vec3) d,
                           real wa, real wb, real wc, real wd,
                           inout_(real) lambda, BendRow row, Step step)
 {
-    HingeAngle h = hinge_angle(a, b, c, d);
-    real angle = wrap_angle(h.theta - row.rest);
+    Hinge h = measure_hinge(a, b, c, d);
+    real uc = h.tc - real(1);
+    real ud = h.td - real(1);
+    // hinge_weight, times h11 h22. It overflows far beyond the size of any cloth.
+    real cross_term = h.h12 + h.h12;
+    real w = wc * h.h22 + wd * h.h11
+           + wa * (uc * (uc * h.h22 + ud * cross_term) + ud * ud * h.h11)
+           + wb * (h.tc * (h.tc * h.h22 + h.td * cross_term) + h.td * h.td * h.h11);
+    mask able = h.able && w > real(0) && w < real(1e30);
     real alpha = row.compliance * step.inv_h2;
-    real w = hinge_weight(h, wa, wb, wc, wd);
-    real dl = select(h.able && w > real(0), -(angle + alpha * lambda) / (w + alpha), real(0));
-    lambda = lambda + dl;
-    a = a + h.ga * (wa * dl);
-    b = b + h.gb * (wb * dl);
-    c = c + h.gc * (wc * dl);
-    d = d + h.gd * (wd * dl);
+    real h1122 = h.h11 * h.h22;
+    real inv = real(1) / (w + alpha * h1122);
+    real lever = h.inv_len * inv;
+    vec3 g1 = h.n1 * select(able, h.h22 * lever, real(0));
+    vec3 g2 = h.n2 * select(able, h.h11 * lever, real(0));
+
+    real push = select(able, -(wrap_angle(h.theta - row.rest) + alpha * lambda), real(0));
+    lambda = lambda + push * select(able, h1122 * inv, real(0));
+    g1 = g1 * push;
+    g2 = g2 * push;
+    a = a + (g1 * uc + g2 * ud) * wa;
+    b = b - (g1 * h.tc + g2 * h.td) * wb;
+    c = c + g1 * wc;
+    d = d + g2 * wd;
 }
 
 // Viscosity beside the spring: against the rate at which the angle changes, implicit. `viscous` is the retardation

@@ -56,6 +56,25 @@ TEST(Bend, gradient_is_that_of_the_angle) {
     }
 }
 
+TEST(Bend, pushes_along_the_gradient_as_far_as_its_weight_says) {
+    Random random(6);
+    for (int i = 0; i < 200; ++i) {
+        vec3 p[4] = {random.vector(1), random.vector(1), random.vector(1), random.vector(1)};
+        const vec3 before[4] = {p[0], p[1], p[2], p[3]};
+        const auto hinge = reference::hinge_angle(p[0], p[1], p[2], p[3]);
+        double w[4], lambda = 0.01;
+        for (double& weight : w) weight = random.number(0, 5);
+        const double rest = random.number(-3, 3), h = 0.1, alpha = 1e-3 / (h * h);
+        const double push = -(reference::wrap_angle(hinge.theta - rest) + alpha * lambda) /
+                            (reference::hinge_weight(hinge, w[0], w[1], w[2], w[3]) + alpha);
+        reference::project_bend(p[0], p[1], p[2], p[3], w[0], w[1], w[2], w[3], lambda, BendRow{rest, 1e-3},
+                                make_step(h));
+        EXPECT_NEAR(lambda, 0.01 + push, 1e-9);
+        const vec3 gradients[4] = {hinge.ga, hinge.gb, hinge.gc, hinge.gd};
+        for (int k = 0; k < 4; ++k) EXPECT_LT(norm(p[k] - before[k] - gradients[k] * (w[k] * push)), 1e-9);
+    }
+}
+
 TEST(Bend, keeps_linear_and_angular_momentum) {
     Random random(5);
     for (int i = 0; i < 500; ++i) {

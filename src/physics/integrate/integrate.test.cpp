@@ -96,7 +96,7 @@ TEST(Angle, is_atan2) {
     for (double a = -3.1415; a < 3.1416; a += 0.001) {
         for (const double size : {1e-12, 1.0, 1e12}) {
             const float y = static_cast<float>(size * std::sin(a)), x = static_cast<float>(size * std::cos(a));
-            EXPECT_NEAR(scalar::angle_of(y, x), std::atan2(y, x), 4e-7f);
+            EXPECT_NEAR(scalar::angle_of(y, x), std::atan2(double{y}, double{x}), 3.1e-7);
         }
     }
     EXPECT_EQ(scalar::angle_of(0.0f, 0.0f), 0);

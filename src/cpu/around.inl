@@ -1,0 +1,45 @@
+// Sums over the triangles at each particle, as many particles side by side as there are lanes. Included by passes.inl.
+
+// Whether the packet of particle i has its lists side by side. On one lane they would only be longer.
+WEFT_FN bool abreast(const AroundView& around, std::size_t i) {
+    const std::size_t packet = i / lane_padding;
+    return lane_count > 1 && around.begin[packet] < around.begin[packet + 1];
+}
+
+// Adding the zeros that shorter lists end in changes no bit: a sum that began with +0 is never -0.
+WEFT_FN vec3 sum_around(const AroundView& around, const float* blocks, std::size_t i) {
+    const std::size_t packet = i / lane_padding;
+    vec3 sum(real(0.0f));
+    for (std::size_t k = around.begin[packet]; k < around.begin[packet + 1]; ++k) {
+        real unused;
+        sum = sum + gather_blocks(blocks, around.abreast + k * lane_padding + i % lane_padding, unused);
+    }
+    return sum;
+}
+
+inline void normals_around_pass(const SurfaceView& s, Range range) {
+    for (std::uint32_t i = range.begin; i < range.end; i += lane_count) {
+        if (abreast(s.around, i)) {
+            store_blocks(unit_normal(sum_around(s.around, s.face_normals, i)), real(0.0f), s.normals + std::size_t{4} * i);
+        } else {
+            normals_pass(s, {i, std::min<std::uint32_t>(i + lane_count, range.end)});
+        }
+    }
+}
+
+inline void push_around_pass(const ParticleView& p, const AirView& air, Range range) {
+    for (std::uint32_t i = range.begin; i < range.end; i += lane_count) {
+        if (abreast(air.around, i)) {
+            const std::size_t at = std::size_t{4} * i;
+            real w;
+            vec3 start;
+            load_blocks(p.position + at, w);
+            Motion m = load_motion(p, at, start);
+            push_by_air(m, sum_around(air.around, air.impulse, i), w);
+            store_blocks(start, m.v_dropped.x, p.start + at);
+            store_motion(m, p, at);
+        } else {
+            push_pass(p, air, {i, std::min<std::uint32_t>(i + lane_count, range.end)});
+        }
+    }
+}

@@ -1,0 +1,39 @@
+#include "solver/faces_around.h"
+
+#include "solver/constraint_table.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+// Side by side, a triangle costs a fifth of what it costs alone; a list with more gaps than this gains nothing.
+constexpr std::size_t most_padding = 4;
+
+}  // namespace
+
+FacesAround lay_out_around(const Adjacency& particle_triangles, std::uint32_t nothing) {
+    const std::uint32_t count = particle_triangles.size();
+    FacesAround around;
+    around.begin.push_back(0);
+    for (std::uint32_t first = 0; first < count; first += lane_padding) {
+        const std::uint32_t end = std::min(first + lane_padding, count);
+        std::size_t longest = 0, all = 0;
+        for (std::uint32_t p = first; p < end; ++p) {
+            longest = std::max(longest, particle_triangles[p].size());
+            all += particle_triangles[p].size();
+        }
+        if (longest * lane_padding > most_padding * all) longest = 0;
+        const std::size_t at = around.triangles.size();
+        around.triangles.resize(at + longest * lane_padding, nothing);
+        for (std::uint32_t p = first; longest > 0 && p < end; ++p) {
+            for (std::size_t k = 0; k < particle_triangles[p].size(); ++k) {
+                around.triangles[at + k * lane_padding + (p - first)] = particle_triangles[p][k];
+            }
+        }
+        around.begin.push_back(around.begin.back() + static_cast<std::uint32_t>(longest));
+    }
+    return around;
+}
+
+}  // namespace weft
