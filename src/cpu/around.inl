@@ -30,7 +30,7 @@ inline void normals_around_pass(const SurfaceView& s, Range range) {
 
 inline void push_around_pass(const ParticleView& p, const AirView& air, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; i += lane_count) {
-        if (abreast(air.around, i)) {
+        if (lane_count > 4 && abreast(air.around, i)) {  // on four it costs more than it saves
             const std::size_t at = std::size_t{4} * i;
             real w;
             load_blocks(p.position + at, w);
