@@ -20,7 +20,8 @@ WEFT_FN vec3 sum_around(const AroundView& around, const float* blocks, std::size
 inline void normals_around_pass(const SurfaceView& s, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; i += lane_count) {
         if (abreast(s.around, i)) {
-            store_blocks(unit_normal(sum_around(s.around, s.face_normals, i)), real(0.0f), s.normals + std::size_t{4} * i);
+            const vec3 sum = sum_around(s.around, s.face_normals, i);
+            store_blocks(unit_normal(sum), real(0.0f), s.normals + std::size_t{4} * i);
         } else {
             normals_pass(s, {i, std::min<std::uint32_t>(i + lane_count, range.end)});
         }
@@ -29,15 +30,18 @@ inline void normals_around_pass(const SurfaceView& s, Range range) {
 
 inline void push_around_pass(const ParticleView& p, const AirView& air, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; i += lane_count) {
-        if (abreast(air.around, i)) {
+        if (lane_count > 4 && abreast(air.around, i)) {  // on four it costs more than it saves
             const std::size_t at = std::size_t{4} * i;
             real w;
-            vec3 start;
             load_blocks(p.position + at, w);
-            Motion m = load_motion(p, at, start);
+            Motion m;
+            const vec3 start = load_blocks(p.start + at, m.v_dropped.x);
+            m.v = load_blocks(p.velocity + at, m.v_dropped.y);
+            m.x_dropped = load_blocks(p.carry + at, m.v_dropped.z);
             push_by_air(m, sum_around(air.around, air.impulse, i), w);
             store_blocks(start, m.v_dropped.x, p.start + at);
-            store_motion(m, p, at);
+            store_blocks(m.v, m.v_dropped.y, p.velocity + at);
+            store_blocks(m.x_dropped, m.v_dropped.z, p.carry + at);
         } else {
             push_pass(p, air, {i, std::min<std::uint32_t>(i + lane_count, range.end)});
         }

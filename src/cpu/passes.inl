@@ -4,15 +4,15 @@ WEFT_FN Step make_step(float h) { return {real(h), real(1.0f / h), real(1.0f / h
 
 WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
     Motion m;
-    start = load_blocks(p.start + at, m.v_dropped.x);
-    m.v = load_blocks(p.velocity + at, m.v_dropped.y);
-    m.x_dropped = load_blocks(p.carry + at, m.v_dropped.z);
+    start = load_blocks_unordered(p.start + at, m.v_dropped.x);
+    m.v = load_blocks_unordered(p.velocity + at, m.v_dropped.y);
+    m.x_dropped = load_blocks_unordered(p.carry + at, m.v_dropped.z);
     return m;
 }
 
 WEFT_FN void store_motion(const Motion& m, const ParticleView& p, std::size_t at) {
-    store_blocks(m.v, m.v_dropped.y, p.velocity + at);
-    store_blocks(m.x_dropped, m.v_dropped.z, p.carry + at);
+    store_blocks_unordered(m.v, m.v_dropped.y, p.velocity + at);
+    store_blocks_unordered(m.x_dropped, m.v_dropped.z, p.carry + at);
 }
 
 inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float max_speed, float h) {
@@ -21,12 +21,12 @@ inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float
     mask capped = real(0.0f) > real(0.0f);
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w;
-        vec3 start, x = load_blocks(p.position + 4 * i, w);
+        vec3 start, x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
         start = x;
         capped = capped || predict(x, m, w, acceleration, real(max_speed), step);
-        store_blocks(x, w, p.position + 4 * i);
-        store_blocks(start, m.v_dropped.x, p.start + 4 * i);
+        store_blocks_unordered(x, w, p.position + 4 * i);
+        store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);
         store_motion(m, p, 4 * i);
     }
     return any(capped);
@@ -38,7 +38,7 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w;
         vec3 start;
-        const vec3 x = load_blocks(p.position + 4 * i, w);
+        const vec3 x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
         capped = capped || update_velocity(m, x, start, w, real(max_speed), step);
         store_motion(m, p, 4 * i);
@@ -231,8 +231,9 @@ inline void lift_pass(const LevelView& level, const CarryView& carry, Range rang
 inline void settle_pass(const LevelView& level, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real unused;
-        const vec3 now = load_blocks(level.position + 4 * i, unused), before = load_blocks(level.origin + 4 * i, unused);
-        store_blocks(now - before, real(0.0f), level.displacement + 4 * i);
+        const vec3 now = load_blocks_unordered(level.position + 4 * i, unused);
+        const vec3 before = load_blocks_unordered(level.origin + 4 * i, unused);
+        store_blocks_unordered(now - before, real(0.0f), level.displacement + 4 * i);
     }
 }
 
@@ -277,24 +278,24 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
     const ShapeNumbers shape = {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3])};
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w, unused;
-        vec3 x = load_blocks(p.position + 4 * i, w);
+        vec3 x = load_blocks_unordered(p.position + 4 * i, w);
         ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
-        if (c.sums && !c.first_iteration) sum.friction = load_blocks(c.sums + 4 * i, sum.push);
+        if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * i, sum.push);
 
         const vec3 local = to_body(body, x);
         vec3 normal;
         const real gap = Shape::distance(local, shape, normal) - body.half_thickness;
         // Most of a cloth touches nothing.
         if (any(gap < real(0.0f) || sum.push > real(0.0f))) {
-            const vec3 start = load_blocks(p.start + 4 * i, unused);
+            const vec3 start = load_blocks_unordered(p.start + 4 * i, unused);
             vec3 normal_at_start;
             const real gap_at_start =
                 Shape::distance(to_body_at_start(body, start), shape, normal_at_start) - body.half_thickness;
             project_contact(x, start, w, sum, gap, gap_at_start, rotate(body.rx, body.ry, body.rz, normal),
                             carried_by(body, local), body);
-            store_blocks(x, w, p.position + 4 * i);
+            store_blocks_unordered(x, w, p.position + 4 * i);
         }
-        if (c.sums) store_blocks(sum.friction, sum.push, c.sums + 4 * i);
+        if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * i);
     }
 }
 

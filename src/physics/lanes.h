@@ -150,6 +150,22 @@ WEFT_FN void transpose_blocks(V& r0, V& r1, V& r2, V& r3) {
     r3 = hn::BitCast(D(), hn::InterleaveUpper(wide, zw01, zw23));
 }
 
+// Consecutive blocks in an order of the lanes' own, the same in both: half the shuffles. For what acts on each particle
+// alone, on blocks and nothing else.
+WEFT_FN vec3 load_blocks_unordered(const float* p, real& fourth) {
+    V r0 = hn::LoadU(D(), p), r1 = hn::LoadU(D(), p + lane_count);
+    V r2 = hn::LoadU(D(), p + 2 * lane_count), r3 = hn::LoadU(D(), p + 3 * lane_count);
+    transpose_blocks(r0, r1, r2, r3);
+    fourth = r3;
+    return vec3(r0, r1, r2);
+}
+WEFT_FN void store_blocks_unordered(vec3 v, real fourth, float* p) {
+    V r0 = v.x.v, r1 = v.y.v, r2 = v.z.v, r3 = fourth.v;
+    transpose_blocks(r0, r1, r2, r3);
+    hn::StoreU(r0, D(), p), hn::StoreU(r1, D(), p + lane_count);
+    hn::StoreU(r2, D(), p + 2 * lane_count), hn::StoreU(r3, D(), p + 3 * lane_count);
+}
+
 // Whole 128-bit blocks and a transpose in registers: several times faster than the gather instructions.
 WEFT_FN vec3 gather_blocks(const float* base, const std::uint32_t* index, real& fourth) {
     V r0 = load_parts(D(), base, index), r1 = load_parts(D(), base, index + 1);
