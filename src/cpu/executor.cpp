@@ -144,13 +144,13 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
     std::array<double, stage_count> mine{};
     StageClock clock(mine);
     keep_last_good(frame, rank);
-    PassKind last = PassKind::predict;  // like it, the copy above keeps to this rank's own particles
+    Pass last{.kind = PassKind::predict};  // like it, the copy above keeps to this rank's own particles
     const auto run_list = [&](const std::vector<Pass>& passes, std::uint32_t substep) {
         for (const Pass& pass : passes) {
-            if (needs_barrier(last, pass.kind)) team_.meet();
+            if (needs_barrier(last, pass)) team_.meet();
             clock.enter(stage_of(pass));
             run_pass(frame, pass, substep, rank);
-            last = pass.kind;
+            last = pass;
         }
     };
     run_list(frame.plan.frame_begin, 0);
@@ -287,27 +287,32 @@ Range Executor::level_range(std::uint32_t count, unsigned rank) const {
 }
 
 void Executor::run_level(const Frame& frame, const Pass& pass, unsigned rank) {
+    if (pass.alone && rank != 0) return;
     ClothState& cloth = frame.cloth;
     const CoarseLevel& level = cloth.model->hierarchy[pass.level];
+    const auto range_of = [&](std::uint32_t count) {
+        return pass.alone ? Range{0, padded(count)} : level_range(count, rank);
+    };
+    const Range mine = range_of(level.count);
     if (pass.kind == PassKind::collect) {
         const float* finer = pass.level == 0 ? frame.particles.position : cloth.level(pass.level - 1).origin;
-        passes_.collect(finer, cloth.level(pass.level), level_range(level.count, rank));
+        passes_.collect(finer, cloth.level(pass.level), mine);
         return;
     }
     if (pass.kind == PassKind::lift) {
-        passes_.lift(cloth.level(pass.level), cloth.carry_to_level(pass.level), level_range(level.count, rank));
+        passes_.lift(cloth.level(pass.level), cloth.carry_to_level(pass.level), mine);
         return;
     }
     if (pass.kind == PassKind::settle) {
-        passes_.settle(cloth.level(pass.level), level_range(level.count, rank));
+        passes_.settle(cloth.level(pass.level), mine);
         return;
     }
     const Batch& batch = level.reach.batches[pass.batch];
     const auto kind = static_cast<std::uint32_t>(ConstraintKind::reach);
-    const Range mine = level_range(batch.rows, rank);
+    const Range rows = range_of(batch.rows);
     if (!batch.serial) {
         passes_.project[kind](cloth.level_particles(pass.level), cloth.level_rows(pass.level),
-                              {batch.begin + mine.begin, batch.begin + mine.end}, frame.h, LambdaUse::discard);
+                              {batch.begin + rows.begin, batch.begin + rows.end}, frame.h, LambdaUse::discard);
     } else if (rank == 0) {
         scalar_passes().project[kind](cloth.level_particles(pass.level), cloth.level_rows(pass.level),
                                       {batch.begin, batch.begin + batch.rows}, frame.h, LambdaUse::discard);

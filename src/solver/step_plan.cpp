@@ -35,16 +35,20 @@ std::array<float, 2> plain_stiffness(const Fabric& fabric, std::uint32_t iterati
 // one.
 constexpr std::uint32_t sweeps = 4;
 
+// Nodes of a level that is worth sharing out: a sweep over its rows then takes longer than the barriers between them.
+constexpr std::uint32_t nodes_for_many_threads = 2048;
+
 void plan_hierarchy(const ClothModel& model, std::vector<Pass>& passes) {
-    for (std::uint32_t i = 0; i < model.hierarchy.size(); ++i)
-        passes.push_back({.kind = PassKind::collect, .level = i});
+    const auto add = [&](PassKind kind, std::uint32_t level, std::uint32_t batch = 0) {
+        const bool alone = model.hierarchy[level].count < nodes_for_many_threads;
+        passes.push_back({.kind = kind, .batch = batch, .level = level, .alone = alone});
+    };
+    for (std::uint32_t i = 0; i < model.hierarchy.size(); ++i) add(PassKind::collect, i);
     for (std::uint32_t i = static_cast<std::uint32_t>(model.hierarchy.size()); i-- > 0;) {
         const auto batches = static_cast<std::uint32_t>(model.hierarchy[i].reach.batches.size());
-        passes.push_back({.kind = PassKind::lift, .level = i});
-        for (std::uint32_t batch = 0; batch < sweeps * batches; ++batch) {
-            passes.push_back({.kind = PassKind::reach, .batch = batch % batches, .level = i});
-        }
-        passes.push_back({.kind = PassKind::settle, .level = i});
+        add(PassKind::lift, i);
+        for (std::uint32_t batch = 0; batch < sweeps * batches; ++batch) add(PassKind::reach, i, batch % batches);
+        add(PassKind::settle, i);
     }
     if (!model.hierarchy.empty()) passes.push_back({.kind = PassKind::spread});
 }
@@ -110,7 +114,9 @@ StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
     return plan;
 }
 
-bool needs_barrier(PassKind before, PassKind after) {
+bool needs_barrier(const Pass& first, const Pass& second) {
+    if (first.alone && second.alone) return false;
+    const PassKind before = first.kind, after = second.kind;
     // Work on one particle from what is already its own. Each thread owns the same particles in all of them.
     const auto own = [](PassKind kind) {
         return kind == PassKind::predict || kind == PassKind::hold || kind == PassKind::contact ||

@@ -39,10 +39,11 @@ struct Pass {
     std::uint32_t batch = 0;      ///< of project, reach and damp
     bool first_iteration = true;  ///< of project, correct and contact: no lambda, no friction from before
     std::uint32_t level = 0;      ///< of collect, lift, reach and settle
+    bool alone = false;           ///< of those: so little that one thread has it done before others would have joined
 };
 
 /// Whether a pass may begin on one thread while another is still in the one before.
-bool needs_barrier(PassKind before, PassKind after);
+bool needs_barrier(const Pass& before, const Pass& after);
 
 /// What `automatic` stands for.
 constexpr Projection resolve(Projection projection, Method method) {
