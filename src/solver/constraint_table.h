@@ -30,7 +30,8 @@ struct Batch {
 };
 
 /// Lines side by side, as many as lane_padding: row `begin + k · lane_padding + lane` is the k-th of its line, and its
-/// second particle is the first of the row after it. Shorter lines end in rows without stiffness.
+/// second particle is the first of the row after it. Shorter lines end in rows without stiffness from their end to
+/// itself.
 struct LineBlock {
     std::uint32_t begin = 0, length = 0;
     std::uint32_t end() const { return begin + length * lane_padding; }

@@ -104,12 +104,9 @@ class LineWriter {
         }
         write_padding(at, k, length, end);
     }
+    // From the line's last particle to itself: what is beyond the end stays with the lane, and so with one thread.
     void write_padding(std::uint32_t at, std::uint32_t from, std::uint32_t length, std::uint32_t end) {
-        for (std::uint32_t k = from; k < length; ++k) {
-            const std::uint32_t next = dummy(particle_count_, 1, at);
-            place(at + k * lane_padding, end, next, inert.data());
-            end = next;
-        }
+        for (std::uint32_t k = from; k < length; ++k) place(at + k * lane_padding, end, end, inert.data());
     }
 
   private:
