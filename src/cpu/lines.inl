@@ -2,11 +2,10 @@
 
 // What the way back needs of the way there, row after row: vectors of lane_count floats.
 struct LineScratch {
-    static constexpr std::size_t per_row = 10;
     float* at;
 
     WEFT_FN float* entry(std::size_t row, std::size_t field) const {
-        return at + (row * per_row + field) * static_cast<std::size_t>(lane_count);
+        return at + (row * line_scratch_fields + field) * static_cast<std::size_t>(lane_count);
     }
     WEFT_FN void keep_row(std::size_t row, const LineRow& r) const {
         store(r.n.x, entry(row, 0)), store(r.n.y, entry(row, 1)), store(r.n.z, entry(row, 2));

@@ -152,9 +152,10 @@ struct Passes {
     bool (*all_finite)(const float*, std::size_t begin, std::size_t end);
 };
 
-/// Of a block that long: what elimination leaves for the way back.
+/// What elimination leaves for the way back: numbers of one row, and of a block that long.
+inline constexpr std::size_t line_scratch_fields = 10;
 constexpr std::size_t line_scratch_floats(std::uint32_t block_length) {
-    return std::size_t{10} * lane_padding * block_length;
+    return line_scratch_fields * lane_padding * block_length;
 }
 
 /// Sums over each particle's own list of triangles or rows, one particle at a time.

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-constexpr std::uint32_t word_colors = 64;
+constexpr std::uint32_t word_colors = ColorPool::size;
 constexpr std::uint8_t overflow_color = word_colors;
 
 using ColorCounts = std::array<std::uint32_t, word_colors + 1>;  // the overflow last
@@ -17,24 +17,27 @@ using ColorCounts = std::array<std::uint32_t, word_colors + 1>;  // the overflow
 /// The first color that no particle of a row has yet, row by row.
 std::vector<std::uint8_t> first_fit(std::span<const std::uint32_t> particles, std::size_t arity,
                                     std::uint32_t particle_count, std::uint32_t max_colors) {
-    const std::uint64_t closed = max_colors >= word_colors ? 0 : ~std::uint64_t{0} << max_colors;
-    std::vector<std::uint64_t> used(particle_count, closed);
-    std::vector<std::uint8_t> color(particles.size() / arity, overflow_color);
+    ColorPool pool(particle_count, max_colors);
+    std::vector<std::uint8_t> color(particles.size() / arity);
     for (std::size_t i = 0; i < color.size(); ++i) {
-        const auto row = particles.subspan(i * arity, arity);
-        std::uint64_t taken = 0;
-        for (const std::uint32_t particle : row) {
-            assert(particle < particle_count);
-            taken |= used[particle];
-        }
-        if (taken == ~std::uint64_t{0}) continue;
-        color[i] = static_cast<std::uint8_t>(std::countr_one(taken));
-        for (const std::uint32_t particle : row) used[particle] |= std::uint64_t{1} << color[i];
+        color[i] = static_cast<std::uint8_t>(pool.take(particles.subspan(i * arity, arity)));
     }
     return color;
 }
 
 }  // namespace
+
+std::uint32_t ColorPool::take(std::span<const std::uint32_t> particles) {
+    std::uint64_t taken = 0;
+    for (const std::uint32_t particle : particles) {
+        assert(particle < used_.size());
+        taken |= used_[particle];
+    }
+    if (taken == ~std::uint64_t{0}) return size;
+    const auto color = static_cast<std::uint32_t>(std::countr_one(taken));
+    for (const std::uint32_t particle : particles) used_[particle] |= std::uint64_t{1} << color;
+    return color;
+}
 
 Coloring color_rows(std::span<const std::uint32_t> particles, std::uint32_t arity, std::uint32_t particle_count,
                     const ColoringOptions& options) {

@@ -24,6 +24,22 @@ struct ColoringOptions {
     std::uint32_t min_rows = 8;
 };
 
+/// Hands out colors, of which a particle may have each only once.
+class ColorPool {
+  public:
+    static constexpr std::uint32_t size = 64;
+
+    /// Colors from max_colors on are never given.
+    ColorPool(std::uint32_t particle_count, std::uint32_t max_colors)
+        : used_(particle_count, max_colors >= size ? 0 : ~std::uint64_t{0} << max_colors) {}
+
+    /// The first color that none of these particles has yet; they have it from now on. `size` if there is none.
+    std::uint32_t take(std::span<const std::uint32_t> particles);
+
+  private:
+    std::vector<std::uint64_t> used_;
+};
+
 /// Greedy, in row order, deterministic. `particles` holds `arity` indices per row, each < particle_count. A row
 /// may name a particle twice: it does not get in its own way.
 Coloring color_rows(std::span<const std::uint32_t> particles, std::uint32_t arity, std::uint32_t particle_count,

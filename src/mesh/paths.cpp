@@ -17,15 +17,16 @@ constexpr double straight_enough = 0.7071;
 constexpr std::size_t most_links_at_a_point = 32;
 
 // The links at every point, ascending: 2·link + end, where end 0 is the link's first point.
-struct Stubs {
+struct LinkEnds {
     std::vector<std::uint32_t> offsets, items;
 
-    Stubs(std::span<const std::uint32_t> points, std::size_t point_count)
+    LinkEnds(std::span<const std::uint32_t> points, std::size_t point_count)
         : offsets(point_count + 1), items(points.size()) {
         for (const std::uint32_t p : points) ++offsets[p + 1];
         for (std::size_t p = 0; p < point_count; ++p) offsets[p + 1] += offsets[p];
         std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-        for (std::uint32_t stub = 0; stub < points.size(); ++stub) items[next[points[stub]]++] = stub;
+        for (std::uint32_t link_end = 0; link_end < points.size(); ++link_end)
+            items[next[points[link_end]]++] = link_end;
     }
     std::span<const std::uint32_t> at(std::size_t p) const {
         return std::span(items).subspan(offsets[p], offsets[p + 1] - offsets[p]);
@@ -37,18 +38,18 @@ struct Turn {
     std::uint32_t a, b;
 };
 
-// For each stub the one that a path goes on with, or `nothing`.
-std::vector<std::uint32_t> join_stubs(std::span<const std::uint32_t> points, std::span<const Vec3> positions) {
-    const Stubs stubs(points, positions.size());
+// For each end the one that a path goes on with, or `nothing`.
+std::vector<std::uint32_t> join_ends(std::span<const std::uint32_t> points, std::span<const Vec3> positions) {
+    const LinkEnds ends(points, positions.size());
     std::vector<std::uint32_t> partner(points.size(), nothing);
     std::vector<Turn> turns;
     std::vector<std::array<double, 3>> away;
     for (std::size_t p = 0; p < positions.size(); ++p) {
-        const auto here = stubs.at(p);
+        const auto here = ends.at(p);
         if (here.size() < 2 || here.size() > most_links_at_a_point) continue;
         away.clear(), turns.clear();
-        for (const std::uint32_t stub : here) {
-            const Vec3 d = positions[points[stub ^ 1]] - positions[p];
+        for (const std::uint32_t link_end : here) {
+            const Vec3 d = positions[points[link_end ^ 1]] - positions[p];
             const std::array<double, 3> v = {d.x, d.y, d.z};
             const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
             const double scale = length > 0 ? 1 / length : 0;
@@ -75,7 +76,7 @@ class PathWriter {
     PathWriter(std::span<const std::uint32_t> points, std::size_t point_count, std::uint32_t max_length)
         : points_(points), seen_in_(point_count, nothing), max_length_(max_length) {}
 
-    /// Cuts a trail of stubs, each the end at which its link is entered, into paths.
+    /// Cuts a trail into paths. It lists the ends at which its links are entered.
     void write(std::span<const std::uint32_t> trail) {
         const std::size_t pieces = (trail.size() + max_length_ - 1) / max_length_;
         for (std::size_t piece = 0; piece < pieces; ++piece) {
@@ -88,14 +89,14 @@ class PathWriter {
     Paths take() { return std::move(paths_); }
 
   private:
-    void append(std::uint32_t stub, bool first) {
-        const std::uint32_t from = points_[stub], to = points_[stub ^ 1];
+    void append(std::uint32_t link_end, bool first) {
+        const std::uint32_t from = points_[link_end], to = points_[link_end ^ 1];
         // A trail may cross itself.
         if (!first && seen_in_[to] == paths_.size()) close(), first = true;
         if (first) seen_in_[from] = paths_.size();
         seen_in_[to] = paths_.size();
-        paths_.links.push_back(stub / 2);
-        paths_.turned.push_back(static_cast<std::uint8_t>(stub & 1));
+        paths_.links.push_back(link_end / 2);
+        paths_.turned.push_back(static_cast<std::uint8_t>(link_end & 1));
     }
     void close() {
         if (paths_.links.size() > paths_.offsets.back()) {
@@ -113,25 +114,25 @@ class PathWriter {
 
 Paths find_paths(std::span<const std::uint32_t> points, std::span<const Vec3> positions, std::uint32_t max_length) {
     assert(max_length > 0 && points.size() % 2 == 0);
-    const std::vector<std::uint32_t> partner = join_stubs(points, positions);
+    const std::vector<std::uint32_t> partner = join_ends(points, positions);
     std::vector<std::uint8_t> done(points.size() / 2);
     PathWriter writer(points, positions.size(), max_length);
     std::vector<std::uint32_t> trail;
-    const auto follow = [&](std::uint32_t stub) {
+    const auto follow = [&](std::uint32_t link_end) {
         trail.clear();
-        while (stub != nothing && !done[stub / 2]) {
-            done[stub / 2] = 1;
-            trail.push_back(stub);
-            stub = partner[stub ^ 1];
+        while (link_end != nothing && !done[link_end / 2]) {
+            done[link_end / 2] = 1;
+            trail.push_back(link_end);
+            link_end = partner[link_end ^ 1];
         }
         writer.write(trail);
     };
-    for (std::uint32_t stub = 0; stub < points.size(); ++stub) {
-        if (partner[stub] == nothing && !done[stub / 2]) follow(stub);
+    for (std::uint32_t link_end = 0; link_end < points.size(); ++link_end) {
+        if (partner[link_end] == nothing && !done[link_end / 2]) follow(link_end);
     }
     // What is left runs in circles.
-    for (std::uint32_t stub = 0; stub < points.size(); ++stub) {
-        if (!done[stub / 2]) follow(stub);
+    for (std::uint32_t link_end = 0; link_end < points.size(); ++link_end) {
+        if (!done[link_end / 2]) follow(link_end);
     }
     return writer.take();
 }

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 namespace weft {
 namespace {
-
-constexpr std::uint32_t word_colors = 64;
 
 // No stiffness on either side.
 constexpr std::array<float, 3> inert = {0, -1, -1};
@@ -28,33 +25,29 @@ Lines color_lines(const RowList& rows, Paths paths, std::uint32_t particle_count
     std::ranges::stable_sort(order, std::ranges::greater(),
                              [&](std::uint32_t path) { return lines.paths.length(path); });
 
-    const std::uint64_t closed = options.max_colors >= word_colors ? 0 : ~std::uint64_t{0} << options.max_colors;
-    std::vector<std::uint64_t> used(particle_count, closed);
-    lines.colors.resize(word_colors);
-    std::array<std::uint32_t, word_colors> row_count{};
+    ColorPool pool(particle_count, options.max_colors);
+    lines.colors.resize(ColorPool::size);
+    std::array<std::uint32_t, ColorPool::size> row_count{};
     const auto for_each_row = [&](std::uint32_t path, auto&& f) {
         for (std::uint32_t i = lines.paths.offsets[path]; i < lines.paths.offsets[path + 1]; ++i)
             f(lines.paths.links[i]);
     };
+    std::vector<std::uint32_t> particles;
     for (const std::uint32_t path : order) {
-        std::uint64_t taken = 0;
+        particles.clear();
         for_each_row(path, [&](std::uint32_t row) {
-            taken |= used[rows.particles[2 * std::size_t{row}]] | used[rows.particles[2 * std::size_t{row} + 1]];
+            const auto ends = std::span(rows.particles).subspan(2 * std::size_t{row}, 2);
+            particles.insert(particles.end(), ends.begin(), ends.end());
         });
-        if (taken == ~std::uint64_t{0}) {
+        const std::uint32_t color = pool.take(particles);
+        if (color == ColorPool::size) {
             for_each_row(path, [&](std::uint32_t row) { lines.overflow.push_back(row); });
             continue;
         }
-        const auto color = static_cast<std::uint32_t>(std::countr_one(taken));
-        const std::uint64_t bit = std::uint64_t{1} << color;
-        for_each_row(path, [&](std::uint32_t row) {
-            used[rows.particles[2 * std::size_t{row}]] |= bit;
-            used[rows.particles[2 * std::size_t{row} + 1]] |= bit;
-        });
         lines.colors[color].push_back(path);
         row_count[color] += lines.paths.length(path);
     }
-    for (std::uint32_t color = 0; color < word_colors; ++color) {
+    for (std::uint32_t color = 0; color < ColorPool::size; ++color) {
         if (row_count[color] >= options.min_rows) continue;
         for (const std::uint32_t path : lines.colors[color]) {
             for_each_row(path, [&](std::uint32_t row) { lines.overflow.push_back(row); });

@@ -38,22 +38,16 @@ WEFT_FN LineRow line_start()
 WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real wa, real wb, real lambda,
                                   StretchRow row, Step step)
 {
-    vec3 d = a - b;
-    real len2 = dot(d, d);
-    real len = sqrt(len2);
-    real c = len - row.rest;
-    real compliance = select(c > real(0), row.compliance, row.compression);
-    real alpha = compliance * step.inv_h2;
+    StretchState state = measure_stretch(a, b, row, step);
     real w = wa + wb;
-    mask slack = compliance < real(0);            // no stiffness on this side: any lambda left over unwinds
-    mask able = w > real(0) && len2 > real(1e-20);
-    mask stiff = able && !slack;
+    mask able = w > real(0) && state.len2 > real(1e-20);
+    mask stiff = able && !state.slack;
 
-    real rhs = select(slack, -lambda, -(c + alpha * lambda));
-    real diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + alpha, real(1));
+    real rhs = select(state.slack, -lambda, -(state.c + state.alpha * lambda));
+    real diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + state.alpha, real(1));
     LineRow now;
     now.couples = select(stiff, real(1), real(0));
-    now.n = d * select(able, real(1) / len, real(0));
+    now.n = state.d * select(able, real(1) / state.len, real(0));
     real coupling = -wa * dot(before.n, now.n);
     before.factor = before.couples * coupling * before.inverse;
     real lower = now.couples * coupling;
@@ -61,7 +55,7 @@ WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real w
     now.g = select(able, (rhs - lower * before.g) * now.inverse, real(0));
     now.factor = real(0);
     // Never less than the row alone would take.
-    real alone = abs(rhs) / select(stiff, w + alpha, real(1));
+    real alone = abs(rhs) / select(stiff, w + state.alpha, real(1));
     now.limit = max(alone, row.rest * real(WEFT_LINE_PULL) / max(max(wa, wb), real(1e-30)));
     return now;
 }

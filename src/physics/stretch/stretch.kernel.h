@@ -2,25 +2,42 @@
 
 struct StretchRow { WEFT_ROW_stretch(WEFT_ROW_MEMBER) };
 
+// A row as its points stand.
+struct StretchState {
+    vec3 d;               // from the second point to the first
+    real len2;
+    real len;
+    real c;
+    real alpha;
+    mask slack;           // no stiffness on this side: any lambda left over unwinds
+};
+
+WEFT_FN StretchState measure_stretch(vec3 a, vec3 b, StretchRow row, Step step)
+{
+    StretchState s;
+    s.d = a - b;
+    s.len2 = dot(s.d, s.d);
+    s.len = sqrt(s.len2);
+    s.c = s.len - row.rest;
+    real compliance = select(s.c > real(0), row.compliance, row.compression);
+    s.alpha = compliance * step.inv_h2;
+    s.slack = compliance < real(0);
+    return s;
+}
+
 WEFT_FN void project_stretch(inout_(vec3) a, inout_(vec3) b, real wa, real wb,
                              inout_(real) lambda, StretchRow row, Step step)
 {
-    vec3 d = a - b;
-    real len2 = dot(d, d);
-    real len = sqrt(len2);
-    real c = len - row.rest;
-    real compliance = select(c > real(0), row.compliance, row.compression);
-    real alpha = compliance * step.inv_h2;
-    mask slack = compliance < real(0);            // no stiffness on this side: any lambda left over unwinds
-    real num = select(slack, lambda, c + alpha * lambda);
+    StretchState now = measure_stretch(a, b, row, step);
+    real num = select(now.slack, lambda, now.c + now.alpha * lambda);
     real w = wa + wb;
-    real den = select(slack, real(1), w + alpha) * len;
+    real den = select(now.slack, real(1), w + now.alpha) * now.len;
     // Both ends pinned: nothing to do. Coincident ends: no direction to push in.
-    mask able = w > real(0) && len2 > real(1e-20);
+    mask able = w > real(0) && now.len2 > real(1e-20);
     real s = select(able, -num / den, real(0));   // delta lambda / |d|: one division instead of two
-    lambda = lambda + s * len;
-    a = a + d * (wa * s);
-    b = b - d * (wb * s);
+    lambda = lambda + s * now.len;
+    a = a + now.d * (wa * s);
+    b = b - now.d * (wb * s);
 }
 
 // Viscosity beside the spring: an impulse along the edge against the rate at which its length changes, implicit, so
