@@ -70,12 +70,10 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
                            {.workers = workers});
             const ColliderId ball =
                 world.add(make_collider({.shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {9, {1, 0, 0}, {}}}}));
-            TriangleMesh mesh = make_grid({1, 1}, {24, 24}, GridDiagonal::alternating);
-            auto topology = build_topology(mesh, {.reorder = false});
-            const Vec3 corner = mesh.positions[0];
-            const auto model =
-                *build_cloth_model({.mesh = std::move(mesh), .pins = {.particles = {0}}, .layout = {.hierarchy = true}},
-                                   std::move(*topology));
+            const auto model = make_sheet({.resolution = {24, 24}, .layout = {.hierarchy = true}, .pinned = [](Vec3 p) {
+                                               return p.x < -0.49f && p.z < -0.49f;
+                                           }});
+            const Vec3 corner = model->topology.rest_positions[0];
             world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
             world.step(1.0 / 60);
             const std::uint64_t before = allocations;

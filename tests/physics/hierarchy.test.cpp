@@ -7,16 +7,8 @@
 namespace weft::physical {
 namespace {
 
-World hung(std::uint32_t side, const WorldSettings& settings, const Fabric& fabric = {},
-           const CpuOptions& options = {}) {
-    TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
-    for (Vec3& p : mesh.positions) p = {p.x, -0.995f * p.z, 0.1f * p.z};
-    auto topology = build_topology(mesh, {.reorder = false});
-    ClothModelDesc desc{
-        .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}, .layout = {.hierarchy = true}};
-    World world = make_world(settings, options);
-    world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
-    return world;
+World hung(std::uint32_t side, const WorldSettings& settings, const CpuOptions& options = {}) {
+    return make_world(settings, hung_by_corners(side, {.hierarchy = true}), options);
 }
 
 double mean_stretch(World& world, double seconds) {
@@ -41,41 +33,22 @@ TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
 // Where the rows are solved, levels have nothing to say: the sheet hangs as far as its fabric lets it.
 TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
     for (const float stiffness : {300.0f, 4000.0f}) {
-        SheetDesc sheet{.size = {0.25f, 1},
-                        .resolution = {9, 33},
-                        .rotation_degrees = {90, 0, 0},
-                        .position = {0, -0.5f, 0},
-                        .pinned = [](Vec3 p) { return p.z < -0.49f; }};
-        sheet.fabric.body = {.density = 0.2f, .damping = 0.2f};
-        sheet.fabric.stretch = {.stretch = {stiffness, stiffness}, .compression = {stiffness, stiffness}, .shear = 40};
-        double sag[2] = {};
+        SheetDesc sheet = hanging_strip({9, 33}, stiffness, 40);
+        sheet.layout.hierarchy = true;
+        double sags[2] = {};
         for (const bool hierarchy : {false, true}) {
-            TriangleMesh mesh = make_grid(sheet.size, sheet.resolution, sheet.diagonal);
-            const Mat3 turn = rotation_from_degrees(sheet.rotation_degrees);
-            ClothModelDesc desc{.fabric = sheet.fabric, .layout = {.hierarchy = true}};
-            for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-                if (sheet.pinned(mesh.positions[v])) desc.pins.particles.push_back(v);
-                mesh.positions[v] = turn * mesh.positions[v] + sheet.position;
-            }
-            auto topology = build_topology(mesh, {.reorder = false});
-            desc.mesh = std::move(mesh);
-            World world = make_world({.substeps = 20, .iterations = 20, .hierarchy = hierarchy});
-            world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+            World world = make_world({.substeps = 20, .iterations = 20, .hierarchy = hierarchy}, sheet);
             run(world, 3);
-            double lowest = 0;
-            for (const Vec4& p : world.frame().cloths[0].positions) lowest = std::min(lowest, double{p.y});
-            sag[hierarchy] = -1 - lowest;
+            sags[hierarchy] = sag(world);
         }
-        std::printf("  sag at %.0f N/m  %.5f m, with levels %.5f m\n", static_cast<double>(stiffness), sag[0], sag[1]);
-        EXPECT_NEAR(sag[1] / sag[0], 1, 0.02) << stiffness;
+        std::printf("  sag at %.0f N/m  %.5f m, with levels %.5f m\n", static_cast<double>(stiffness), sags[0],
+                    sags[1]);
+        EXPECT_NEAR(sags[1] / sags[0], 1, 0.02) << stiffness;
     }
 }
 
 TEST(HierarchyOf, a_falling_sheet_does_not_disturb_its_fall) {
-    TriangleMesh mesh = make_grid({1, 1}, {33, 33}, GridDiagonal::alternating);
-    auto topology = build_topology(mesh, {.reorder = false});
-    World world = make_world({.hierarchy = true});
-    world.add(*build_cloth_model({.mesh = std::move(mesh), .layout = {.hierarchy = true}}, std::move(*topology)));
+    World world = make_world({.hierarchy = true}, {.resolution = {33, 33}, .layout = {.hierarchy = true}});
     run(world, 1);
     const double h = 1.0 / 1200;
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);
@@ -85,8 +58,7 @@ TEST(HierarchyOf, a_sheet_has_the_same_bits_on_every_thread_count_and_instructio
     std::string first;
     for (const std::string_view isa : cpu_instruction_sets()) {
         for (const unsigned workers : {0u, 1u, 3u}) {
-            World world =
-                hung(40, {.substeps = 3, .hierarchy = true}, {}, {.workers = workers, .isa = std::string(isa)});
+            World world = hung(40, {.substeps = 3, .hierarchy = true}, {.workers = workers, .isa = std::string(isa)});
             run(world, 0.3);
             if (first.empty()) first = world.state_hash();
             EXPECT_EQ(world.state_hash(), first) << isa << ' ' << workers;

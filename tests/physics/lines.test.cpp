@@ -7,17 +7,11 @@
 namespace weft::physical {
 namespace {
 
-World hung(std::uint32_t side, WorldSettings settings, GridDiagonal diagonal, const CpuOptions& options = {}) {
-    TriangleMesh mesh = make_grid({1, 1}, {side, side}, diagonal);
-    for (Vec3& p : mesh.positions) p = {p.x, -0.995f * p.z, 0.1f * p.z};
-    auto topology = build_topology(mesh, {.reorder = false});
-    Fabric fabric;
-    fabric.body.density = 0.2f;
-    World world = make_world(settings, options);
-    world.add(*build_cloth_model(
-        {.mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}, .layout = settings.layout()},
-        std::move(*topology)));
-    return world;
+World hung(std::uint32_t side, const WorldSettings& settings, GridDiagonal diagonal, const CpuOptions& options = {}) {
+    SheetDesc sheet = hung_by_corners(side, settings.layout());
+    sheet.diagonal = diagonal;
+    sheet.fabric.body.density = 0.2f;
+    return make_world(settings, sheet, options);
 }
 
 double residual_after(World world, double seconds) {
@@ -49,43 +43,23 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
 
 // Solved or not solved by lines, the sheet hangs as far as its fabric lets it: ρ g L²/2K (docs/validation.md).
 TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
-    SheetDesc sheet{.size = {0.25f, 1},
-                    .resolution = {9, 33},
-                    .rotation_degrees = {90, 0, 0},
-                    .position = {0, -0.5f, 0},
-                    .pinned = [](Vec3 p) { return p.z < -0.49f; }};
-    sheet.fabric.body = {.density = 0.2f, .damping = 0.2f};
-    sheet.fabric.stretch = {.stretch = {300, 300}, .compression = {300, 300}, .shear = 40};
-    double sag[2] = {};
+    SheetDesc sheet = hanging_strip({9, 33}, 300, 40);
+    double sags[2] = {};
     for (const Projection projection : {Projection::gauss_seidel, Projection::lines}) {
         const WorldSettings settings{.substeps = 20, .iterations = 20, .projection = projection};
-        TriangleMesh mesh = make_grid(sheet.size, sheet.resolution, sheet.diagonal);
-        const Mat3 turn = rotation_from_degrees(sheet.rotation_degrees);
-        ClothModelDesc desc{.fabric = sheet.fabric, .layout = settings.layout()};
-        for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-            if (sheet.pinned(mesh.positions[v])) desc.pins.particles.push_back(v);
-            mesh.positions[v] = turn * mesh.positions[v] + sheet.position;
-        }
-        auto topology = build_topology(mesh, {.reorder = false});
-        desc.mesh = std::move(mesh);
-        World world = make_world(settings);
-        world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+        sheet.layout = settings.layout();
+        World world = make_world(settings, sheet);
         run(world, 3);
-        double lowest = 0;
-        for (const Vec4& p : world.frame().cloths[0].positions) lowest = std::min(lowest, double{p.y});
-        sag[projection == Projection::lines] = -1 - lowest;
+        sags[projection == Projection::lines] = sag(world);
     }
     const double law = 0.2 * 9.81 / (2 * 300);
-    std::printf("  sag by rows %.5f m, by lines %.5f m, by the law %.5f m\n", sag[0], sag[1], law);
-    EXPECT_NEAR(sag[1] / sag[0], 1, 0.01);
-    EXPECT_NEAR(sag[1] / law, 1, 0.03);
+    std::printf("  sag by rows %.5f m, by lines %.5f m, by the law %.5f m\n", sags[0], sags[1], law);
+    EXPECT_NEAR(sags[1] / sags[0], 1, 0.01);
+    EXPECT_NEAR(sags[1] / law, 1, 0.03);
 }
 
 TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
-    TriangleMesh mesh = make_grid({1, 1}, {33, 33}, GridDiagonal::alternating);
-    auto topology = build_topology(mesh, {.reorder = false});
-    World world = make_world({});
-    world.add(*build_cloth_model({.mesh = std::move(mesh), .layout = world.settings().layout()}, std::move(*topology)));
+    World world = make_world({.projection = Projection::lines}, {.resolution = {33, 33}, .layout = {.lines = true}});
     run(world, 1);
     const double h = 1.0 / 1200;
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);
@@ -93,10 +67,8 @@ TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
 
 // Short steps turn what rounding leaves of lengths into speed; nothing may feed on that.
 TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
-    TriangleMesh mesh = make_grid({1, 1}, {64, 64}, GridDiagonal::alternating);
-    auto topology = build_topology(mesh, {.reorder = false});
-    World world = make_world({.substeps = 200, .hierarchy = true});
-    world.add(*build_cloth_model({.mesh = std::move(mesh), .layout = world.settings().layout()}, std::move(*topology)));
+    World world = make_world({.substeps = 200, .projection = Projection::lines, .hierarchy = true},
+                             {.resolution = {64, 64}, .layout = {.lines = true, .hierarchy = true}});
     run(world, 0.2);
     const auto& positions = world.frame().cloths[0].positions;
     float low = positions[0].y, high = low;

@@ -8,24 +8,10 @@
 namespace weft::physical {
 namespace {
 
-constexpr Vec3 upright{90, 0, 0};
-
 SheetDesc hanging(float stiffness) {
-    SheetDesc sheet{.size = {0.25f, 1},
-                    .resolution = {3, 9},
-                    .rotation_degrees = upright,
-                    .position = {0, -0.5f, 0},
-                    .pinned = [](Vec3 p) { return p.z < -0.49f; }};
-    sheet.fabric.body = {.density = 0.2f, .damping = 0.2f};
-    sheet.fabric.stretch = {.stretch = {stiffness, stiffness}, .compression = {stiffness, stiffness}, .shear = 0};
+    SheetDesc sheet = hanging_strip({3, 9}, stiffness, 0);
     sheet.fabric.bend.bend[0] = sheet.fabric.bend.bend[1] = sheet.fabric.bend.bend[2] = 0;
     return sheet;
-}
-
-double sag(const World& world) {
-    double lowest = 0;
-    for (const Vec4& p : world.frame().cloths[0].positions) lowest = std::min(lowest, double{p.y});
-    return -1 - lowest;
 }
 
 double sag_after(const WorldSettings& settings, const SheetDesc& sheet, double rate, double seconds) {
@@ -176,14 +162,9 @@ TEST(Jacobi, has_the_same_bits_on_every_thread_count_and_instruction_set) {
 TEST(Attachment, gives_way_by_its_compliance) {
     for (const std::uint32_t iterations : {1u, 6u}) {
         const float compliance = 0.05f;
-        TriangleMesh mesh = make_grid({0.5f, 0.5f}, {3, 3}, GridDiagonal::alternating);
-        auto topology = build_topology(mesh, {.reorder = false});
-        ClothModelDesc desc{.mesh = std::move(mesh)};
-        desc.fabric.stretch.inextensible = true;
-        for (std::uint32_t p = 0; p < 9; ++p) desc.pins.attachments.push_back({p, compliance, desc.mesh.positions[p]});
-        const auto model = *build_cloth_model(std::move(desc), std::move(*topology));
-        World world = make_world({.substeps = 10, .iterations = iterations});
-        world.add(model);
+        SheetDesc sheet{.size = {0.5f, 0.5f}, .resolution = {3, 3}, .spring = [=](Vec3) { return compliance; }};
+        sheet.fabric.stretch.inextensible = true;
+        World world = make_world({.substeps = 10, .iterations = iterations}, sheet);
         run(world, 6);
         // All nine together carry the sheet, whoever carries most.
         const double weight = 0.25 * 0.14 * 9.81;
@@ -195,10 +176,9 @@ TEST(Attachment, gives_way_by_its_compliance) {
 }
 
 TEST(Attachment, follows_what_carries_its_anchor) {
-    TriangleMesh mesh = make_grid({0.2f, 0.2f}, {3, 3}, GridDiagonal::alternating);
-    auto topology = build_topology(mesh, {.reorder = false});
-    ClothModelDesc desc{.mesh = std::move(mesh), .pins = {.attachments = {{4, 1e-4f, {0, 0, 0}}}}};
-    const auto model = *build_cloth_model(std::move(desc), std::move(*topology));
+    const auto model = make_sheet(
+        {.size = {0.2f, 0.2f}, .resolution = {3, 3}, .spring = [](Vec3 p) { return p == Vec3{} ? 1e-4f : 0; }});
+    ASSERT_EQ(model->anchor_count, 1u);
     World world = make_world({.gravity = {}});
     world.add(model, {.movers = {{.offsets = {{0, {}}, {1, {0, 0.4f, 0}}}}}, .particles = {{9, 0, {0, 0, 0}}}});
     run(world, 3);

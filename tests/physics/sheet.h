@@ -20,7 +20,10 @@ struct SheetDesc {
     Vec3 rotation_degrees = {};
     Vec3 position = {};
     Fabric fabric = {};
-    std::function<bool(Vec3 at_rest)> pinned = {};  ///< of the sheet as it lies flat around the origin
+    ClothLayout layout = {};
+    // Of the sheet as it lies flat around the origin:
+    std::function<bool(Vec3 at_rest)> pinned = {};
+    std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
 };
 
 inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
@@ -30,13 +33,42 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
     for (Vec3& p : mesh.positions) p = turn * p + desc.position;
     auto topology = build_topology(mesh, {.reorder = false});
     EXPECT_TRUE(topology.ok());
-    ClothModelDesc model{.name = "sheet", .mesh = std::move(mesh), .fabric = desc.fabric};
+    ClothModelDesc model{.name = "sheet", .mesh = std::move(mesh), .fabric = desc.fabric, .layout = desc.layout};
     for (std::uint32_t v = 0; v < flat.size(); ++v) {
-        if (desc.pinned && desc.pinned(flat[v])) model.pins.particles.push_back(topology->vertex_to_particle[v]);
+        const std::uint32_t p = topology->vertex_to_particle[v];
+        if (desc.pinned && desc.pinned(flat[v])) model.pins.particles.push_back(p);
+        const float compliance = desc.spring ? desc.spring(flat[v]) : 0;
+        if (compliance > 0) model.pins.attachments.push_back({p, compliance, model.mesh.positions[v]});
     }
     auto built = build_cloth_model(std::move(model), std::move(*topology));
     EXPECT_TRUE(built.ok());
     return *built;
+}
+
+/// A square meter that hangs by two corners, not quite upright.
+inline SheetDesc hung_by_corners(std::uint32_t side, const ClothLayout& layout) {
+    return {.resolution = {side, side}, .rotation_degrees = {84.3f, 0, 0}, .layout = layout, .pinned = [](Vec3 p) {
+                return p.z < -0.49f && std::abs(p.x) > 0.49f;
+            }};
+}
+
+/// An elastic sheet, 1 m long, that hangs by its upper edge at y = 0. `stiffness` and `shear` in N/m.
+inline SheetDesc hanging_strip(std::array<std::uint32_t, 2> resolution, float stiffness, float shear) {
+    SheetDesc sheet{.size = {0.25f, 1},
+                    .resolution = resolution,
+                    .rotation_degrees = {90, 0, 0},
+                    .position = {0, -0.5f, 0},
+                    .pinned = [](Vec3 p) { return p.z < -0.49f; }};
+    sheet.fabric.body = {.density = 0.2f, .damping = 0.2f};
+    sheet.fabric.stretch = {.stretch = {stiffness, stiffness}, .compression = {stiffness, stiffness}, .shear = shear};
+    return sheet;
+}
+
+/// How far such a strip reaches below its place at rest, m.
+inline double sag(const World& world) {
+    double lowest = 0;
+    for (const Vec4& p : world.frame().cloths[0].positions) lowest = std::min(lowest, double{p.y});
+    return -1 - lowest;
 }
 
 inline World make_world(const WorldSettings& settings, const CpuOptions& options = {}) {
