@@ -1,17 +1,19 @@
 #include "mesh/paths.h"
 
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
 #include "mesh/topology.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 #include <random>
 #include <set>
 
 namespace weft {
 namespace {
+
+using namespace testing_meshes;
 
 struct Links {
     std::vector<std::uint32_t> points;
@@ -66,13 +68,9 @@ TEST(Paths, are_cut_into_equal_pieces_where_they_are_too_long) {
 }
 
 TEST(Paths, of_a_ring_are_at_least_two) {
-    Links ring;
     constexpr std::uint32_t count = 24;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double angle = 2 * std::numbers::pi * i / count;
-        ring.positions.push_back({static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))});
-        ring.points.insert(ring.points.end(), {i, (i + 1) % count});
-    }
+    Links ring{.points = {}, .positions = fan(count).positions};
+    for (std::uint32_t i = 0; i < count; ++i) ring.points.insert(ring.points.end(), {1 + i, 1 + (i + 1) % count});
     const Paths paths = find_paths(ring.points, ring.positions, 100);
     expect_sound(ring, paths, 100);
     EXPECT_EQ(paths.size(), 2u);
@@ -95,15 +93,10 @@ TEST(Paths, are_sound_on_anything) {
 }
 
 TEST(Paths, end_at_the_hub_of_a_large_fan) {
-    Links fan;
-    fan.positions.push_back({});
     constexpr std::uint32_t count = 100000;
-    for (std::uint32_t i = 1; i <= count; ++i) {
-        const double angle = 2 * std::numbers::pi * i / count;
-        fan.positions.push_back({static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))});
-        fan.points.insert(fan.points.end(), {0u, i});
-    }
-    const Paths paths = find_paths(fan.points, fan.positions, 100);
+    Links spokes{.points = {}, .positions = fan(count).positions};
+    for (std::uint32_t i = 1; i <= count; ++i) spokes.points.insert(spokes.points.end(), {0u, i});
+    const Paths paths = find_paths(spokes.points, spokes.positions, 100);
     EXPECT_EQ(paths.size(), count);
     EXPECT_EQ(find_paths({}, {}, 1).size(), 0u);
 }

@@ -3,6 +3,7 @@
 #include "mesh/edges.h"
 #include "mesh/procedural.h"
 #include "mesh/sound_triangles.h"
+#include "mesh/testing.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +18,8 @@
 
 namespace weft {
 namespace {
+
+using namespace testing_meshes;
 
 Topology built(const TriangleMesh& mesh, const TopologyOptions& options = {}) {
     auto topology = build_topology(mesh, options);
@@ -51,11 +54,7 @@ TriangleMesh sphere_soup(int levels) {
         faces = std::move(finer);
     }
     TriangleMesh soup;
-    for (const auto& [a, b, c] : faces) {
-        const auto i = static_cast<std::uint32_t>(soup.positions.size());
-        soup.positions.insert(soup.positions.end(), {a, b, c});
-        soup.triangles.push_back({i, i + 1, i + 2});
-    }
+    for (const auto& [a, b, c] : faces) add_triangle(soup, a, b, c);
     return soup;
 }
 
@@ -458,14 +457,8 @@ TEST(Topology, two_runs_are_equal) {
 }
 
 TEST(Topology, hub_of_great_valence) {
-    TriangleMesh mesh = drawn({{0, 0, 0}});
     const std::uint32_t rim = 20000;
-    for (std::uint32_t i = 0; i < rim; ++i) {
-        const double angle = 6.283185307 * i / rim;
-        mesh.positions.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
-        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % rim});
-    }
-    const Topology t = built(mesh);
+    const Topology t = built(fan(rim));
     EXPECT_EQ(euler_characteristic(t), 1);
     EXPECT_EQ(t.edges.size(), 2 * rim);
     EXPECT_EQ(t.hinges.size(), rim);

@@ -1,6 +1,7 @@
 #include "solver/hierarchy.h"
 
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
 #include "solver/cloth_model.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 
 namespace weft {
 namespace {
+
+using namespace testing_meshes;
 
 std::shared_ptr<const ClothModel> model_of(TriangleMesh mesh, const Fabric& fabric = {},
                                            std::vector<std::uint32_t> pinned = {0}) {
@@ -157,59 +160,15 @@ TEST(Hierarchy, is_left_out_where_it_is_of_no_use) {
 
 TEST(Hierarchy, survives_what_topology_survives) {
     TriangleMesh mesh = make_grid({1, 1}, {12, 12}, GridDiagonal::cross);
-    mesh.triangles.push_back({0, 5, 140});  // a third triangle at some edges, long and thin
-    const auto far = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), {{5, 0, 0}, {5, 0, 1e-3f}, {6, 0, 0}});  // a piece apart
+    mesh.triangles.push_back({0, 5, 140});                    // a third triangle at some edges, long and thin
+    add_triangle(mesh, {5, 0, 0}, {5, 0, 1e-3f}, {6, 0, 0});  // a piece apart
     mesh.uvs.clear();
     mesh.normals.clear();
-    mesh.triangles.push_back({far, far + 1, far + 2});
     const auto model = model_of(mesh);
     for (const CoarseLevel& level : model->hierarchy) {
         for (float w : level.weight) EXPECT_TRUE(std::isfinite(w));
         for (float w : level.carry.weight) EXPECT_TRUE(std::isfinite(w));
     }
-}
-
-// A vertex of thousands of triangles, which everything is near to.
-TriangleMesh fan(std::uint32_t rim) {
-    TriangleMesh mesh;
-    mesh.positions.push_back({});
-    for (std::uint32_t i = 0; i < rim; ++i) {
-        const double angle = 6.283185307179586 * i / rim;
-        mesh.positions.push_back({static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))});
-    }
-    for (std::uint32_t i = 0; i < rim; ++i) mesh.triangles.push_back({0, 1 + (i + 1) % rim, 1 + i});
-    return mesh;
-}
-
-// An edge of thousands of strips, each two by `rows` vertices.
-TriangleMesh book(std::uint32_t pages, std::uint32_t rows) {
-    TriangleMesh mesh;
-    mesh.positions = {{0, 0, 0}, {0, 0, 0.1f}};
-    for (std::uint32_t i = 0; i < pages; ++i) {
-        const double angle = 6.283185307179586 * i / pages;
-        const auto x = static_cast<float>(0.1 * std::cos(angle)), y = static_cast<float>(0.1 * std::sin(angle));
-        std::uint32_t before[2] = {0, 1};
-        for (std::uint32_t row = 1; row < rows; ++row) {
-            const auto a = static_cast<std::uint32_t>(mesh.positions.size()), r = row;
-            const auto f = static_cast<float>(r);
-            mesh.positions.insert(mesh.positions.end(), {{f * x, f * y, 0}, {f * x, f * y, 0.1f}});
-            mesh.triangles.insert(mesh.triangles.end(), {{before[0], before[1], a}, {before[1], a + 1, a}});
-            before[0] = a, before[1] = a + 1;
-        }
-    }
-    return mesh;
-}
-
-TriangleMesh pieces(std::uint32_t count) {
-    TriangleMesh mesh;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const auto a = static_cast<std::uint32_t>(mesh.positions.size());
-        const auto x = static_cast<float>(i);
-        mesh.positions.insert(mesh.positions.end(), {{x, 0, 0}, {x, 0, 0.5f}, {x + 0.5f, 0, 0}});
-        mesh.triangles.push_back({a, a + 1, a + 2});
-    }
-    return mesh;
 }
 
 TEST(Hierarchy, is_sound_on_hubs_strips_and_pieces) {

@@ -1,6 +1,7 @@
 #include "physics/tether/geodesic.h"
 
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
 #include "physics/constraint.h"
 #include "physics/testing.h"
 
@@ -10,6 +11,7 @@ namespace weft {
 namespace {
 
 using namespace testing_kernels;
+using namespace testing_meshes;
 using reference::TetherRow;
 
 TEST(Tether, pulls_back_to_its_radius_and_only_then) {
@@ -65,10 +67,7 @@ TEST(Geodesic, goes_over_the_surface_not_through_the_air) {
 }
 
 TEST(Geodesic, knows_what_it_cannot_reach) {
-    TriangleMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 0, 1}};
-    mesh.triangles = {{0, 2, 1}, {3, 5, 4}};
-    const auto topology = build_topology(mesh, {.reorder = false});
+    const auto topology = build_topology(pieces(2), {.reorder = false});
     const std::uint32_t source[] = {0};
     const Geodesic way = geodesic_distance(*topology, source);
     EXPECT_EQ(way.nearest[4], none);
@@ -101,15 +100,8 @@ TEST(WaysToPlaces, are_those_to_each_place_by_itself) {
 
 TEST(WaysToPlaces, lead_through_hubs_and_end_where_a_piece_does) {
     constexpr std::uint32_t rim = 2000;
-    TriangleMesh mesh;
-    mesh.positions.push_back({});
-    for (std::uint32_t i = 0; i < rim; ++i) {
-        const double angle = 6.283185307179586 * i / rim;
-        mesh.positions.push_back({static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))});
-    }
-    for (std::uint32_t i = 0; i < rim; ++i) mesh.triangles.push_back({0, 1 + (i + 1) % rim, 1 + i});
-    mesh.positions.insert(mesh.positions.end(), {{5, 0, 0}, {6, 0, 0}, {5, 0, 1}});
-    mesh.triangles.push_back({rim + 1, rim + 3, rim + 2});
+    TriangleMesh mesh = fan(rim);
+    add_triangle(mesh, {5, 0, 0}, {5, 0, 1}, {6, 0, 0});
     const auto topology = build_topology(mesh, {.reorder = false});
     const std::vector<std::vector<std::uint32_t>> places{{1}, {1 + rim / 2}};
     const WaysToPlaces ways = ways_to_places(*topology, places, 2);
