@@ -4,18 +4,24 @@
 #include "solver/faces_around.h"
 
 #include "base/aligned.h"
+#include "physics/testing.h"
 #include "solver/constraint_table.h"
+#include "solver/lines.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <random>
 
 namespace weft::cpu {
 namespace {
 
 constexpr std::uint32_t particle_count = 400;
+constexpr float step = 1e-3f;  // s
 
 struct Fixture {
     AlignedVector<Vec4> position, start, velocity, carry;
@@ -80,6 +86,70 @@ void add_rows(Fixture& f, ConstraintKind kind, unsigned seed, bool nasty) {
     }
     f.table = pack_rows(kind, rows, particle_count);
     f.lambda.assign(std::size_t{constraint_info(kind).lambdas} * f.table.stride, 0.25f);
+}
+
+// Particles in disorder: lines of every length and a ring, and across these links that make batches of their own.
+struct Chains {
+    RowList rows = make_rows(ConstraintKind::stretch);
+    std::vector<Vec3> at_rest = std::vector<Vec3>(particle_count);
+
+    void link(std::uint32_t a, std::uint32_t b, Numbers& random) {
+        if (random.below(2)) std::swap(a, b);
+        rows.particles.insert(rows.particles.end(), {a, b});
+    }
+    explicit Chains(Numbers& random) {
+        std::vector<std::uint32_t> order(particle_count);
+        std::iota(order.begin(), order.end(), 0);
+        for (std::uint32_t p = 1; p < particle_count; ++p) std::swap(order[p], order[random.below(p + 1)]);
+        constexpr std::uint32_t ring = 24;
+        for (std::uint32_t i = 0; i < ring; ++i) {
+            const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / ring;
+            at_rest[order[i]] = {std::cos(angle), std::sin(angle), 0};
+            link(order[i], order[(i + 1) % ring], random);
+        }
+        std::uint32_t first = ring;
+        for (std::uint32_t line = 0; first + 1 < particle_count; ++line) {
+            const std::uint32_t most = line == 0 ? longest_line : 1 + random.below(line % 8 == 0 ? longest_line : 9);
+            const std::uint32_t length = std::min(most, particle_count - 1 - first);
+            for (std::uint32_t k = 0; k <= length; ++k) {
+                at_rest[order[first + k]] = {static_cast<float>(k), 0, static_cast<float>(2 * line)};
+                if (k > 0) link(order[first + k - 1], order[first + k], random);
+            }
+            first += length + 1;
+        }
+        for (int i = 0; i < 60; ++i) {
+            const std::uint32_t a = random.below(particle_count), b = random.below(particle_count);
+            if (a != b) link(a, b, random);
+        }
+    }
+    ConstraintTable pack() const { return pack_lines(rows, at_rest, particle_count); }
+};
+
+void add_lines(Fixture& f, unsigned seed, bool nasty) {
+    Numbers random(seed);
+    Chains chains(random);
+    const auto odd = [&] { return nasty && random.below(4) == 0; };
+    const auto rest = [&] { return odd() ? std::pow(10.0f, random.uniform(-20, 12)) : random.uniform(0, 1); };
+    const auto compliance = [&] {
+        if (odd()) return std::pow(10.0f, random.uniform(-30, 30));
+        return random.below(4) == 0 ? -1.0f : random.below(4) == 0 ? 0.0f : random.uniform(0, 1e-3f);
+    };
+    for (std::uint32_t r = 0; r < chains.rows.size(); ++r) {
+        Vec4 &a = f.position[chains.rows.particles[2 * r]], &b = f.position[chains.rows.particles[2 * r + 1]];
+        if (random.below(12) == 0) a.w = b.w = 0;
+        if (random.below(12) == 0) b = {a.x, a.y, a.z, b.w};
+        chains.rows.fields.insert(chains.rows.fields.end(), {rest(), compliance(), compliance()});
+    }
+    f.table = chains.pack();
+    f.lambda.assign(f.table.lambda_count(), 0.25f);
+}
+
+void run_lines(const Passes& passes, Fixture& f, LambdaUse use) {
+    AlignedVector<float> scratch(line_scratch_floats(longest_line), NAN);  // what it held before does not matter
+    for (const Batch& batch : f.table.batches) {
+        const auto blocks = std::span(f.table.blocks).subspan(batch.first_block, batch.blocks);
+        passes.lines(f.view(), f.rows(), blocks, step, use, scratch.data());
+    }
 }
 
 void expect_same(const AlignedVector<Vec4>& a, const AlignedVector<Vec4>& b, std::string_view what) {
@@ -166,6 +236,136 @@ TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
                     }
                 });
             }
+        }
+    }
+}
+
+TEST_P(InstructionSet, solves_lines_alike) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        const bool nasty = seed % 2;
+        Fixture state = random_state(seed, nasty);
+        add_lines(state, seed + 100, nasty);
+        ASSERT_EQ(state.table.blocks.front().length, longest_line);
+        ASSERT_GE(state.table.batches.front().blocks, 2u);
+        ASSERT_GE(state.table.batches.size(), 3u);
+        for (const LambdaUse use : {LambdaUse::discard, LambdaUse::store, LambdaUse::accumulate}) {
+            compare(state, [&](const Passes& passes, Fixture& f) { run_lines(passes, f, use); });
+        }
+        run_lines(*GetParam(), state, LambdaUse::store);
+        // An enormous compliance may then meet the lambda of the other side's small one.
+        for (int i = 0; i < 2 && !nasty; ++i) run_lines(*GetParam(), state, LambdaUse::accumulate);
+        for (std::uint32_t p = 0; p < particle_count; ++p) {
+            ASSERT_TRUE(finite(state.position[p].xyz())) << "particle " << p;
+        }
+        for (std::uint32_t p = particle_count; p < state.position.size(); ++p) EXPECT_EQ(state.position[p], Vec4{});
+        for (const float lambda : state.lambda) ASSERT_TRUE(std::isfinite(lambda));
+    }
+}
+
+// Lines near their lengths, so that no pull is held back.
+Fixture calm_lines(unsigned seed) {
+    Fixture f = random_state(seed, false);
+    Numbers random(seed);
+    Chains chains(random);
+    const auto number = [&](float size) { return random.uniform(-size, size); };
+    for (std::uint32_t p = 0; p < particle_count; ++p) {
+        const Vec3 x = chains.at_rest[p] + Vec3{number(0.05f), number(0.05f), number(0.05f)};
+        f.position[p] = {x.x, x.y, x.z, random.below(20) == 0 ? 0 : random.uniform(0.5f, 2)};
+    }
+    for (std::uint32_t r = 0; r < chains.rows.size(); ++r) {
+        const std::uint32_t* ends = &chains.rows.particles[2 * r];
+        const float distance = length(f.position[ends[0]].xyz() - f.position[ends[1]].xyz());
+        const float compliance = random.below(9) == 0 ? -1 : random.uniform(1e-7f, 1e-6f);
+        chains.rows.fields.insert(chains.rows.fields.end(), {distance + number(4e-3f), compliance, compliance});
+    }
+    f.table = chains.pack();
+    for (std::uint32_t r = 0; r < f.table.stride; ++r) f.lambda.push_back(number(1e-4f));
+    return f;
+}
+
+// Gauss' elimination of [matrix | right side]. Without pivots: the diagonal is the largest of its row, or nearly so.
+std::vector<double> solve(std::vector<std::vector<double>> system) {
+    const std::size_t n = system.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i + 1; j < n; ++j) {
+            const double factor = system[j][i] / system[i][i];
+            for (std::size_t k = i; k <= n; ++k) system[j][k] -= factor * system[i][k];
+        }
+    }
+    std::vector<double> x(n);
+    for (std::size_t i = n; i-- > 0;) {
+        x[i] = system[i][n];
+        for (std::size_t j = i + 1; j < n; ++j) x[i] -= system[i][j] * x[j];
+        x[i] /= system[i][i];
+    }
+    return x;
+}
+
+// One step of Newton for some rows, whatever particles they share, in double numbers:
+// (J W Jᵀ + regularization + α̃) Δλ = −(C + α̃ λ), Δx = W Jᵀ Δλ.
+struct Newton {
+    std::vector<double> change;
+    std::vector<reference::vec3> moved = std::vector(particle_count, reference::vec3(0.0));
+
+    Newton(const Fixture& f, std::span<const std::uint32_t> rows) {
+        const std::size_t n = rows.size();
+        const auto particle = [&](std::size_t i, int end) { return f.table.particles[end * f.table.stride + rows[i]]; };
+        const auto weight = [&](std::size_t i, int end) { return double{f.position[particle(i, end)].w}; };
+        const auto from_other = [&](std::size_t i, int end) {
+            const Vec4 &a = f.position[particle(i, end)], &b = f.position[particle(i, 1 - end)];
+            return reference::vec3(a.x, a.y, a.z) - reference::vec3(b.x, b.y, b.z);
+        };
+        const auto gradient = [&](std::size_t i, int end) {
+            return from_other(i, end) * (1 / testing_kernels::norm(from_other(i, end)));
+        };
+        std::vector<std::vector<double>> system(n, std::vector<double>(n + 1));
+        for (std::size_t i = 0; i < n; ++i) {
+            const double w = weight(i, 0) + weight(i, 1), lambda = f.lambda[rows[i]];
+            const double alpha = f.table.fields[f.table.stride + rows[i]] / (double{step} * step);
+            if (w == 0 || alpha < 0) {  // what is slack unwinds
+                system[i][i] = 1, system[i][n] = w > 0 ? -lambda : 0;
+                continue;
+            }
+            for (std::size_t j = 0; j < n; ++j) {
+                for (const auto& [a, b] : {std::pair(0, 0), {0, 1}, {1, 0}, {1, 1}}) {
+                    if (particle(i, a) == particle(j, b))
+                        system[i][j] += weight(i, a) * reference::dot(gradient(i, a), gradient(j, b));
+                }
+            }
+            system[i][i] += 1e-4 * w + alpha;
+            system[i][n] = -(testing_kernels::norm(from_other(i, 0)) - f.table.fields[rows[i]] + alpha * lambda);
+        }
+        change = solve(std::move(system));
+        for (std::size_t i = 0; i < n; ++i) {
+            for (const int end : {0, 1}) {
+                reference::vec3& x = moved[particle(i, end)];
+                x = x + gradient(i, end) * (weight(i, end) * change[i]);
+            }
+        }
+    }
+};
+
+TEST_P(InstructionSet, solves_the_system_of_all_rows_of_a_batch) {
+    for (unsigned seed = 0; seed < 3; ++seed) {
+        Fixture f = calm_lines(seed);
+        f.table.batches.resize(1);
+        const Fixture before = f;
+        run_lines(*GetParam(), f, LambdaUse::accumulate);
+        std::vector<std::uint32_t> rows;
+        for (std::uint32_t r = 0; r < f.table.batches[0].padded_end(); ++r) {
+            if (f.table.source[r] != none) rows.push_back(r);
+        }
+        const Newton expected(before, rows);
+        double largest = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            ASSERT_NEAR(double{f.lambda[rows[i]]} - before.lambda[rows[i]], expected.change[i], 2e-5) << "row " << i;
+            largest = std::max(largest, std::abs(expected.change[i]));
+        }
+        EXPECT_GT(largest, 1e-3) << "there is something to solve";
+        for (std::uint32_t p = 0; p < particle_count; ++p) {
+            const Vec3 moved = f.position[p].xyz() - before.position[p].xyz();
+            const reference::vec3 off = expected.moved[p] - reference::vec3(moved.x, moved.y, moved.z);
+            ASSERT_LT(testing_kernels::norm(off), 2e-5) << "particle " << p;
         }
     }
 }
