@@ -58,12 +58,33 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_LT(s["build_ms"], s["load_ms"]);
     EXPECT_EQ(s["build_part_ms"].size(), 7u);
     for (const char* part : {"topology", "rows", "coloring", "tables", "rest"}) EXPECT_GT(s["build_part_ms"][part], 0);
+    EXPECT_NEAR(s["quality_seconds"], 7.0 / 60, 1e-9) << "all of a run that is shorter than 2 s";
     for (const char* key : {"stretch", "shear", "residual"}) {
         EXPECT_GT(s[key]["mean"], 0);
         EXPECT_LE(s[key]["mean"], s[key]["max"]);
     }
     EXPECT_EQ(s["reports"], Json::array());
     EXPECT_EQ(s["state_hash"], stats("--frames 7")["state_hash"]) << "what weft run comes to";
+}
+
+TEST_F(CliBench, averages_quality_over_the_last_two_seconds) {
+    ASSERT_EQ(weft("bench sheet.json --quiet --substeps 1 --warmup 2 --seconds 3 --repeat 1 --json b.json").status, 0);
+    const Json once = Json::parse(read_file(folder_ / "b.json"))["scenes"][0];
+    EXPECT_NEAR(once["quality_seconds"], 2, 1e-9);
+    // A longer warmup and fewer frames after it: the same run, and the same end of it.
+    const Outcome outcome =
+        weft("bench sheet.json --substeps 1 --warmup 170 --frames 12 --repeat 1 --json b.json --compare b.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("% over the last 2.00 s"), std::string::npos) << outcome.out;
+    const Json again = Json::parse(read_file(folder_ / "b.json"))["scenes"][0];
+    for (const char* key : {"stretch", "shear", "residual", "quality_seconds"}) EXPECT_EQ(again[key], once[key]) << key;
+
+    // A report from before there was a choice.
+    Json former = bench("sheet.json --substeps 1");
+    former["scenes"][0].erase("quality_seconds");
+    write("b.json", former.dump());
+    const std::string text = compare("--substeps 1").out;
+    EXPECT_NE(text.find("seconds of stretch 0.12 (before 0.08)"), std::string::npos) << text;
 }
 
 TEST_F(CliBench, takes_options_and_several_scenes) {

@@ -132,7 +132,8 @@ Command add_bench(CLI::App& program) {
         "  weft bench --build 128 317 --frames 1 --warmup 0 --repeat 5\n"
         "  weft bench --curves 32 64 128 --plot curves.svg --warmup 180 --repeat 1\n"
         "  weft bench scenes/banner.json scenes/curtain.json --threads 2 --repeat 5\n"
-        "One run more than --repeat goes first, without a clock: it measures stretch, shear and residual.");
+        "One run more than --repeat goes first, without a clock: it measures stretch, shear and residual over its last "
+        "2 s.");
     return [options] { return bench(*options); };
 }
 

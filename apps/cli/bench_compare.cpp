@@ -79,6 +79,7 @@ std::string settings_differences(const SceneFigures& now, const SceneFigures& be
     settings.check("frames", now.frames, before.frames);
     settings.check("warmup", now.warmup, before.warmup);
     settings.check("runs", now.runs, before.runs);
+    settings.check("seconds of stretch", fixed(now.quality_seconds, 2), fixed(before.quality_seconds, 2));
     return settings.text();
 }
 

@@ -1,5 +1,6 @@
 #include "cli/bench_curves.h"
 
+#include "cli/bench_report.h"
 #include "cli/table.h"
 #include "io/atomic_file.h"
 #include "mesh/procedural.h"
@@ -183,7 +184,8 @@ std::vector<CurveSubject> curve_subjects(const std::vector<std::uint32_t>& sides
 }
 
 std::string curves_table(const std::vector<CurveSubject>& subjects, const std::vector<SceneFigures>& figures) {
-    Table table({"error against time", "substeps", "ms a frame", "stretch %", "max %", "residual %", ""});
+    Table table({"error over the last " + quality_window(figures), "substeps", "ms a frame", "stretch %", "max %",
+                 "residual %", ""});
     for (std::size_t i = 0; i < figures.size(); ++i) {
         const SceneFigures& f = figures[i];
         table.add({subjects[i].mesh + ", " + subjects[i].method, std::to_string(f.substeps), fixed(f.ms.median, 3),

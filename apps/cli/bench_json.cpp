@@ -4,6 +4,7 @@
 #include "io/json_text.h"
 #include "scene/problems.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <concepts>
 #include <fstream>
@@ -51,6 +52,7 @@ Json scene_json(const SceneFigures& scene) {
     out["build_ms"] = scene.build_ms;
     out["build_part_ms"] = parts;
     out["first_frame_ms"] = scene.first_frame_ms;
+    out["quality_seconds"] = scene.quality_seconds;
     out["stretch"] = mean_max(scene.stretch);
     out["shear"] = mean_max(scene.shear);
     out["residual"] = mean_max(scene.residual);
@@ -93,6 +95,7 @@ class Fields {
         if (auto fields = object(key)) fields->get("mean", to.mean), fields->get("max", to.max);
     }
 
+    bool has(const char* key) const { return object_.is_object() && object_.contains(key); }
     std::optional<Fields> object(const std::string& key) {
         const json* value = find(key);
         if (!value) return {};
@@ -165,6 +168,11 @@ SceneFigures scene_of(Fields fields) {
     }
     if (auto ms = fields.object("ms_per_frame")) ms->get("median", scene.ms.median);
     fields.get("run_medians_ms", scene.run_medians);
+    if (fields.has("quality_seconds")) {
+        fields.get("quality_seconds", scene.quality_seconds);
+    } else if (scene.frame_rate > 0) {  // written when it was always this
+        scene.quality_seconds = std::min(static_cast<double>(scene.frames) / scene.frame_rate, 1.0);
+    }
     fields.get("stretch", scene.stretch);
     fields.get("state_hash", scene.state_hash);
     return scene;

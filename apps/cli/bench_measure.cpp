@@ -56,25 +56,33 @@ struct Average {
     MeanMax over(double count) const { return {sum.mean / count, sum.max / count}; }
 };
 
+// A sheet that swings is stretched by turns more and less, and a window of a second tells where the swing is.
+constexpr double longest_quality_seconds = 2;
+
+std::uint64_t quality_frames(const Session& session, const Plan& plan) {
+    const auto frames = static_cast<std::uint64_t>(longest_quality_seconds / session.frame_seconds() + 0.5);
+    return std::clamp<std::uint64_t>(frames, 1, plan.all());
+}
+
 // The run without a clock. `heap_before` is what the heap held before the session was opened.
 void run_for_quality(Session& session, const Plan& plan, double heap_before, Progress& progress,
                      SceneFigures& figures) {
-    const auto last_second =
-        std::min(plan.frames, static_cast<std::uint64_t>(std::max(1.0, 1 / session.frame_seconds() + 0.5)));
+    const std::uint64_t window = quality_frames(session, plan);
     Average stretch, shear, residual;
     std::uint32_t reports = report_none;
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
         const Frame& frame = session.step();
         reports |= frame.reports;
         progress.update(i + 1);
-        if (i + last_second < plan.all()) continue;
+        if (i + window < plan.all()) continue;
         const Strain strain = measure_strain(frame);
         const Residual left = session.world().stretch_residual();
         stretch.add(strain.stretch.mean, strain.stretch.max);
         shear.add(strain.shear.mean, strain.shear.max);
         residual.add(left.mean, left.max);
     }
-    const auto count = static_cast<double>(last_second);
+    const auto count = static_cast<double>(window);
+    figures.quality_seconds = count * session.frame_seconds();
     figures.stretch = stretch.over(count);
     figures.shear = shear.over(count);
     figures.residual = residual.over(count);

@@ -71,11 +71,13 @@ struct SceneFigures {
     Distribution ms;                  ///< a frame, over the frames of all runs
     std::vector<double> run_medians;  ///< ms
     std::vector<StageFigures> stages;
-    double load_ms = 0;                ///< from the file to a world that can step; median over the runs
-    double build_ms = 0;               ///< of that, the making of cloths from meshes
-    std::vector<PartFigures> build;    ///< part by part
-    double first_frame_ms = 0;         ///< and to the end of its first frame
-    MeanMax stretch, shear, residual;  ///< averages over the frames of the last second
+    double load_ms = 0;              ///< from the file to a world that can step; median over the runs
+    double build_ms = 0;             ///< of that, the making of cloths from meshes
+    std::vector<PartFigures> build;  ///< part by part
+    double first_frame_ms = 0;       ///< and to the end of its first frame
+    /// Averages over the frames of the last 2 s, or of the whole run, warmup included, if that is shorter.
+    MeanMax stretch, shear, residual;
+    double quality_seconds = 0;  ///< how long that is
     /// What the heap holds for the scene, file and drawn mesh included; nothing where that cannot be known.
     std::optional<double> bytes_per_particle;
     std::vector<std::string> reports;

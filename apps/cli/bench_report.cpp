@@ -127,7 +127,8 @@ std::string rows_table(const BenchReport& report) {
 }
 
 std::string quality_table(const BenchReport& report) {
-    Table table({"% in the last second", "stretch", "max", "shear", "max", "residual", "max", "state hash", "reports"});
+    Table table({"% over the last " + quality_window(report.scenes), "stretch", "max", "shear", "max", "residual",
+                 "max", "state hash", "reports"});
     for (const SceneFigures& scene : report.scenes) {
         std::vector<std::string> cells{scene.name};
         for (const MeanMax* value : {&scene.stretch, &scene.shear, &scene.residual}) {
@@ -143,6 +144,13 @@ std::string quality_table(const BenchReport& report) {
 }
 
 }  // namespace
+
+std::string quality_window(const std::vector<SceneFigures>& scenes) {
+    if (scenes.empty()) return "-";
+    const auto [least, most] = std::ranges::minmax(scenes, {}, &SceneFigures::quality_seconds);
+    const std::string to = fixed(most.quality_seconds, 2) + " s", from = fixed(least.quality_seconds, 2) + " s";
+    return from == to ? to : from + " to " + to;
+}
 
 std::string spread_text(std::optional<double> spread) {
     return spread ? fixed(100 * *spread, 1) + " %" : "-";

@@ -24,6 +24,9 @@ nlohmann::ordered_json to_json(const BenchReport& report);
 /// What to_json wrote. Errors name the file and the place in it.
 Result<BenchReport> read_report(const std::filesystem::path& file);
 
+/// Over what stretch, shear and residual are averages: "2.00 s", "0.50 s to 2.00 s".
+std::string quality_window(const std::vector<SceneFigures>& scenes);
+
 std::string spread_text(std::optional<double> spread);
 
 /// Everything, for a human.
