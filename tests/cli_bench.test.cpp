@@ -50,6 +50,10 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_LE(s["ms_per_frame"]["p95"], s["ms_per_frame"]["max"]);
     EXPECT_EQ(s["run_medians_ms"].size(), 2u);
     EXPECT_GE(s["spread"], 0);
+    for (const char* key : {"reference_ms", "ratio", "bytes_per_second"}) EXPECT_GT(s[key], 0);
+    EXPECT_NEAR(s["ratio"], s["ms_per_frame"]["median"].get<double>() / s["reference_ms"].get<double>(), 1e-9);
+    EXPECT_GT(report["memory"]["bytes_per_second"], 0);
+    EXPECT_EQ(report["memory"]["threads"], 1);
     for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities"})
         EXPECT_GT(s["stage_ms"][stage], 0);
     EXPECT_GT(s["load_ms"], 0);
@@ -85,6 +89,38 @@ TEST_F(CliBench, averages_quality_over_the_last_two_seconds) {
     write("b.json", former.dump());
     const std::string text = compare("--substeps 1").out;
     EXPECT_NE(text.find("seconds of stretch 0.12 (before 0.08)"), std::string::npos) << text;
+}
+
+TEST_F(CliBench, counts_the_bytes_that_a_frame_moves) {
+    const auto scene = [&](const std::string& arguments) { return bench("sheet.json " + arguments)["scenes"][0]; };
+    const auto per_row = [](const Json& s, const char* kind) {
+        return s["constraints"][kind]["bytes_per_row"].get<double>();
+    };
+    // Row by row, no two rows of a batch share a particle: indices, fields, and particles in and out. A few rows that
+    // have found no batch may.
+    const std::string plain = "--no-hierarchy --projection ";
+    const Json rows = scene(plain + "gauss-seidel");
+    EXPECT_DOUBLE_EQ(per_row(rows, "stretch"), 2 * 4 + 3 * 4 + 2 * 16 * 2);
+    EXPECT_NEAR(per_row(rows, "bend"), 4 * 4 + 2 * 4 + 4 * 16 * 2, 0.5);
+    // Of two iterations the first writes lambda and the second reads and writes it.
+    EXPECT_DOUBLE_EQ(per_row(scene(plain + "gauss-seidel --iterations 2"), "stretch"), 84 + 4 * 3 / 2.0);
+    // Side by side, a share and corrections are added; particles are read once and not moved.
+    const double corrections = 2 * 4 + 3 * 4 + 4 + 2 * 16;
+    EXPECT_DOUBLE_EQ(per_row(scene(plain + "jacobi"), "stretch"), corrections + 120 * 16 / (11 * 10 + 12 * 9 + 99.0));
+    // Along a line, rows share the particles between them.
+    const Json lines = scene("");
+    EXPECT_GT(per_row(lines, "stretch"), 2 * 4 + 3 * 4 + 16 * 2);
+    EXPECT_LT(per_row(lines, "stretch"), 84 - 20);
+
+    // A frame: 20 times what moves particles, what is between them and what they may touch; then damping and normals.
+    const double moves = 120 * 16 * (8 + 6 + 1), all_rows = 317 * 84.0 + 277 * 152.0;
+    const double damping = 317 * (20 + 2 * 48) + 277 * (24 + 4 * 48);
+    const double surface = 2 * (198 * (12 + 16) + 120 * 16);
+    const double expected = 20 * (moves + all_rows) + damping + surface;
+    EXPECT_NEAR(rows["bytes_per_frame"], expected, 0.001 * expected);
+    EXPECT_DOUBLE_EQ(rows["working_set_bytes"], 120 * 64 + 317 * 20 + 277 * 24);
+    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities", "damp", "surface"})
+        EXPECT_GT(rows["stage_reference_ms"][stage], 0) << stage;
 }
 
 TEST_F(CliBench, takes_options_and_several_scenes) {
@@ -134,6 +170,7 @@ TEST_F(CliBench, compares_with_a_former_report) {
     EXPECT_NE(same.out.find(" 1.000 "), std::string::npos) << "the stretch of both\n" << same.out;
     EXPECT_NE(same.out.find("settings, scenes and results are the same"), std::string::npos) << same.out;
 
+    EXPECT_NE(same.out.find("x reference now"), std::string::npos) << same.out;
     const std::string threads = compare("--threads 2").out;
     EXPECT_NE(threads.find("sheet.json: settings differ: threads 2 (before 1)\n"), std::string::npos) << threads;
     EXPECT_EQ(threads.find("result differs"), std::string::npos) << threads;

@@ -1,4 +1,5 @@
 #include "cli/bench_curves.h"
+#include "cli/bench_reference.h"
 #include "cli/bench_report.h"
 #include "cli/stats.h"
 #include "io/atomic_file.h"
@@ -63,6 +64,11 @@ Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subje
     return errors;
 }
 
+MemoryFigures measure_memory(std::uint64_t threads) {
+    const std::size_t bytes = beyond_caches();
+    return {threads, bytes, copy_bandwidth(static_cast<unsigned>(threads), bytes)};
+}
+
 int bench(const BenchOptions& options) {
     const auto failed = [](const Errors& errors, ExitCode code) {
         print_errors(errors);
@@ -87,6 +93,7 @@ int bench(const BenchOptions& options) {
         if (!figures) return failed(figures.errors(), exit_failed);
         report.scenes.push_back(std::move(*figures));
     }
+    report.memory = measure_memory(report.scenes.front().threads);
     if (!options.json.empty()) {
         if (auto written = write_stats(to_json(report), options.json); !written) {
             return failed(written.errors(), exit_failed);

@@ -1,5 +1,6 @@
 #include "cli/bench_measure.h"
 
+#include "cli/bench_reference.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
 #include "cpu/cpu_backend.h"
@@ -162,6 +163,26 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     }
 }
 
+// Stages and constraints are in the order of their numbers still.
+void refer(const FrameTraffic& traffic, SceneFigures& figures) {
+    ReferenceFigures& reference = figures.reference;
+    reference.bytes_per_frame = traffic.all();
+    reference.working_set = traffic.working_set;
+    reference.bandwidth =
+        copy_bandwidth(static_cast<unsigned>(figures.threads), static_cast<std::size_t>(traffic.working_set));
+    reference.ms = 1e3 * reference.bytes_per_frame / reference.bandwidth;
+    for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
+        figures.stages[stage].reference_ms = 1e3 * traffic.bytes[stage] / reference.bandwidth;
+    }
+    const auto rounds = static_cast<double>(figures.substeps * figures.iterations);
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        ConstraintFigures& constraint = figures.constraints[kind];
+        if (constraint.rows == 0) continue;
+        constraint.bytes_per_row = traffic.bytes[kind] / (static_cast<double>(constraint.rows) * rounds);
+        constraint.reference_ns_per_row = 1e9 * constraint.bytes_per_row / reference.bandwidth;
+    }
+}
+
 void sum_up(Timings timings, SceneFigures& figures) {
     std::sort(timings.step_ms.begin(), timings.step_ms.end());
     figures.ms = {median(timings.step_ms), percentile(timings.step_ms, 0.95), timings.step_ms.front(),
@@ -182,7 +203,6 @@ void sum_up(Timings timings, SceneFigures& figures) {
         if (constraint.rows == 0) continue;
         constraint.ns_per_row = figures.stages[kind].ms * 1e6 / (static_cast<double>(constraint.rows) * rounds);
     }
-    std::erase_if(figures.constraints, [](const ConstraintFigures& constraint) { return constraint.rows == 0; });
 }
 
 }  // namespace
@@ -213,6 +233,14 @@ std::vector<BenchSubject> build_subjects(const std::vector<std::uint32_t>& sides
     return subjects;
 }
 
+std::optional<double> ConstraintFigures::ratio() const {
+    return reference_ns_per_row > 0 ? std::optional(ns_per_row / reference_ns_per_row) : std::nullopt;
+}
+
+std::optional<double> SceneFigures::ratio() const {
+    return reference.ms > 0 ? std::optional(ms.median / reference.ms) : std::nullopt;
+}
+
 std::optional<double> spread(const SceneFigures& figures) {
     if (figures.run_medians.size() < 2 || figures.ms.median <= 0) return {};
     const auto [least, most] = std::ranges::minmax(figures.run_medians);
@@ -235,6 +263,7 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
     Progress progress("measuring " + subject.name, (settings.repeat + std::uint64_t{1}) * plan.all(), settings.quiet);
 
     describe(*session, settings.common, figures);
+    const FrameTraffic traffic = frame_traffic(session->world());
     run_for_quality(*session, plan, heap_before, progress, figures);
     { const Session gone = std::move(*session); }  // two at once would share the caches
 
@@ -248,6 +277,8 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
         }
     }
     sum_up(std::move(timings), figures);
+    refer(traffic, figures);
+    std::erase_if(figures.constraints, [](const ConstraintFigures& constraint) { return constraint.rows == 0; });
     return figures;
 }
 

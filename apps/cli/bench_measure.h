@@ -43,7 +43,8 @@ struct Distribution {
 
 struct StageFigures {
     std::string name;
-    double ms = 0;  ///< a frame: median over the frames
+    double ms = 0;            ///< a frame: median over the frames
+    double reference_ms = 0;  ///< what it touches, streamed once per pass
 };
 
 struct PartFigures {
@@ -56,6 +57,16 @@ struct ConstraintFigures {
     std::uint64_t rows = 0;
     /// The stage's time over rows, substeps and iterations, on all threads together: two threads halve it.
     double ns_per_row = 0;
+    double bytes_per_row = 0;             ///< likewise, and particles shared out among the rows
+    double reference_ns_per_row = 0;      ///< at the scene's bandwidth
+    std::optional<double> ratio() const;  ///< measured over reference
+};
+
+/// What the frame has to move and how long that takes (bench_reference.h).
+struct ReferenceFigures {
+    double bytes_per_frame = 0, working_set = 0;
+    double bandwidth = 0;  ///< bytes a second: of copies within as much memory as the working set, on as many threads
+    double ms = 0;
 };
 
 struct SceneFigures {
@@ -70,6 +81,7 @@ struct SceneFigures {
     std::vector<ConstraintFigures> constraints;
     Distribution ms;                  ///< a frame, over the frames of all runs
     std::vector<double> run_medians;  ///< ms
+    ReferenceFigures reference;
     std::vector<StageFigures> stages;
     double load_ms = 0;              ///< from the file to a world that can step; median over the runs
     double build_ms = 0;             ///< of that, the making of cloths from meshes
@@ -82,6 +94,9 @@ struct SceneFigures {
     std::optional<double> bytes_per_particle;
     std::vector<std::string> reports;
     std::string state_hash;
+
+    /// Median over reference; nothing without one.
+    std::optional<double> ratio() const;
 };
 
 /// Largest less smallest median of the runs, as a part of the median of all frames. One run tells nothing of it.

@@ -11,9 +11,16 @@
 
 namespace weft::cli {
 
+/// How fast the machine copies what no cache holds.
+struct MemoryFigures {
+    std::uint64_t threads = 0, bytes = 0;
+    double bandwidth = 0;  ///< bytes a second, read ones and written ones together
+};
+
 struct BenchReport {
     std::string version, compiler, processor;
     std::uint64_t hardware_threads = 0;
+    MemoryFigures memory = {};
     std::vector<SceneFigures> scenes;
 };
 
