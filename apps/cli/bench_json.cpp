@@ -48,6 +48,7 @@ Json scene_json(const SceneFigures& scene) {
     out["warmup"] = scene.warmup;
     out["frames"] = scene.frames;
     out["runs"] = scene.runs;
+    out["timed_frames"] = scene.timed_frames;
     out["particles"] = scene.particles;
     out["triangles"] = scene.triangles;
     out["constraints"] = constraints;

@@ -65,16 +65,18 @@ std::uint64_t quality_frames(const Session& session, const Plan& plan) {
     return std::clamp<std::uint64_t>(frames, 1, plan.all());
 }
 
-// The run without a clock. `heap_before` is what the heap held before the session was opened.
-void run_for_quality(Session& session, const Plan& plan, double heap_before, Progress& progress,
-                     SceneFigures& figures) {
+using GoOn = std::function<bool(std::uint64_t frames)>;
+
+// The run without a clock. `heap_before` is what the heap held before the session was opened. Whether it came to its
+// end.
+bool run_for_quality(Session& session, const Plan& plan, double heap_before, const GoOn& go_on, SceneFigures& figures) {
     const std::uint64_t window = quality_frames(session, plan);
     Average stretch, shear, residual;
     std::uint32_t reports = report_none;
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
         const Frame& frame = session.step();
         reports |= frame.reports;
-        progress.update(i + 1);
+        if (!go_on(i + 1)) return false;
         if (i + window < plan.all()) continue;
         const Strain strain = measure_strain(frame);
         const Residual left = session.world().stretch_residual();
@@ -92,19 +94,30 @@ void run_for_quality(Session& session, const Plan& plan, double heap_before, Pro
     if (const double held = heap_bytes() - heap_before; held > 0 && figures.particles > 0) {
         figures.bytes_per_particle = held / static_cast<double>(figures.particles);
     }
+    return true;
 }
-
-struct Timings {
-    std::vector<double> step_ms;
-    std::array<std::vector<double>, stage_count> stage_ms;
-    std::vector<double> run_medians, load_ms, build_ms, first_frame_ms;
-    std::array<std::vector<double>, build_part_count> part_ms;
-};
 
 double median_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return median(values);
 }
+
+struct Timings {
+    std::vector<double> step_ms, this_run;
+    std::array<std::vector<double>, stage_count> stage_ms;
+    std::vector<double> run_medians, load_ms, build_ms, first_frame_ms;
+    std::array<std::vector<double>, build_part_count> part_ms;
+
+    void add(const Frame& frame) {
+        this_run.push_back(frame.step_ms);
+        for (std::uint32_t s = 0; s < stage_count; ++s) stage_ms[s].push_back(frame.stage_ms[s]);
+    }
+    void end_run() {
+        step_ms.insert(step_ms.end(), this_run.begin(), this_run.end());
+        run_medians.push_back(median_of(std::move(this_run)));
+        this_run.clear();
+    }
+};
 
 void add_build_times(const Session& session, Timings& timings) {
     BuildTimes sum;
@@ -123,19 +136,13 @@ Result<std::string> run_for_time(const BenchSubject& subject, const Options& opt
     if (!session) return session.errors();
     timings.load_ms.push_back(ms_since(begin));
     add_build_times(*session, timings);
-    std::vector<double> steps;
-    steps.reserve(plan.frames);
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
         const Frame& frame = session->step();
         if (i == 0) timings.first_frame_ms.push_back(ms_since(begin));
-        if (i >= plan.warmup) {
-            steps.push_back(frame.step_ms);
-            for (std::uint32_t s = 0; s < stage_count; ++s) timings.stage_ms[s].push_back(frame.stage_ms[s]);
-        }
+        if (i >= plan.warmup) timings.add(frame);
         progress.update(frames_before + i + 1);
     }
-    timings.step_ms.insert(timings.step_ms.end(), steps.begin(), steps.end());
-    timings.run_medians.push_back(median_of(std::move(steps)));
+    timings.end_run();
     return session->world().state_hash();
 }
 
@@ -163,6 +170,18 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     }
 }
 
+Result<Plan> plan_runs(const BenchSubject& subject, const BenchSettings& settings, const Session& session,
+                       SceneFigures& figures) {
+    const auto frames = frame_count(settings.length, session.frame_seconds());
+    if (!frames) return frames.errors();
+    figures.name = subject.name;
+    figures.warmup = settings.warmup;
+    figures.runs = settings.repeat;
+    figures.frames = figures.timed_frames = *frames;
+    describe(session, settings.common, figures);
+    return Plan{settings.warmup, *frames};
+}
+
 // Stages and constraints are in the order of their numbers still.
 void refer(const FrameTraffic& traffic, SceneFigures& figures) {
     ReferenceFigures& reference = figures.reference;
@@ -183,7 +202,7 @@ void refer(const FrameTraffic& traffic, SceneFigures& figures) {
     }
 }
 
-void sum_up(Timings timings, SceneFigures& figures) {
+void sum_up(Timings timings, const FrameTraffic& traffic, SceneFigures& figures) {
     std::sort(timings.step_ms.begin(), timings.step_ms.end());
     figures.ms = {median(timings.step_ms), percentile(timings.step_ms, 0.95), timings.step_ms.front(),
                   timings.step_ms.back()};
@@ -203,6 +222,8 @@ void sum_up(Timings timings, SceneFigures& figures) {
         if (constraint.rows == 0) continue;
         constraint.ns_per_row = figures.stages[kind].ms * 1e6 / (static_cast<double>(constraint.rows) * rounds);
     }
+    refer(traffic, figures);
+    std::erase_if(figures.constraints, [](const ConstraintFigures& constraint) { return constraint.rows == 0; });
 }
 
 }  // namespace
@@ -249,22 +270,20 @@ std::optional<double> spread(const SceneFigures& figures) {
 
 Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings) {
     SceneFigures figures;
-    figures.name = subject.name;
-    figures.warmup = settings.warmup;
-    figures.runs = settings.repeat;
-
     const double heap_before = heap_bytes();
     auto session = subject.open(settings.common);
     if (!session) return session.errors();
-    const auto frames = frame_count(settings.length, session->frame_seconds());
-    if (!frames) return frames.errors();
-    figures.frames = *frames;
-    const Plan plan{settings.warmup, *frames};
+    const auto planned = plan_runs(subject, settings, *session, figures);
+    if (!planned) return planned.errors();
+    const Plan plan = *planned;
     Progress progress("measuring " + subject.name, (settings.repeat + std::uint64_t{1}) * plan.all(), settings.quiet);
 
-    describe(*session, settings.common, figures);
     const FrameTraffic traffic = frame_traffic(session->world());
-    run_for_quality(*session, plan, heap_before, progress, figures);
+    const auto on_frame = [&](std::uint64_t frames) {
+        progress.update(frames);
+        return true;
+    };
+    run_for_quality(*session, plan, heap_before, on_frame, figures);
     { const Session gone = std::move(*session); }  // two at once would share the caches
 
     Timings timings;
@@ -276,10 +295,40 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
                                            " and " + *hash + ": the figures mean nothing"};
         }
     }
-    sum_up(std::move(timings), figures);
-    refer(traffic, figures);
-    std::erase_if(figures.constraints, [](const ConstraintFigures& constraint) { return constraint.rows == 0; });
+    sum_up(std::move(timings), traffic, figures);
     return figures;
+}
+
+Result<std::optional<SceneFigures>> sample_scene(const BenchSubject& subject, const BenchSettings& settings,
+                                                 const std::function<bool(std::uint64_t frames)>& go_on) {
+    using Nothing = std::optional<SceneFigures>;
+    SceneFigures figures;
+    Timings timings;
+    const double heap_before = heap_bytes();
+    const auto begin = Clock::now();
+    auto session = subject.open(settings.common);
+    if (!session) return session.errors();
+    timings.load_ms.push_back(ms_since(begin));
+    add_build_times(*session, timings);
+    const auto plan = plan_runs(subject, settings, *session, figures);
+    if (!plan) return plan.errors();
+    figures.timed_frames = frames_per_sample;
+    const FrameTraffic traffic = frame_traffic(session->world());
+    const auto first_too = [&](std::uint64_t frames) {
+        if (frames == 1) timings.first_frame_ms.push_back(ms_since(begin));
+        return go_on(frames);
+    };
+    if (!run_for_quality(*session, *plan, heap_before, first_too, figures)) return Nothing();
+    std::uint64_t frames = plan->all();
+    for (std::uint32_t run = 0; run < settings.repeat; ++run) {
+        for (std::uint64_t i = 0; i < frames_per_sample; ++i) {
+            timings.add(session->step());
+            if (!go_on(++frames)) return Nothing();
+        }
+        timings.end_run();
+    }
+    sum_up(std::move(timings), traffic, figures);
+    return Nothing(std::move(figures));
 }
 
 }  // namespace weft::cli

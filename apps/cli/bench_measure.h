@@ -76,6 +76,7 @@ struct SceneFigures {
     std::uint64_t threads = 0, substeps = 0, iterations = 0;
     double frame_rate = 0;
     std::uint64_t warmup = 0, frames = 0, runs = 0;
+    std::uint64_t timed_frames = 0;  ///< in each run
 
     std::uint64_t particles = 0, triangles = 0;
     std::vector<ConstraintFigures> constraints;
@@ -106,5 +107,14 @@ std::optional<double> spread(const SceneFigures& figures);
 /// every particle between two frames would move the second one out of the caches, hence the run apart.
 /// Fails where the scene cannot be opened, and where two runs end in different states.
 Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings);
+
+/// Frames that sample_scene adds to a run.
+inline constexpr std::uint64_t frames_per_sample = 10;
+
+/// Likewise for a comparison of many settings: one run without a clock, and from where it ends `repeat` times a few
+/// frames with one. Quality needs all those seconds, time does not. `go_on` is told after every frame how many there
+/// have been; where it says no, nothing comes out.
+Result<std::optional<SceneFigures>> sample_scene(const BenchSubject& subject, const BenchSettings& settings,
+                                                 const std::function<bool(std::uint64_t frames)>& go_on);
 
 }  // namespace weft::cli
