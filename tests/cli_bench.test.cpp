@@ -50,6 +50,10 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_LE(s["ms_per_frame"]["p95"], s["ms_per_frame"]["max"]);
     EXPECT_EQ(s["run_medians_ms"].size(), 2u);
     EXPECT_GE(s["spread"], 0);
+    for (const char* key : {"reference_ms", "ratio", "bytes_per_second"}) EXPECT_GT(s[key], 0);
+    EXPECT_NEAR(s["ratio"], s["ms_per_frame"]["median"].get<double>() / s["reference_ms"].get<double>(), 1e-9);
+    EXPECT_GT(report["memory"]["bytes_per_second"], 0);
+    EXPECT_EQ(report["memory"]["threads"], 1);
     for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities"})
         EXPECT_GT(s["stage_ms"][stage], 0);
     EXPECT_GT(s["load_ms"], 0);
@@ -58,12 +62,65 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_LT(s["build_ms"], s["load_ms"]);
     EXPECT_EQ(s["build_part_ms"].size(), 7u);
     for (const char* part : {"topology", "rows", "coloring", "tables", "rest"}) EXPECT_GT(s["build_part_ms"][part], 0);
+    EXPECT_NEAR(s["quality_seconds"], 7.0 / 60, 1e-9) << "all of a run that is shorter than 2 s";
     for (const char* key : {"stretch", "shear", "residual"}) {
         EXPECT_GT(s[key]["mean"], 0);
         EXPECT_LE(s[key]["mean"], s[key]["max"]);
     }
     EXPECT_EQ(s["reports"], Json::array());
     EXPECT_EQ(s["state_hash"], stats("--frames 7")["state_hash"]) << "what weft run comes to";
+}
+
+TEST_F(CliBench, averages_quality_over_the_last_two_seconds) {
+    ASSERT_EQ(weft("bench sheet.json --quiet --substeps 1 --warmup 2 --seconds 3 --repeat 1 --json b.json").status, 0);
+    const Json once = Json::parse(read_file(folder_ / "b.json"))["scenes"][0];
+    EXPECT_NEAR(once["quality_seconds"], 2, 1e-9);
+    // A longer warmup and fewer frames after it: the same run, and the same end of it.
+    const Outcome outcome =
+        weft("bench sheet.json --substeps 1 --warmup 170 --frames 12 --repeat 1 --json b.json --compare b.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("% over the last 2.00 s"), std::string::npos) << outcome.out;
+    const Json again = Json::parse(read_file(folder_ / "b.json"))["scenes"][0];
+    for (const char* key : {"stretch", "shear", "residual", "quality_seconds"}) EXPECT_EQ(again[key], once[key]) << key;
+
+    // A report from before there was a choice.
+    Json former = bench("sheet.json --substeps 1");
+    former["scenes"][0].erase("quality_seconds");
+    write("b.json", former.dump());
+    const std::string text = compare("--substeps 1").out;
+    EXPECT_NE(text.find("seconds of stretch 0.12 (before 0.08)"), std::string::npos) << text;
+}
+
+TEST_F(CliBench, counts_the_bytes_that_a_frame_moves) {
+    const auto scene = [&](const std::string& arguments) { return bench("sheet.json " + arguments)["scenes"][0]; };
+    const auto per_row = [](const Json& s, const char* kind) {
+        return s["constraints"][kind]["bytes_per_row"].get<double>();
+    };
+    // Row by row, no two rows of a batch share a particle: indices, fields, and particles in and out. A few rows that
+    // have found no batch may.
+    const std::string plain = "--no-hierarchy --projection ";
+    const Json rows = scene(plain + "gauss-seidel");
+    EXPECT_DOUBLE_EQ(per_row(rows, "stretch"), 2 * 4 + 3 * 4 + 2 * 16 * 2);
+    EXPECT_NEAR(per_row(rows, "bend"), 4 * 4 + 2 * 4 + 4 * 16 * 2, 0.5);
+    // Of two iterations the first writes lambda and the second reads and writes it.
+    EXPECT_DOUBLE_EQ(per_row(scene(plain + "gauss-seidel --iterations 2"), "stretch"), 84 + 4 * 3 / 2.0);
+    // Side by side, a share and corrections are added; particles are read once and not moved.
+    const double corrections = 2 * 4 + 3 * 4 + 4 + 2 * 16;
+    EXPECT_DOUBLE_EQ(per_row(scene(plain + "jacobi"), "stretch"), corrections + 120 * 16 / (11 * 10 + 12 * 9 + 99.0));
+    // Along a line, rows share the particles between them.
+    const Json lines = scene("");
+    EXPECT_GT(per_row(lines, "stretch"), 2 * 4 + 3 * 4 + 16 * 2);
+    EXPECT_LT(per_row(lines, "stretch"), 84 - 20);
+
+    // A frame: 20 times what moves particles, what is between them and what they may touch; then damping and normals.
+    const double moves = 120 * 16 * (8 + 6 + 1), all_rows = 317 * 84.0 + 277 * 152.0;
+    const double damping = 317 * (20 + 2 * 48) + 277 * (24 + 4 * 48);
+    const double surface = 2 * (198 * (12 + 16) + 120 * 16);
+    const double expected = 20 * (moves + all_rows) + damping + surface;
+    EXPECT_NEAR(rows["bytes_per_frame"], expected, 0.001 * expected);
+    EXPECT_DOUBLE_EQ(rows["working_set_bytes"], 120 * 64 + 317 * 20 + 277 * 24);
+    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities", "damp", "surface"})
+        EXPECT_GT(rows["stage_reference_ms"][stage], 0) << stage;
 }
 
 TEST_F(CliBench, takes_options_and_several_scenes) {
@@ -113,6 +170,7 @@ TEST_F(CliBench, compares_with_a_former_report) {
     EXPECT_NE(same.out.find(" 1.000 "), std::string::npos) << "the stretch of both\n" << same.out;
     EXPECT_NE(same.out.find("settings, scenes and results are the same"), std::string::npos) << same.out;
 
+    EXPECT_NE(same.out.find("x reference now"), std::string::npos) << same.out;
     const std::string threads = compare("--threads 2").out;
     EXPECT_NE(threads.find("sheet.json: settings differ: threads 2 (before 1)\n"), std::string::npos) << threads;
     EXPECT_EQ(threads.find("result differs"), std::string::npos) << threads;
@@ -133,16 +191,49 @@ TEST_F(CliBench, draws_curves_of_error_against_time) {
     const Outcome outcome = weft("bench --curves 8 --frames 2 --warmup 0 --repeat 1 --json c.json --plot c.svg");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json report = Json::parse(read_file(folder_ / "c.json"));
-    EXPECT_EQ(report["scenes"].size(), 70u) << "seven methods, five numbers of substeps, a grid and its irregular twin";
+    EXPECT_GE(report["scenes"].size(), 14u) << "seven methods, a grid and its irregular twin, once at least";
+    EXPECT_LE(report["scenes"].size(), 70u) << "and five numbers of substeps";
+    for (const Json& s : report["scenes"]) {
+        EXPECT_EQ(s["frames"], 2);
+        EXPECT_EQ(s["timed_frames"], 10);
+        EXPECT_GT(s["ms_per_frame"]["median"], 0);
+        EXPECT_GT(s["ratio"], 0);
+        EXPECT_EQ(s["run_medians_ms"].size(), 1u);
+    }
+    EXPECT_NE(outcome.out.find("error over the last 0.03 s"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("irregular 8², lines, hierarchy, tethers"), std::string::npos);
     EXPECT_NE(outcome.out.find('*'), std::string::npos) << "something is always best";
     const std::string svg = read_file(folder_ / "c.svg");
     EXPECT_EQ(std::count(svg.begin(), svg.end(), '\n') > 100, true);
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
-    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    for (const char* text : {"nan", "inf"}) EXPECT_EQ(svg.find(text), std::string::npos);
+    for (const char* text : {">8²<", ">irregular 8²<", ">jacobi<", "ms a frame", "mean stretch, %"})
+        EXPECT_NE(svg.find(text), std::string::npos) << text;
     expect_usage_error("bench --curves 4", "must be from 8 to 1024, got 4");
     expect_usage_error("bench sheet.json --curves 8", "takes no scenes");
     expect_usage_error("bench sheet.json --plot c.svg", "needs --curves");
+    expect_usage_error("bench --curves 8 --substeps 3", "--substeps: is what the curves go through");
+}
+
+TEST_F(CliBench, leaves_out_points_that_would_take_too_long) {
+    const Outcome outcome =
+        weft("bench --curves 8 --frames 2 --warmup 0 --repeat 1 --point-seconds 0 --json c.json --plot c.svg");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(Json::parse(read_file(folder_ / "c.json"))["scenes"].size(), 14u) << "the first of each method";
+    EXPECT_NE(outcome.out.find("8² jacobi 5 and more: would take some 0 s, more than --point-seconds"),
+              std::string::npos)
+        << outcome.out;
+    EXPECT_NE(read_file(folder_ / "c.svg").find("</svg>"), std::string::npos);
+}
+
+TEST_F(CliBench, gives_the_curves_that_it_has_when_interrupted) {
+    const Outcome outcome =
+        weft("bench --curves 24 --seconds 120 --quiet --json c.json", "timeout --preserve-status 2");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+    if (outcome.err.find("before anything") == std::string::npos) {
+        EXPECT_GE(Json::parse(read_file(folder_ / "c.json"))["scenes"].size(), 1u);
+    }
 }
 
 TEST_F(CliBench, refuses_what_is_no_report) {

@@ -79,6 +79,7 @@ std::string settings_differences(const SceneFigures& now, const SceneFigures& be
     settings.check("frames", now.frames, before.frames);
     settings.check("warmup", now.warmup, before.warmup);
     settings.check("runs", now.runs, before.runs);
+    settings.check("seconds of stretch", fixed(now.quality_seconds, 2), fixed(before.quality_seconds, 2));
     return settings.text();
 }
 
@@ -124,6 +125,10 @@ std::vector<std::string> line_of(const SceneFigures& now, const SceneFigures& be
                                  const std::vector<std::string>& constraints) {
     std::vector<std::string> cells{now.name, fixed(now.ms.median, 3), fixed(before.ms.median, 3),
                                    ratio(now.ms.median, before.ms.median)};
+    for (const SceneFigures* scene : {&now, &before}) {
+        const auto over_reference = scene->ratio();
+        cells.push_back(over_reference ? fixed(*over_reference, 2) : "-");
+    }
     for (const std::string& name : constraints) {
         const auto a = std::ranges::find(now.constraints, name, &ConstraintFigures::name);
         const auto b = std::ranges::find(before.constraints, name, &ConstraintFigures::name);
@@ -139,7 +144,8 @@ std::vector<std::string> line_of(const SceneFigures& now, const SceneFigures& be
 
 std::string comparison(const BenchReport& now, const BenchReport& before, const std::string& before_name) {
     const std::vector<std::string> constraints = shared_constraints(now, before);
-    std::vector<std::string> heads{"ratios are now / before", "ms now", "ms before", "ms"};
+    std::vector<std::string> heads{"ratios are now / before", "ms now",  "ms before", "ms",
+                                   "x reference now",         "x before"};
     for (const std::string& name : constraints) heads.push_back(name + " ns/row");
     heads.insert(heads.end(), {"mean stretch", "runs differ by"});
     Table table(heads);

@@ -1,15 +1,16 @@
 #include "cli/bench_curves.h"
 
+#include "cli/bench_report.h"
+#include "cli/progress.h"
 #include "cli/table.h"
-#include "io/atomic_file.h"
 #include "mesh/procedural.h"
 #include "weft/session.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
+#include <csignal>
 #include <random>
+#include <span>
 
 namespace weft::cli {
 namespace {
@@ -18,16 +19,16 @@ struct MethodSettings {
     const char* name;
     bool tethers, hierarchy;
     Projection projection;
-    const char* color;
 };
+// Those that may be expected to win come first: what they leave and take tells how far the others need to be followed.
 constexpr MethodSettings methods[] = {
-    {"gauss-seidel", false, false, Projection::gauss_seidel, "#d95f02"},
-    {"gauss-seidel, tethers", true, false, Projection::gauss_seidel, "#7570b3"},
-    {"gauss-seidel, hierarchy", false, true, Projection::gauss_seidel, "#1b9e77"},
-    {"lines", false, false, Projection::lines, "#66a61e"},
-    {"lines, hierarchy", false, true, Projection::lines, "#222222"},
-    {"lines, hierarchy, tethers", true, true, Projection::lines, "#999999"},
-    {"jacobi", false, false, Projection::jacobi, "#e7298a"},
+    {"lines, hierarchy", false, true, Projection::lines},
+    {"lines, hierarchy, tethers", true, true, Projection::lines},
+    {"lines", false, false, Projection::lines},
+    {"gauss-seidel, hierarchy", false, true, Projection::gauss_seidel},
+    {"gauss-seidel, tethers", true, false, Projection::gauss_seidel},
+    {"gauss-seidel", false, false, Projection::gauss_seidel},
+    {"jacobi", false, false, Projection::jacobi},
 };
 constexpr std::uint32_t substep_counts[] = {3, 5, 10, 20, 40};
 constexpr std::uint32_t largest_irregular = 128;
@@ -73,147 +74,176 @@ SceneDesc hung_sheet(std::uint32_t side, bool irregular, const MethodSettings& m
     return scene;
 }
 
-bool beaten(std::size_t i, const std::vector<CurveSubject>& subjects, const std::vector<SceneFigures>& figures) {
-    for (std::size_t k = 0; k < figures.size(); ++k) {
-        const bool better =
-            figures[k].ms.median < figures[i].ms.median && figures[k].stretch.mean < figures[i].stretch.mean;
-        if (subjects[k].mesh == subjects[i].mesh && better) return true;
-    }
-    return false;
-}
+// --- One after another
 
-// --- The picture
-
-constexpr double panel_width = 420, panel_height = 320, margin = 60;
-
-struct Axis {
-    double low, high, from, to;  // decades; pixels
-    double at(double value) const {
-        const double t = (std::log10(std::max(value, 1e-12)) - low) / (high - low);
-        return from + std::clamp(t, 0.0, 1.0) * (to - from);
-    }
+struct Candidate {
+    std::uint32_t side;
+    std::string mesh;
+    const MethodSettings* method;
+    std::uint32_t substeps;
+    BenchSubject subject;
+    std::uint64_t work;  ///< of a frame, as far as it can be known: progress goes by it
 };
 
-Axis axis_over(const std::vector<double>& values, double from, double to) {
-    const auto [least, most] = std::ranges::minmax(values);
-    const double low = std::floor(std::log10(std::max(least, 1e-9))),
-                 high = std::ceil(std::log10(std::max(most, 1e-9)));
-    return {low, std::max(high, low + 1), from, to};
-}
-
-std::string text_at(double x, double y, const std::string& anchor, const std::string& text,
-                    const std::string& more = "") {
-    return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\"" + more + ">" +
-           text + "</text>\n";
-}
-
-std::string panel(const std::string& mesh, const std::vector<CurveSubject>& subjects,
-                  const std::vector<SceneFigures>& figures, double left) {
-    std::vector<double> times, errors;
-    std::map<std::string, std::vector<std::size_t>> curves;
-    for (std::size_t i = 0; i < figures.size(); ++i) {
-        if (subjects[i].mesh != mesh) continue;
-        times.push_back(figures[i].ms.median);
-        errors.push_back(100 * figures[i].stretch.mean);
-        curves[subjects[i].method].push_back(i);
-    }
-    const Axis x = axis_over(times, left + margin, left + panel_width - 10);
-    const Axis y = axis_over(errors, panel_height - 50, 40);
-    std::string svg = text_at((x.from + x.to) / 2, 22, "middle", mesh, " font-weight=\"bold\"");
-    svg += text_at((x.from + x.to) / 2, panel_height - 12, "middle", "ms a frame");
-    svg += text_at(left + 14, (y.from + y.to) / 2, "middle", "mean stretch, %",
-                   " transform=\"rotate(-90 " + fixed(left + 14, 1) + ' ' + fixed((y.from + y.to) / 2, 1) + ")\"");
-    const auto line = [&](double x1, double y1, double x2, double y2) {
-        svg += "<line x1=\"" + fixed(x1, 1) + "\" y1=\"" + fixed(y1, 1) + "\" x2=\"" + fixed(x2, 1) + "\" y2=\"" +
-               fixed(y2, 1) + "\" stroke=\"#ddd\"/>\n";
-    };
-    for (double d = x.low; d <= x.high; ++d) {
-        const double value = std::pow(10, d);
-        line(x.at(value), y.from, x.at(value), y.to);
-        svg += text_at(x.at(value), y.from + 16, "middle", fixed(value, d < 0 ? static_cast<int>(-d) : 0));
-    }
-    for (double d = y.low; d <= y.high; ++d) {
-        const double value = std::pow(10, d);
-        line(x.from, y.at(value), x.to, y.at(value));
-        svg += text_at(x.from - 5, y.at(value) + 4, "end", fixed(value, d < 0 ? static_cast<int>(-d) : 0));
-    }
-    for (const MethodSettings& method : methods) {
-        std::string points;
-        for (const std::size_t i : curves[method.name]) {
-            const std::string px = fixed(x.at(figures[i].ms.median), 1),
-                              py = fixed(y.at(100 * figures[i].stretch.mean), 1);
-            points += px + ',' + py + ' ';
-            svg += "<circle cx=\"" + px + "\" cy=\"" + py + "\" r=\"3\" fill=\"" + method.color + "\"><title>" +
-                   method.name + ", " + std::to_string(subjects[i].substeps) + " substeps</title></circle>\n";
-        }
-        svg += "<polyline points=\"" + points + "\" fill=\"none\" stroke=\"" + method.color +
-               "\" stroke-width=\"1.5\"/>\n";
-    }
-    return svg;
-}
-
-std::vector<std::string> meshes_of(const std::vector<CurveSubject>& subjects) {
-    std::vector<std::string> meshes;
-    for (const CurveSubject& one : subjects) {
-        if (std::ranges::find(meshes, one.mesh) == meshes.end()) meshes.push_back(one.mesh);
-    }
-    return meshes;
-}
-
-}  // namespace
-
-std::vector<CurveSubject> curve_subjects(const std::vector<std::uint32_t>& sides) {
-    std::vector<CurveSubject> subjects;
+std::vector<Candidate> candidates(const std::vector<std::uint32_t>& sides) {
+    std::vector<Candidate> all;
     for (const std::uint32_t side : sides) {
         for (const bool irregular : {false, true}) {
             if (irregular && side > largest_irregular) continue;
             const std::string mesh = (irregular ? "irregular " : "") + std::to_string(side) + "²";
             for (const MethodSettings& method : methods) {
                 for (const std::uint32_t substeps : substep_counts) {
-                    const auto open = [=](const Options& options) {
+                    const auto open = [=, &method](const Options& options) {
                         return Session::create(hung_sheet(side, irregular, method, substeps), options);
                     };
                     const std::string name = mesh + ' ' + method.name + ' ' + std::to_string(substeps);
-                    subjects.push_back({mesh, method.name, substeps, {name, open}});
+                    all.push_back({side, mesh, &method, substeps, {name, open}, std::uint64_t{side} * side * substeps});
                 }
             }
         }
     }
+    return all;
+}
+
+bool better(const SceneFigures& a, double ms, double stretch) {
+    return a.ms.median < ms && a.stretch.mean < stretch;
+}
+
+// The best that may come of `next`, going by what its method has left with fewer substeps: time is nearly proportional
+// to substeps, and stretch goes down with their square at best, unless the sheet has hardly held together.
+struct Hope {
+    double ms, stretch;
+};
+Hope hope_of(const Candidate& next, const CurvePoint& last) {
+    constexpr double surely = 0.8, held_together = 0.1;
+    const double times = static_cast<double>(next.substeps) / last.substeps, stretch = last.figures.stretch.mean;
+    return {surely * times * last.figures.ms.median, stretch / std::pow(times, stretch < held_together ? 2 : 3)};
+}
+
+double seconds_of(const Candidate& next, const CurvePoint& last) {
+    const SceneFigures& f = last.figures;
+    const auto frames = static_cast<double>(f.warmup + f.frames + f.runs * f.timed_frames);
+    return frames * f.ms.median / 1e3 * next.substeps / last.substeps;
+}
+
+// Why neither the first of `next` nor those after it, of the same method with more substeps, need be tried, given all
+// that has been measured; empty if the first should be.
+std::string why_not(std::span<const Candidate> next, const std::vector<CurvePoint>& points, double most_seconds) {
+    const Candidate& first = next.front();
+    if (points.empty() || points.back().mesh != first.mesh || points.back().method != first.method->name) return {};
+    const CurvePoint& last = points.back();
+    const double seconds = seconds_of(first, last);
+    if (seconds > most_seconds) return "would take some " + fixed(seconds, 0) + " s, more than --point-seconds";
+    std::string why;
+    for (const Candidate& one : next) {
+        if (one.mesh != first.mesh || one.method != first.method || seconds_of(one, last) > most_seconds) break;
+        const Hope hope = hope_of(one, last);
+        const auto beats = [&](const CurvePoint& point) {
+            return point.mesh == one.mesh && better(point.figures, hope.ms, hope.stretch);
+        };
+        const auto found = std::ranges::find_if(points, beats);
+        if (found == points.end()) return {};
+        if (why.empty())
+            why = "cannot be better than " + found->method + " with " + std::to_string(found->substeps) + " substeps";
+    }
+    return why;
+}
+
+// SIGINT and SIGTERM ask for an end after this frame.
+volatile std::sig_atomic_t asked_to_end = 0;
+
+extern "C" void ask_to_end(int) {
+    asked_to_end = 1;
+}
+
+class EndOnSignal {
+  public:
+    EndOnSignal() {
+        asked_to_end = 0;
+        for (std::size_t i = 0; i < std::size(signals); ++i) {
+            before_[i] = std::signal(signals[i], ask_to_end);
+            if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // in the background
+        }
+    }
+    ~EndOnSignal() {
+        for (std::size_t i = 0; i < std::size(signals); ++i) std::signal(signals[i], before_[i]);
+    }
+
+  private:
+    static constexpr int signals[] = {SIGINT, SIGTERM};
+    void (*before_[std::size(signals)])(int) = {};
+};
+
+}  // namespace
+
+std::vector<BenchSubject> curve_meshes(const std::vector<std::uint32_t>& sides) {
+    std::vector<BenchSubject> subjects;
+    std::string mesh;
+    for (Candidate& candidate : candidates(sides)) {
+        if (candidate.mesh != mesh) subjects.push_back(std::move(candidate.subject));
+        mesh = candidate.mesh;
+    }
     return subjects;
 }
 
-std::string curves_table(const std::vector<CurveSubject>& subjects, const std::vector<SceneFigures>& figures) {
-    Table table({"error against time", "substeps", "ms a frame", "stretch %", "max %", "residual %", ""});
-    for (std::size_t i = 0; i < figures.size(); ++i) {
-        const SceneFigures& f = figures[i];
-        table.add({subjects[i].mesh + ", " + subjects[i].method, std::to_string(f.substeps), fixed(f.ms.median, 3),
-                   fixed(100 * f.stretch.mean, 3), fixed(100 * f.stretch.max, 1), fixed(100 * f.residual.mean, 3),
-                   beaten(i, subjects, figures) ? "" : "*"});
+Result<Curves> measure_curves(const CurveSettings& settings) {
+    const std::vector<Candidate> all = candidates(settings.sides);
+    std::uint64_t total = 0, done = 0;  // frames, weighted by the work of each
+    const auto frames = frame_count(settings.bench.length, 1.0 / SceneDesc{}.frame_rate);
+    if (!frames) return frames.errors();
+    const std::uint64_t of_each =
+        settings.bench.warmup + *frames + std::uint64_t{settings.bench.repeat} * frames_per_sample;
+    for (const Candidate& one : all) total += one.work * of_each;
+    Curves curves;
+    Progress progress("curves", total, settings.bench.quiet, Progress::work);
+    const EndOnSignal end_on_signal;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Candidate& next = all[i];
+        if (std::string why = why_not(std::span(all).subspan(i), curves.points, settings.most_seconds); !why.empty()) {
+            for (; i < all.size() && all[i].mesh == next.mesh && all[i].method == next.method; ++i)
+                total -= all[i].work * of_each;
+            --i;  // more substeps of the same
+            progress.set_total(total);
+            curves.left_out.push_back(next.subject.name + " and more: " + why);
+            continue;
+        }
+        progress.set_what(next.subject.name);
+        const auto go_on = [&](std::uint64_t frame) {
+            progress.update(done + frame * next.work);
+            return !asked_to_end;
+        };
+        auto figures = sample_scene(next.subject, settings.bench, go_on);
+        if (!figures) return figures.errors();
+        if (!*figures) {
+            curves.interrupted = true;
+            break;
+        }
+        curves.points.push_back({next.mesh, next.method->name, next.substeps, std::move(**figures)});
+        done += next.work * of_each;
     }
-    return table.text();
+    return curves;
 }
 
-Result<Done> write_curves(const std::vector<CurveSubject>& subjects, const std::vector<SceneFigures>& figures,
-                          const std::filesystem::path& file) {
-    const std::vector<std::string> meshes = meshes_of(subjects);
-    const double width = panel_width * static_cast<double>(meshes.size());
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed(width, 0) + "\" height=\"" +
-                      fixed(panel_height + 30, 0) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
-                      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-        svg += panel(meshes[i], subjects, figures, panel_width * static_cast<double>(i));
+std::string curves_table(const Curves& curves) {
+    if (curves.points.empty()) return {};
+    std::vector<SceneFigures> scenes;
+    for (const CurvePoint& point : curves.points) scenes.push_back(point.figures);
+    Table table({"error over the last " + quality_window(scenes), "substeps", "ms a frame", "reference ms", "ratio",
+                 "stretch %", "max %", "residual %", ""});
+    for (const CurvePoint& point : curves.points) {
+        const SceneFigures& f = point.figures;
+        const bool beaten = std::ranges::any_of(curves.points, [&](const CurvePoint& other) {
+            return other.mesh == point.mesh && better(other.figures, f.ms.median, f.stretch.mean);
+        });
+        const auto ratio = f.ratio();
+        table.add({point.mesh + ", " + point.method, std::to_string(point.substeps), fixed(f.ms.median, 3),
+                   fixed(f.reference.ms, 3), ratio ? fixed(*ratio, 2) : "-", fixed(100 * f.stretch.mean, 3),
+                   fixed(100 * f.stretch.max, 1), fixed(100 * f.residual.mean, 3), beaten ? "" : "*"});
     }
-    double x = margin;
-    for (const MethodSettings& method : methods) {
-        svg += "<circle cx=\"" + fixed(x, 0) + "\" cy=\"" + fixed(panel_height + 11, 0) + "\" r=\"4\" fill=\"" +
-               method.color + "\"/>\n" + text_at(x + 9, panel_height + 15, "start", method.name);
-        x += 30 + 7.5 * static_cast<double>(std::string(method.name).size());
-    }
-    svg += "</svg>\n";
-    auto out = AtomicFile::create(file);
-    if (!out) return out.errors();
-    if (auto written = out->write(svg); !written) return written;
-    return out->commit();
+    std::string text = table.text();
+    if (!curves.left_out.empty()) text += "\nnot measured\n";
+    for (const std::string& line : curves.left_out) text += "  " + line + '\n';
+    return text;
 }
 
 }  // namespace weft::cli

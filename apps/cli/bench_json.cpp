@@ -4,6 +4,7 @@
 #include "io/json_text.h"
 #include "scene/problems.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <concepts>
 #include <fstream>
@@ -19,11 +20,19 @@ constexpr std::uint64_t report_format = 1;
 
 Json scene_json(const SceneFigures& scene) {
     const auto mean_max = [](const MeanMax& value) { return Json{{"mean", value.mean}, {"max", value.max}}; };
-    Json constraints = Json::object(), stages = Json::object(), parts = Json::object();
+    Json constraints = Json::object(), stages = Json::object(), references = Json::object(), parts = Json::object();
     for (const ConstraintFigures& constraint : scene.constraints) {
-        constraints[constraint.name] = {{"rows", constraint.rows}, {"ns_per_row", constraint.ns_per_row}};
+        Json& out = constraints[constraint.name];
+        out = {{"rows", constraint.rows},
+               {"ns_per_row", constraint.ns_per_row},
+               {"bytes_per_row", constraint.bytes_per_row},
+               {"reference_ns_per_row", constraint.reference_ns_per_row}};
+        if (const auto ratio = constraint.ratio()) out["ratio"] = *ratio;
     }
-    for (const StageFigures& stage : scene.stages) stages[stage.name] = stage.ms;
+    for (const StageFigures& stage : scene.stages) {
+        stages[stage.name] = stage.ms;
+        references[stage.name] = stage.reference_ms;
+    }
     for (const PartFigures& part : scene.build) parts[part.name] = part.ms;
 
     Json out;
@@ -39,6 +48,7 @@ Json scene_json(const SceneFigures& scene) {
     out["warmup"] = scene.warmup;
     out["frames"] = scene.frames;
     out["runs"] = scene.runs;
+    out["timed_frames"] = scene.timed_frames;
     out["particles"] = scene.particles;
     out["triangles"] = scene.triangles;
     out["constraints"] = constraints;
@@ -46,11 +56,18 @@ Json scene_json(const SceneFigures& scene) {
         {"median", scene.ms.median}, {"p95", scene.ms.p95}, {"min", scene.ms.min}, {"max", scene.ms.max}};
     out["run_medians_ms"] = scene.run_medians;
     if (const auto between_runs = spread(scene)) out["spread"] = *between_runs;
+    out["reference_ms"] = scene.reference.ms;
+    if (const auto ratio = scene.ratio()) out["ratio"] = *ratio;
+    out["bytes_per_frame"] = scene.reference.bytes_per_frame;
+    out["working_set_bytes"] = scene.reference.working_set;
+    out["bytes_per_second"] = scene.reference.bandwidth;
     out["stage_ms"] = stages;
+    out["stage_reference_ms"] = references;
     out["load_ms"] = scene.load_ms;
     out["build_ms"] = scene.build_ms;
     out["build_part_ms"] = parts;
     out["first_frame_ms"] = scene.first_frame_ms;
+    out["quality_seconds"] = scene.quality_seconds;
     out["stretch"] = mean_max(scene.stretch);
     out["shear"] = mean_max(scene.shear);
     out["residual"] = mean_max(scene.residual);
@@ -93,6 +110,7 @@ class Fields {
         if (auto fields = object(key)) fields->get("mean", to.mean), fields->get("max", to.max);
     }
 
+    bool has(const char* key) const { return object_.is_object() && object_.contains(key); }
     std::optional<Fields> object(const std::string& key) {
         const json* value = find(key);
         if (!value) return {};
@@ -164,7 +182,13 @@ SceneFigures scene_of(Fields fields) {
         }
     }
     if (auto ms = fields.object("ms_per_frame")) ms->get("median", scene.ms.median);
+    if (fields.has("reference_ms")) fields.get("reference_ms", scene.reference.ms);
     fields.get("run_medians_ms", scene.run_medians);
+    if (fields.has("quality_seconds")) {
+        fields.get("quality_seconds", scene.quality_seconds);
+    } else if (scene.frame_rate > 0) {  // written when it was always this
+        scene.quality_seconds = std::min(static_cast<double>(scene.frames) / scene.frame_rate, 1.0);
+    }
     fields.get("stretch", scene.stretch);
     fields.get("state_hash", scene.state_hash);
     return scene;
@@ -220,6 +244,9 @@ Json to_json(const BenchReport& report) {
     out["compiler"] = report.compiler;
     out["processor"] = report.processor;
     out["hardware_threads"] = report.hardware_threads;
+    out["memory"] = {{"threads", report.memory.threads},
+                     {"bytes", report.memory.bytes},
+                     {"bytes_per_second", report.memory.bandwidth}};
     out["scenes"] = Json::array();
     for (const SceneFigures& scene : report.scenes) out["scenes"].push_back(scene_json(scene));
     return out;

@@ -1,5 +1,6 @@
 #include "cli/bench_measure.h"
 
+#include "cli/bench_reference.h"
 #include "cli/progress.h"
 #include "cli/stats.h"
 #include "cpu/cpu_backend.h"
@@ -56,25 +57,35 @@ struct Average {
     MeanMax over(double count) const { return {sum.mean / count, sum.max / count}; }
 };
 
-// The run without a clock. `heap_before` is what the heap held before the session was opened.
-void run_for_quality(Session& session, const Plan& plan, double heap_before, Progress& progress,
-                     SceneFigures& figures) {
-    const auto last_second =
-        std::min(plan.frames, static_cast<std::uint64_t>(std::max(1.0, 1 / session.frame_seconds() + 0.5)));
+// A sheet that swings is stretched by turns more and less, and a window of a second tells where the swing is.
+constexpr double longest_quality_seconds = 2;
+
+std::uint64_t quality_frames(const Session& session, const Plan& plan) {
+    const auto frames = static_cast<std::uint64_t>(longest_quality_seconds / session.frame_seconds() + 0.5);
+    return std::clamp<std::uint64_t>(frames, 1, plan.all());
+}
+
+using GoOn = std::function<bool(std::uint64_t frames)>;
+
+// The run without a clock. `heap_before` is what the heap held before the session was opened. Whether it came to its
+// end.
+bool run_for_quality(Session& session, const Plan& plan, double heap_before, const GoOn& go_on, SceneFigures& figures) {
+    const std::uint64_t window = quality_frames(session, plan);
     Average stretch, shear, residual;
     std::uint32_t reports = report_none;
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
         const Frame& frame = session.step();
         reports |= frame.reports;
-        progress.update(i + 1);
-        if (i + last_second < plan.all()) continue;
+        if (!go_on(i + 1)) return false;
+        if (i + window < plan.all()) continue;
         const Strain strain = measure_strain(frame);
         const Residual left = session.world().stretch_residual();
         stretch.add(strain.stretch.mean, strain.stretch.max);
         shear.add(strain.shear.mean, strain.shear.max);
         residual.add(left.mean, left.max);
     }
-    const auto count = static_cast<double>(last_second);
+    const auto count = static_cast<double>(window);
+    figures.quality_seconds = count * session.frame_seconds();
     figures.stretch = stretch.over(count);
     figures.shear = shear.over(count);
     figures.residual = residual.over(count);
@@ -83,19 +94,30 @@ void run_for_quality(Session& session, const Plan& plan, double heap_before, Pro
     if (const double held = heap_bytes() - heap_before; held > 0 && figures.particles > 0) {
         figures.bytes_per_particle = held / static_cast<double>(figures.particles);
     }
+    return true;
 }
-
-struct Timings {
-    std::vector<double> step_ms;
-    std::array<std::vector<double>, stage_count> stage_ms;
-    std::vector<double> run_medians, load_ms, build_ms, first_frame_ms;
-    std::array<std::vector<double>, build_part_count> part_ms;
-};
 
 double median_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return median(values);
 }
+
+struct Timings {
+    std::vector<double> step_ms, this_run;
+    std::array<std::vector<double>, stage_count> stage_ms;
+    std::vector<double> run_medians, load_ms, build_ms, first_frame_ms;
+    std::array<std::vector<double>, build_part_count> part_ms;
+
+    void add(const Frame& frame) {
+        this_run.push_back(frame.step_ms);
+        for (std::uint32_t s = 0; s < stage_count; ++s) stage_ms[s].push_back(frame.stage_ms[s]);
+    }
+    void end_run() {
+        step_ms.insert(step_ms.end(), this_run.begin(), this_run.end());
+        run_medians.push_back(median_of(std::move(this_run)));
+        this_run.clear();
+    }
+};
 
 void add_build_times(const Session& session, Timings& timings) {
     BuildTimes sum;
@@ -114,19 +136,13 @@ Result<std::string> run_for_time(const BenchSubject& subject, const Options& opt
     if (!session) return session.errors();
     timings.load_ms.push_back(ms_since(begin));
     add_build_times(*session, timings);
-    std::vector<double> steps;
-    steps.reserve(plan.frames);
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
         const Frame& frame = session->step();
         if (i == 0) timings.first_frame_ms.push_back(ms_since(begin));
-        if (i >= plan.warmup) {
-            steps.push_back(frame.step_ms);
-            for (std::uint32_t s = 0; s < stage_count; ++s) timings.stage_ms[s].push_back(frame.stage_ms[s]);
-        }
+        if (i >= plan.warmup) timings.add(frame);
         progress.update(frames_before + i + 1);
     }
-    timings.step_ms.insert(timings.step_ms.end(), steps.begin(), steps.end());
-    timings.run_medians.push_back(median_of(std::move(steps)));
+    timings.end_run();
     return session->world().state_hash();
 }
 
@@ -154,7 +170,39 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     }
 }
 
-void sum_up(Timings timings, SceneFigures& figures) {
+Result<Plan> plan_runs(const BenchSubject& subject, const BenchSettings& settings, const Session& session,
+                       SceneFigures& figures) {
+    const auto frames = frame_count(settings.length, session.frame_seconds());
+    if (!frames) return frames.errors();
+    figures.name = subject.name;
+    figures.warmup = settings.warmup;
+    figures.runs = settings.repeat;
+    figures.frames = figures.timed_frames = *frames;
+    describe(session, settings.common, figures);
+    return Plan{settings.warmup, *frames};
+}
+
+// Stages and constraints are in the order of their numbers still.
+void refer(const FrameTraffic& traffic, SceneFigures& figures) {
+    ReferenceFigures& reference = figures.reference;
+    reference.bytes_per_frame = traffic.all();
+    reference.working_set = traffic.working_set;
+    reference.bandwidth =
+        copy_bandwidth(static_cast<unsigned>(figures.threads), static_cast<std::size_t>(traffic.working_set));
+    reference.ms = 1e3 * reference.bytes_per_frame / reference.bandwidth;
+    for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
+        figures.stages[stage].reference_ms = 1e3 * traffic.bytes[stage] / reference.bandwidth;
+    }
+    const auto rounds = static_cast<double>(figures.substeps * figures.iterations);
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        ConstraintFigures& constraint = figures.constraints[kind];
+        if (constraint.rows == 0) continue;
+        constraint.bytes_per_row = traffic.bytes[kind] / (static_cast<double>(constraint.rows) * rounds);
+        constraint.reference_ns_per_row = 1e9 * constraint.bytes_per_row / reference.bandwidth;
+    }
+}
+
+void sum_up(Timings timings, const FrameTraffic& traffic, SceneFigures& figures) {
     std::sort(timings.step_ms.begin(), timings.step_ms.end());
     figures.ms = {median(timings.step_ms), percentile(timings.step_ms, 0.95), timings.step_ms.front(),
                   timings.step_ms.back()};
@@ -174,6 +222,7 @@ void sum_up(Timings timings, SceneFigures& figures) {
         if (constraint.rows == 0) continue;
         constraint.ns_per_row = figures.stages[kind].ms * 1e6 / (static_cast<double>(constraint.rows) * rounds);
     }
+    refer(traffic, figures);
     std::erase_if(figures.constraints, [](const ConstraintFigures& constraint) { return constraint.rows == 0; });
 }
 
@@ -205,6 +254,14 @@ std::vector<BenchSubject> build_subjects(const std::vector<std::uint32_t>& sides
     return subjects;
 }
 
+std::optional<double> ConstraintFigures::ratio() const {
+    return reference_ns_per_row > 0 ? std::optional(ns_per_row / reference_ns_per_row) : std::nullopt;
+}
+
+std::optional<double> SceneFigures::ratio() const {
+    return reference.ms > 0 ? std::optional(ms.median / reference.ms) : std::nullopt;
+}
+
 std::optional<double> spread(const SceneFigures& figures) {
     if (figures.run_medians.size() < 2 || figures.ms.median <= 0) return {};
     const auto [least, most] = std::ranges::minmax(figures.run_medians);
@@ -213,21 +270,20 @@ std::optional<double> spread(const SceneFigures& figures) {
 
 Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings) {
     SceneFigures figures;
-    figures.name = subject.name;
-    figures.warmup = settings.warmup;
-    figures.runs = settings.repeat;
-
     const double heap_before = heap_bytes();
     auto session = subject.open(settings.common);
     if (!session) return session.errors();
-    const auto frames = frame_count(settings.length, session->frame_seconds());
-    if (!frames) return frames.errors();
-    figures.frames = *frames;
-    const Plan plan{settings.warmup, *frames};
+    const auto planned = plan_runs(subject, settings, *session, figures);
+    if (!planned) return planned.errors();
+    const Plan plan = *planned;
     Progress progress("measuring " + subject.name, (settings.repeat + std::uint64_t{1}) * plan.all(), settings.quiet);
 
-    describe(*session, settings.common, figures);
-    run_for_quality(*session, plan, heap_before, progress, figures);
+    const FrameTraffic traffic = frame_traffic(session->world());
+    const auto on_frame = [&](std::uint64_t frames) {
+        progress.update(frames);
+        return true;
+    };
+    run_for_quality(*session, plan, heap_before, on_frame, figures);
     { const Session gone = std::move(*session); }  // two at once would share the caches
 
     Timings timings;
@@ -239,8 +295,40 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
                                            " and " + *hash + ": the figures mean nothing"};
         }
     }
-    sum_up(std::move(timings), figures);
+    sum_up(std::move(timings), traffic, figures);
     return figures;
+}
+
+Result<std::optional<SceneFigures>> sample_scene(const BenchSubject& subject, const BenchSettings& settings,
+                                                 const std::function<bool(std::uint64_t frames)>& go_on) {
+    using Nothing = std::optional<SceneFigures>;
+    SceneFigures figures;
+    Timings timings;
+    const double heap_before = heap_bytes();
+    const auto begin = Clock::now();
+    auto session = subject.open(settings.common);
+    if (!session) return session.errors();
+    timings.load_ms.push_back(ms_since(begin));
+    add_build_times(*session, timings);
+    const auto plan = plan_runs(subject, settings, *session, figures);
+    if (!plan) return plan.errors();
+    figures.timed_frames = frames_per_sample;
+    const FrameTraffic traffic = frame_traffic(session->world());
+    const auto first_too = [&](std::uint64_t frames) {
+        if (frames == 1) timings.first_frame_ms.push_back(ms_since(begin));
+        return go_on(frames);
+    };
+    if (!run_for_quality(*session, *plan, heap_before, first_too, figures)) return Nothing();
+    std::uint64_t frames = plan->all();
+    for (std::uint32_t run = 0; run < settings.repeat; ++run) {
+        for (std::uint64_t i = 0; i < frames_per_sample; ++i) {
+            timings.add(session->step());
+            if (!go_on(++frames)) return Nothing();
+        }
+        timings.end_run();
+    }
+    sum_up(std::move(timings), traffic, figures);
+    return Nothing(std::move(figures));
 }
 
 }  // namespace weft::cli

@@ -43,7 +43,8 @@ struct Distribution {
 
 struct StageFigures {
     std::string name;
-    double ms = 0;  ///< a frame: median over the frames
+    double ms = 0;            ///< a frame: median over the frames
+    double reference_ms = 0;  ///< what it touches, streamed once per pass
 };
 
 struct PartFigures {
@@ -56,6 +57,16 @@ struct ConstraintFigures {
     std::uint64_t rows = 0;
     /// The stage's time over rows, substeps and iterations, on all threads together: two threads halve it.
     double ns_per_row = 0;
+    double bytes_per_row = 0;             ///< likewise, and particles shared out among the rows
+    double reference_ns_per_row = 0;      ///< at the scene's bandwidth
+    std::optional<double> ratio() const;  ///< measured over reference
+};
+
+/// What the frame has to move and how long that takes (bench_reference.h).
+struct ReferenceFigures {
+    double bytes_per_frame = 0, working_set = 0;
+    double bandwidth = 0;  ///< bytes a second: of copies within as much memory as the working set, on as many threads
+    double ms = 0;
 };
 
 struct SceneFigures {
@@ -65,21 +76,28 @@ struct SceneFigures {
     std::uint64_t threads = 0, substeps = 0, iterations = 0;
     double frame_rate = 0;
     std::uint64_t warmup = 0, frames = 0, runs = 0;
+    std::uint64_t timed_frames = 0;  ///< in each run
 
     std::uint64_t particles = 0, triangles = 0;
     std::vector<ConstraintFigures> constraints;
     Distribution ms;                  ///< a frame, over the frames of all runs
     std::vector<double> run_medians;  ///< ms
+    ReferenceFigures reference;
     std::vector<StageFigures> stages;
-    double load_ms = 0;                ///< from the file to a world that can step; median over the runs
-    double build_ms = 0;               ///< of that, the making of cloths from meshes
-    std::vector<PartFigures> build;    ///< part by part
-    double first_frame_ms = 0;         ///< and to the end of its first frame
-    MeanMax stretch, shear, residual;  ///< averages over the frames of the last second
+    double load_ms = 0;              ///< from the file to a world that can step; median over the runs
+    double build_ms = 0;             ///< of that, the making of cloths from meshes
+    std::vector<PartFigures> build;  ///< part by part
+    double first_frame_ms = 0;       ///< and to the end of its first frame
+    /// Averages over the frames of the last 2 s, or of the whole run, warmup included, if that is shorter.
+    MeanMax stretch, shear, residual;
+    double quality_seconds = 0;  ///< how long that is
     /// What the heap holds for the scene, file and drawn mesh included; nothing where that cannot be known.
     std::optional<double> bytes_per_particle;
     std::vector<std::string> reports;
     std::string state_hash;
+
+    /// Median over reference; nothing without one.
+    std::optional<double> ratio() const;
 };
 
 /// Largest less smallest median of the runs, as a part of the median of all frames. One run tells nothing of it.
@@ -89,5 +107,14 @@ std::optional<double> spread(const SceneFigures& figures);
 /// every particle between two frames would move the second one out of the caches, hence the run apart.
 /// Fails where the scene cannot be opened, and where two runs end in different states.
 Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings);
+
+/// Frames that sample_scene adds to a run.
+inline constexpr std::uint64_t frames_per_sample = 10;
+
+/// Likewise for a comparison of many settings: one run without a clock, and from where it ends `repeat` times a few
+/// frames with one. Quality needs all those seconds, time does not. `go_on` is told after every frame how many there
+/// have been; where it says no, nothing comes out.
+Result<std::optional<SceneFigures>> sample_scene(const BenchSubject& subject, const BenchSettings& settings,
+                                                 const std::function<bool(std::uint64_t frames)>& go_on);
 
 }  // namespace weft::cli

@@ -64,6 +64,10 @@ std::string head_lines(const BenchReport& report) {
         if (line != before) text += line;
         before = line;
     }
+    const MemoryFigures& memory = report.memory;
+    text += fixed(static_cast<double>(memory.bytes) / 1e6, 0) + " MB are copied at " +
+            fixed(memory.bandwidth / 1e9, 1) + " GB/s, read and written, by " + std::to_string(memory.threads) +
+            (memory.threads == 1 ? " thread\n" : " threads\n");
     return text;
 }
 
@@ -75,6 +79,22 @@ std::string times_table(const BenchReport& report) {
                    fixed(scene.ms.p95, 3), fixed(scene.ms.min, 3), fixed(scene.ms.max, 3), spread_text(spread(scene)),
                    fixed(scene.load_ms, 1), fixed(scene.first_frame_ms, 1),
                    scene.bytes_per_particle ? fixed(*scene.bytes_per_particle, 0) : "?"});
+    }
+    return table.text();
+}
+
+std::string ratio_text(std::optional<double> ratio) {
+    return ratio ? fixed(*ratio, 2) : "-";
+}
+
+std::string reference_table(const BenchReport& report) {
+    Table table({"everything streamed once per pass", "MB a frame", "working set, MB", "GB/s within it", "reference ms",
+                 "median ms", "ratio"});
+    for (const SceneFigures& scene : report.scenes) {
+        const ReferenceFigures& reference = scene.reference;
+        table.add({scene.name, fixed(reference.bytes_per_frame / 1e6, 2), fixed(reference.working_set / 1e6, 2),
+                   fixed(reference.bandwidth / 1e9, 1), fixed(reference.ms, 3), fixed(scene.ms.median, 3),
+                   ratio_text(scene.ratio())});
     }
     return table.text();
 }
@@ -112,13 +132,15 @@ std::string stages_table(const BenchReport& report) {
 std::string rows_table(const BenchReport& report) {
     const std::vector<std::string> names = constraint_names(report);
     std::vector<std::string> heads{"ns a row and iteration"};
-    for (const std::string& name : names) heads.insert(heads.end(), {name, "rows"});
+    for (const std::string& name : names) heads.insert(heads.end(), {name, "reference", "ratio", "rows"});
     Table table(heads);
     for (const SceneFigures& scene : report.scenes) {
         std::vector<std::string> cells{scene.name};
         for (const std::string& name : names) {
             const ConstraintFigures* found = find_constraint(scene, name);
             cells.push_back(found ? fixed(found->ns_per_row, 2) : "-");
+            cells.push_back(found ? fixed(found->reference_ns_per_row, 2) : "-");
+            cells.push_back(found ? ratio_text(found->ratio()) : "-");
             cells.push_back(found ? std::to_string(found->rows) : "-");
         }
         table.add(std::move(cells));
@@ -127,7 +149,8 @@ std::string rows_table(const BenchReport& report) {
 }
 
 std::string quality_table(const BenchReport& report) {
-    Table table({"% in the last second", "stretch", "max", "shear", "max", "residual", "max", "state hash", "reports"});
+    Table table({"% over the last " + quality_window(report.scenes), "stretch", "max", "shear", "max", "residual",
+                 "max", "state hash", "reports"});
     for (const SceneFigures& scene : report.scenes) {
         std::vector<std::string> cells{scene.name};
         for (const MeanMax* value : {&scene.stretch, &scene.shear, &scene.residual}) {
@@ -144,17 +167,24 @@ std::string quality_table(const BenchReport& report) {
 
 }  // namespace
 
+std::string quality_window(const std::vector<SceneFigures>& scenes) {
+    if (scenes.empty()) return "-";
+    const auto [least, most] = std::ranges::minmax(scenes, {}, &SceneFigures::quality_seconds);
+    const std::string to = fixed(most.quality_seconds, 2) + " s", from = fixed(least.quality_seconds, 2) + " s";
+    return from == to ? to : from + " to " + to;
+}
+
 std::string spread_text(std::optional<double> spread) {
     return spread ? fixed(100 * *spread, 1) + " %" : "-";
 }
 
 BenchReport empty_report() {
-    return {version(), compiler_name(), processor_name(), std::thread::hardware_concurrency(), {}};
+    return {version(), compiler_name(), processor_name(), std::thread::hardware_concurrency(), {}, {}};
 }
 
 std::string tables(const BenchReport& report) {
-    return head_lines(report) + '\n' + times_table(report) + '\n' + build_table(report) + '\n' + stages_table(report) +
-           '\n' + rows_table(report) + '\n' + quality_table(report);
+    return head_lines(report) + '\n' + times_table(report) + '\n' + reference_table(report) + '\n' +
+           build_table(report) + '\n' + stages_table(report) + '\n' + rows_table(report) + '\n' + quality_table(report);
 }
 
 }  // namespace weft::cli

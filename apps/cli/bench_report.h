@@ -11,9 +11,16 @@
 
 namespace weft::cli {
 
+/// How fast the machine copies what no cache holds.
+struct MemoryFigures {
+    std::uint64_t threads = 0, bytes = 0;
+    double bandwidth = 0;  ///< bytes a second, read ones and written ones together
+};
+
 struct BenchReport {
     std::string version, compiler, processor;
     std::uint64_t hardware_threads = 0;
+    MemoryFigures memory = {};
     std::vector<SceneFigures> scenes;
 };
 
@@ -23,6 +30,9 @@ BenchReport empty_report();
 nlohmann::ordered_json to_json(const BenchReport& report);
 /// What to_json wrote. Errors name the file and the place in it.
 Result<BenchReport> read_report(const std::filesystem::path& file);
+
+/// Over what stretch, shear and residual are averages: "2.00 s", "0.50 s to 2.00 s".
+std::string quality_window(const std::vector<SceneFigures>& scenes);
 
 std::string spread_text(std::optional<double> spread);
 
