@@ -164,8 +164,8 @@ CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan)
 void ClothState::update_limits() {
     if (levels.empty()) return;
     const auto stretch = static_cast<std::uint32_t>(ConstraintKind::stretch);
-    const float allowed =
-        1 + elastic_reserve(model->constraints[stretch], lambda[stretch], substep_seconds, model->fabric);
+    const float elastic = elastic_reserve(model->constraints[stretch], lambda[stretch], substep_seconds, model->fabric);
+    const float allowed = 1 + std::max(elastic, strain_between(model->pin_spans, now.position));
     for (std::size_t i = 0; i < levels.size(); ++i) {
         const AlignedVector<float>& at_rest = model->hierarchy[i].reach.fields;
         std::ranges::transform(at_rest, levels[i].limits.begin(), [&](float limit) { return limit * allowed; });

@@ -332,8 +332,10 @@ struct Newton {
                         system[i][j] += weight(i, a) * reference::dot(gradient(i, a), gradient(j, b));
                 }
             }
-            system[i][i] += 1e-4 * w + alpha;
-            system[i][n] = -(testing_kernels::norm(from_other(i, 0)) - f.table.fields[rows[i]] + alpha * lambda);
+            const double rest = f.table.fields[rows[i]];
+            const double out = testing_kernels::norm(from_other(i, 0)) - rest;
+            system[i][i] += 1e-4 * w + std::max(alpha, w * std::min(0.1, std::abs(out) / rest));
+            system[i][n] = -(out + alpha * lambda);
         }
         change = solve(std::move(system));
         for (std::size_t i = 0; i < n; ++i) {

@@ -152,6 +152,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
     if (layout.hierarchy)
         model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
                                           layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
+    model.pin_spans = find_pin_spans(model.hierarchy, model.topology.rest_positions);
     clock.spent_on(BuildPart::hierarchy);
     lay_out_faces(model, rest);
     measure_edges(model, rest);

@@ -8,6 +8,7 @@
 #include "solver/constraint_table.h"
 #include "solver/faces_around.h"
 #include "solver/hierarchy.h"
+#include "solver/pin_spans.h"
 
 #include <weft/result.h>
 
@@ -60,6 +61,7 @@ struct ClothModel {
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
     std::vector<CoarseLevel> hierarchy;  ///< the finest level first; empty if none was asked for, or none is of use
+    std::vector<PinSpan> pin_spans;      ///< only for the hierarchy
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
     AlignedVector<std::uint32_t> faces;
     std::uint32_t face_stride = 0;

@@ -58,6 +58,42 @@ TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
     EXPECT_NEAR(sags[1] / law, 1, 0.03);
 }
 
+// Two edges held 2 % too far apart: rigid cloth has no shape that fits, cotton one that is flat.
+double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
+    const WorldSettings settings{.substeps = 20, .hierarchy = true};
+    const auto at_edge = [](Vec3 p) { return std::abs(p.x) > 0.49f; };
+    const auto model =
+        make_sheet({.resolution = {64, 64}, .fabric = fabric, .layout = settings.layout(), .pinned = at_edge});
+    Holds holds{.movers = {{.offsets = {{0, {}}, {1, {-0.01f, 0, 0}}}}, {.offsets = {{0, {}}, {1, {0.01f, 0, 0}}}}},
+                .particles = {}};
+    for (std::uint32_t p = 0; p < model->particle_count; ++p) {
+        const Vec4 start = model->start[p];
+        if (start.w == 0) holds.particles.push_back({p, start.x < 0 ? 0u : 1u, start.xyz()});
+    }
+    World world = make_world(settings);
+    world.add(model, std::move(holds));
+    run(world, 3);
+    double fastest = 0;
+    for (int i = 0; i < 30; ++i) {
+        world.step(1.0 / 60);
+        for (const Vec4& v : world.frame().cloths[0].velocities) fastest = std::max(fastest, double{length(v.xyz())});
+    }
+    mean_stretch = measure_strain(world.frame()).stretch.mean;
+    return fastest;
+}
+
+TEST(LinesOf, a_sheet_held_too_far_apart_let_it_rest) {
+    Fabric rigid;
+    rigid.stretch.inextensible = true;
+    double cotton_stretch = 0, rigid_stretch = 0;
+    const double cotton = fastest_when_taut({}, cotton_stretch), hard = fastest_when_taut(rigid, rigid_stretch);
+    std::printf("  held 2 %% too far apart: cotton %.2f %% at %.3f m/s, rigid %.2f %% at %.3f m/s\n",
+                100 * cotton_stretch, cotton, 100 * rigid_stretch, hard);
+    EXPECT_LT(cotton_stretch, 0.012) << "2 % along a third of the edges, half of that along the diagonals";
+    EXPECT_LT(cotton, 0.5);
+    EXPECT_LT(rigid_stretch, 0.04);
+}
+
 TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
     World world = make_world({.projection = Projection::lines}, {.resolution = {33, 33}, .layout = {.lines = true}});
     run(world, 1);

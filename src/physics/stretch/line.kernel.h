@@ -18,6 +18,10 @@ struct LineRow {
 // the weights on the diagonal keeps pivots away from 0; it takes as little from the longest waves only.
 #define WEFT_LINE_REGULARIZATION 1e-4
 
+// A row gives at least as the part of its length does that it is out by, up to this. A line pulled longer than its rows
+// then settles to a bounded tension, the same in each, and rows near to one another still share out how they differ.
+#define WEFT_LINE_GIVE 0.1
+
 // A tension moves the points of a kinked line sideways, and more than to the straight line if it is large for the time
 // step: the line would swing about. Up to this part of the rest length per weight it does not.
 #define WEFT_LINE_PULL 0.5
@@ -44,7 +48,8 @@ WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real w
     mask stiff = able && !state.slack;
 
     real rhs = select(state.slack, -lambda, -(state.c + state.alpha * lambda));
-    real diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + state.alpha, real(1));
+    real excess = min(real(WEFT_LINE_GIVE), abs(state.c) / max(row.rest, real(1e-30)));
+    real diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + max(state.alpha, w * excess), real(1));
     LineRow now;
     now.couples = select(stiff, real(1), real(0));
     now.n = state.d * select(able, real(1) / state.len, real(0));

@@ -71,7 +71,9 @@ TEST(StretchLine, solves_the_linear_system_of_its_rows) {
         };
         for (std::size_t k = 0; k < count; ++k) {
             const double w = before.w[k] + before.w[k + 1];
-            double left = (w * (1 + 1e-4) + alpha) * change[k] + before.stretched(k) + alpha * before.lambda[k];
+            const double give = w * std::min(0.1, std::abs(before.stretched(k)) / before.rows[k].rest);
+            double left =
+                (w * (1 + 1e-4) + std::max(alpha, give)) * change[k] + before.stretched(k) + alpha * before.lambda[k];
             if (k > 0) left -= before.w[k] * reference::dot(normal(k - 1), normal(k)) * change[k - 1];
             if (k + 1 < count) left -= before.w[k + 1] * reference::dot(normal(k), normal(k + 1)) * change[k + 1];
             EXPECT_NEAR(left, 0, 1e-12) << "row " << k << " of " << count;
@@ -105,7 +107,7 @@ TEST(StretchLine, of_one_row_is_that_row) {
         double lambda = 0;
         reference::project_stretch(a, b, line.w[0], line.w[1], lambda, line.rows[0], make_step(0.01));
         line.solve(0.01);
-        EXPECT_LT(norm(line.x[0] - a) + norm(line.x[1] - b), 2e-3 * norm(a - b) * 0.02) << "but for the regularization";
+        EXPECT_LT(norm(line.x[0] - a) + norm(line.x[1] - b), 2e-2 * norm(a - b) * 0.02) << "but for the give";
     }
 }
 
