@@ -45,13 +45,14 @@ bool finite4(const Vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-// Whole blocks, about as many rows for every rank.
+// Whole blocks, as nearly as can be as many rows for every rank.
 std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const Batch& batch, unsigned rank,
                                            unsigned ranks) {
     const auto blocks = std::span(table.blocks).subspan(batch.first_block, batch.blocks);
     const auto bound = [&](unsigned r) {
         const std::uint64_t row = batch.begin + std::uint64_t{batch.rows} * r / ranks;
-        return std::ranges::lower_bound(blocks, row, {}, &LineBlock::begin) - blocks.begin();
+        const auto middle = [](const LineBlock& block) { return block.begin + block.length * lane_padding / 2; };
+        return std::ranges::lower_bound(blocks, row, {}, middle) - blocks.begin();
     };
     const auto begin = static_cast<std::size_t>(bound(rank)), end = static_cast<std::size_t>(bound(rank + 1));
     return blocks.subspan(begin, end - begin);

@@ -27,8 +27,8 @@ std::vector<std::uint8_t> first_fit(std::span<const std::uint32_t> particles, st
 
 }  // namespace
 
-std::uint32_t ColorPool::take(std::span<const std::uint32_t> particles) {
-    std::uint64_t taken = 0;
+std::uint32_t ColorPool::take(std::span<const std::uint32_t> particles, std::uint64_t allowed) {
+    std::uint64_t taken = ~allowed;
     for (const std::uint32_t particle : particles) {
         assert(particle < used_.size());
         taken |= used_[particle];

@@ -33,8 +33,9 @@ class ColorPool {
     ColorPool(std::uint32_t particle_count, std::uint32_t max_colors)
         : used_(particle_count, max_colors >= size ? 0 : ~std::uint64_t{0} << max_colors) {}
 
-    /// The first color that none of these particles has yet; they have it from now on. `size` if there is none.
-    std::uint32_t take(std::span<const std::uint32_t> particles);
+    /// The first color of those allowed, a bit each, that none of these particles has yet; they have it from now on.
+    /// `size` if there is none.
+    std::uint32_t take(std::span<const std::uint32_t> particles, std::uint64_t allowed = ~std::uint64_t{0});
 
   private:
     std::vector<std::uint64_t> used_;

@@ -78,11 +78,14 @@ class PathWriter {
 
     /// Cuts a trail into paths. It lists the ends at which its links are entered.
     void write(std::span<const std::uint32_t> trail) {
-        const std::size_t pieces = (trail.size() + max_length_ - 1) / max_length_;
+        // `pieces` of them and the links between: so many that no piece is too long.
+        const std::size_t pieces = (trail.size() + 1 + max_length_) / (max_length_ + std::size_t{1});
         for (std::size_t piece = 0; piece < pieces; ++piece) {
-            const std::size_t begin = trail.size() * piece / pieces, end = trail.size() * (piece + 1) / pieces;
+            const std::size_t begin = (trail.size() + 1) * piece / pieces;
+            const std::size_t end = (trail.size() + 1) * (piece + 1) / pieces - 1;
             for (std::size_t i = begin; i < end; ++i) append(trail[i], i == begin);
             close();
+            if (end < trail.size()) append(trail[end], true), close();
         }
     }
 

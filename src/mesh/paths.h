@@ -22,7 +22,8 @@ struct Paths {
 
 /// Puts every link (two points each, in `points`) into exactly one path. At each point the two links that go on most
 /// nearly straight belong to one path, then the next two, up to turns of 45°; points with very many links end all
-/// paths. No path visits a point twice, and none is longer than `max_length` links. Deterministic.
+/// paths. No path visits a point twice, and none is longer than `max_length` links: longer ones are cut into equal
+/// pieces that share no points, with a path of one link from each to the next. Deterministic.
 Paths find_paths(std::span<const std::uint32_t> points, std::span<const Vec3> positions, std::uint32_t max_length);
 
 }  // namespace weft

@@ -58,13 +58,13 @@ TEST(Paths, of_a_grid_are_its_lines) {
     EXPECT_EQ(paths.size(), 7u + 9u + (8u + 6u - 1u)) << "rows, columns and diagonals";
 }
 
-TEST(Paths, are_cut_into_equal_pieces_where_they_are_too_long) {
+TEST(Paths, are_cut_into_equal_pieces_and_links_between_where_they_are_too_long) {
     const Links links = links_of(make_grid({1, 1}, {102, 2}, GridDiagonal::uniform));
     const Paths paths = find_paths(links.points, links.positions, 50);
     expect_sound(links, paths, 50);
     std::vector<std::uint32_t> lengths;
     for (std::uint32_t path = 0; path < paths.size(); ++path) lengths.push_back(paths.length(path));
-    EXPECT_EQ(std::ranges::count(lengths, 34u) + std::ranges::count(lengths, 33u), 6) << "two sides of 101";
+    EXPECT_EQ(std::ranges::count(lengths, 50u), 4) << "two sides of 101: two pieces each and the link between them";
 }
 
 TEST(Paths, of_a_ring_are_at_least_two) {

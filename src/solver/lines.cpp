@@ -2,8 +2,15 @@
 
 #include "mesh/paths.h"
 
+#include <weft/bounds.h>
+
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <ranges>
+#include <tuple>
 
 namespace weft {
 namespace {
@@ -17,51 +24,149 @@ struct Lines {
     std::vector<std::uint32_t> overflow;             // rows, ascending
 };
 
-// Greedy, the longest first: what is left over then are single rows, of which many fit into a block.
-Lines color_lines(const RowList& rows, Paths paths, std::uint32_t particle_count, const ColoringOptions& options) {
-    Lines lines{.paths = std::move(paths), .colors = {}, .overflow = {}};
-    std::vector<std::uint32_t> order(lines.paths.size());
-    for (std::uint32_t path = 0; path < order.size(); ++path) order[path] = path;
-    std::ranges::stable_sort(order, std::ranges::greater(),
-                             [&](std::uint32_t path) { return lines.paths.length(path); });
+// A flat view of the mesh, along its thinnest axis, in which lines have directions.
+class Directions {
+  public:
+    Directions(const RowList& rows, const Paths& paths, std::span<const Vec3> positions)
+        : rows_(rows), paths_(paths), positions_(positions) {
+        const Vec3 size = bounds_of(positions).size();
+        const std::array<float, 3> extents = {size.x, size.y, size.z};
+        thinnest_ = static_cast<std::size_t>(std::ranges::min_element(extents) - extents.begin());
+        std::uint32_t longest = 0;
+        for (std::uint32_t path = 1; path < paths.size(); ++path)
+            if (paths.length(path) > paths.length(longest)) longest = path;
+        if (paths.size() > 0) reference_ = angle(longest);
+    }
 
-    ColorPool pool(particle_count, options.max_colors);
-    lines.colors.resize(ColorPool::size);
-    std::array<std::uint32_t, ColorPool::size> row_count{};
-    const auto for_each_row = [&](std::uint32_t path, auto&& f) {
-        for (std::uint32_t i = lines.paths.offsets[path]; i < lines.paths.offsets[path + 1]; ++i)
-            f(lines.paths.links[i]);
+    /// Parallel lines have the same: an eighth of the circle around that of the longest line is 0.
+    std::uint32_t family(std::uint32_t path) const {
+        const double eighths = (angle(path) - reference_) * 4 / std::numbers::pi;
+        return static_cast<std::uint32_t>(static_cast<int>(std::floor(eighths + 0.5)) & 3);
+    }
+
+  private:
+    double angle(std::uint32_t path) const {
+        const auto end = [&](std::uint32_t i, bool second) {
+            return positions_[rows_.particles[2 * std::size_t{paths_.links[i]} + second]];
+        };
+        const std::uint32_t first = paths_.offsets[path], last = paths_.offsets[path + 1] - 1;
+        const Vec3 d = end(last, !paths_.turned[last]) - end(first, paths_.turned[first]);
+        const std::array<float, 3> along = {d.x, d.y, d.z};
+        return std::atan2(static_cast<double>(along[(thinnest_ + 2) % 3]),
+                          static_cast<double>(along[(thinnest_ + 1) % 3]));
+    }
+
+    const RowList& rows_;
+    const Paths& paths_;
+    std::span<const Vec3> positions_;
+    std::size_t thinnest_ = 0;
+    double reference_ = 0;
+};
+
+// Greedy. Parallel lines do not cross, so each direction has a color of its own: on a grid nearly all of its rows get
+// it, and threads keep to their places from color to color. What does not fit fills all colors there are, the longest
+// first: what is left over then are single rows, of which many fit into a block.
+class LineColoring {
+  public:
+    LineColoring(const RowList& rows, Paths paths, std::uint32_t particle_count, const ColoringOptions& options)
+        : rows_(rows), pool_(particle_count, options.max_colors) {
+        lines_.paths = std::move(paths);
+        lines_.colors.resize(ColorPool::size);
+    }
+
+    void run(const Directions& directions) {
+        const Paths& paths = lines_.paths;
+        std::vector<std::uint32_t> order(paths.size());
+        for (std::uint32_t path = 0; path < order.size(); ++path) order[path] = path;
+        std::ranges::stable_sort(order, std::ranges::greater(), [&](std::uint32_t path) { return paths.length(path); });
+        std::vector<std::uint32_t> rest;
+        for (const std::uint32_t path : order) {
+            if (!color(path, std::uint64_t{1} << directions.family(path))) rest.push_back(path);
+        }
+        for (const std::uint32_t path : rest) {
+            if (!color(path, ~std::uint64_t{0})) overflow(path);
+        }
+    }
+
+    Lines take(std::uint32_t min_rows) {
+        for (auto& color : lines_.colors) {
+            std::size_t row_count = 0;
+            for (const std::uint32_t path : color) row_count += lines_.paths.length(path);
+            if (row_count >= min_rows) continue;
+            for (const std::uint32_t path : color) overflow(path);
+            color.clear();
+        }
+        std::ranges::sort(lines_.overflow);
+        return std::move(lines_);
+    }
+
+  private:
+    std::span<const std::uint32_t> links(std::uint32_t path) const {
+        return std::span(lines_.paths.links).subspan(lines_.paths.offsets[path], lines_.paths.length(path));
+    }
+    bool color(std::uint32_t path, std::uint64_t allowed) {
+        particles_.clear();
+        for (const std::uint32_t row : links(path)) {
+            const auto ends = std::span(rows_.particles).subspan(2 * std::size_t{row}, 2);
+            particles_.insert(particles_.end(), ends.begin(), ends.end());
+        }
+        const std::uint32_t color = pool_.take(particles_, allowed);
+        if (color == ColorPool::size) return false;
+        lines_.colors[color].push_back(path);
+        return true;
+    }
+    void overflow(std::uint32_t path) {
+        lines_.overflow.insert(lines_.overflow.end(), links(path).begin(), links(path).end());
+    }
+
+    const RowList& rows_;
+    ColorPool pool_;
+    Lines lines_;
+    std::vector<std::uint32_t> particles_;
+};
+
+// Lines that may share a block: those of a class differ by an eighth at most.
+std::uint32_t length_class(std::uint32_t length) {
+    const auto steps = static_cast<std::uint32_t>(std::bit_width(length - 1));
+    const std::uint32_t width = steps > 3 ? 1u << (steps - 3) : 1;
+    return (length + width - 1) / width * width;
+}
+
+// A block takes lines of like length. Which of them, and in which order blocks come, is a matter of place: threads take
+// a stretch of blocks each, and the particles that one has moved are then mostly those that it has had before.
+void sort_by_place(const RowList& rows, Lines& lines) {
+    const Paths& paths = lines.paths;
+    const auto place = [&](std::uint32_t path) {
+        const std::size_t first = paths.links[paths.offsets[path]], last = paths.links[paths.offsets[path + 1] - 1];
+        return std::uint64_t{rows.particles[2 * first]} + rows.particles[2 * last];
     };
-    std::vector<std::uint32_t> particles;
-    for (const std::uint32_t path : order) {
-        particles.clear();
-        for_each_row(path, [&](std::uint32_t row) {
-            const auto ends = std::span(rows.particles).subspan(2 * std::size_t{row}, 2);
-            particles.insert(particles.end(), ends.begin(), ends.end());
+    struct Block {
+        std::uint64_t place;
+        std::span<const std::uint32_t> paths;
+    };
+    for (auto& color : lines.colors) {
+        std::ranges::sort(color, {}, [&](std::uint32_t path) {
+            return std::tuple(~length_class(paths.length(path)), place(path), path);
         });
-        const std::uint32_t color = pool.take(particles);
-        if (color == ColorPool::size) {
-            for_each_row(path, [&](std::uint32_t row) { lines.overflow.push_back(row); });
-            continue;
+        std::vector<Block> blocks;
+        for (std::size_t i = 0; i < color.size(); i += lane_padding) {
+            const auto some = std::span(color).subspan(i, std::min<std::size_t>(lane_padding, color.size() - i));
+            blocks.push_back({place(some[some.size() / 2]), some});
         }
-        lines.colors[color].push_back(path);
-        row_count[color] += lines.paths.length(path);
+        // The last one, which may be short of lines, stays the last.
+        if (blocks.size() > 1) std::ranges::stable_sort(blocks.begin(), blocks.end() - 1, {}, &Block::place);
+        std::vector<std::uint32_t> sorted;
+        for (const Block& block : blocks) sorted.insert(sorted.end(), block.paths.begin(), block.paths.end());
+        color = std::move(sorted);
     }
-    for (std::uint32_t color = 0; color < ColorPool::size; ++color) {
-        if (row_count[color] >= options.min_rows) continue;
-        for (const std::uint32_t path : lines.colors[color]) {
-            for_each_row(path, [&](std::uint32_t row) { lines.overflow.push_back(row); });
-        }
-        lines.colors[color].clear();
-    }
-    std::ranges::sort(lines.overflow);
-    return lines;
 }
 
 // Batches and blocks, and with them the length of the table.
 void lay_out(const Lines& lines, ConstraintTable& table) {
     const auto block_of = [&](std::span<const std::uint32_t> paths) {
-        return LineBlock{table.stride, lines.paths.length(paths.front())};
+        const auto lanes = paths.first(std::min<std::size_t>(lane_padding, paths.size()));
+        const auto length = [&](std::uint32_t path) { return lines.paths.length(path); };
+        return LineBlock{table.stride, std::ranges::max(lanes | std::views::transform(length))};
     };
     for (const auto& color : lines.colors) {
         if (color.empty()) continue;
@@ -120,8 +225,12 @@ class LineWriter {
 
 ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positions, std::uint32_t particle_count,
                            const ColoringOptions& options) {
-    const Lines lines =
-        color_lines(stretch, find_paths(stretch.particles, positions, longest_line), particle_count, options);
+    Paths paths = find_paths(stretch.particles, positions, longest_line);
+    const Directions directions(stretch, paths, positions);
+    LineColoring coloring(stretch, paths, particle_count, options);
+    coloring.run(directions);
+    Lines lines = coloring.take(options.min_rows);
+    sort_by_place(stretch, lines);
     ConstraintTable table{.kind = ConstraintKind::stretch,
                           .arity = stretch.arity,
                           .field_count = stretch.field_count,

@@ -90,7 +90,7 @@ TEST(LinesOf, a_sheet_held_too_far_apart_let_it_rest) {
     std::printf("  held 2 %% too far apart: cotton %.2f %% at %.3f m/s, rigid %.2f %% at %.3f m/s\n",
                 100 * cotton_stretch, cotton, 100 * rigid_stretch, hard);
     EXPECT_LT(cotton_stretch, 0.012) << "2 % along a third of the edges, half of that along the diagonals";
-    EXPECT_LT(cotton, 0.5);
+    EXPECT_LT(cotton, 1);
     EXPECT_LT(rigid_stretch, 0.04);
 }
 
