@@ -161,6 +161,16 @@ CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan)
             .stiffness = plan.stiffness[index]};
 }
 
+void ClothState::begin_frame(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
+    prepare(plan, colliders, ranks);
+    update_limits();
+}
+
+void ClothState::end_frame(const StepPlan& plan, double dt) {
+    // Plain constraints have no compliance, so what they leave is C itself.
+    substep_seconds = plan.method == Method::pbd ? 0 : static_cast<double>(static_cast<float>(dt / plan.substeps));
+}
+
 void ClothState::update_limits() {
     if (levels.empty()) return;
     const auto stretch = static_cast<std::uint32_t>(ConstraintKind::stretch);

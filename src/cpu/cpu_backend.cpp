@@ -48,20 +48,25 @@ class CpuBackend final : public Backend {
     ClothSnapshot save(ClothHandle handle) const override { return cloth(handle).save(); }
     void restore(ClothHandle handle, const ClothSnapshot& snapshot) override { cloth(handle).restore(snapshot); }
 
-    void step(ClothHandle id, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
-              std::array<double, stage_count>& stage_ms) override {
-        cpu::ClothState& state = cloth(id);
-        frame.reports = executor_.run(state, plan, input, stage_ms);
-        frame.detail.clear();
-        if (frame.reports & report_non_finite) {
-            state.now = state.last_good;
-            frame.detail = executor_.find_non_finite(state, plan, input);
-            state.now = state.last_good;
-            // What was solved was not of this place; a residual and a saved state still read it.
-            for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
-            state.update_normals();
+    void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) override {
+        jobs_.clear();
+        for (const ClothStep& one : cloths) jobs_.push_back({&cloth(one.cloth), one.plan, &one.input});
+        executor_.run(jobs_, stage_ms);
+        for (std::size_t i = 0; i < cloths.size(); ++i) {
+            cpu::ClothState& state = *jobs_[i].cloth;
+            ClothFrame& frame = *cloths[i].frame;
+            frame.reports = jobs_[i].reports;
+            frame.detail.clear();
+            if (frame.reports & report_non_finite) {
+                state.now = state.last_good;
+                frame.detail = executor_.find_non_finite(state, *cloths[i].plan, cloths[i].input);
+                state.now = state.last_good;
+                // What was solved was not of this place; a residual and a saved state still read it.
+                for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
+                state.update_normals();
+            }
+            read(cloths[i].cloth, frame);
         }
-        read(id, frame);
     }
 
     void read(ClothHandle id, ClothFrame& frame) const override {
@@ -114,6 +119,7 @@ class CpuBackend final : public Backend {
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
+    std::vector<cpu::Executor::Job> jobs_;  // of a frame
     std::vector<std::unique_ptr<cpu::ClothState>> cloths_;
 };
 

@@ -1,4 +1,4 @@
-// Executes one frame of one cloth: the plan's passes, spread over a worker team.
+// Executes a frame: the plan's passes of every cloth, spread over a worker team.
 #pragma once
 
 #include "base/workers.h"
@@ -15,9 +15,16 @@ class Executor {
   public:
     Executor(const Passes& passes, WorkerTeam& team) : passes_(passes), team_(team), ranks_(team.ranks()) {}
 
-    /// Returns Report bits. With report_non_finite the state is whatever came out.
-    std::uint32_t run(ClothState& cloth, const StepPlan& plan, const StepInput& input,
-                      std::array<double, stage_count>& stage_ms);
+    struct Job {
+        ClothState* cloth = nullptr;
+        const StepPlan* plan = nullptr;
+        const StepInput* input = nullptr;
+        std::uint32_t reports = report_none;  ///< out. With report_non_finite the state is whatever came out.
+    };
+
+    /// Cloths too small to be worth the team's meetings run side by side, one to a thread, if they are enough for all.
+    /// Whatever does what: the bits are the same.
+    void run(std::span<Job> jobs, std::array<double, stage_count>& stage_ms);
 
     /// Where the first non-finite value comes from: an input, or a pass of the frame that starts from the state as it
     /// is. Runs the frame once more on the calling thread, checking after each pass; leaves the state changed.
@@ -27,14 +34,17 @@ class Executor {
     struct Frame;
     struct alignas(cache_line) Rank {
         std::uint32_t reports = 0;
+        std::array<double, stage_count> stage_ms{};
     };
 
+    void run_together(Job& job, std::array<double, stage_count>& stage_ms);
+    void run_side_by_side(std::array<double, stage_count>& stage_ms);
     void run_rank(const Frame& frame, unsigned rank, std::array<double, stage_count>& stage_ms);
     void run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_lines(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_corrections(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
-    Range level_range(std::uint32_t count, unsigned rank) const;
+    static Range level_range(const Frame& frame, std::uint32_t count, unsigned rank);
     void run_level(const Frame& frame, const Pass& pass, unsigned rank);
     void run_faces(const Frame& frame, const Pass& pass, unsigned rank);
     void run_holds(const Frame& frame, std::uint32_t substep, Share mine);
@@ -42,11 +52,12 @@ class Executor {
     void keep_last_good(const Frame& frame, unsigned rank);
     void check_finite(const Frame& frame, unsigned rank);
     static LambdaUse lambda_use(const Frame& frame, const Pass& pass, std::uint32_t substep);
-    Frame make_frame(ClothState& cloth, const StepPlan& plan, const StepInput& input) const;
+    static Frame make_frame(const Job& job, std::span<Rank> ranks);
 
     const Passes& passes_;
     WorkerTeam& team_;
     std::vector<Rank> ranks_;
+    std::vector<Job*> small_;  // of the frame, the largest first
 };
 
 }  // namespace weft::cpu

@@ -34,6 +34,14 @@ struct StepInput {
     std::uint32_t movers = 0;
 };
 
+/// One cloth's part of a frame.
+struct ClothStep {
+    ClothHandle cloth;
+    const StepPlan* plan = nullptr;
+    StepInput input;
+    ClothFrame* frame = nullptr;  ///< what comes of it
+};
+
 /// What the solver left of stretch, its material set aside: |C + α̃λ| / rest length over the rows.
 struct Residual {
     double mean = 0, max = 0;
@@ -51,9 +59,9 @@ class Backend {
     virtual void remove_cloth(ClothHandle cloth) = 0;
     /// Another model for the same particles: other rows, other masses, other pins. What moved goes on moving.
     virtual void set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
-    /// Advances one cloth by a frame.
-    virtual void step(ClothHandle cloth, const StepPlan& plan, const StepInput& input, ClothFrame& frame,
-                      std::array<double, stage_count>& stage_ms) = 0;
+    /// Advances cloths by a frame, each once. They have nothing to do with one another, and may run side by side: times
+    /// are then shares of the time that passes.
+    virtual void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) = 0;
     /// The cloth as it is.
     virtual void read(ClothHandle cloth, ClothFrame& frame) const = 0;
     /// Of the last substep.

@@ -150,20 +150,24 @@ const Frame& World::step(double dt) {
     frame_.time += dt;
     frame_.reports = report_none;
     frame_.stage_ms.fill(0);
+    steps_.clear();
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         const Cloth& cloth = cloths_[i];
-        const StepInput input{.dt = dt,
-                              .gravity = settings_.gravity,
-                              .air_density = settings_.air ? settings_.air->density : 0,
-                              .winds = winds_,
-                              .colliders = colliders_.values(),
-                              .poses = poses_,
-                              .held = cloth.holds.particles,
-                              .mover_poses = cloth.mover_poses,
-                              .movers = static_cast<std::uint32_t>(cloth.holds.movers.size())};
-        backend_->step(cloth.handle, cloth.plan, input, frame_.cloths[i], frame_.stage_ms);
-        frame_.reports |= frame_.cloths[i].reports;
+        steps_.push_back({.cloth = cloth.handle,
+                          .plan = &cloth.plan,
+                          .input = {.dt = dt,
+                                    .gravity = settings_.gravity,
+                                    .air_density = settings_.air ? settings_.air->density : 0,
+                                    .winds = winds_,
+                                    .colliders = colliders_.values(),
+                                    .poses = poses_,
+                                    .held = cloth.holds.particles,
+                                    .mover_poses = cloth.mover_poses,
+                                    .movers = static_cast<std::uint32_t>(cloth.holds.movers.size())},
+                          .frame = &frame_.cloths[i]});
     }
+    backend_->step(steps_, frame_.stage_ms);
+    for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];
         colliders_[i].next_pose.reset();

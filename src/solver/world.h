@@ -92,6 +92,7 @@ class World {
     IdList<Collider, struct ColliderTag> colliders_;
     std::vector<Pose> poses_;
     std::vector<WindNow> winds_;
+    std::vector<ClothStep> steps_;  // of a frame
     Frame frame_;
 };
 

@@ -45,6 +45,30 @@ TEST(Determinism, holds_with_iterations_too) {
     }
 }
 
+// More cloths than threads run side by side, one alone by all threads: nobody can tell from the result.
+TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
+    const auto sheet = [](int i) {
+        return make_sheet({.size = {0.5f, 0.5f},
+                           .resolution = {20, 18},
+                           .rotation_degrees = {10.0f * static_cast<float>(i), 5, 0},
+                           .layout = {.lines = true, .hierarchy = true},
+                           .pinned = [](Vec3 p) { return p.x < -0.24f; }});
+    };
+    const WorldSettings settings{.substeps = 8, .hierarchy = true};
+    for (const unsigned workers : {0u, 1u, 3u}) {
+        World many = make_world(settings, CpuOptions{workers, ""});
+        for (int i = 0; i < 9; ++i) many.add(sheet(i));
+        run(many, 0.3);
+        for (const int i : {0, 4, 8}) {
+            World one = make_world(settings, CpuOptions{workers, ""});
+            one.add(sheet(i));
+            run(one, 0.3);
+            const auto& a = many.frame().cloths[static_cast<std::size_t>(i)].positions;
+            EXPECT_TRUE(std::ranges::equal(a, one.frame().cloths[0].positions)) << i << ", " << workers << " workers";
+        }
+    }
+}
+
 TEST(Determinism, holds_for_the_plate) {
     const std::string expected = drape({0, "scalar"}, 2, BendModel::plate);
     EXPECT_NE(expected, drape({0, "scalar"}, 2));

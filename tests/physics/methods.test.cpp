@@ -123,8 +123,9 @@ TEST(Jacobi, keeps_momentum_where_stiffness_is_in_newtons_per_meter) {
             plan_step(*model, {.substeps = 20, .contacts = false, .method = method, .projection = Projection::jacobi});
         std::array<double, stage_count> stage_ms{};
         double p[3] = {}, fast = 0;
-        for (int i = 0; i < 5; ++i)
-            executor.run(cloth, plan, {.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}}, stage_ms);
+        const StepInput input{.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}};
+        cpu::Executor::Job job{&cloth, &plan, &input};
+        for (int i = 0; i < 5; ++i) executor.run({&job, 1}, stage_ms);
         for (std::uint32_t i = 0; i < model->particle_count; ++i) {
             const Vec4& v = cloth.now.velocity[i];
             p[0] += model->mass[i] * v.x, p[1] += model->mass[i] * v.y, p[2] += model->mass[i] * v.z;

@@ -91,8 +91,9 @@ TEST(FreeFall, constraints_and_damping_keep_momentum) {
     cpu::Executor executor(*cpu::available_passes().front(), team);
     const StepPlan plan = plan_step(*model, {.substeps = 20, .iterations = 1, .contacts = false});
     std::array<double, stage_count> stage_ms{};
-    for (int i = 0; i < 60; ++i)
-        executor.run(cloth, plan, {.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}}, stage_ms);
+    const StepInput input{.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}};
+    cpu::Executor::Job job{&cloth, &plan, &input};
+    for (int i = 0; i < 60; ++i) executor.run({&job, 1}, stage_ms);
     const Momentum after = momentum(cloth);
     // Every row conserves momentum exactly, but rounds positions of half a meter to 3e-8 m, which over a substep of
     // 1/1200 s reads as 4e-5 m/s. 1200 substeps of that, averaged over the sheet, are the tolerance.

@@ -43,8 +43,10 @@ class Specimen {
     }
 
     void step() {
-        reports_ |= executor_.run(cloth_, plan_, {.dt = dt_, .gravity = {0, -gravity, 0}, .colliders = {}, .poses = {}},
-                                  stage_ms_);
+        const StepInput input{.dt = dt_, .gravity = {0, -gravity, 0}, .colliders = {}, .poses = {}};
+        cpu::Executor::Job job{&cloth_, &plan_, &input};
+        executor_.run({&job, 1}, stage_ms_);
+        reports_ |= job.reports;
     }
     std::uint32_t reports() const { return reports_; }
 
