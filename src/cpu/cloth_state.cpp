@@ -161,11 +161,6 @@ CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan)
             .stiffness = plan.stiffness[index]};
 }
 
-void ClothState::begin_frame(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
-    prepare(plan, colliders, ranks);
-    update_limits();
-}
-
 void ClothState::end_frame(const StepPlan& plan, double dt) {
     // Plain constraints have no compliance, so what they leave is C itself.
     substep_seconds = plan.method == Method::pbd ? 0 : static_cast<double>(static_cast<float>(dt / plan.substeps));
@@ -202,7 +197,7 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
     std::uint32_t longest = 0;
     for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)
         longest = std::max(longest, block.length);
-    line_scratch.resize(ranks);
+    if (line_scratch.size() < ranks) line_scratch.resize(ranks);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
     if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});

@@ -61,15 +61,15 @@ struct ClothState {
     AirView air(float density);
     GatherView gather_view(bool mean) const;
     CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
-    void begin_frame(const StepPlan& plan, std::size_t colliders, unsigned ranks);
+    /// Makes room for what the plan needs beyond the particles; only here memory is asked for.
+    void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
+    void begin_frame() { update_limits(); }
     void end_frame(const StepPlan& plan, double dt);
     void update_normals();
 
   private:
     /// Lets coarse levels allow for the tension that the last frame left in the cloth.
     void update_limits();
-    /// Makes room for what the plan needs beyond the particles.
-    void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
 };
 
 }  // namespace weft::cpu

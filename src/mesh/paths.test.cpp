@@ -83,7 +83,8 @@ TEST(Paths, are_sound_on_anything) {
         const std::uint32_t count = 2 + random() % 40;
         const auto number = [&] { return static_cast<float>(random() % 5); };  // equal places among them
         for (std::uint32_t p = 0; p < count; ++p) links.positions.push_back({number(), number(), number()});
-        for (std::uint32_t link = 0; link < random() % 200; ++link) {
+        const std::uint32_t links_tried = random() % 200;
+        for (std::uint32_t link = 0; link < links_tried; ++link) {
             const std::uint32_t a = random() % count, b = random() % count;
             if (a != b) links.points.insert(links.points.end(), {a, b});
         }

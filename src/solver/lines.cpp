@@ -128,7 +128,7 @@ class LineColoring {
 // Lines that may share a block: those of a class differ by an eighth at most.
 std::uint32_t length_class(std::uint32_t length) {
     const auto steps = static_cast<std::uint32_t>(std::bit_width(length - 1));
-    const std::uint32_t width = steps > 3 ? 1u << (steps - 3) : 1;
+    const std::uint32_t width = steps > 4 ? 1u << (steps - 4) : 1;
     return (length + width - 1) / width * width;
 }
 

@@ -25,53 +25,86 @@ LinkGraph graph_of_rows(const CoarseLevel& level) {
         links[b].push_back({a, length, length});
     }
     LinkGraph graph;
-    for (const auto& of_node : links) {
+    for (auto& of_node : links) {
+        std::ranges::sort(of_node, {}, &Link::to);
         graph.links.insert(graph.links.end(), of_node.begin(), of_node.end());
         graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
     }
     return graph;
 }
 
-}  // namespace
+// Goes from pin to pin, each as far as can be from those before.
+class SpanFinder {
+  public:
+    SpanFinder(const CoarseLevel& level, std::uint32_t pin_count, std::span<const Vec3> at_rest)
+        : level_(level),
+          at_rest_(at_rest),
+          graph_(graph_of_rows(level)),
+          search_(graph_),
+          nearest_(pin_count, unreached) {}
 
-std::vector<PinSpan> find_pin_spans(std::span<const CoarseLevel> hierarchy, std::span<const Vec3> at_rest) {
-    // The coarsest level that still tells most_pins pins apart; pins come first in it.
-    constexpr std::uint32_t enough_nodes = 256;
-    const auto last_fine =
-        std::ranges::find_if(hierarchy, [](const auto& level) { return level.count < enough_nodes; });
-    if (hierarchy.empty()) return {};
-    const CoarseLevel& level = last_fine == hierarchy.begin() ? *last_fine : *(last_fine - 1);
-    std::uint32_t pin_count = 0;
-    while (pin_count < level.count && level.weight[pin_count] == 0) ++pin_count;
-    if (pin_count < 2) return {};
+    bool is_reached(std::uint32_t pin) const { return nearest_[pin] < unreached; }
 
-    const LinkGraph graph = graph_of_rows(level);
-    LocalSearch search(graph);
-    std::vector<std::uint32_t> chosen;
-    std::vector<double> nearest(pin_count, unreached);  // of those chosen
-    std::vector<PinSpan> spans;
-    for (std::uint32_t pin = 0; chosen.size() < std::min<std::size_t>(most_pins, pin_count);) {
-        std::vector<double> distance(pin_count, unreached);
+    /// Of the connected piece of cloth that this pin belongs to.
+    void add_piece_with(std::uint32_t pin) {
+        std::vector<std::uint32_t> chosen;
+        while (chosen.size() < most_pins) {
+            add_spans(pin, chosen);
+            chosen.push_back(pin);
+            // Pins of other pieces stay unreached; those of earlier ones have nothing to do with this one.
+            double farthest = 0;
+            for (std::uint32_t other = 0; other < nearest_.size(); ++other) {
+                if (distance_[other] < unreached && nearest_[other] > farthest) farthest = nearest_[other], pin = other;
+            }
+            if (farthest == 0) return;
+        }
+    }
+    std::vector<PinSpan> take() { return std::move(spans_); }
+
+  private:
+    void add_spans(std::uint32_t pin, std::span<const std::uint32_t> chosen) {
+        distance_.assign(nearest_.size(), unreached);
         double farthest = 0;
-        search.run<&Link::reach>(pin, std::numeric_limits<double>::max(), [&](std::uint32_t node, double d) {
-            if (node < pin_count) distance[node] = d;
+        search_.run<&Link::reach>(pin, std::numeric_limits<double>::max(), [&](std::uint32_t node, double d) {
+            if (node < nearest_.size()) distance_[node] = d, nearest_[node] = std::min(nearest_[node], d);
             farthest = d;  // the nearest come first
             return LocalSearch::Go::on;
         });
         for (const std::uint32_t other : chosen) {
-            const double d = distance[other];
-            if (!(d < unreached && d >= near * farthest && d > 0)) continue;
-            const std::uint32_t a = level.particle[other], b = level.particle[pin];
-            const double straight = length(at_rest[a] - at_rest[b]);
-            spans.push_back({a, b, static_cast<float>(std::max(straight, d / detour))});
+            const double d = distance_[other];
+            if (!(d >= near * farthest && d > 0)) continue;
+            const std::uint32_t a = level_.particle[other], b = level_.particle[pin];
+            const double straight = length(at_rest_[a] - at_rest_[b]);
+            spans_.push_back({a, b, static_cast<float>(std::max(straight, d / detour))});
         }
-        chosen.push_back(pin);
-        for (std::uint32_t other = 0; other < pin_count; ++other)
-            nearest[other] = std::min(nearest[other], distance[other]);
-        pin = static_cast<std::uint32_t>(std::ranges::max_element(nearest) - nearest.begin());
-        if (!(nearest[pin] > 0)) break;
     }
-    return spans;
+
+    const CoarseLevel& level_;
+    std::span<const Vec3> at_rest_;
+    LinkGraph graph_;
+    LocalSearch search_;
+    std::vector<double> nearest_;   // per pin, to the nearest chosen one
+    std::vector<double> distance_;  // per pin, to the last chosen one
+    std::vector<PinSpan> spans_;
+};
+
+}  // namespace
+
+std::vector<PinSpan> find_pin_spans(std::span<const CoarseLevel> hierarchy, std::span<const Vec3> at_rest) {
+    if (hierarchy.empty()) return {};
+    // The coarsest level that still tells pins apart; pins come first in it.
+    constexpr std::uint32_t enough_nodes = 256;
+    const auto first_coarse = std::ranges::find_if(hierarchy, [](const auto& one) { return one.count < enough_nodes; });
+    const CoarseLevel& level = first_coarse == hierarchy.begin() ? *first_coarse : *(first_coarse - 1);
+    std::uint32_t pin_count = 0;
+    while (pin_count < level.count && level.weight[pin_count] == 0) ++pin_count;
+    if (pin_count < 2) return {};
+
+    SpanFinder finder(level, pin_count, at_rest);
+    for (std::uint32_t pin = 0; pin < pin_count; ++pin) {
+        if (!finder.is_reached(pin)) finder.add_piece_with(pin);
+    }
+    return finder.take();
 }
 
 float strain_between(std::span<const PinSpan> spans, std::span<const Vec4> positions) {

@@ -14,8 +14,8 @@ struct PinSpan {
     float length = 0;            ///< m: hardly more than the cloth between them; less where it is bent at rest
 };
 
-/// Between up to eight pins as far from one another as there are. Those nearer to one another than a quarter of what
-/// lies around them do not count: what they stretch is a small part of the cloth.
+/// Between up to eight pins of each connected piece, as far from one another as there are. Those nearer to one another
+/// than a quarter of what lies around them do not count: what they stretch is a small part of the cloth.
 std::vector<PinSpan> find_pin_spans(std::span<const CoarseLevel> hierarchy, std::span<const Vec3> at_rest);
 
 /// Strain that some way between two pins has at least; 0 if none has to stretch.

@@ -70,6 +70,27 @@ TEST(PinSpans, follow_the_cloth_where_it_is_bent_at_rest) {
     EXPECT_LT(model->pin_spans[0].length, 1);
 }
 
+TEST(PinSpans, are_found_in_every_piece) {
+    TriangleMesh mesh;
+    std::vector<std::uint32_t> pins;
+    for (int piece = 0; piece < 12; ++piece) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const TriangleMesh one = make_grid({1, 1}, {9, 9}, GridDiagonal::uniform);
+        for (const Vec3 p : one.positions) mesh.positions.push_back(p + Vec3{0, static_cast<float>(piece), 0});
+        for (const auto [a, b, c] : one.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+        pins.insert(pins.end(), {first, first + 8});
+    }
+    Topology topology = *build_topology(mesh);
+    for (std::uint32_t& v : pins) v = topology.vertex_to_particle[v];
+    Fabric rigid;
+    rigid.stretch.inextensible = true;
+    const auto model = *build_cloth_model(
+        {.mesh = std::move(mesh), .fabric = rigid, .pins = {.particles = pins}, .layout = {.hierarchy = true}},
+        std::move(topology));
+    ASSERT_EQ(model->pin_spans.size(), 12u);
+    for (const PinSpan& span : model->pin_spans) EXPECT_NEAR(span.length, 1, 1e-5);
+}
+
 TEST(PinSpans, do_not_count_between_neighbors_nor_with_fewer_than_two_pins) {
     EXPECT_TRUE(grid_with_pins({0, 2})->pin_spans.empty());
     EXPECT_TRUE(grid_with_pins({5})->pin_spans.empty());

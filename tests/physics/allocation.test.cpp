@@ -59,8 +59,8 @@ namespace {
 
 TEST(Allocation, is_over_when_the_first_frame_is) {
     if (!WEFT_COUNTS) GTEST_SKIP() << "a sanitizer counts here";
-    for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
-        for (const unsigned workers : {0u, 1u}) {
+    for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
+        for (const auto& [workers, cloths] : {std::pair(0u, 1), {1u, 1}, {1u, 3}}) {
             World world =
                 make_world({.substeps = 3,
                             .iterations = 2,
@@ -70,15 +70,17 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
                            {.workers = workers});
             const ColliderId ball =
                 world.add(make_collider({.shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {9, {1, 0, 0}, {}}}}));
-            const auto model = make_sheet({.resolution = {24, 24}, .layout = {.hierarchy = true}, .pinned = [](Vec3 p) {
-                                               return p.x < -0.49f && p.z < -0.49f;
-                                           }});
+            const auto model =
+                make_sheet({.resolution = {24, 24}, .layout = world.settings().layout(), .pinned = [](Vec3 p) {
+                                return p.x < -0.49f && p.z < -0.49f;
+                            }});
             const Vec3 corner = model->topology.rest_positions[0];
-            world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
+            for (int cloth = 0; cloth < cloths; ++cloth)
+                world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
             world.step(1.0 / 60);
             const std::uint64_t before = allocations;
             for (int i = 0; i < 10; ++i) world.step(1.0 / 60);
-            EXPECT_EQ(allocations - before, 0u) << workers << " workers";
+            EXPECT_EQ(allocations - before, 0u) << workers << " workers, " << cloths << " cloths";
         }
     }
     const std::uint64_t before = allocations;

@@ -2,6 +2,8 @@
 
 #include "sheet.h"
 
+#include <numeric>
+
 namespace weft::physical {
 namespace {
 
@@ -55,10 +57,14 @@ TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
                            .pinned = [](Vec3 p) { return p.x < -0.24f; }});
     };
     const WorldSettings settings{.substeps = 8, .hierarchy = true};
+    const auto large = make_sheet({.resolution = {150, 150}, .layout = {.lines = true}});  // this one by all threads
     for (const unsigned workers : {0u, 1u, 3u}) {
         World many = make_world(settings, CpuOptions{workers, ""});
         for (int i = 0; i < 9; ++i) many.add(sheet(i));
+        many.add(large);
         run(many, 0.3);
+        const Frame& frame = many.frame();
+        EXPECT_LE(std::accumulate(frame.stage_ms.begin(), frame.stage_ms.end(), 0.0), frame.step_ms);
         for (const int i : {0, 4, 8}) {
             World one = make_world(settings, CpuOptions{workers, ""});
             one.add(sheet(i));

@@ -3,6 +3,7 @@
 
 #include "sheet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,28 @@ TEST_F(Hostile, gravity_that_is_no_number_is_caught_and_named) {
         EXPECT_TRUE(std::isfinite(world.stretch_residual().max));
         EXPECT_TRUE(world.restore(world.save()).ok()) << "a state of it is one to come back to";
     }
+}
+
+TEST_F(Hostile, one_cloth_among_many_is_held_and_the_others_go_on) {
+    World world = make_world({}, CpuOptions{1, ""});
+    const auto model = make_sheet(hung);
+    std::uint32_t pinned = 0;
+    while (model->start[pinned].w != 0) ++pinned;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (int i = 0; i < 5; ++i) {
+        Holds holds;
+        if (i == 2) holds = {.movers = {{.offsets = {{0, {nan, 0, 0}}}}}, .particles = {{pinned, 0, {}}}};
+        world.add(model, holds);
+    }
+    const std::vector<Vec4> before(world.frame().cloths[2].positions.begin(), world.frame().cloths[2].positions.end());
+    for (int frame = 0; frame < 3; ++frame) world.step(1.0 / 60);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const ClothFrame& cloth = world.frame().cloths[i];
+        EXPECT_EQ(cloth.reports, i == 2 ? report_non_finite : report_none) << i;
+        EXPECT_EQ(cloth.detail, i == 2 ? "the motion of a pin is not finite" : "") << i;
+        EXPECT_EQ(std::ranges::equal(cloth.positions, before), i == 2) << i;
+    }
+    EXPECT_EQ(world.frame().reports, report_non_finite);
 }
 
 TEST_F(Hostile, a_collider_that_is_no_number_is_named) {

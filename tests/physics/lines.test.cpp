@@ -82,7 +82,7 @@ double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
     return fastest;
 }
 
-TEST(LinesOf, a_sheet_held_too_far_apart_let_it_rest) {
+TEST(LinesOf, a_sheet_held_too_far_apart_do_not_crumple_it) {
     Fabric rigid;
     rigid.stretch.inextensible = true;
     double cotton_stretch = 0, rigid_stretch = 0;
