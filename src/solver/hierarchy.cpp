@@ -2,6 +2,7 @@
 
 #include "mesh/grouping.h"
 #include "solver/link_graph.h"
+#include "solver/rest_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,10 +146,20 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
     return result;
 }
 
+// Where the cloth is flat, a way need not have the corners that edges give it. One that is longer by more than corners
+// make it leads around something.
+void straighten(Link& link, const StraightLine& straight, bool turns) {
+    constexpr double corners = 1.12;
+    if (link.length > corners * straight.length) return;
+    link.length = std::min(link.length, straight.length);
+    link.reach = turns ? std::min(link.reach, straight.reach) : link.length;
+}
+
 // Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough
 // searches pass: each of its thousands of neighbors would visit all the others. What is lost there is a row that helps,
-// or it is longer than it could be; never one shorter than the way.
-LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection) {
+// or it is longer than it could be. `frames` and `place`: of the finer nodes.
+LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection,
+                         std::span<const RestFrame> frames, std::span<const Vec3> place) {
     const Neighbors neighbors = neighbors_of_nodes(fine, selection);
     LinkGraph graph{.offsets = {0}, .links = {}, .turns = fine.turns};
     graph.links.reserve(neighbors.of.items.size());
@@ -179,7 +190,9 @@ LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& se
         if (fine.turns) measure.template operator()<&Link::length>(limit);
         for (const Link& link : found) {
             if (!(link.reach < unreached)) continue;
-            graph.links.push_back({link.to, std::min(link.length, link.reach), link.reach});
+            const std::uint32_t a = selection.chosen[node], b = selection.chosen[link.to];
+            Link& kept = graph.links.emplace_back(Link{link.to, std::min(link.length, link.reach), link.reach});
+            straighten(kept, straight_line(frames[a], frames[b], place[b] - place[a]), fine.turns);
         }
         graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
     }
@@ -311,6 +324,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
     if (reserve > useless_reserve) return levels;
 
     LinkGraph graph = graph_of_edges(rest, fabric);
+    std::vector<RestFrame> frames = rest_frames(rest);
     std::vector<std::uint32_t> particle(graph.size());
     std::vector<std::uint8_t> pinned(graph.size());
     std::vector<double> mass(graph.size());
@@ -347,7 +361,9 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
             nodes[node] = level.particle[node] = particle[selection.chosen[node]];
             level.weight[node] = held[node] || !(carried[node] > 0) ? 0 : static_cast<float>(1 / carried[node]);
         }
-        LinkGraph coarse = graph_of_nodes(graph, unit, selection);
+        LinkGraph coarse = graph_of_nodes(graph, unit, selection, frames, place);
+        std::vector<RestFrame> kept_frames;
+        for (const std::uint32_t node : selection.chosen) kept_frames.push_back(frames[node]);
         RowList rows = make_rows(ConstraintKind::reach);
         for (std::uint32_t node = 0; node < count; ++node) {
             for (const Link& link : coarse[node]) {
@@ -361,7 +377,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         levels.push_back(std::move(level));
         graph = std::move(coarse);
         particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places),
-        mean = std::move(means);
+        mean = std::move(means), frames = std::move(kept_frames);
     }
 }
 
