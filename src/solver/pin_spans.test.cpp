@@ -10,17 +10,20 @@
 namespace weft {
 namespace {
 
-std::shared_ptr<const ClothModel> grid_with_pins(std::vector<std::uint32_t> vertices) {
-    TriangleMesh mesh = make_grid({1, 1}, {33, 33}, GridDiagonal::alternating);
+std::shared_ptr<const ClothModel> rigid_model(TriangleMesh mesh, std::vector<std::uint32_t> pinned_vertices) {
     Topology topology = *build_topology(mesh);
-    for (std::uint32_t& v : vertices) v = topology.vertex_to_particle[v];
+    for (std::uint32_t& v : pinned_vertices) v = topology.vertex_to_particle[v];
     Fabric rigid;
     rigid.stretch.inextensible = true;
     return *build_cloth_model({.mesh = std::move(mesh),
                                .fabric = rigid,
-                               .pins = {.particles = std::move(vertices)},
+                               .pins = {.particles = std::move(pinned_vertices)},
                                .layout = {.hierarchy = true}},
                               std::move(topology));
+}
+
+std::shared_ptr<const ClothModel> grid_with_pins(std::vector<std::uint32_t> vertices) {
+    return rigid_model(make_grid({1, 1}, {33, 33}, GridDiagonal::alternating), std::move(vertices));
 }
 
 std::vector<Vec4> stretched(const ClothModel& model, Vec3 factor) {
@@ -57,14 +60,7 @@ TEST(PinSpans, follow_the_cloth_where_it_is_bent_at_rest) {
         const float angle = 6 * p.x;
         p = {std::sin(angle) / 6, std::cos(angle) / 6, p.z};
     }
-    Topology topology = *build_topology(mesh);
-    const std::vector<std::uint32_t> pins = {topology.vertex_to_particle[16 * side],
-                                             topology.vertex_to_particle[16 * side + side - 1]};
-    Fabric rigid;
-    rigid.stretch.inextensible = true;
-    const auto model = *build_cloth_model(
-        {.mesh = std::move(mesh), .fabric = rigid, .pins = {.particles = pins}, .layout = {.hierarchy = true}},
-        std::move(topology));
+    const auto model = rigid_model(std::move(mesh), {16 * side, 16 * side + side - 1});
     ASSERT_EQ(model->pin_spans.size(), 1u);
     EXPECT_GT(model->pin_spans[0].length, 0.88f) << "1 m around, 5 cm across";
     EXPECT_LT(model->pin_spans[0].length, 1);
@@ -80,13 +76,7 @@ TEST(PinSpans, are_found_in_every_piece) {
         for (const auto [a, b, c] : one.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
         pins.insert(pins.end(), {first, first + 8});
     }
-    Topology topology = *build_topology(mesh);
-    for (std::uint32_t& v : pins) v = topology.vertex_to_particle[v];
-    Fabric rigid;
-    rigid.stretch.inextensible = true;
-    const auto model = *build_cloth_model(
-        {.mesh = std::move(mesh), .fabric = rigid, .pins = {.particles = pins}, .layout = {.hierarchy = true}},
-        std::move(topology));
+    const auto model = rigid_model(std::move(mesh), pins);
     ASSERT_EQ(model->pin_spans.size(), 12u);
     for (const PinSpan& span : model->pin_spans) EXPECT_NEAR(span.length, 1, 1e-5);
 }
