@@ -65,8 +65,7 @@ class TrafficCounter {
     Touched touched(const ConstraintTable& table, std::uint32_t begin, std::uint32_t end) {
         Touched sum;
         const std::uint32_t moved = constraint_info(table.kind).moved;
-        round_ +=
-            2;  // marks of former rounds are smaller than those of this one: round_ for read, round_ + 1 for moved
+        round_ += 2;  // marks of former rounds are smaller than this one's: round_ for read, round_ + 1 for moved
         for (std::uint32_t r = begin; r < end; ++r) {
             if (table.source[r] == none) continue;
             ++sum.rows;
