@@ -21,7 +21,7 @@ std::shared_ptr<const ClothModel> sheet(std::uint32_t side, BendModel bend) {
         TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
         auto topology = build_topology(mesh, {.reorder = false});
         Fabric fabric;
-        fabric.tether.enabled = true;
+        fabric.tether.use = Tethers::on;
         fabric.bend.model = bend;
         model = *build_cloth_model(
             {.name = "sheet", .mesh = std::move(mesh), .fabric = fabric, .pins = {.particles = {0, side - 1}}},

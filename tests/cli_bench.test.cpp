@@ -41,7 +41,7 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_EQ(s["runs"], 2);
     EXPECT_EQ(s["particles"], 120);
     EXPECT_EQ(s["triangles"], 2 * 11 * 9);
-    EXPECT_EQ(s["constraints"].size(), 2u) << "no tethers, no row of them";
+    EXPECT_EQ(s["constraints"].size(), 2u) << "no kind without rows";
     EXPECT_EQ(s["constraints"]["stretch"]["rows"], 11 * 10 + 12 * 9 + 11 * 9);
     EXPECT_EQ(s["constraints"]["bend"]["rows"], 11 * 8 + 10 * 9 + 11 * 9);
     for (const char* kind : {"stretch", "bend"}) EXPECT_GT(s["constraints"][kind]["ns_per_row"], 0);

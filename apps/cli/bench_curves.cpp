@@ -66,7 +66,7 @@ SceneDesc hung_sheet(std::uint32_t side, bool irregular, const MethodSettings& m
                      .mesh = irregular ? MeshDesc(irregular_sheet(side)) : GridDesc{.resolution = {side, side}},
                      .transform = {.rotation_degrees = {85, 0, 0}},  // leaning, so that it may leave its plane
                      .pins = {{.select = VertexPins{{0, side - 1}}}},
-                     .tethers = method.tethers};
+                     .tethers = method.tethers ? Tethers::on : Tethers::off};
     SceneDesc scene{.name = "hung sheet", .cloths = {std::move(sheet)}};
     scene.solver.substeps = substeps;
     scene.solver.projection = method.projection;

@@ -246,7 +246,7 @@ std::vector<BenchSubject> build_subjects(const std::vector<std::uint32_t>& sides
     for (const std::uint32_t side : sides) {
         subjects.push_back({"build " + std::to_string(side), [side](const Options& options) {
                                 SceneDesc scene = sheet_scene(side);
-                                scene.cloths.front().tethers = true;
+                                scene.cloths.front().tethers = Tethers::on;
                                 scene.solver.hierarchy = true;
                                 return Session::create(std::move(scene), options);
                             }});

@@ -30,6 +30,10 @@ struct SolverDesc {
     bool hierarchy = true;  ///< coarse levels first: large cloths stretch less
 };
 
+/// Particles held within their way over the cloth from where it is pinned. `automatic`: where coarse levels are on, the
+/// fabric is inextensible and the cloth hangs by few places.
+enum class Tethers { automatic, on, off };
+
 enum class WindKind { directional };
 
 /// `smooth`: neighbors feel a gust at nearly the same time. `scattered`: every triangle has a phase and a frequency of
@@ -164,8 +168,8 @@ struct ClothDesc {
     TransformDesc transform = {};
     FabricDesc fabric = {};
     std::vector<PinDesc> pins = {};
-    bool tethers = false;
-    float tether_slack = 0.02f;  ///< of the way over the cloth
+    Tethers tethers = Tethers::automatic;
+    float tether_slack = 0;  ///< of the way over the cloth
 };
 
 /// Half space below the plane: normal·x = offset, in the collider's own frame.

@@ -1,6 +1,6 @@
 #include "cpu/cloth_state.h"
 
-#include "solver/reserve.h"
+#include "solver/tension.h"
 
 #include <algorithm>
 #include <cassert>
@@ -14,9 +14,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(st
     now.velocity.resize(capacity);
     now.carry.resize(capacity);
     last_good = now;
-    for (const ConstraintTable& table : model->constraints) {
-        lambda[static_cast<std::uint32_t>(table.kind)].resize(table.lambda_count());
-    }
+    stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
     face_normals.resize(std::size_t{model->face_stride} + 1);
     normals.resize(capacity);
     update_normals();
@@ -43,9 +41,8 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     keep(now.carry, zero);
     last_good = now;
     model = std::move(other);
-    for (const ConstraintTable& table : model->constraints) {
-        lambda[static_cast<std::uint32_t>(table.kind)].assign(table.lambda_count(), 0.0f);
-    }
+    for (auto& of_table : lambda) of_table.clear();
+    stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
     gather = nullptr;
     levels.clear();
     contact_sums.clear();
@@ -62,10 +59,9 @@ ClothSnapshot ClothState::save() const {
                            .start = points(now.start),
                            .velocity = points(now.velocity),
                            .carry = points(now.carry),
-                           .lambda = {},
+                           .lambda = {stretch_lambda().begin(), stretch_lambda().end()},
                            .substep_seconds = substep_seconds};
     for (Vec4& p : snapshot.position) p.w = 0;
-    for (const auto& table : lambda) snapshot.lambda.insert(snapshot.lambda.end(), table.begin(), table.end());
     return snapshot;
 }
 
@@ -77,11 +73,7 @@ void ClothState::restore(const ClothSnapshot& snapshot) {
     std::ranges::copy(snapshot.start, now.start.begin());
     std::ranges::copy(snapshot.velocity, now.velocity.begin());
     std::ranges::copy(snapshot.carry, now.carry.begin());
-    auto from = snapshot.lambda.begin();
-    for (auto& table : lambda) {
-        std::copy(from, from + static_cast<std::ptrdiff_t>(table.size()), table.begin());
-        from += static_cast<std::ptrdiff_t>(table.size());
-    }
+    std::ranges::copy(snapshot.lambda, stretch_lambda().begin());
     substep_seconds = snapshot.substep_seconds;
     last_good = now;
     update_normals();
@@ -95,7 +87,8 @@ void ClothState::update_normals() {
 
 RowView ClothState::rows(ConstraintKind kind) {
     const ConstraintTable& table = model->table(kind);
-    return {table.stride, table.particles.data(), table.fields.data(), lambda[static_cast<std::uint32_t>(kind)].data()};
+    return {table.stride, table.particles.data(), table.fields.data(), lambda[static_cast<std::uint32_t>(kind)].data(),
+            limits};
 }
 
 AroundView ClothState::around() const {
@@ -121,7 +114,7 @@ ParticleView ClothState::level_particles(std::uint32_t i) {
 
 RowView ClothState::level_rows(std::uint32_t i) {
     const ConstraintTable& table = model->hierarchy[i].reach;
-    return {table.stride, table.particles.data(), levels[i].limits.data(), levels[i].lambda.data()};
+    return {table.stride, table.particles.data(), table.fields.data(), levels[i].lambda.data(), limits};
 }
 
 CarryView ClothState::carry_to_level(std::uint32_t i) const {
@@ -167,14 +160,10 @@ void ClothState::end_frame(const StepPlan& plan, double dt) {
 }
 
 void ClothState::update_limits() {
-    if (levels.empty()) return;
-    const auto stretch = static_cast<std::uint32_t>(ConstraintKind::stretch);
-    const float elastic = elastic_reserve(model->constraints[stretch], lambda[stretch], substep_seconds, model->fabric);
-    const float allowed = 1 + std::max(elastic, strain_between(model->pin_spans, now.position));
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        const AlignedVector<float>& at_rest = model->hierarchy[i].reach.fields;
-        std::ranges::transform(at_rest, levels[i].limits.begin(), [&](float limit) { return limit * allowed; });
-    }
+    if (levels.empty() && model->table(ConstraintKind::tether).rows == 0) return;
+    const float tension =
+        tension_in(model->table(ConstraintKind::stretch), stretch_lambda(), substep_seconds, model->fabric);
+    limits = {.tension = tension, .allowed = 1 + strain_between(model->pin_spans, now.position)};
 }
 
 void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
@@ -190,9 +179,13 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
             state.origin.resize(coarse.capacity());
             state.displacement.resize(coarse.capacity());
             state.lambda.resize(coarse.reach.stride);
-            state.limits.resize(coarse.reach.stride);
             for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
         }
+    }
+    for (const ConstraintTable& table : model->constraints) {
+        auto& of_table = lambda[static_cast<std::uint32_t>(table.kind)];
+        const std::size_t count = plan.iterations > 1 ? table.lambda_count() : 0;
+        if (table.kind != ConstraintKind::stretch && of_table.size() != count) of_table.assign(count, 0.0f);
     }
     std::uint32_t longest = 0;
     for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)

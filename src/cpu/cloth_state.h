@@ -21,11 +21,10 @@ struct Particles {
     ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
 };
 
-/// What one coarse level works with in an iteration; nothing of it outlives that.
+/// What one coarse level works with in a substep; nothing of it outlives that.
 struct LevelState {
     AlignedVector<Vec4> position, origin, displacement;
     AlignedVector<float> lambda;
-    AlignedVector<float> limits;  ///< of the rows, with what the cloth stretches by its elasticity
 };
 
 struct ClothState {
@@ -34,6 +33,7 @@ struct ClothState {
     std::shared_ptr<const ClothModel> model;
     Particles now;
     Particles last_good;  ///< as the current frame found them
+    /// Those of stretch outlive a frame, the others an iteration: without a second one they are empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
     AlignedVector<Vec4> face_normals, normals;
@@ -43,12 +43,17 @@ struct ClothState {
     AlignedVector<Vec4> corrections;
     std::vector<AlignedVector<float>> line_scratch;  ///< per rank
     double substep_seconds = 0;                      ///< of the last frame, for lambda's scale; 0 before it
+    Limits limits;                                   ///< in this frame, of tethers and coarse rows
 
     /// The same particles; anchors may come or go.
     void set_model(std::shared_ptr<const ClothModel> other);
     ClothSnapshot save() const;
     void restore(const ClothSnapshot& snapshot);
 
+    AlignedVector<float>& stretch_lambda() { return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)]; }
+    const AlignedVector<float>& stretch_lambda() const {
+        return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)];
+    }
     RowView rows(ConstraintKind kind);
     AroundView around() const;
     SurfaceView surface();
@@ -68,7 +73,7 @@ struct ClothState {
     void update_normals();
 
   private:
-    /// Lets coarse levels allow for the tension that the last frame left in the cloth.
+    /// Lets tethers and coarse levels give way to the tension that the last frame left in the cloth.
     void update_limits();
 };
 

@@ -90,7 +90,7 @@ class CpuBackend final : public Backend {
             const double rest = table.fields[row];
             const double c = static_cast<double>(length(a - b)) - rest;
             const double compliance = table.fields[(c > 0 ? 1 : 2) * std::size_t{table.stride} + row];
-            const double lambda = state.lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)][row];
+            const double lambda = state.stretch_lambda()[row];
             // No stiffness on this side: nothing was to be solved.
             const double left = compliance < 0 ? 0 : std::abs(c + (h2 > 0 ? compliance / h2 * lambda : 0)) / rest;
             residual.mean += left;

@@ -268,10 +268,12 @@ void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t subs
     if (capped) frame.ranks[rank].reports |= report_speed_capped;
 }
 
-// Lambda is read again by a later iteration, or by whoever asks for the residual after the last substep.
+// Lambda is read again by a later iteration; that of stretch, after the last substep, by whoever asks for the tension
+// in the cloth or the residual.
 LambdaUse Executor::lambda_use(const Frame& frame, const Pass& pass, std::uint32_t substep) {
     if (!pass.first_iteration) return LambdaUse::accumulate;
-    const bool kept = frame.plan.iterations > 1 || substep + 1 == frame.plan.substeps;
+    const bool kept =
+        frame.plan.iterations > 1 || (pass.constraint == ConstraintKind::stretch && substep + 1 == frame.plan.substeps);
     return kept ? LambdaUse::store : LambdaUse::discard;
 }
 
@@ -359,13 +361,14 @@ void Executor::run_level(const Frame& frame, const Pass& pass, unsigned rank) {
     }
     const Batch& batch = level.reach.batches[pass.batch];
     const auto kind = static_cast<std::uint32_t>(ConstraintKind::reach);
+    const LambdaUse use = pass.first_iteration ? LambdaUse::store : LambdaUse::accumulate;
     const Range rows = range_of(batch.rows);
     if (!batch.serial) {
         passes_.project[kind](cloth.level_particles(pass.level), cloth.level_rows(pass.level),
-                              {batch.begin + rows.begin, batch.begin + rows.end}, frame.h, LambdaUse::discard);
+                              {batch.begin + rows.begin, batch.begin + rows.end}, frame.h, use);
     } else if (rank == 0) {
         scalar_passes().project[kind](cloth.level_particles(pass.level), cloth.level_rows(pass.level),
-                                      {batch.begin, batch.begin + batch.rows}, frame.h, LambdaUse::discard);
+                                      {batch.begin, batch.begin + batch.rows}, frame.h, use);
     }
 }
 

@@ -29,11 +29,18 @@ struct ParticleView {
     float* carry;  ///< what rounding dropped from the position
 };
 
+/// What one-sided rows allow for in a frame, as Step has it.
+struct Limits {
+    float tension = 0;  ///< N/m
+    float allowed = 1;
+};
+
 struct RowView {
     std::uint32_t stride;
     const std::uint32_t* particles;  ///< [slot · stride + row]
     const float* fields;             ///< [field · stride + row]
     float* lambda;                   ///< [multiplier · stride + row]
+    Limits limits = {};
 };
 
 /// What happens to lambda, which restarts at 0 in every substep.

@@ -1,6 +1,8 @@
 // The loops, for whatever lanes the including namespace has. Included once per instruction set.
 
-WEFT_FN Step make_step(float h) { return {real(h), real(1.0f / h), real(1.0f / h / h)}; }
+WEFT_FN Step make_step(float h, const Limits& limits = {}) {
+    return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed)};
+}
 
 WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
     Motion m;
@@ -117,7 +119,7 @@ WEFT_FN void project_points(const RowView& rows, std::size_t r, const Step& step
 template <class Traits, LambdaUse use>
 inline void project_rows(const ParticleView& p, const RowView& rows, Range range, float h) {
     if (range.begin == range.end) return;
-    const Step step = make_step(h);
+    const Step step = make_step(h, rows.limits);
     Points<Traits> points, ahead;
     load_points<Traits>(p, rows, range.begin, points.x, points.w);
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
@@ -145,7 +147,9 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
 #include "cpu/lines.inl"
 
 // A step in which every constraint is rigid: compliance over its square is nothing.
-WEFT_FN Step rigid_step() { return {real(1e3f), real(1e-3f), real(0.0f)}; }
+WEFT_FN Step rigid_step(const Limits& limits) {
+    return {real(1e3f), real(1e-3f), real(0.0f), real(limits.tension), real(limits.allowed)};
+}
 
 // Without compliance, λ is what moved the particles, and its sign tells which way C was.
 WEFT_FN real plain_part(real lambda, std::array<float, 2> stiffness) {
@@ -154,7 +158,7 @@ WEFT_FN real plain_part(real lambda, std::array<float, 2> stiffness) {
 
 template <class Traits>
 inline void project_plain_pass(const ParticleView& p, const RowView& rows, Range range, std::array<float, 2> stiffness) {
-    const Step step = rigid_step();
+    const Step step = rigid_step(rows.limits);
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         vec3 x[Traits::arity], before[Traits::arity];
         real w[Traits::arity], lambda[Traits::multipliers];
@@ -173,7 +177,7 @@ inline void project_plain_pass(const ParticleView& p, const RowView& rows, Range
 template <class Traits>
 inline void correct_pass(const ParticleView& p, const RowView& rows, const CorrectionView& out, Range range, float h,
                          LambdaUse use) {
-    const Step step = out.share ? make_step(h) : rigid_step();
+    const Step step = out.share ? make_step(h, rows.limits) : rigid_step(rows.limits);
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         vec3 x[Traits::arity], before[Traits::arity];
         real w[Traits::arity];

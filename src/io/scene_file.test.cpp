@@ -345,7 +345,7 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
 
 TEST(SceneFile, ReadsWhatMoves) {
     const auto read = parse_scene(R"({"weft": 1,
-        "cloths": [{"tethers": true, "tether_slack": 0.1, "pins": [
+        "cloths": [{"tethers": "on", "tether_slack": 0.1, "pins": [
             {"vertices": [0], "attach": "drum"},
             {"vertices": [1], "motion": [{"time": 1}, {"time": 2, "offset": [1, 2, 3]}]}]}],
         "colliders": [
@@ -355,7 +355,7 @@ TEST(SceneFile, ReadsWhatMoves) {
                                   "s.json");
     ASSERT_TRUE(read.ok()) << read.error().message();
     const SceneCloth& cloth = read->cloths[0];
-    EXPECT_TRUE(cloth.tethers);
+    EXPECT_EQ(cloth.tethers, Tethers::on);
     EXPECT_EQ(cloth.tether_slack, 0.1f);
     EXPECT_EQ(cloth.pins[0].attach, "drum");
     ASSERT_EQ(cloth.pins[1].motion.size(), 2u);

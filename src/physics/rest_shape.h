@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/topology.h"
+#include "physics/elasticity.h"
 
 #include <vector>
 
@@ -20,6 +21,7 @@ struct RestShape {
     std::vector<Vec3> warp;                    ///< per triangle, unit, in its plane: the direction in which u grows
     std::vector<std::uint8_t> held = {};       ///< per particle: 1 if its place is given from outside; empty: none is
     std::vector<Attachment> attachments = {};  ///< the anchor of number i is particle `topology.particle_count` + i
+    Elasticity elasticity = {};                ///< for one-sided limits
 };
 
 /// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis laid into the triangle (the z axis

@@ -32,8 +32,8 @@ struct SceneCloth {
     TransformDesc transform = {};
     Fabric fabric = {};
     std::vector<PinDesc> pins = {};
-    bool tethers = false;
-    float tether_slack = 0.02f;  ///< of the way over the cloth
+    Tethers tethers = Tethers::automatic;
+    float tether_slack = 0;  ///< of the way over the cloth
 };
 
 struct SceneDesc {

@@ -119,10 +119,12 @@ inline constexpr Parameter cloth_keys[] = {
     {.key = "drawn", .kind = ParameterKind::object, .what = "a mesh that is drawn in its place and follows it"},
     {.key = "transform", .kind = ParameterKind::object, .what = "where it starts"},
     {.key = "fabric", .kind = ParameterKind::object, .what = "its material: the name of a preset, or an object"},
-    {.key = "tethers", .kind = ParameterKind::flag, .offset = offsetof(SceneCloth, tethers),
-     .what = "hold every particle within its way over the cloth from where the cloth is pinned: far less stretch"},
+    {.key = "tethers", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, tethers),
+     .what = "hold every particle within its way over the cloth from where the cloth is pinned: far less stretch; "
+             "`auto`: where coarse levels are on, the fabric is `inextensible` and the cloth hangs by at most 16 places",
+     .choices = "auto|on|off"},
     {.key = "tether_slack", .offset = offsetof(SceneCloth, tether_slack), .min = 0, .max = 100,
-     .what = "by how much of that way a particle may go beyond it; with `tethers`"},
+     .what = "by how much of that way a particle may go beyond it, elasticity apart; with `tethers`"},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose place is given"},
 };
 

@@ -1,5 +1,6 @@
 #include "solver/cloth_model.h"
 
+#include "physics/tether/held_places.h"
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
 #include "solver/lines.h"
@@ -121,6 +122,16 @@ void add_table(ClothModel& model, ConstraintKind kind, const RowList& rows, bool
     clock.spent_on(BuildPart::tables);
 }
 
+// Where a cloth hangs by many places, the nearest is near, and coarse levels do as well. What stretches under a load is
+// stiffened by tethers beyond what they allow for.
+void choose_tethers(ClothModel& model, const RestShape& rest) {
+    constexpr std::size_t few = 16;
+    TetherMaterial& tether = model.fabric.tether;
+    if (tether.use != Tethers::automatic) return;
+    const bool pays = !model.hierarchy.empty() && model.fabric.stretch.inextensible && held_places(rest).size() <= few;
+    tether.use = pays ? Tethers::on : Tethers::off;
+}
+
 // Everything that material and pins decide, on a model that has its topology.
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
                      const ColoringOptions& coloring, const ClothLayout& layout) {
@@ -139,8 +150,16 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
     rest.attachments = pins.attachments;
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
+    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.topology);
     clock.spent_on(BuildPart::rest);
 
+    if (layout.hierarchy)
+        model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
+                                          layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
+    model.pin_spans = find_pin_spans(model.hierarchy, model.topology.rest_positions);
+    clock.spent_on(BuildPart::hierarchy);
+
+    choose_tethers(model, rest);
     // The same values for both; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.bend;
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                    \
@@ -149,11 +168,6 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    if (layout.hierarchy)
-        model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
-                                          layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
-    model.pin_spans = find_pin_spans(model.hierarchy, model.topology.rest_positions);
-    clock.spent_on(BuildPart::hierarchy);
     lay_out_faces(model, rest);
     measure_edges(model, rest);
     clock.spent_on(BuildPart::rest);

@@ -61,7 +61,8 @@ struct ClothModel {
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
     std::vector<CoarseLevel> hierarchy;  ///< the finest level first; empty if none was asked for, or none is of use
-    std::vector<PinSpan> pin_spans;      ///< only for the hierarchy
+    std::vector<PinSpan> pin_spans;      ///< only with a hierarchy
+    Elasticity elasticity;
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
     AlignedVector<std::uint32_t> faces;
     std::uint32_t face_stride = 0;

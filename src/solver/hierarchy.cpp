@@ -1,8 +1,8 @@
 #include "solver/hierarchy.h"
 
 #include "mesh/grouping.h"
+#include "physics/rest_frames.h"
 #include "solver/link_graph.h"
-#include "solver/rest_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,18 +148,31 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
 
 // Where the cloth is flat, a way need not have the corners that edges give it. One that is longer by more than corners
 // make it leads around something.
-void straighten(Link& link, const StraightLine& straight, bool turns) {
+void straighten(Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
     constexpr double corners = 1.12;
     if (link.length > corners * straight.length) return;
     link.length = std::min(link.length, straight.length);
-    link.reach = turns ? std::min(link.reach, straight.reach) : link.length;
+    if (!turns) {
+        link.reach = link.length;
+        return;
+    }
+    const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
+    link.reach = std::min(link.reach, limit.length);
+}
+
+// Of a row between two nodes. Where the fabric turns, its link allows for elasticity already.
+Limit limit_of(const Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
+    const double give = std::max(elasticity.warp, elasticity.weft);
+    if (!turns) return {link.reach * (1 + elasticity.reserve()), link.reach * give};
+    const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
+    return {link.reach, straight.length > 0 ? limit.give : link.reach * give};
 }
 
 // Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough
 // searches pass: each of its thousands of neighbors would visit all the others. What is lost there is a row that helps,
 // or it is longer than it could be. `frames` and `place`: of the finer nodes.
 LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection,
-                         std::span<const RestFrame> frames, std::span<const Vec3> place) {
+                         std::span<const RestFrame> frames, std::span<const Vec3> place, const Elasticity& elasticity) {
     const Neighbors neighbors = neighbors_of_nodes(fine, selection);
     LinkGraph graph{.offsets = {0}, .links = {}, .turns = fine.turns};
     graph.links.reserve(neighbors.of.items.size());
@@ -186,13 +199,14 @@ LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& se
             ways.run<Measure>(selection.chosen[node], goals, std::min(farthest, 4 * spacing * unit), keep, is_closed);
         };
         // What turns reaches at most as far as two sides of a square do along its diagonal.
-        measure.template operator()<&Link::reach>(fine.turns ? std::numbers::sqrt2 * limit : limit);
+        measure.template operator()<&Link::reach>(fine.turns ? std::numbers::sqrt2 * (1 + elasticity.reserve()) * limit
+                                                             : limit);
         if (fine.turns) measure.template operator()<&Link::length>(limit);
         for (const Link& link : found) {
             if (!(link.reach < unreached)) continue;
             const std::uint32_t a = selection.chosen[node], b = selection.chosen[link.to];
             Link& kept = graph.links.emplace_back(Link{link.to, std::min(link.length, link.reach), link.reach});
-            straighten(kept, straight_line(frames[a], frames[b], place[b] - place[a]), fine.turns);
+            straighten(kept, straight_line(frames[a], frames[b], place[b] - place[a]), elasticity, fine.turns);
         }
         graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
     }
@@ -304,24 +318,12 @@ std::vector<Vec3> means_of(const Surroundings& around, std::span<const Vec3> fin
     return means;
 }
 
-// What three times its own weight, hung over its whole extent, stretches the cloth by.
-double reserve_of(const RestShape& rest, const Fabric& fabric) {
-    if (fabric.stretch.inextensible) return 0;
-    constexpr double gravity = 9.81;
-    const double extent = length(bounds_of(rest.topology.rest_positions).size());
-    const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
-    return softest > 0 ? 3 * static_cast<double>(fabric.body.density) * gravity * extent / softest : 1e3;
-}
-
 }  // namespace
 
 std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
                                          FinestLevel finest) {
-    // Beyond this the levels would let anything pass.
-    constexpr double useless_reserve = 0.1;
     std::vector<CoarseLevel> levels;
-    const double reserve = reserve_of(rest, fabric);
-    if (reserve > useless_reserve) return levels;
+    if (rest.elasticity.reserve() > useless_reserve) return levels;
 
     LinkGraph graph = graph_of_edges(rest, fabric);
     std::vector<RestFrame> frames = rest_frames(rest);
@@ -361,7 +363,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
             nodes[node] = level.particle[node] = particle[selection.chosen[node]];
             level.weight[node] = held[node] || !(carried[node] > 0) ? 0 : static_cast<float>(1 / carried[node]);
         }
-        LinkGraph coarse = graph_of_nodes(graph, unit, selection, frames, place);
+        LinkGraph coarse = graph_of_nodes(graph, unit, selection, frames, place, rest.elasticity);
         std::vector<RestFrame> kept_frames;
         for (const std::uint32_t node : selection.chosen) kept_frames.push_back(frames[node]);
         RowList rows = make_rows(ConstraintKind::reach);
@@ -370,7 +372,11 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
                 if (link.to < node || is_implied(coarse, node, link)) continue;
                 // What the mean is off by must not pull at the cloth at rest.
                 const double apart = length(means[node] - means[link.to]);
-                rows.add({node, link.to}, {static_cast<float>(std::max(link.reach, apart) * (1 + reserve))});
+                const StraightLine line =
+                    straight_line(kept_frames[node], kept_frames[link.to], places[link.to] - places[node]);
+                const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
+                rows.add({node, link.to},
+                         {static_cast<float>(std::max(limit.length, apart)), static_cast<float>(limit.give)});
             }
         }
         level.reach = pack_rows(ConstraintKind::reach, rows, count);

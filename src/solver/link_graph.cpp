@@ -72,7 +72,7 @@ LinkGraph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
         double reach = length_at_rest;
         if (turns) {
             const double cos2 = std::clamp(static_cast<double>(cos2_to_warp(rest, edge)), 0.0, 1.0);
-            reach *= std::sqrt(cos2) + std::sqrt(1 - cos2);
+            reach = limit_along(rest.elasticity, reach, reach * std::sqrt(cos2), reach * std::sqrt(1 - cos2)).length;
         }
         graph.links[next[edge.a]++] = {edge.b, length_at_rest, reach};
         graph.links[next[edge.b]++] = {edge.a, length_at_rest, reach};

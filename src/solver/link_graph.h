@@ -19,7 +19,7 @@ namespace weft {
 struct Link {
     std::uint32_t to = 0;
     double length = 0;  ///< m, along the surface at rest
-    double reach = 0;   ///< m, as far as the two ends can come apart; at least `length`
+    double reach = 0;   ///< m, at least `length`: where threads turn, as far as the two ends can come apart
 };
 
 /// A link stands with both of its ends. One array for all of them, as a search reads little else.

@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and a version; on a machine of the other byte order it reads as neither.
-constexpr std::uint32_t magic = 0x74666577, version = 1;
+constexpr std::uint32_t magic = 0x74666577, version = 2;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;

@@ -17,7 +17,7 @@ namespace weft {
 /// inverse mass is the model's affair and is not here.
 struct ClothSnapshot {
     std::vector<Vec4> position, start, velocity, carry;  ///< per particle and anchor
-    std::vector<float> lambda;                           ///< of all tables, one after another
+    std::vector<float> lambda;                           ///< of the rows of stretch, which tell how taut the cloth is
     double substep_seconds = 0;                          ///< of the last frame
 };
 

@@ -38,23 +38,25 @@ constexpr std::uint32_t sweeps = 4;
 // Nodes of a level that is worth sharing out: a sweep over its rows then takes longer than the barriers between them.
 constexpr std::uint32_t nodes_for_many_threads = 2048;
 
-void plan_hierarchy(const ClothModel& model, std::vector<Pass>& passes) {
-    const auto add = [&](PassKind kind, std::uint32_t level, std::uint32_t batch = 0) {
+void plan_hierarchy(const ClothModel& model, bool first, std::vector<Pass>& passes) {
+    const auto add = [&](PassKind kind, std::uint32_t level, std::uint32_t batch = 0, bool first_sweep = true) {
         const bool alone = model.hierarchy[level].count < nodes_for_many_threads;
-        passes.push_back({.kind = kind, .batch = batch, .level = level, .alone = alone});
+        passes.push_back(
+            {.kind = kind, .batch = batch, .first_iteration = first && first_sweep, .level = level, .alone = alone});
     };
     for (std::uint32_t i = 0; i < model.hierarchy.size(); ++i) add(PassKind::collect, i);
     for (std::uint32_t i = static_cast<std::uint32_t>(model.hierarchy.size()); i-- > 0;) {
         const auto batches = static_cast<std::uint32_t>(model.hierarchy[i].reach.batches.size());
         add(PassKind::lift, i);
-        for (std::uint32_t batch = 0; batch < sweeps * batches; ++batch) add(PassKind::reach, i, batch % batches);
+        for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep)
+            for (std::uint32_t batch = 0; batch < batches; ++batch) add(PassKind::reach, i, batch, sweep == 0);
         add(PassKind::settle, i);
     }
     if (!model.hierarchy.empty()) passes.push_back({.kind = PassKind::spread});
 }
 
 void plan_iteration(const ClothModel& model, const StepSettings& settings, bool first, std::vector<Pass>& passes) {
-    if (settings.hierarchy) plan_hierarchy(model, passes);
+    if (settings.hierarchy) plan_hierarchy(model, first, passes);
     if (settings.projection == Projection::jacobi) {
         bool any = false;
         for (const ConstraintTable& table : model.constraints) {

@@ -37,7 +37,7 @@ struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp
     std::uint32_t batch = 0;      ///< of project, reach and damp
-    bool first_iteration = true;  ///< of project, correct and contact: no lambda, no friction from before
+    bool first_iteration = true;  ///< of project, reach, correct and contact: no lambda, no friction from before
     std::uint32_t level = 0;      ///< of collect, lift, reach and settle
     bool alone = false;           ///< of those: so little that one thread has it done before others would have joined
 };

@@ -194,13 +194,12 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         const ClothSnapshot& saved = snapshot.cloths[i];
         const std::size_t points = cloths_[i].model->point_count();
-        std::size_t rows = 0;
-        for (const ConstraintTable& table : cloths_[i].model->constraints) rows += table.lambda_count();
+        const std::size_t rows = cloths_[i].model->table(ConstraintKind::stretch).lambda_count();
         const std::string of_cloth = "particles in cloth '" + cloths_[i].model->name + "'";
         for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.carry}) {
             if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);
         }
-        if (saved.lambda.size() != rows) return differs("rows of constraints", saved.lambda.size(), rows);
+        if (saved.lambda.size() != rows) return differs("rows of stretch", saved.lambda.size(), rows);
     }
     if (auto checked = check_numbers(snapshot); !checked) return checked;
     for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->restore(cloths_[i].handle, snapshot.cloths[i]);

@@ -88,7 +88,7 @@ f 2 3 7
 
 TEST_F(SessionOfACloth, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
     folder.write("messy.obj", messy_obj);
-    for (const char* more : {"", R"(, "fabric": {"hinges": "source", "rest_angle": 0})", R"(, "tethers": true,
+    for (const char* more : {"", R"(, "fabric": {"hinges": "source", "rest_angle": 0})", R"(, "tethers": "on",
                              "pins": [{"vertices": [0, 8]}])",
                              R"(, "fabric": {"inextensible": true})", R"(, "fabric": {"bend_model": "plate"})"}) {
         auto session = open(R"("mesh": {"file": "messy.obj"})" + std::string(more));

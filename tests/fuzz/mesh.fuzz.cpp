@@ -92,7 +92,7 @@ TriangleMesh take_mesh(ByteReader& in) {
 /// Every number of the tables at its default, an end of its range, or anywhere between.
 Fabric take_fabric(ByteReader& in) {
     Fabric fabric;
-    fabric.tether.enabled = in.flag();
+    fabric.tether.use = in.flag() ? Tethers::on : Tethers::automatic;
     if (!in.flag()) return fabric;
     for (const FabricTable& table : fabric_tables()) {
         for (const Parameter& p : table.parameters) {

@@ -152,7 +152,7 @@ TEST_F(Hostile, meshes_by_every_method) {
         for (int choice = 0; choice < 8; ++choice) {
             Fabric fabric;
             fabric.bend.model = choice & 1 ? BendModel::plate : BendModel::hinges;
-            fabric.tether.enabled = true;
+            fabric.tether.use = Tethers::on;
             auto topology = build_topology(mesh);
             if (!topology) continue;  // far out nothing is left of the grid
             auto model = build_cloth_model({.name = "hostile",

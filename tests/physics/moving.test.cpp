@@ -119,7 +119,7 @@ TEST(Pins, ride_on_a_turning_collider) {
 double hanging_stretch(bool tethers) {
     Fabric fabric;
     fabric.stretch.inextensible = true;
-    fabric.tether = {.enabled = tethers, .slack = 0.0f};
+    fabric.tether = {.use = tethers ? Tethers::on : Tethers::off};
     World world =
         make_world({.substeps = 10},
                    {.resolution = {49, 49}, .rotation_degrees = {90, 0, 0}, .fabric = fabric, .pinned = [](Vec3 p) {
@@ -135,9 +135,30 @@ TEST(Tethers, cut_what_the_solver_leaves_of_stretch) {
     EXPECT_LT(with, without / 3);
 }
 
+TEST(Tethers, come_by_themselves_where_cloth_cannot_stretch_and_hangs_by_few_places) {
+    const auto rows = [](bool inextensible, int places, bool hierarchy) {
+        Fabric fabric;
+        fabric.stretch.inextensible = inextensible;
+        const SheetDesc sheet{.resolution = {49, 49},
+                              .fabric = fabric,
+                              .layout = {.lines = true, .hierarchy = hierarchy},
+                              .pinned = [places](Vec3 p) {
+                                  const auto column = static_cast<int>(std::lround((p.x + 0.5f) * 48));
+                                  return p.z < -0.49f && column % 2 == 0 && column / 2 < places;
+                              }};
+        return make_sheet(sheet)->table(ConstraintKind::tether).rows;
+    };
+    EXPECT_EQ(rows(true, 1, true), 49u * 49 - 1);
+    EXPECT_GT(rows(true, 16, true), 0u);
+    EXPECT_EQ(rows(true, 17, true), 0u) << "many places";
+    EXPECT_EQ(rows(true, 0, true), 0u) << "held nowhere";
+    EXPECT_EQ(rows(false, 1, true), 0u) << "cotton stretches";
+    EXPECT_EQ(rows(true, 1, false), 0u) << "no coarse levels";
+}
+
 TEST(Tethers, do_not_pull_cloth_through_an_obstacle) {
     Fabric fabric;
-    fabric.tether.enabled = true;
+    fabric.tether.use = Tethers::on;
     World world = make_world({.substeps = 20});
     world.add(make_collider({.shape = CapsuleDesc{0.15f, 1}, .transform = {.rotation_degrees = {90, 0, 0}}}));
     world.add(make_sheet({.resolution = {33, 33}, .position = {0.4f, 0.16f, 0}, .fabric = fabric, .pinned = [](Vec3 p) {

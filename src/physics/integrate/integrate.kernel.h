@@ -4,6 +4,8 @@ struct Step {
     real h;       // s    length of the substep
     real inv_h;   // 1/s
     real inv_h2;  // 1/s2
+    real tension; // N/m  in the cloth, for one-sided limits: they give way to it
+    real allowed; //      and are this many times as long
 };
 
 // A particle's velocity with the part that float drops when gravity's small increment meets a large velocity.

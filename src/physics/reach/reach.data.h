@@ -3,8 +3,9 @@
 #define WEFT_REACH_DATA_H
 
 // The numbers of one row.
-//   limit  m  largest distance, reserve included
-#define WEFT_ROW_reach(FIELD) FIELD(limit)
+//   limit  m      largest distance
+//   give   m²/N   so much more for every N/m of tension in the cloth
+#define WEFT_ROW_reach(FIELD) FIELD(limit) FIELD(give)
 
 #ifdef __cplusplus
 #include "physics/parameter.h"

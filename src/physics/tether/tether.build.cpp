@@ -1,5 +1,7 @@
 #include "physics/constraint.h"
+#include "physics/rest_frames.h"
 #include "physics/tether/geodesic.h"
+#include "physics/tether/held_places.h"
 
 #include <algorithm>
 #include <array>
@@ -14,56 +16,48 @@ constexpr std::size_t max_tethers = 4;
 // So many ways are followed for them: the last of them may be a little too long (geodesic.h).
 constexpr std::size_t max_ways = max_tethers + 2;
 
-// Held particles that hang together over edges between them: a corner, a hem, the tip of an ear.
-std::vector<std::vector<std::uint32_t>> held_places(const RestShape& rest) {
-    const Topology& topology = rest.topology;
-    std::vector<std::vector<std::uint32_t>> places;
-    std::vector<std::uint8_t> seen(topology.particle_count);
-    for (std::uint32_t first = 0; first < topology.particle_count; ++first) {
-        if (!rest.held[first] || seen[first]) continue;
-        auto& place = places.emplace_back(1, first);
-        seen[first] = 1;
-        for (std::size_t i = 0; i < place.size(); ++i) {
-            for (std::uint32_t e : topology.particle_edges[place[i]]) {
-                const Edge& edge = topology.edges[e];
-                const std::uint32_t other = edge.a == place[i] ? edge.b : edge.a;
-                if (!rest.held[other] || seen[other]) continue;
-                seen[other] = 1;
-                place.push_back(other);
-            }
-        }
-    }
-    return places;
-}
-
 struct Tether {
-    float distance;
+    double distance;
     std::uint32_t anchor;
     friend bool operator<(const Tether& a, const Tether& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.anchor < b.anchor;
     }
 };
 
+// Where the cloth is flat, the way runs as the straight line does.
+Limit limit_between(const RestShape& rest, std::span<const RestFrame> frames, std::uint32_t a, std::uint32_t b,
+                    double way) {
+    const auto& x = rest.topology.rest_positions;
+    const StraightLine line = straight_line(frames[a], frames[b], x[b] - x[a]);
+    if (!(line.length > 0)) return limit_any_way(rest.elasticity, way);
+    const double scale = way / line.length;
+    return limit_along(rest.elasticity, way, scale * line.along_warp, scale * line.along_weft);
+}
+
 }  // namespace
 
 RowList build_tether(const RestShape& rest, const TetherMaterial& material) {
     RowList rows = make_rows(ConstraintKind::tether);
-    if (!material.enabled || rest.held.empty()) return rows;
+    if (material.use != Tethers::on || rest.held.empty()) return rows;
 
     const auto places = held_places(rest);
     if (places.empty()) return rows;
     const auto most = static_cast<std::uint32_t>(std::min(places.size(), max_ways));
     const WaysToPlaces ways = ways_to_places(rest.topology, places, most);
+    const std::vector<RestFrame> frames = rest_frames(rest);
+    const double slack = 1 + static_cast<double>(material.slack);
     // Rank by rank, so that the rows of a color run through the particles in order.
     std::array<RowList, max_tethers> ranks;
     std::vector<Tether> tethers;
     for (std::uint32_t p = 0; p < rest.topology.particle_count; ++p) {
         if (rest.held[p]) continue;
         tethers.clear();
-        for (const Way& way : ways[p]) tethers.push_back({static_cast<float>(way.distance), way.source});
+        for (const Way& way : ways[p]) tethers.push_back({way.distance, way.source});
         std::sort(tethers.begin(), tethers.end());
         for (std::size_t rank = 0; rank < std::min(tethers.size(), max_tethers); ++rank) {
-            ranks[rank].add({p, tethers[rank].anchor}, {tethers[rank].distance * (1 + material.slack)});
+            const auto [distance, anchor] = tethers[rank];
+            const Limit limit = limit_between(rest, frames, anchor, p, distance * slack);
+            ranks[rank].add({p, anchor}, {static_cast<float>(limit.length), static_cast<float>(limit.give)});
         }
     }
     for (const RowList& rank : ranks) {

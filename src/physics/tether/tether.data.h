@@ -3,11 +3,14 @@
 #define WEFT_TETHER_DATA_H
 
 // The numbers of one row.
-//   radius  m  largest distance, slack included
-#define WEFT_ROW_tether(FIELD) FIELD(radius)
+//   radius  m      largest distance, slack included
+//   give    m²/N   so much more for every N/m of tension in the cloth
+#define WEFT_ROW_tether(FIELD) FIELD(radius) FIELD(give)
 
 #ifdef __cplusplus
 #include "physics/parameter.h"
+
+#include <weft/scene.h>
 
 #include <array>
 
@@ -16,8 +19,8 @@ namespace weft {
 struct TetherMaterial {
     static constexpr int plain[2] = {-1, -1};
 
-    bool enabled = false;
-    float slack = 0.02f;  ///< of the rest distance
+    Tethers use = Tethers::automatic;  ///< by itself, without a model that would choose, none
+    float slack = 0;                   ///< of the rest distance
 };
 
 // A scene says this beside the fabric, of the cloth.

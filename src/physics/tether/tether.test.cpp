@@ -17,12 +17,12 @@ using reference::TetherRow;
 TEST(Tether, pulls_back_to_its_radius_and_only_then) {
     vec3 x(3, 0, 4), anchor(0.0);
     double lambda = 0;
-    reference::project_tether(x, anchor, 2, 0, lambda, TetherRow{4}, make_step(0.01));
+    reference::project_tether(x, anchor, 2, 0, lambda, TetherRow{4, 0}, make_step(0.01));
     EXPECT_LT(norm(x - vec3(2.4, 0, 3.2)), 1e-12);
     EXPECT_EQ(norm(anchor), 0);
     EXPECT_NEAR(lambda, -0.5, 1e-12);
     const vec3 before = x = vec3(1, 2, 3);
-    reference::project_tether(x, anchor, 2, 0, lambda, TetherRow{4}, make_step(0.01));
+    reference::project_tether(x, anchor, 2, 0, lambda, TetherRow{4, 0}, make_step(0.01));
     EXPECT_EQ(norm(x - before), 0);
 }
 
@@ -32,7 +32,7 @@ TEST(Tether, survives_degenerate_input) {
             for (const float d : {0.0f, 1e-25f, 1.0f, 1e15f}) {
                 scalar::vec3 x(d, 0, 0), anchor(0.0f);
                 float lambda = 0;
-                scalar::project_tether(x, anchor, w, 0.0f, lambda, {radius}, {1e-3f, 1e3f, 1e6f});
+                scalar::project_tether(x, anchor, w, 0.0f, lambda, {radius, 0}, {1e-3f, 1e3f, 1e6f, 0, 1});
                 EXPECT_TRUE(std::isfinite(x.x)) << w << ' ' << radius << ' ' << d;
                 if (w == 0) {
                     EXPECT_EQ(x.x, d);
@@ -120,17 +120,17 @@ TEST(TetherRows, lead_to_every_place_where_the_cloth_is_held) {
     const TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::alternating);
     const auto topology = build_topology(mesh, {.reorder = false});
     RestShape rest = make_rest_shape(mesh, *topology);
-    EXPECT_EQ(build_tether(rest, {.enabled = true}).size(), 0u) << "held nowhere";
+    EXPECT_EQ(build_tether(rest, {.use = Tethers::on}).size(), 0u) << "held nowhere";
     rest.held.assign(topology->particle_count, 0);
     rest.held[0] = rest.held[1] = rest.held[8] = 1;  // two neighbors, and another corner
-    EXPECT_EQ(build_tether(rest, {.enabled = false}).size(), 0u);
-    const RowList rows = build_tether(rest, {.enabled = true, .slack = 0.1f});
+    EXPECT_EQ(build_tether(rest, {.use = Tethers::off}).size(), 0u);
+    const RowList rows = build_tether(rest, {.use = Tethers::on, .slack = 0.1f});
     ASSERT_EQ(rows.size(), 2 * (81u - 3));
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
         const std::uint32_t p = rows.particles[2 * r], anchor = rows.particles[2 * r + 1];
         EXPECT_TRUE(rest.held[anchor] && !rest.held[p]);
         const float straight = length(topology->rest_positions[p] - topology->rest_positions[anchor]);
-        EXPECT_NEAR(rows.fields[r], 1.1f * straight, 0.02f * straight) << p << " to " << anchor;
+        EXPECT_NEAR(rows.fields[2 * r], 1.1f * straight, 0.02f * straight) << p << " to " << anchor;
     }
 }
 

@@ -1,4 +1,4 @@
-#include "solver/reserve.h"
+#include "solver/tension.h"
 
 #include <algorithm>
 #include <array>
@@ -6,12 +6,13 @@
 
 namespace weft {
 
-float elastic_reserve(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
-                      const Fabric& fabric) {
+float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
+                 const Fabric& fabric) {
     const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
     if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
     // A row stands for a strip about as wide as it is long, so its tension over its length is a tension per width.
-    // Counted in bins, as that gives the same bits in whatever order; the first holds all that is below 1/1000.
+    // Counted in bins of the strain that it makes, as that gives the same bits in whatever order; the first holds all
+    // that is below 1/1000.
     constexpr int bins_per_doubling = 4;
     constexpr double least = 1e-3;
     std::array<std::uint32_t, 48> bins{};
@@ -34,7 +35,8 @@ float elastic_reserve(const ConstraintTable& stretch, std::span<const float> lam
     std::size_t bin = bins.size();
     while (bin > 1 && 20 * (above + bins[bin - 1]) <= count) above += bins[--bin];
     // The upper end of the bin.
-    return bin <= 1 ? 0 : static_cast<float>(least * std::exp2(static_cast<double>(bin - 1) / bins_per_doubling));
+    const double strain = bin <= 1 ? 0 : least * std::exp2(static_cast<double>(bin - 1) / bins_per_doubling);
+    return static_cast<float>(strain * softest);
 }
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-#include "solver/rest_frames.h"
+#include "physics/rest_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ StraightLine straight_line(const RestFrame& a, const RestFrame& b, Vec3 from_a_t
     const auto along = [&](Vec3 direction) { return std::abs(cosine(from_a_to_b, direction)); };
     const bool flat = cosine(a.normal, b.normal) > alike && along(a.normal) < in_plane * apart;
     if (!flat || !(cosine(a.warp, b.warp) > alike)) return {};
-    return {apart * arc, std::max(apart, along(a.warp) + along(cross(a.normal, a.warp))) * arc};
+    return {apart * arc, along(a.warp) * arc, along(cross(a.normal, a.warp)) * arc};
 }
 
 }  // namespace weft

@@ -17,7 +17,7 @@ std::vector<RestFrame> rest_frames(const RestShape& rest);
 /// Of the straight line between two places, m.
 struct StraightLine {
     double length = 0;
-    double reach = 0;  ///< as far as they can come apart where the fabric shears: along warp plus along weft
+    double along_warp = 0, along_weft = 0;  ///< how far it goes in these directions, ≥ 0
 };
 
 /// Zero where the cloth is not flat between them, as far as their frames tell, or its warp turns.
