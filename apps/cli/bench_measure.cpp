@@ -163,7 +163,7 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     }
     for (const ClothFrame& cloth : world.frame().cloths) {
         figures.particles += cloth.model->particle_count;
-        figures.triangles += cloth.model->topology.triangles.size();
+        figures.triangles += cloth.model->triangle_count;
         for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
             figures.constraints[kind].rows += cloth.model->constraints[kind].rows;
         }

@@ -104,7 +104,7 @@ class TrafficCounter {
 
     PassTraffic count_faces(const Pass& pass) {
         const double particles = model_.particle_count;
-        const auto triangles = static_cast<double>(model_.topology.triangles.size());
+        const auto triangles = static_cast<double>(model_.triangle_count);
         const double corners = 3 * word * triangles;
         switch (pass.kind) {
             case PassKind::air:  // positions, velocities; a mass in, an impulse out, the wind where there is one

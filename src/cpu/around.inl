@@ -1,6 +1,6 @@
 // Sums over the triangles at each particle, as many particles side by side as there are lanes. Included by passes.inl.
 
-// Whether the packet of particle i has its lists side by side. On one lane they would only be longer.
+// Whether the packet of particle i has its lists side by side, and lanes to use them.
 WEFT_FN bool abreast(const AroundView& around, std::size_t i) {
     const std::size_t packet = i / lane_padding;
     return lane_count > 1 && around.begin[packet] < around.begin[packet + 1];
@@ -12,7 +12,7 @@ WEFT_FN vec3 sum_around(const AroundView& around, const float* blocks, std::size
     vec3 sum(real(0.0f));
     for (std::size_t k = around.begin[packet]; k < around.begin[packet + 1]; ++k) {
         real unused;
-        sum = sum + gather_blocks(blocks, around.abreast + k * lane_padding + i % lane_padding, unused);
+        sum = sum + gather_blocks(blocks, around.triangles + k * lane_padding + i % lane_padding, unused);
     }
     return sum;
 }

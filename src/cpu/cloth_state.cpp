@@ -6,6 +6,20 @@
 #include <cassert>
 
 namespace weft::cpu {
+namespace {
+
+// kg; padding weighs nothing.
+AlignedVector<float> masses_of_faces(const ClothModel& model) {
+    AlignedVector<float> masses(model.face_stride);
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        const auto [a, b, c] = model.triangle(t);
+        masses[t] =
+            model.fabric.body.density * area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
+    }
+    return masses;
+}
+
+}  // namespace
 
 ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {
     const std::size_t capacity = model->capacity();
@@ -13,9 +27,9 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(st
     now.start.resize(capacity);
     now.velocity.resize(capacity);
     now.carry.resize(capacity);
-    last_good = now;
+    remember();
     stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
-    face_normals.resize(std::size_t{model->face_stride} + 1);
+    by_face.resize(std::size_t{model->face_stride} + 1);
     normals.resize(capacity);
     update_normals();
 }
@@ -39,14 +53,15 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     keep(now.start, zero);
     keep(now.velocity, zero);
     keep(now.carry, zero);
-    last_good = now;
+    remember();
     model = std::move(other);
     for (auto& of_table : lambda) of_table.clear();
     stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
     gather = nullptr;
+    face_mass.clear();
     levels.clear();
     contact_sums.clear();
-    face_normals.assign(std::size_t{model->face_stride} + 1, Vec4{});
+    by_face.assign(std::size_t{model->face_stride} + 1, Vec4{});
     normals.assign(model->capacity(), Vec4{});
     update_normals();
 }
@@ -75,7 +90,7 @@ void ClothState::restore(const ClothSnapshot& snapshot) {
     std::ranges::copy(snapshot.carry, now.carry.begin());
     std::ranges::copy(snapshot.lambda, stretch_lambda().begin());
     substep_seconds = snapshot.substep_seconds;
-    last_good = now;
+    remember();
     update_normals();
 }
 
@@ -85,19 +100,42 @@ void ClothState::update_normals() {
     normals_pass(view, {0, model->particle_count});
 }
 
+void ClothState::remember() {
+    for (auto* array : {&last_good.position, &last_good.velocity, &last_good.carry}) array->resize(now.position.size());
+    remember(0, now.position.size());
+}
+
+void ClothState::remember(std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+        const Vec4& x = now.position[p];
+        last_good.position[p] = {x.x, x.y, x.z, now.start[p].w};
+    }
+    const auto copy = [&](const AlignedVector<Vec4>& from, AlignedVector<Vec4>& to) {
+        std::copy(from.data() + begin, from.data() + end, to.data() + begin);
+    };
+    copy(now.velocity, last_good.velocity);
+    copy(now.carry, last_good.carry);
+}
+
+void ClothState::roll_back() {
+    for (std::size_t p = 0; p < now.position.size(); ++p) {
+        const Vec4& x = last_good.position[p];
+        now.start[p] = x;
+        now.position[p] = {x.x, x.y, x.z, model->start[p].w};
+    }
+    now.velocity = last_good.velocity;
+    now.carry = last_good.carry;
+}
+
 RowView ClothState::rows(ConstraintKind kind) {
     const ConstraintTable& table = model->table(kind);
     return {table.stride, table.particles.data(), table.fields.data(), lambda[static_cast<std::uint32_t>(kind)].data(),
             limits};
 }
 
-AroundView ClothState::around() const {
-    const Adjacency& lists = model->topology.particle_triangles;
-    return {lists.offsets.data(), lists.items.data(), model->around.begin.data(), model->around.triangles.data()};
-}
-
 SurfaceView ClothState::surface() {
-    return {&now.position[0].x, model->faces.data(), model->face_stride, &face_normals[0].x, around(), &normals[0].x};
+    return {&now.position[0].x, model->faces.data(),    model->face_stride,
+            &by_face[0].x,      view_of(model->around), &normals[0].x};
 }
 
 LevelView ClothState::level(std::uint32_t i) {
@@ -134,13 +172,13 @@ AirView ClothState::air(float density) {
             .velocity = &now.velocity[0].x,
             .faces = model->faces.data(),
             .stride = model->face_stride,
-            .mass = model->face_mass.data(),
+            .mass = face_mass.data(),
             .wind = wind.empty() ? nullptr : &wind[0].x,
-            .impulse = &air_impulse[0].x,
+            .impulse = &by_face[0].x,
             .drag = 0.5f * density * fabric.drag,
             .lift = 0.5f * density * fabric.lift,
             .listing = fabric.lift_model == LiftModel::listing,
-            .around = around()};
+            .around = view_of(model->around)};
 }
 
 GatherView ClothState::gather_view(bool mean) const {
@@ -171,7 +209,7 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
     wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
-    air_impulse.resize(has(plan.substep, PassKind::air) ? std::size_t{model->face_stride} + 1 : 0);
+    if (has(plan.substep, PassKind::air) && face_mass.empty()) face_mass = masses_of_faces(*model);
     if (has(plan.substep, PassKind::spread) && levels.empty()) {
         for (const CoarseLevel& coarse : model->hierarchy) {
             LevelState& state = levels.emplace_back();

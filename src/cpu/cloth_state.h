@@ -14,11 +14,17 @@
 
 namespace weft::cpu {
 
-/// The arrays that a step goes on from; what rollback restores and what the state hash covers.
+/// The arrays that a step goes on from; what the state hash covers.
 struct Particles {
     AlignedVector<Vec4> position, start, velocity, carry;  ///< as in ParticleView
 
     ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
+};
+
+/// What the current frame found, to go back to. The fourth floats of `position` are those of Particles::start: weights
+/// are the model's, and where the last substep started nobody asks any more.
+struct LastGood {
+    AlignedVector<Vec4> position, velocity, carry;
 };
 
 /// What one coarse level works with in a substep; nothing of it outlives that.
@@ -32,13 +38,17 @@ struct ClothState {
 
     std::shared_ptr<const ClothModel> model;
     Particles now;
-    Particles last_good;  ///< as the current frame found them
+    LastGood last_good;
     /// Those of stretch outlive a frame, the others an iteration: without a second one they are empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
-    AlignedVector<Vec4> face_normals, normals;
+    AlignedVector<Vec4> normals;
+    /// What triangles hand to the particles around them: the air's impulse, and at the end of a frame their normals.
+    /// One more stays zero.
+    AlignedVector<Vec4> by_face;
     std::vector<LevelState> levels;              ///< as many as the model has, if a plan uses them
-    AlignedVector<Vec4> wind, air_impulse;       ///< per triangle; empty until a plan has them
+    AlignedVector<Vec4> wind;                    ///< per triangle; empty without
+    AlignedVector<float> face_mass;              ///< kg, per triangle; empty until a plan has air
     std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
     AlignedVector<Vec4> corrections;
     std::vector<AlignedVector<float>> line_scratch;  ///< per rank
@@ -55,7 +65,6 @@ struct ClothState {
         return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)];
     }
     RowView rows(ConstraintKind kind);
-    AroundView around() const;
     SurfaceView surface();
     LevelView level(std::uint32_t i);
     ParticleView level_particles(std::uint32_t i);
@@ -66,6 +75,9 @@ struct ClothState {
     AirView air(float density);
     GatherView gather_view(bool mean) const;
     CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
+    void remember(std::size_t begin, std::size_t end);  ///< particles, as the last good ones
+    void remember();                                    ///< all
+    void roll_back();
     /// Makes room for what the plan needs beyond the particles; only here memory is asked for.
     void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
     void begin_frame() { update_limits(); }

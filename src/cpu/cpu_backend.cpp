@@ -58,9 +58,9 @@ class CpuBackend final : public Backend {
             frame.reports = jobs_[i].reports;
             frame.detail.clear();
             if (frame.reports & report_non_finite) {
-                state.now = state.last_good;
+                state.roll_back();
                 frame.detail = executor_.find_non_finite(state, *cloths[i].plan, cloths[i].input);
-                state.now = state.last_good;
+                state.roll_back();
                 // What was solved was not of this place; a residual and a saved state still read it.
                 for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
                 state.update_normals();
@@ -84,7 +84,7 @@ class CpuBackend final : public Backend {
         const double h2 = state.substep_seconds * state.substep_seconds;
         Residual residual;
         for (std::uint32_t row = 0; row < table.stride; ++row) {
-            if (table.source[row] == none) continue;
+            if (!table.is_real(row)) continue;
             const Vec3 a = state.now.position[table.particles[row]].xyz();
             const Vec3 b = state.now.position[table.particles[table.stride + row]].xyz();
             const double rest = table.fields[row];

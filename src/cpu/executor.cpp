@@ -69,16 +69,19 @@ std::uint32_t first_non_finite(const ClothState& cloth) {
     return none;
 }
 
+// " between particles 3, 4": the row of the batch that moved this one.
 std::string row_at(const ClothState& cloth, const Pass& pass, std::uint32_t particle) {
     const ConstraintTable& table = cloth.model->table(pass.constraint);
     const Batch& batch = table.batches[pass.batch];
     for (std::uint32_t row = batch.begin; row < batch.begin + batch.rows; ++row) {
-        if (table.source[row] == none) continue;
+        std::string names;
+        bool here = false;
         for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
-            if (table.particles[std::size_t{slot} * table.stride + row] == particle) {
-                return " row " + std::to_string(table.source[row]);
-            }
+            const std::uint32_t other = table.particles[std::size_t{slot} * table.stride + row];
+            names += (slot == 0 ? " between particles " : ", ") + std::to_string(other);
+            here = here || other == particle;
         }
+        if (here && table.is_real(row)) return names;
     }
     return "";
 }
@@ -425,13 +428,7 @@ void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t 
 
 void Executor::keep_last_good(const Frame& frame, unsigned rank) {
     const Share share = share_of(padded(frame.cloth.model->point_count()), lane_padding, rank, frame.rank_count());
-    const auto copy = [&](const AlignedVector<Vec4>& from, AlignedVector<Vec4>& to) {
-        std::copy(from.begin() + share.begin, from.begin() + share.end, to.begin() + share.begin);
-    };
-    copy(frame.cloth.now.position, frame.cloth.last_good.position);
-    copy(frame.cloth.now.start, frame.cloth.last_good.start);
-    copy(frame.cloth.now.velocity, frame.cloth.last_good.velocity);
-    copy(frame.cloth.now.carry, frame.cloth.last_good.carry);
+    frame.cloth.remember(share.begin, share.end);
 }
 
 void Executor::check_finite(const Frame& frame, unsigned rank) {

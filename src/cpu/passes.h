@@ -6,6 +6,7 @@
 #include "solver/air.h"
 #include "solver/collider.h"
 #include "solver/constraint_table.h"
+#include "solver/faces_around.h"
 #include "solver/hierarchy.h"
 
 #include <array>
@@ -94,11 +95,15 @@ struct CarryView {
 
 /// Triangles at each particle.
 struct AroundView {
-    const std::uint32_t* offsets;  ///< of each particle's own list
+    const std::uint32_t* begin;  ///< this and what follows as in FacesAround
     const std::uint32_t* triangles;
-    const std::uint32_t* begin;  ///< FacesAround: the same, side by side
-    const std::uint32_t* abreast;
+    const std::uint32_t *own, *offsets, *items;
 };
+
+inline AroundView view_of(const FacesAround& around) {
+    return {around.begin.data(), around.triangles.data(), around.own.data(), around.offsets.data(),
+            around.items.data()};
+}
 
 struct AirView {
     const float* position;

@@ -396,8 +396,7 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
             AlignedVector<Vec4> wind(faces), impulse(faces + 1), normals(padded(particle_count));
             const Adjacency lists = lists_of(corners, faces);
             const FacesAround abreast = lay_out_around(lists, faces);
-            const AroundView around{lists.offsets.data(), lists.items.data(), abreast.begin.data(),
-                                    abreast.triangles.data()};
+            const AroundView around = view_of(abreast);
             const AirView air{.position = &f.position[0].x,
                               .velocity = &f.velocity[0].x,
                               .faces = corners.data(),

@@ -5,16 +5,30 @@
 #include <algorithm>
 
 namespace weft::cpu {
+namespace {
+
+// In the order in which lanes add them up.
+scalar::vec3 sum_of_one(const AroundView& around, const float* blocks, std::size_t particle) {
+    scalar::vec3 sum(0.0f);
+    const auto add = [&](std::uint32_t triangle) {
+        const float* block = blocks + std::size_t{4} * triangle;
+        sum = sum + scalar::vec3(block[0], block[1], block[2]);
+    };
+    const std::size_t packet = particle / lane_padding, lane = particle % lane_padding;
+    const std::uint32_t begin = around.begin[packet], end = around.begin[packet + 1];
+    for (std::size_t k = begin; k < end; ++k) add(around.triangles[k * lane_padding + lane]);
+    if (begin < end) return sum;
+    const std::uint32_t* list = around.offsets + around.own[packet] + lane;
+    for (std::uint32_t k = list[0]; k < list[1]; ++k) add(around.items[k]);
+    return sum;
+}
+
+}  // namespace
 
 void normals_pass(const SurfaceView& s, Range range) {
     using namespace scalar;
     for (std::size_t i = range.begin; i < range.end; ++i) {
-        vec3 sum(0.0f);
-        for (std::uint32_t k = s.around.offsets[i]; k < s.around.offsets[i + 1]; ++k) {
-            const float* n = s.face_normals + std::size_t{4} * s.around.triangles[k];
-            sum = sum + vec3(n[0], n[1], n[2]);
-        }
-        store_blocks(unit_normal(sum), 0.0f, s.normals + 4 * i);
+        store_blocks(unit_normal(sum_of_one(s.around, s.face_normals, i)), 0.0f, s.normals + 4 * i);
     }
 }
 
@@ -23,11 +37,7 @@ void push_pass(const ParticleView& p, const AirView& air, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
         const float w = p.position[4 * i + 3];
         if (!(w > 0)) continue;
-        vec3 sum(0.0f);
-        for (std::uint32_t k = air.around.offsets[i]; k < air.around.offsets[i + 1]; ++k) {
-            const float* j = air.impulse + std::size_t{4} * air.around.triangles[k];
-            sum = sum + vec3(j[0], j[1], j[2]);
-        }
+        const vec3 sum = sum_of_one(air.around, air.impulse, i);
         float *v = p.velocity + 4 * i, *x_dropped = p.carry + 4 * i, *start = p.start + 4 * i;
         Motion m{vec3(v[0], v[1], v[2]), vec3(start[3], v[3], x_dropped[3]), vec3(0.0f)};
         push_by_air(m, sum, w);

@@ -34,7 +34,8 @@ RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
         const Vec3 e1 = topology.rest_positions[b] - topology.rest_positions[a];
         const Vec3 e2 = topology.rest_positions[c] - topology.rest_positions[a];
         const Vec3 n = cross(e1, e2);
-        rest.area.push_back(0.5f * length(n));
+        rest.area.push_back(
+            area_of(topology.rest_positions[a], topology.rest_positions[b], topology.rest_positions[c]));
 
         Vec3 warp;
         if (!mesh.uvs.empty()) {

@@ -24,6 +24,11 @@ struct RestShape {
     Elasticity elasticity = {};                ///< for one-sided limits
 };
 
+/// m²
+inline float area_of(Vec3 a, Vec3 b, Vec3 c) {
+    return 0.5f * length(cross(b - a, c - a));
+}
+
 /// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis laid into the triangle (the z axis
 /// where the triangle faces x).
 RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology);

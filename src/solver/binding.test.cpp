@@ -238,7 +238,7 @@ TEST(ClothModel, is_simulated_on_one_mesh_and_drawn_as_another) {
     }
     EXPECT_NE(plain->table(ConstraintKind::bend).fields, model_of(coarse, {})->table(ConstraintKind::bend).fields);
 
-    const Particles particles(bound->topology, in_place);
+    const Particles particles(*build_topology(turned), in_place);
     ClothFrame frame;
     frame.model = bound.get(), frame.positions = particles.positions, frame.normals = particles.normals;
     std::vector<Vec3> positions, normals;

@@ -21,10 +21,10 @@ std::vector<float> lump_masses(const RestShape& rest, float density) {
     return {sum.begin(), sum.end()};
 }
 
-Result<Done> place_particles(ClothModel& model, const std::vector<std::uint32_t>& pinned) {
+Result<Done> place_particles(ClothModel& model, const Topology& topology, const std::vector<std::uint32_t>& pinned) {
     model.start.assign(model.capacity(), Vec4{});
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
-        const Vec3 x = model.topology.rest_positions[p];
+        const Vec3 x = topology.rest_positions[p];
         const float weight = 1 / model.mass[p];
         if (!(std::isfinite(weight) && weight > 0)) {
             return Error{"particle " + std::to_string(p),
@@ -59,16 +59,15 @@ Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& att
 }
 
 void lay_out_faces(ClothModel& model, const RestShape& rest) {
-    const auto count = static_cast<std::uint32_t>(model.topology.triangles.size());
+    const Topology& topology = rest.topology;
+    const auto count = model.triangle_count = static_cast<std::uint32_t>(topology.triangles.size());
     model.face_stride = padded(count);
     model.faces.resize(std::size_t{3} * model.face_stride);
-    model.around = lay_out_around(model.topology.particle_triangles, model.face_stride);
-    model.face_mass.assign(model.face_stride, 0.0f);
-    for (std::uint32_t t = 0; t < count; ++t) model.face_mass[t] = model.fabric.body.density * rest.area[t];
+    model.around = lay_out_around(topology.particle_triangles, model.face_stride);
     for (std::uint32_t t = 0; t < model.face_stride; ++t) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             model.faces[std::size_t{corner} * model.face_stride + t] =
-                t < count ? model.topology.triangles[t][corner]
+                t < count ? topology.triangles[t][corner]
                           : first_dummy(model.point_count()) + corner * lane_padding + t % lane_padding;
         }
     }
@@ -76,13 +75,19 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
 
 void measure_edges(ClothModel& model, const RestShape& rest) {
     constexpr float cos2_10_degrees = 0.9698463f;
+    const Topology& topology = rest.topology;
     double sum = 0;
-    for (const Edge& edge : model.topology.edges) {
+    model.edges.reserve(topology.edges.size());
+    std::vector<std::array<std::uint32_t, 2>> others;
+    for (const Edge& edge : topology.edges) {
         const float cos2 = cos2_to_warp(rest, edge);
-        model.edge_is_axial.push_back(cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees);
-        sum += length(model.topology.rest_positions[edge.a] - model.topology.rest_positions[edge.b]);
+        const bool axial = cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees;
+        (axial ? model.edges : others).push_back({edge.a, edge.b});
+        sum += length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
     }
-    model.mean_edge = static_cast<float>(sum / static_cast<double>(model.topology.edges.size()));
+    model.axial_edges = model.edges.size();
+    model.edges.insert(model.edges.end(), others.begin(), others.end());
+    model.mean_edge = static_cast<float>(sum / static_cast<double>(topology.edges.size()));
 }
 
 // A simulated mesh was checked when its topology was built.
@@ -107,18 +112,18 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
     return Done{};
 }
 
-void add_table(ClothModel& model, ConstraintKind kind, const RowList& rows, bool lines, const ColoringOptions& options,
-               BuildClock& clock) {
+void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind, const RowList& rows, bool lines,
+               const ColoringOptions& options, BuildClock& clock) {
+    ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
     clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
     if (lines) {
-        model.constraints[static_cast<std::uint32_t>(kind)] =
-            pack_lines(rows, model.topology.rest_positions, model.point_count(), options);
-        clock.spent_on(BuildPart::tables);
-        return;
+        table = pack_lines(rows, topology.rest_positions, model.point_count(), options);
+    } else {
+        const Coloring coloring = color_rows(kind, rows, model.point_count(), options);
+        clock.spent_on(BuildPart::coloring);
+        table = pack_rows(kind, rows, model.point_count(), coloring);
     }
-    const Coloring coloring = color_rows(kind, rows, model.point_count(), options);
-    clock.spent_on(BuildPart::coloring);
-    model.constraints[static_cast<std::uint32_t>(kind)] = pack_rows(kind, rows, model.point_count(), coloring);
+    table.source = {};
     clock.spent_on(BuildPart::tables);
 }
 
@@ -132,38 +137,38 @@ void choose_tethers(ClothModel& model, const RestShape& rest) {
     tether.use = pays ? Tethers::on : Tethers::off;
 }
 
-// Everything that material and pins decide, on a model that has its topology.
-Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& fabric, const ClothPins& pins,
-                     const ColoringOptions& coloring, const ClothLayout& layout) {
+// Everything that material and pins decide.
+Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
+                     const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout) {
     const float density = fabric.body.density;
     if (!(density > 0) || !std::isfinite(density))
         return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
     BuildClock clock(model.build_times);
     model.fabric = fabric;
-    model.particle_count = model.topology.particle_count;
+    model.particle_count = topology.particle_count;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
 
-    RestShape rest = make_rest_shape(mesh, model.topology);
+    RestShape rest = make_rest_shape(mesh, topology);
     model.mass = lump_masses(rest, density);
-    if (auto placed = place_particles(model, pins.particles); !placed) return placed;
+    if (auto placed = place_particles(model, topology, pins.particles); !placed) return placed;
     if (auto placed = place_anchors(model, pins.attachments); !placed) return placed;
     rest.attachments = pins.attachments;
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
-    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.topology);
+    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, topology);
     clock.spent_on(BuildPart::rest);
 
     if (layout.hierarchy)
         model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
                                           layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
-    model.pin_spans = find_pin_spans(model.hierarchy, model.topology.rest_positions);
+    model.pin_spans = find_pin_spans(model.hierarchy, topology.rest_positions);
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);
     // The same values for both; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.bend;
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                    \
-    add_table(model, ConstraintKind::name, build_##name(rest, model.fabric.name), \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                              \
+    add_table(model, topology, ConstraintKind::name, build_##name(rest, model.fabric.name), \
               layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, clock);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
@@ -179,14 +184,15 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Fabric& 
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
-    model->topology = std::move(topology);
     model->build_times = desc.build_times;
-    if (auto done = lay_out(*model, desc.mesh, desc.fabric, desc.pins, desc.coloring, desc.layout); !done)
+    if (auto done = lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout); !done)
         return done.errors();
     BuildClock clock(model->build_times);
     if (desc.drawn) {
         if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
-        model->binding = bind_mesh(*desc.drawn, model->topology);
+        model->binding = bind_mesh(*desc.drawn, topology);
+    } else {
+        model->vertex_to_particle = std::move(topology.vertex_to_particle);
     }
     model->mesh = desc.drawn ? std::move(*desc.drawn) : std::move(desc.mesh);
     clock.spent_on(BuildPart::rest);
@@ -194,14 +200,14 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 }
 
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
-                                                             const Fabric& fabric, const ClothPins& pins,
-                                                             const ClothLayout& layout) {
+                                                             const Topology& topology, const Fabric& fabric,
+                                                             const ClothPins& pins, const ClothLayout& layout) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
     model->mesh = from.mesh;
     model->binding = from.binding;
-    model->topology = from.topology;
-    if (auto done = lay_out(*model, mesh, fabric, pins, {}, layout); !done) return done.errors();
+    model->vertex_to_particle = from.vertex_to_particle;
+    if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout); !done) return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

@@ -47,10 +47,9 @@ struct ClothModelDesc {
 struct ClothModel {
     std::string name;
     TriangleMesh mesh;  ///< as drawn
-    /// How the drawn mesh follows the simulated one. Empty where they are the same: `topology.vertex_to_particle` leads
-    /// from one to the other then, while with a binding it speaks of a mesh that is no longer there.
+    /// How the drawn mesh follows the simulated one. Empty where they are the same.
     Binding binding;
-    Topology topology;
+    std::vector<std::uint32_t> vertex_to_particle;  ///< of the drawn mesh, as Topology has it; empty with a binding
     Fabric fabric;
 
     std::uint32_t particle_count = 0;
@@ -65,18 +64,22 @@ struct ClothModel {
     Elasticity elasticity;
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
     AlignedVector<std::uint32_t> faces;
-    std::uint32_t face_stride = 0;
-    FacesAround around;              ///< `nothing` is face_stride
-    AlignedVector<float> face_mass;  ///< kg, per triangle, padded with zeros
+    std::uint32_t triangle_count = 0, face_stride = 0;
+    FacesAround around;  ///< `nothing` is face_stride
 
-    std::vector<std::uint8_t> edge_is_axial;  ///< per edge: 1 if it runs along warp or weft (within 10°)
-    float mean_edge = 0;                      ///< m
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< their ends; those along warp or weft (within 10°) first
+    std::size_t axial_edges = 0;                      ///< how many those are
+    float mean_edge = 0;                              ///< m
 
     BuildTimes build_times;
 
     /// Particles and anchors: what a step moves.
     std::uint32_t point_count() const { return particle_count + anchor_count; }
     std::uint32_t capacity() const { return particle_capacity(point_count()); }
+    Vec3 rest_position(std::uint32_t particle) const { return start[particle].xyz(); }
+    Triangle triangle(std::uint32_t t) const {
+        return {faces[t], faces[std::size_t{face_stride} + t], faces[2 * std::size_t{face_stride} + t]};
+    }
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
 };
 
@@ -85,9 +88,9 @@ struct ClothModel {
 /// and finite, a drawn mesh that is not sound.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
-/// Another material or other pins for the same mesh. `mesh` is the simulated one that `from` was built of.
+/// Another material or other pins for the same mesh. `mesh` and `topology` are those that `from` was built of.
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
-                                                             const Fabric& fabric, const ClothPins& pins,
-                                                             const ClothLayout& layout = {});
+                                                             const Topology& topology, const Fabric& fabric,
+                                                             const ClothPins& pins, const ClothLayout& layout = {});
 
 }  // namespace weft

@@ -47,6 +47,7 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
                           .stride = 0,
                           .particles = {},
                           .fields = {},
+                          .first_dummy = first_dummy(particle_count),
                           .source = {},
                           .batches = lay_out(coloring),
                           .blocks = {}};

@@ -44,10 +44,15 @@ struct ConstraintTable {
     std::uint32_t stride = 0;                ///< rows with padding: length of each array below
     AlignedVector<std::uint32_t> particles;  ///< [slot · stride + row]
     AlignedVector<float> fields;             ///< [field · stride + row]
-    std::vector<std::uint32_t> source;       ///< row -> row of the RowList, or `none` for padding
+    std::uint32_t first_dummy = 0;           ///< particles from here on are for padding alone
+    std::vector<std::uint32_t> source;       ///< row -> row of the RowList, or `none` for padding; empty in a model
     std::vector<Batch> batches;
     std::vector<LineBlock> blocks;  ///< in the order of their rows; empty where rows are laid out one by one
 
+    /// Whether a row is more than padding, which acts on dummies or, along lines, on one particle twice.
+    bool is_real(std::uint32_t row) const {
+        return particles[row] < first_dummy && !(arity > 1 && particles[row] == particles[std::size_t{stride} + row]);
+    }
     /// Multipliers of all rows: [multiplier · stride + row].
     std::size_t lambda_count() const { return std::size_t{constraint_info(kind).lambdas} * stride; }
     std::uint32_t overflow() const { return !batches.empty() && batches.back().serial ? batches.back().rows : 0; }

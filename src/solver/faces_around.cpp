@@ -24,6 +24,13 @@ FacesAround lay_out_around(const Adjacency& particle_triangles, std::uint32_t no
             all += particle_triangles[p].size();
         }
         if (longest * lane_padding > most_padding * all) longest = 0;
+        around.own.push_back(static_cast<std::uint32_t>(around.offsets.size()));
+        for (std::uint32_t lane = 0; longest == 0 && lane <= lane_padding; ++lane) {
+            around.offsets.push_back(static_cast<std::uint32_t>(around.items.size()));
+            if (lane == lane_padding || first + lane >= end) continue;
+            const auto list = particle_triangles[first + lane];
+            around.items.insert(around.items.end(), list.begin(), list.end());
+        }
         const std::size_t at = around.triangles.size();
         around.triangles.resize(at + longest * lane_padding, nothing);
         for (std::uint32_t p = first; longest > 0 && p < end; ++p) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace weft {
 namespace {
 
@@ -38,6 +40,12 @@ TEST(FacesAround, a_hub_is_left_to_itself) {
     EXPECT_FALSE(around.abreast(1));
     EXPECT_TRUE(around.abreast(2));
     EXPECT_EQ(around.triangles.size(), 4 * lane_padding);
+    for (std::uint32_t p = 16; p < 32; ++p) {
+        const std::uint32_t at = around.own[1] + p % lane_padding;
+        const std::vector<std::uint32_t> list(around.items.begin() + around.offsets[at],
+                                              around.items.begin() + around.offsets[at + 1]);
+        EXPECT_TRUE(std::ranges::equal(list, lists[p])) << p;
+    }
 }
 
 }  // namespace

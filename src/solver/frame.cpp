@@ -16,7 +16,7 @@ void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::ve
         follow(cloth.model->binding, cloth.positions, cloth.normals, positions, normals);
         return;
     }
-    const auto& particle = cloth.model->topology.vertex_to_particle;
+    const auto& particle = cloth.model->vertex_to_particle;
     positions.resize(particle.size());
     normals.resize(particle.size());
     for (std::size_t v = 0; v < particle.size(); ++v) {

@@ -15,7 +15,7 @@ void for_each_moved(const ClothModel& model, F&& f) {
     for (const ConstraintTable& table : model.constraints) {
         const std::uint32_t moved = constraint_info(table.kind).moved;
         for (std::uint32_t row = 0; row < table.stride; ++row) {
-            if (table.source[row] == none) continue;
+            if (!table.is_real(row)) continue;
             for (std::uint32_t slot = 0; slot < moved; ++slot) {
                 // Of a particle that a row names twice, the last one counts.
                 bool again = false;

@@ -238,6 +238,7 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
                           .stride = 0,
                           .particles = {},
                           .fields = {},
+                          .first_dummy = first_dummy(particle_count),
                           .source = {},
                           .batches = {},
                           .blocks = {}};

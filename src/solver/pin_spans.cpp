@@ -18,7 +18,7 @@ LinkGraph graph_of_rows(const CoarseLevel& level) {
     std::vector<std::vector<Link>> links(level.count);
     const ConstraintTable& rows = level.reach;
     for (std::uint32_t row = 0; row < rows.stride; ++row) {
-        if (rows.source[row] == none) continue;
+        if (!rows.is_real(row)) continue;
         const std::uint32_t a = rows.particles[row], b = rows.particles[rows.stride + row];
         const double length = rows.fields[row];
         links[a].push_back({b, length, length});

@@ -36,13 +36,13 @@ class Mean {
 Strain measure_strain(const Frame& frame) {
     Mean stretch, shear;
     for (const ClothFrame& cloth : frame.cloths) {
-        const Topology& topology = cloth.model->topology;
-        for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-            const auto& [a, b, t0, t1] = topology.edges[e];
-            const double rest = distance(topology.rest_positions[a], topology.rest_positions[b]);
+        const ClothModel& model = *cloth.model;
+        for (std::size_t e = 0; e < model.edges.size(); ++e) {
+            const auto [a, b] = model.edges[e];
+            const double rest = distance(model.rest_position(a), model.rest_position(b));
             if (rest <= 0) continue;
             const double now = distance(cloth.positions[a].xyz(), cloth.positions[b].xyz());
-            (cloth.model->edge_is_axial[e] ? stretch : shear).add(std::abs(now / rest - 1));
+            (e < model.axial_edges ? stretch : shear).add(std::abs(now / rest - 1));
         }
     }
     return {stretch.result(), shear.result()};
@@ -70,7 +70,8 @@ Penetration measure_penetration(const Frame& frame, std::span<const Collider> co
     constexpr double tolerance = 1e-6;  // m: rounding of float positions a few meters from the origin
     Penetration result;
     for (const ClothFrame& cloth : frame.cloths) {
-        for (const auto& [ia, ib, ic] : cloth.model->topology.triangles) {
+        for (std::uint32_t t = 0; t < cloth.model->triangle_count; ++t) {
+            const auto [ia, ib, ic] = cloth.model->triangle(t);
             const Vec3 a = cloth.positions[ia].xyz(), b = cloth.positions[ib].xyz(), c = cloth.positions[ic].xyz();
             const Vec3 samples[] = {a, b, c, (a + b) * 0.5f, (b + c) * 0.5f, (c + a) * 0.5f, (a + b + c) / 3.0f};
             double deepest = 0;
@@ -90,7 +91,8 @@ Intersections count_intersections(const Frame& frame) {
     for (const ClothFrame& cloth : frame.cloths) {
         const auto first = static_cast<std::uint32_t>(positions.size());
         for (const Vec4& p : cloth.positions) positions.push_back(p.xyz());
-        for (const auto& [a, b, c] : cloth.model->topology.triangles) {
+        for (std::uint32_t t = 0; t < cloth.model->triangle_count; ++t) {
+            const auto [a, b, c] = cloth.model->triangle(t);
             triangles.push_back({a + first, b + first, c + first});
         }
     }

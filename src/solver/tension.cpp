@@ -20,7 +20,7 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     const double scale = -1 / (substep_seconds * substep_seconds * softest);
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
         for (std::uint32_t row = begin; row < begin + lane_padding; ++row) {
-            if (stretch.source[row] == none) continue;
+            if (!stretch.is_real(row)) continue;
             const double strain = scale * static_cast<double>(lambda[row]) / static_cast<double>(stretch.fields[row]);
             ++count;
             if (!(strain > least)) {

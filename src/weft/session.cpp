@@ -70,7 +70,9 @@ void note_report(const std::string& cloth, const TopologyReport& report, std::ve
 // Two meshes that do not lie over each other come of a wrong scale or axis more often than of a wish.
 void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
     constexpr float far_apart = 0.1f;  // of the extent: no lining, trimming or decimated mesh is so far off
-    const float extent = length(bounds_of(model.topology.rest_positions).size());
+    Bounds bounds;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) bounds.include(model.rest_position(p));
+    const float extent = length(bounds.size());
     if (model.binding.farthest > far_apart * extent)
         notes.push_back("cloth '" + model.name + "': the drawn mesh lies up to " + number_text(model.binding.farthest) +
                         " m away from the simulated one");
@@ -138,6 +140,7 @@ struct Session::Entry {
     ClothId id;
     SceneCloth desc;                          ///< without its meshes
     std::unique_ptr<TriangleMesh> simulated;  ///< where that is not the one that is drawn
+    TopologyOptions topology;                 ///< how it was made, and is made again for a change
     ClothPins pins;
     Holds holds;
 };
@@ -197,15 +200,20 @@ Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer
     // A generated grid comes in rows, which vector loads like better than any order found afterwards.
     BuildTimes build_times;
     BuildClock clock(build_times);
-    auto topology = build_topology(loaded->mesh, {.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)});
+    const TopologyOptions options{.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)};
+    auto topology = build_topology(loaded->mesh, options);
     if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
     clock.spent_on(BuildPart::topology);
     note_report(cloth.name, topology->report, notes_);
 
     auto pinned = select_pins(cloth.pins, {loaded->mesh, *topology, {}}, *world_, pointer + "/pins");
     if (!pinned) return pinned.errors();
-    Entry entry{
-        .id = {}, .desc = cloth, .simulated = keep_if(drawn.has_value(), loaded->mesh), .pins = {}, .holds = {}};
+    Entry entry{.id = {},
+                .desc = cloth,
+                .simulated = keep_if(drawn.has_value(), loaded->mesh),
+                .topology = options,
+                .pins = {},
+                .holds = {}};
     entry.desc.mesh = {}, entry.desc.drawn = {};
     entry.pins = pinned->pins;
     entry.holds = pinned->holds;
@@ -232,7 +240,9 @@ void Session::remove(ClothId id) {
 Result<Done> Session::rebuild(Entry& entry, const SceneCloth& desc, const ClothPins& pins, Holds holds) {
     const ClothModel& now = *world_->model(entry.id);
     const TriangleMesh& mesh = entry.simulated ? *entry.simulated : now.mesh;
-    auto model = change_cloth_model(now, mesh, fabric_of(desc), pins, world_->settings().layout());
+    auto topology = build_topology(mesh, entry.topology);
+    if (!topology) return topology.errors();
+    auto model = change_cloth_model(now, mesh, *topology, fabric_of(desc), pins, world_->settings().layout());
     if (!model) return model.errors();
     // A place for what the cloth is now, taken before anything of it changes.
     entry.desc = desc;
@@ -271,8 +281,10 @@ Result<Done> Session::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const ClothModel& model = *world_->model(id);
     const auto cloths = std::span(world_->frame().cloths);
     const auto frame = std::ranges::find(cloths, id, &ClothFrame::id);
-    const PinnedCloth cloth{one.simulated ? *one.simulated : model.mesh, model.topology, frame->positions,
-                            world_->frame().time};
+    const TriangleMesh& mesh = one.simulated ? *one.simulated : model.mesh;
+    auto topology = build_topology(mesh, one.topology);
+    if (!topology) return topology.errors();
+    const PinnedCloth cloth{mesh, *topology, frame->positions, world_->frame().time};
     auto pinned = select_pins(pins, cloth, *world_, "/pins");
     if (!pinned) return pinned.errors();
     SceneCloth desc = one.desc;

@@ -74,7 +74,7 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
                 make_sheet({.resolution = {24, 24}, .layout = world.settings().layout(), .pinned = [](Vec3 p) {
                                 return p.x < -0.49f && p.z < -0.49f;
                             }});
-            const Vec3 corner = model->topology.rest_positions[0];
+            const Vec3 corner = model->rest_position(0);
             for (int cloth = 0; cloth < cloths; ++cloth)
                 world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
             world.step(1.0 / 60);

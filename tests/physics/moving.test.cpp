@@ -73,7 +73,7 @@ TEST(MovingCollider, pushes_cloth_ahead_and_does_not_tunnel) {
 Holds hold_all(const ClothModel& model, Mover mover, const Pose& frame) {
     Holds holds{.movers = {std::move(mover)}, .particles = {}};
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
-        if (model.start[p].w == 0) holds.particles.push_back({p, 0, to_local(frame, model.topology.rest_positions[p])});
+        if (model.start[p].w == 0) holds.particles.push_back({p, 0, to_local(frame, model.rest_position(p))});
     }
     return holds;
 }
@@ -89,7 +89,7 @@ TEST(Pins, follow_their_offsets_and_take_the_cloth_along) {
         run(world, 0.5);
         const ClothFrame& cloth = world.frame().cloths[0];
         for (std::uint32_t p = 0; p < 17; ++p) {
-            const Vec3 from = model->topology.rest_positions[p];
+            const Vec3 from = model->rest_position(p);
             EXPECT_LT(length(cloth.positions[p].xyz() - from - Vec3{0, 0.25f, 0.15f}), 1e-6f);
             EXPECT_LT(length(cloth.velocities[p].xyz() - Vec3{0, 0.5f, 0.3f}), 1e-2f) << "they know how fast they go";
         }
@@ -111,7 +111,7 @@ TEST(Pins, ride_on_a_turning_collider) {
     // The upper hem lay along x through the collider's center; a quarter turn lays it along -z.
     const ClothFrame& cloth = world.frame().cloths[0];
     for (std::uint32_t p = 0; p < 17; ++p) {
-        const Vec3 from = model->topology.rest_positions[p];
+        const Vec3 from = model->rest_position(p);
         EXPECT_LT(length(cloth.positions[p].xyz() - Vec3{from.z, from.y, -from.x}), 1e-5f) << p;
     }
 }

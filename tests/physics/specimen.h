@@ -36,7 +36,7 @@ class Specimen {
     template <class Pose>
     void place(Pose&& pose) {
         for (std::uint32_t p = 0; p < size(); ++p) {
-            const Vec3 x = pose(cloth_.model->topology.rest_positions[p]);
+            const Vec3 x = pose(cloth_.model->rest_position(p));
             Vec4& now = cloth_.now.position[p];
             now = {x.x, x.y, x.z, now.w};
         }
@@ -112,7 +112,7 @@ inline Energy measure_energy(const Specimen& cloth) {
     }
     const ConstraintTable& stretch = cloth.model().table(ConstraintKind::stretch);
     for (std::uint32_t r = 0; r < stretch.stride; ++r) {
-        if (stretch.source[r] == none) continue;
+        if (!stretch.is_real(r)) continue;
         const reference::vec3 d = at(stretch.particles[r]) - at(stretch.particles[stretch.stride + r]);
         const double c = std::sqrt(reference::dot(d, d)) - stretch.fields[r];
         const double compliance = stretch.fields[(c > 0 ? 1 : 2) * stretch.stride + r];
@@ -120,14 +120,14 @@ inline Energy measure_energy(const Specimen& cloth) {
     }
     const ConstraintTable& bend = cloth.model().table(ConstraintKind::bend);
     for (std::uint32_t r = 0; r < bend.stride; ++r) {
-        if (bend.source[r] == none) continue;
+        if (!bend.is_real(r)) continue;
         const auto corner = [&](std::uint32_t slot) { return at(bend.particles[slot * bend.stride + r]); };
         const double c = reference::hinge_angle(corner(0), corner(1), corner(2), corner(3)).theta - bend.fields[r];
         energy.bend += 0.5 * c * c / bend.fields[bend.stride + r];
     }
     const ConstraintTable& plate = cloth.model().table(ConstraintKind::plate);
     for (std::uint32_t r = 0; r < plate.stride; ++r) {
-        if (plate.source[r] != none) energy.bend += plate_energy(plate, r, at);
+        if (plate.is_real(r)) energy.bend += plate_energy(plate, r, at);
     }
     return energy;
 }

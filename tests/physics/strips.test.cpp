@@ -38,7 +38,7 @@ double cantilever(const StripMesh& strip, BendModel bend, double gamma, const Re
     cloth.settle(2 * frequency, 3e-4, 3);
     double drop = 0, reach = 0, count = 0;
     for (std::uint32_t p = 0; p < cloth.size(); ++p) {
-        if (strip.along(model->topology.rest_positions[p]) < strip.tip - 1e-3) continue;
+        if (strip.along(model->rest_position(p)) < strip.tip - 1e-3) continue;
         drop -= cloth.position(p).y;
         reach += strip.along(cloth.position(p)) - strip.root;
         count += 1;
@@ -139,7 +139,7 @@ double rolled_energy(GridDiagonal diagonal, BendModel bend_model, double turn) {
     const Fabric fabric = strip_fabric(stiffness, bend_model);
     const auto model = make_specimen(make_grid({1, 1}, {n, n}, diagonal), fabric, [](Vec3) { return false; });
     const double c = std::cos(turn * std::numbers::pi / 180), s = std::sin(turn * std::numbers::pi / 180);
-    const auto rest = [&](std::uint32_t particle) { return model->topology.rest_positions[particle]; };
+    const auto rest = [&](std::uint32_t particle) { return model->rest_position(particle); };
     const auto rolled = [&](std::uint32_t particle) {
         const Vec3 p = rest(particle);
         const double u = c * p.x + s * p.z, v = -s * p.x + c * p.z;
@@ -151,7 +151,7 @@ double rolled_energy(GridDiagonal diagonal, BendModel bend_model, double turn) {
     double energy = 0;
     const ConstraintTable& bend = model->table(ConstraintKind::bend);
     for (std::uint32_t r = 0; r < bend.stride; ++r) {
-        if (bend.source[r] == none) continue;
+        if (!bend.is_real(r)) continue;
         const auto at = [&](std::uint32_t slot) { return bend.particles[slot * bend.stride + r]; };
         const Vec3 middle = (rest(at(0)) + rest(at(1))) * 0.5f;
         const double theta = reference::hinge_angle(rolled(at(0)), rolled(at(1)), rolled(at(2)), rolled(at(3))).theta;
@@ -159,7 +159,7 @@ double rolled_energy(GridDiagonal diagonal, BendModel bend_model, double turn) {
     }
     const ConstraintTable& plate = model->table(ConstraintKind::plate);
     for (std::uint32_t r = 0; r < plate.stride; ++r) {
-        if (plate.source[r] == none) continue;
+        if (!plate.is_real(r)) continue;
         const auto corner = [&](std::uint32_t k) { return rest(plate.particles[(3 + k) * plate.stride + r]); };
         const Vec3 middle = (corner(0) + corner(1) + corner(2)) * (1.0f / 3);
         energy += share(middle.x) * share(middle.z) * plate_energy(plate, r, rolled);
@@ -212,7 +212,7 @@ double sag_over_span(double ratio) {
     for (int i = 0; i < 100; ++i) {
         cloth.settle(8, 0, 0.01);
         for (std::uint32_t p = 0; p < cloth.size(); ++p) {
-            if (std::abs(model->topology.rest_positions[p].x) < 1e-4f) depth -= cloth.position(p).y, count += 1;
+            if (std::abs(model->rest_position(p).x) < 1e-4f) depth -= cloth.position(p).y, count += 1;
         }
     }
     EXPECT_EQ(cloth.reports(), report_none);
