@@ -67,7 +67,7 @@ class TrafficCounter {
         const std::uint32_t moved = constraint_info(table.kind).moved;
         round_ += 2;  // marks of former rounds are smaller than this one's: round_ for read, round_ + 1 for moved
         for (std::uint32_t r = begin; r < end; ++r) {
-            if (table.source[r] == none) continue;
+            if (!table.is_real(r)) continue;
             ++sum.rows;
             for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
                 std::uint32_t& mark = seen_[table.particles[std::size_t{slot} * table.stride + r]];
@@ -102,6 +102,8 @@ class TrafficCounter {
                 .shared = block * (3 * nodes + model_.hierarchy[pass.level + 1].count)};
     }
 
+    bool predicts_first() const { return plan_.substep.front().kind == PassKind::predict; }
+
     PassTraffic count_faces(const Pass& pass) {
         const double particles = model_.particle_count;
         const auto triangles = static_cast<double>(model_.triangle_count);
@@ -123,8 +125,8 @@ class TrafficCounter {
         switch (pass.kind) {
             case PassKind::predict:  // four arrays in, four out
                 return {.own = 0, .shared = 8 * block * points};
-            case PassKind::velocities:  // four in, two out
-                return {.own = 0, .shared = 6 * block * points};
+            case PassKind::velocities:  // four in, two out; all but the last are one pass with the next prediction
+                return {.own = 0, .shared = 6 * block * points / (predicts_first() ? plan_.substeps : 1)};
             case PassKind::hold:  // few particles are held
                 return {};
             case PassKind::contact:  // most of a cloth touches nothing: it is read

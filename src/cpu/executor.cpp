@@ -197,7 +197,7 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
     const auto meet = [&] {
         if (frame.ranks.size() > 1) team_.meet();
     };
-    const auto run_list = [&](const std::vector<Pass>& passes, std::uint32_t substep) {
+    const auto run_list = [&](std::span<const Pass> passes, std::uint32_t substep) {
         for (const Pass& pass : passes) {
             if (needs_barrier(last, pass)) meet();
             clock.enter(stage_of(pass));
@@ -206,7 +206,19 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
         }
     };
     run_list(frame.plan.frame_begin, 0);
-    for (std::uint32_t substep = 0; substep < frame.plan.substeps; ++substep) run_list(frame.plan.substep, substep);
+    // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
+    const std::span<const Pass> substep_passes(frame.plan.substep);
+    const bool together =
+        substep_passes.front().kind == PassKind::predict && substep_passes.back().kind == PassKind::velocities;
+    for (std::uint32_t substep = 0; substep < frame.plan.substeps; ++substep) {
+        const bool begun = together && substep > 0, goes_on = together && substep + 1 < frame.plan.substeps;
+        run_list(substep_passes.subspan(begun, substep_passes.size() - begun - goes_on), substep);
+        if (!goes_on) continue;
+        if (needs_barrier(last, substep_passes.back())) meet();
+        clock.enter(stage_of(substep_passes.back()));
+        run_advance(frame, rank);
+        last = substep_passes.front();
+    }
     run_list(frame.plan.frame_end, frame.plan.substeps - 1);
     meet();
     check_finite(frame, rank);
@@ -214,6 +226,12 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
     if (rank == 0) {
         for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms[stage] += mine[stage];
     }
+}
+
+void Executor::run_advance(const Frame& frame, unsigned rank) {
+    const Share mine = share_of(padded(frame.cloth.model->point_count()), lane_padding, rank, frame.rank_count());
+    if (passes_.advance(frame.particles, {mine.begin, mine.end}, frame.input.gravity, frame.max_speed, frame.h))
+        frame.ranks[rank].reports |= report_speed_capped;
 }
 
 void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {

@@ -45,6 +45,8 @@ class Executor {
     void run_rows(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void run_corrections(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     static Range level_range(const Frame& frame, std::uint32_t count, unsigned rank);
+    /// The end of one substep and the beginning of the next.
+    void run_advance(const Frame& frame, unsigned rank);
     void run_level(const Frame& frame, const Pass& pass, unsigned rank);
     void run_faces(const Frame& frame, const Pass& pass, unsigned rank);
     void run_holds(const Frame& frame, std::uint32_t substep, Share mine);

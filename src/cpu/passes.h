@@ -133,6 +133,8 @@ struct Passes {
     /// Returns whether the speed cap acted.
     bool (*predict)(const ParticleView&, Range, Vec3 gravity, float max_speed, float h);
     bool (*velocities)(const ParticleView&, Range, float max_speed, float h);
+    /// velocities, then predict, in one pass over the particles.
+    bool (*advance)(const ParticleView&, Range, Vec3 gravity, float max_speed, float h);
     /// No two rows of the range may share a particle that one of them moves, except on one lane, which takes row by
     /// row.
     std::array<void (*)(const ParticleView&, const RowView&, Range, float h, LambdaUse), constraint_kind_count> project;

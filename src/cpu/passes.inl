@@ -26,7 +26,8 @@ inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float
         vec3 start, x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
         start = x;
-        capped = capped || predict(x, m, w, acceleration, real(max_speed), step);
+        const mask now = predict(x, m, w, acceleration, real(max_speed), step);
+        capped = capped || now;  // on one lane || leaves out what need not be known
         store_blocks_unordered(x, w, p.position + 4 * i);
         store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);
         store_motion(m, p, 4 * i);
@@ -42,7 +43,27 @@ inline bool velocities_pass(const ParticleView& p, Range range, float max_speed,
         vec3 start;
         const vec3 x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
-        capped = capped || update_velocity(m, x, start, w, real(max_speed), step);
+        const mask now = update_velocity(m, x, start, w, real(max_speed), step);
+        capped = capped || now;
+        store_motion(m, p, 4 * i);
+    }
+    return any(capped);
+}
+
+inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float max_speed, float h) {
+    const Step step = make_step(h);
+    const vec3 acceleration(real(gravity.x), real(gravity.y), real(gravity.z));
+    mask capped = real(0.0f) > real(0.0f);
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real w;
+        vec3 start, x = load_blocks_unordered(p.position + 4 * i, w);
+        Motion m = load_motion(p, 4 * i, start);
+        const mask ended = update_velocity(m, x, start, w, real(max_speed), step);
+        start = x;
+        const mask begun = predict(x, m, w, acceleration, real(max_speed), step);
+        capped = capped || ended || begun;
+        store_blocks_unordered(x, w, p.position + 4 * i);
+        store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);
         store_motion(m, p, 4 * i);
     }
     return any(capped);
@@ -392,6 +413,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .lanes = lane_count,
         .predict = predict_pass,
         .velocities = velocities_pass,
+        .advance = advance_pass,
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) project_pass<Name##Traits>,
         .project = {
 #include "physics/constraints.def"

@@ -123,7 +123,6 @@ void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind,
         clock.spent_on(BuildPart::coloring);
         table = pack_rows(kind, rows, model.point_count(), coloring);
     }
-    table.source = {};
     clock.spent_on(BuildPart::tables);
 }
 

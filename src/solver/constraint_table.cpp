@@ -48,7 +48,6 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
                           .particles = {},
                           .fields = {},
                           .first_dummy = first_dummy(particle_count),
-                          .source = {},
                           .batches = lay_out(coloring),
                           .blocks = {}};
     if (table.batches.empty()) return table;
@@ -56,21 +55,18 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
     table.stride = table.batches.back().padded_end();
     table.particles.resize(std::size_t{table.arity} * table.stride);
     table.fields.resize(std::size_t{table.field_count} * table.stride);
-    table.source.assign(table.stride, none);
 
     std::uint32_t next = 0;
     for (const Batch& batch : table.batches) {
         for (std::uint32_t row = batch.begin; row < batch.padded_end(); ++row) {
             const bool real_row = row < batch.begin + batch.rows;
-            if (real_row) table.source[row] = coloring.order[next++];
+            const std::size_t source = real_row ? coloring.order[next++] : 0;
             for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
                 table.particles[std::size_t{slot} * table.stride + row] =
-                    real_row ? list.particles[std::size_t{table.source[row]} * table.arity + slot]
-                             : dummy(particle_count, slot, row);
+                    real_row ? list.particles[source * table.arity + slot] : dummy(particle_count, slot, row);
             }
             for (std::uint32_t field = 0; real_row && field < table.field_count; ++field) {
-                table.fields[std::size_t{field} * table.stride + row] =
-                    list.fields[std::size_t{table.source[row]} * table.field_count + field];
+                table.fields[std::size_t{field} * table.stride + row] = list.fields[source * table.field_count + field];
             }
         }
     }

@@ -45,7 +45,6 @@ struct ConstraintTable {
     AlignedVector<std::uint32_t> particles;  ///< [slot · stride + row]
     AlignedVector<float> fields;             ///< [field · stride + row]
     std::uint32_t first_dummy = 0;           ///< particles from here on are for padding alone
-    std::vector<std::uint32_t> source;       ///< row -> row of the RowList, or `none` for padding; empty in a model
     std::vector<Batch> batches;
     std::vector<LineBlock> blocks;  ///< in the order of their rows; empty where rows are laid out one by one
 

@@ -191,7 +191,6 @@ class LineWriter {
 
     void write_row(std::uint32_t at, std::uint32_t row, bool turned) {
         const std::uint32_t* ends = &rows_.particles[2 * std::size_t{row}];
-        table_.source[at] = row;
         place(at, ends[turned], ends[!turned], &rows_.fields[std::size_t{table_.field_count} * row]);
     }
     void write_line(std::uint32_t at, const Paths& paths, std::uint32_t path, std::uint32_t length) {
@@ -239,13 +238,11 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
                           .particles = {},
                           .fields = {},
                           .first_dummy = first_dummy(particle_count),
-                          .source = {},
                           .batches = {},
                           .blocks = {}};
     lay_out(lines, table);
     table.particles.resize(std::size_t{table.arity} * table.stride);
     table.fields.resize(std::size_t{table.field_count} * table.stride);
-    table.source.assign(table.stride, none);
 
     LineWriter writer(stretch, particle_count, table);
     std::size_t block = 0;

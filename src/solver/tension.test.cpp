@@ -13,7 +13,7 @@ float tension_under(double tension, std::uint32_t spared = 0, const Fabric& fabr
     constexpr double h = 1.0 / 600;
     std::vector<float> lambda(table.stride);
     for (std::uint32_t row = 0; row < table.stride; ++row) {
-        if (table.source[row] == none || (spared && table.source[row] % spared != 0)) continue;
+        if (!table.is_real(row) || (spared && table.particles[row] / 2 % spared != 0)) continue;
         lambda[row] = static_cast<float>(-tension * 0.01 * h * h);
     }
     return tension_in(table, lambda, h, fabric);
