@@ -201,7 +201,11 @@ void ClothState::update_limits() {
     if (levels.empty() && model->table(ConstraintKind::tether).rows == 0) return;
     const float tension =
         tension_in(model->table(ConstraintKind::stretch), stretch_lambda(), substep_seconds, model->fabric);
-    limits = {.tension = tension, .allowed = 1 + strain_between(model->pin_spans, now.position)};
+    // Limits have room for the model's tension at all times. What pins stretch is part of what the tension does.
+    const Elasticity& elastic = model->elasticity;
+    limits.tension = std::max(0.0f, tension - static_cast<float>(elastic.tension));
+    const float stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)) * limits.tension;
+    limits.allowed = std::max(1.0f, (1 + strain_between(model->pin_spans, now.position)) / (1 + stretched));
 }
 
 void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks) {

@@ -206,8 +206,11 @@ inline void correct_pass(const ParticleView& p, const RowView& rows, const Corre
         for (int k = 0; k < Traits::moves; ++k) before[k] = x[k];
         real lambda[Traits::multipliers], lambda_before[Traits::multipliers];
         for (int k = 0; k < Traits::multipliers; ++k) {
-            const float* kept = rows.lambda + static_cast<std::size_t>(k) * rows.stride + r;
-            lambda[k] = lambda_before[k] = use == LambdaUse::accumulate ? load(kept) : real(0.0f);
+            lambda[k] = real(0.0f);
+            if (use == LambdaUse::accumulate) {
+                lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
+            }
+            lambda_before[k] = lambda[k];
         }
         Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
         const real part = out.share ? load(out.share + r) : plain_part(lambda[0], out.stiffness);

@@ -50,7 +50,9 @@ Limit limit_along(const Elasticity& elasticity, double length, double along_warp
 }
 
 Limit limit_any_way(const Elasticity& elasticity, double length) {
-    const double softest = std::max({elasticity.warp, elasticity.weft, elasticity.along(0.5)});
+    double softest = 0;
+    for (const double cos2 : {0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0})
+        softest = std::max(softest, elasticity.along(cos2));
     return tighter(elasticity, length, softest, std::numbers::sqrt2 * length);
 }
 

@@ -146,11 +146,9 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
     return result;
 }
 
-// Where the cloth is flat, a way need not have the corners that edges give it. One that is longer by more than corners
-// make it leads around something.
+// Where the cloth is flat, a way need not have the corners that edges give it.
 void straighten(Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
-    constexpr double corners = 1.12;
-    if (link.length > corners * straight.length) return;
+    if (!follows(link.length, straight)) return;
     link.length = std::min(link.length, straight.length);
     if (!turns) {
         link.reach = link.length;
@@ -162,10 +160,14 @@ void straighten(Link& link, const StraightLine& straight, const Elasticity& elas
 
 // Of a row between two nodes. Where the fabric turns, its link allows for elasticity already.
 Limit limit_of(const Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
-    const double give = std::max(elasticity.warp, elasticity.weft);
-    if (!turns) return {link.reach * (1 + elasticity.reserve()), link.reach * give};
-    const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
-    return {link.reach, straight.length > 0 ? limit.give : link.reach * give};
+    if (!turns) return limit_any_way(elasticity, link.reach);
+    if (follows(link.length, straight)) {
+        const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
+        return {link.reach, limit.give};
+    }
+    // What its way is longer by under the tension of `reach`, and no more than the softest way would be.
+    const double give = (link.reach - link.length) / elasticity.tension;
+    return {link.reach, std::min(give, limit_any_way(elasticity, link.length).give)};
 }
 
 // Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough

@@ -14,8 +14,8 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     // Counted in bins of the strain that it makes, as that gives the same bits in whatever order; the first holds all
     // that is below 1/1000.
     constexpr int bins_per_doubling = 4;
-    constexpr double least = 1e-3;
-    std::array<std::uint32_t, 48> bins{};
+    constexpr double least = 1e-5;
+    std::array<std::uint32_t, 80> bins{};
     std::uint32_t count = 0;
     const double scale = -1 / (substep_seconds * substep_seconds * softest);
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {

@@ -260,10 +260,9 @@ Session::Entry& Session::entry(ClothId id) {
 
 Result<Done> Session::configure(const WorldSettings& settings) {
     const ClothLayout before = world_->settings().layout(), after = settings.layout();
-    const bool enough = after.lines == before.lines && (before.hierarchy || !after.hierarchy);
     world_->configure(settings);
     for (Entry& one : entries_) {
-        if (enough) break;
+        if (after == before) break;
         if (auto done = rebuild(one, SceneCloth(one.desc), ClothPins(one.pins), Holds(one.holds)); !done) return done;
     }
     return Done{};

@@ -29,7 +29,7 @@ Limit limit_between(const RestShape& rest, std::span<const RestFrame> frames, st
                     double way) {
     const auto& x = rest.topology.rest_positions;
     const StraightLine line = straight_line(frames[a], frames[b], x[b] - x[a]);
-    if (!(line.length > 0)) return limit_any_way(rest.elasticity, way);
+    if (!follows(way, line)) return limit_any_way(rest.elasticity, way);
     const double scale = way / line.length;
     return limit_along(rest.elasticity, way, scale * line.along_warp, scale * line.along_weft);
 }
@@ -57,6 +57,7 @@ RowList build_tether(const RestShape& rest, const TetherMaterial& material) {
         for (std::size_t rank = 0; rank < std::min(tethers.size(), max_tethers); ++rank) {
             const auto [distance, anchor] = tethers[rank];
             const Limit limit = limit_between(rest, frames, anchor, p, distance * slack);
+            if (!std::isfinite(limit.length + limit.give)) continue;  // no stiffness at all
             ranks[rank].add({p, anchor}, {static_cast<float>(limit.length), static_cast<float>(limit.give)});
         }
     }
