@@ -120,6 +120,23 @@ TEST_F(SessionOfACloth, refuses_a_mesh_of_nothing_but_rubbish) {
                 ElementsAre(HasSubstr("must have at least one triangle with an area, got 2 without")));
 }
 
+TEST_F(SessionOfACloth, has_tethers_by_itself_only_with_coarse_levels) {
+    auto session = open(R"("mesh": {"grid": {"resolution": [33, 33]}}, "fabric": {"inextensible": true},
+                           "pins": [{"vertices": [0, 32]}])");
+    ASSERT_TRUE(session.ok()) << session.error().message();
+    const auto tethers = [&] { return session->world().frame().cloths[0].model->table(ConstraintKind::tether).rows; };
+    EXPECT_EQ(tethers(), 2u * (33 * 33 - 2));
+    WorldSettings settings = session->world().settings();
+    settings.hierarchy = false;
+    ASSERT_TRUE(session->configure(settings).ok());
+    EXPECT_TRUE(run(*session));
+    EXPECT_EQ(tethers(), 0u);
+    settings.hierarchy = true;
+    ASSERT_TRUE(session->configure(settings).ok());
+    EXPECT_TRUE(run(*session));
+    EXPECT_EQ(tethers(), 2u * (33 * 33 - 2));
+}
+
 TEST_F(SessionOfACloth, drops_spheres_and_boxes) {
     auto sphere = open(R"("mesh": {"sphere": {"radius": 0.25, "subdivisions": 3}}, "transform": {"position": [1, 2, 3]},
                           "pins": [{"vertices": [641]}])");

@@ -134,5 +134,40 @@ TEST(TetherRows, lead_to_every_place_where_the_cloth_is_held) {
     }
 }
 
+// Two halves of a sheet that hang together at one end: what is near through the air is far over the cloth, and the way
+// runs along both threads.
+TEST(TetherRows, around_a_slit_give_way_as_the_way_does) {
+    TriangleMesh mesh = make_grid({1, 1}, {17, 17}, GridDiagonal::alternating);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        const Vec3 middle = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0f;
+        return std::abs(middle.z) < 0.0625f && middle.x < 0.3f;
+    });
+    const auto topology = build_topology(mesh, {.reorder = false});
+    RestShape rest = make_rest_shape(mesh, *topology);
+    rest.elasticity = {.warp = 1e-3, .weft = 1e-3, .shear = 0.1, .tension = 1};
+    const auto particle_at = [&](float x, float z) {
+        std::uint32_t best = 0;
+        for (std::uint32_t p = 0; p < topology->particle_count; ++p)
+            if (length(topology->rest_positions[p] - Vec3{x, 0, z}) <
+                length(topology->rest_positions[best] - Vec3{x, 0, z}))
+                best = p;
+        return best;
+    };
+    const std::uint32_t anchor = particle_at(-0.5f, -0.125f), across = particle_at(-0.5f, 0.125f),
+                        beside = particle_at(-0.5f, -0.5f);
+    rest.held.assign(topology->particle_count, 0);
+    rest.held[anchor] = 1;
+    const RowList rows = build_tether(rest, {.use = Tethers::on});
+    for (std::uint32_t r = 0; r < rows.size(); ++r) {
+        const double radius = rows.fields[2 * r], give = rows.fields[2 * r + 1];
+        if (rows.particles[2 * r] == beside) {
+            EXPECT_NEAR(give / radius, 1e-3, 2e-4) << "along a thread";
+        }
+        if (rows.particles[2 * r] != across) continue;
+        EXPECT_GT(radius, 1.5) << "there and back";
+        EXPECT_GT(give / radius, 0.02) << "not that of the thread that leads straight across";
+    }
+}
+
 }  // namespace
 }  // namespace weft
