@@ -9,12 +9,22 @@
 
 namespace weft {
 
-/// One problem with an input: the place (`scenes/flag.json: /cloths/0/fabric/density`) and what is wrong there
+/// What a problem lies with.
+enum class Fault {
+    input,    ///< what was asked for: another file, another value will do
+    machine,  ///< what it was to be done with: a driver that is missing, memory, a device that is lost
+};
+
+/// One problem: the place (`scenes/flag.json: /cloths/0/fabric/density`) and what is wrong there
 /// (`must be > 0 kg/m², got -1`). `where` may be empty. Neither ends in a newline.
 struct Error {
     std::string where;
     std::string what;
+    Fault fault = Fault::input;
 
+    static Error of_machine(std::string where, std::string what) {
+        return {std::move(where), std::move(what), Fault::machine};
+    }
     std::string message() const { return where.empty() ? what : where + ": " + what; }
 };
 

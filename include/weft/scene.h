@@ -22,11 +22,15 @@ enum class Method { xpbd, pbd };
 /// `automatic`: lines with xpbd, gauss_seidel with pbd.
 enum class Projection { automatic, lines, gauss_seidel, jacobi };
 
+/// How averaged Jacobi adds up what rows want of a particle.
+enum class Accumulate { gather, fixed_point };
+
 struct SolverDesc {
     std::uint32_t substeps = 20;   ///< per frame, 1…10000
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
+    Accumulate accumulate = Accumulate::gather;
     bool hierarchy = true;  ///< coarse levels first: large cloths stretch less
 };
 

@@ -22,16 +22,25 @@ namespace weft {
 
 /// Overrides of what the scene says, and where to compute.
 struct Options {
-    std::string backend = "auto";  ///< "auto" or "cpu"
+    /// "cpu", "vulkan", or "auto": Vulkan where there is a GPU for it, else the CPU.
+    std::string backend = "auto";
+    /// Vulkan: part of the device's name, in whatever case; empty takes the best.
+    std::string device = {};
+    /// Vulkan: how a frame becomes dispatches, "auto", "streamed" (one per pass), "grouped" (coarse levels in one) or
+    /// "fused" (one for all, a workgroup to a cloth). The same bits.
+    std::string execution = "auto";
     /// Threads in all, the calling one included, 1…256. The result has the same bits whatever the number.
     unsigned threads = 1;
     std::optional<std::uint32_t> substeps = {};    ///< per frame, 1…10000
     std::optional<std::uint32_t> iterations = {};  ///< per substep, 1…10000
     std::string method = {};                       ///< "xpbd" or "pbd"; empty: as the scene says
     std::string projection = {};         ///< "auto", "lines", "gauss-seidel", "jacobi"; empty: as the scene says
+    std::string accumulate = {};         ///< "gather" or "fixed-point"; empty: as the scene says
     std::optional<bool> hierarchy = {};  ///< coarse levels first, instead of what the scene says
     /// Instruction set: "avx512", "avx2", "sse4", "neon", "scalar"; empty takes the widest. Same bits for all of them.
     std::string isa = {};
+    /// Vulkan: time each stage of a frame, which costs a little.
+    bool stage_timings = false;
 };
 
 /// What holds for everything in a world.

@@ -1,26 +1,11 @@
 #include "cpu/cloth_state.h"
 
-#include "solver/tension.h"
+#include "solver/frame_numbers.h"
 
 #include <algorithm>
 #include <cassert>
 
 namespace weft::cpu {
-namespace {
-
-// kg; padding weighs nothing.
-AlignedVector<float> masses_of_faces(const ClothModel& model) {
-    AlignedVector<float> masses(model.face_stride);
-    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
-        const auto [a, b, c] = model.triangle(t);
-        masses[t] =
-            model.fabric.body.density * area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
-    }
-    return masses;
-}
-
-}  // namespace
-
 ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {
     const std::size_t capacity = model->capacity();
     now.position = model->start;
@@ -181,8 +166,9 @@ AirView ClothState::air(float density) {
             .around = view_of(model->around)};
 }
 
-GatherView ClothState::gather_view(bool mean) const {
-    return {&corrections[0].x, gather->offsets.data(), gather->items.data(), mean};
+GatherView ClothState::gather_view(const StepPlan& plan) const {
+    return {&corrections[0].x, gather->offsets.data(), gather->items.data(), plan.method == Method::pbd,
+            plan.accumulate == Accumulate::fixed_point};
 }
 
 CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan) {
@@ -193,19 +179,14 @@ CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan)
 }
 
 void ClothState::end_frame(const StepPlan& plan, double dt) {
-    // Plain constraints have no compliance, so what they leave is C itself.
-    substep_seconds = plan.method == Method::pbd ? 0 : static_cast<double>(static_cast<float>(dt / plan.substeps));
+    substep_seconds = lambda_seconds(plan, dt);
 }
 
-void ClothState::update_limits() {
-    if (levels.empty() && model->table(ConstraintKind::tether).rows == 0) return;
-    const float tension =
-        tension_in(model->table(ConstraintKind::stretch), stretch_lambda(), substep_seconds, model->fabric);
-    // Limits have room for the model's tension at all times. What pins stretch is part of what the tension does.
-    const Elasticity& elastic = model->elasticity;
-    limits.tension = std::max(0.0f, tension - static_cast<float>(elastic.tension));
-    const float stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)) * limits.tension;
-    limits.allowed = std::max(1.0f, (1 + strain_between(model->pin_spans, now.position)) / (1 + stretched));
+void ClothState::begin_frame(const StepPlan& plan) {
+    limits = {};
+    if (!has_limits(*model, plan)) return;
+    const FrameLimits found = frame_limits(*model, stretch_lambda(), substep_seconds, now.position);
+    limits = {found.tension, found.allowed};
 }
 
 void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
@@ -213,7 +194,10 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
     wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
-    if (has(plan.substep, PassKind::air) && face_mass.empty()) face_mass = masses_of_faces(*model);
+    if (has(plan.substep, PassKind::air) && face_mass.empty()) {
+        const std::vector<float> masses = face_masses(*model);
+        face_mass.assign(masses.begin(), masses.end());
+    }
     if (has(plan.substep, PassKind::spread) && levels.empty()) {
         for (const CoarseLevel& coarse : model->hierarchy) {
             LevelState& state = levels.emplace_back();

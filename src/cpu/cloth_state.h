@@ -73,20 +73,17 @@ struct ClothState {
     CarryView carry_to_level(std::uint32_t i) const;
     CarryView carry_to_particles() const;
     AirView air(float density);
-    GatherView gather_view(bool mean) const;
+    GatherView gather_view(const StepPlan& plan) const;
     CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
     void remember(std::size_t begin, std::size_t end);  ///< particles, as the last good ones
     void remember();                                    ///< all
     void roll_back();
     /// Makes room for what the plan needs beyond the particles; only here memory is asked for.
     void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
-    void begin_frame() { update_limits(); }
+    /// Lets tethers and coarse levels give way to the tension that the last frame left in the cloth.
+    void begin_frame(const StepPlan& plan);
     void end_frame(const StepPlan& plan, double dt);
     void update_normals();
-
-  private:
-    /// Lets tethers and coarse levels give way to the tension that the last frame left in the cloth.
-    void update_limits();
 };
 
 }  // namespace weft::cpu

@@ -24,7 +24,7 @@ class CpuBackend final : public Backend {
     }
     unsigned threads() const override { return team_.ranks(); }
 
-    ClothHandle add_cloth(std::shared_ptr<const ClothModel> model) override {
+    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
         auto state = std::make_unique<cpu::ClothState>(std::move(model));
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
         const auto at = static_cast<std::uint32_t>(free - cloths_.begin());
@@ -33,7 +33,7 @@ class CpuBackend final : public Backend {
         } else {
             *free = std::move(state);
         }
-        return {at};
+        return ClothHandle{at};
     }
 
     void remove_cloth(ClothHandle handle) override {
@@ -41,12 +41,16 @@ class CpuBackend final : public Backend {
         cloths_[handle.value] = nullptr;
     }
 
-    void set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
         cloth(handle).set_model(std::move(model));
+        return Done{};
     }
 
     ClothSnapshot save(ClothHandle handle) const override { return cloth(handle).save(); }
-    void restore(ClothHandle handle, const ClothSnapshot& snapshot) override { cloth(handle).restore(snapshot); }
+    Result<Done> restore(ClothHandle handle, const ClothSnapshot& snapshot) override {
+        cloth(handle).restore(snapshot);
+        return Done{};
+    }
 
     void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) override {
         jobs_.clear();
@@ -65,39 +69,22 @@ class CpuBackend final : public Backend {
                 for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
                 state.update_normals();
             }
-            read(cloths[i].cloth, frame);
         }
     }
 
-    void read(ClothHandle id, ClothFrame& frame) const override {
+    bool read(ClothHandle id, ClothFrame& frame) const override {
         const cpu::ClothState& state = cloth(id);
         const std::uint32_t count = state.model->particle_count;
         frame.model = state.model.get();
         frame.positions = std::span(state.now.position).first(count);
         frame.velocities = std::span(state.now.velocity).first(count);
         frame.normals = std::span(state.normals).first(count);
+        return true;
     }
 
     Residual stretch_residual(ClothHandle id) const override {
         const cpu::ClothState& state = cloth(id);
-        const ConstraintTable& table = state.model->table(ConstraintKind::stretch);
-        const double h2 = state.substep_seconds * state.substep_seconds;
-        Residual residual;
-        for (std::uint32_t row = 0; row < table.stride; ++row) {
-            if (!table.is_real(row)) continue;
-            const Vec3 a = state.now.position[table.particles[row]].xyz();
-            const Vec3 b = state.now.position[table.particles[table.stride + row]].xyz();
-            const double rest = table.fields[row];
-            const double c = static_cast<double>(length(a - b)) - rest;
-            const double compliance = table.fields[(c > 0 ? 1 : 2) * std::size_t{table.stride} + row];
-            const double lambda = state.stretch_lambda()[row];
-            // No stiffness on this side: nothing was to be solved.
-            const double left = compliance < 0 ? 0 : std::abs(c + (h2 > 0 ? compliance / h2 * lambda : 0)) / rest;
-            residual.mean += left;
-            residual.max = std::max(residual.max, left);
-        }
-        if (table.rows > 0) residual.mean /= table.rows;
-        return residual;
+        return weft::stretch_residual(*state.model, state.now.position, state.stretch_lambda(), state.substep_seconds);
     }
 
     void hash(ClothHandle id, StateHash& hash) const override {

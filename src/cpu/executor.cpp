@@ -1,6 +1,8 @@
 #include "cpu/executor.h"
 
 #include "base/flush_subnormals.h"
+#include "solver/diagnosis.h"
+#include "solver/frame_numbers.h"
 
 #include <algorithm>
 #include <atomic>
@@ -10,13 +12,6 @@
 
 namespace weft::cpu {
 namespace {
-
-// m/s at which cloth that starts a substep inside a collider leaves it: quick for the eye, too slow to fling the cloth.
-constexpr float depenetration_speed = 1.0f;
-
-// The cap lets a particle pass this many edges (or thicknesses, if those are longer) in a substep. Beyond, no contact
-// could catch it and no constraint could tell which way back is.
-constexpr float capped_edges_per_substep = 10;
 
 // Particles. Two threads take a cotton sheet of 128² 1.5 times as fast as one, two such sheets twice as fast.
 constexpr std::uint32_t largest_small_cloth = 20000;
@@ -45,10 +40,6 @@ class StageClock {
     std::chrono::steady_clock::time_point since_;
 };
 
-bool finite4(const Vec4& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
 // Whole blocks, as nearly as can be as many rows for every rank.
 std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const Batch& batch, unsigned rank,
                                            unsigned ranks) {
@@ -62,51 +53,6 @@ std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const B
     return blocks.subspan(begin, end - begin);
 }
 
-std::uint32_t first_non_finite(const ClothState& cloth) {
-    for (std::uint32_t p = 0; p < cloth.model->point_count(); ++p) {
-        if (!finite4(cloth.now.position[p]) || !finite4(cloth.now.velocity[p])) return p;
-    }
-    return none;
-}
-
-// " between particles 3, 4": the row of the batch that moved this one.
-std::string row_at(const ClothState& cloth, const Pass& pass, std::uint32_t particle) {
-    const ConstraintTable& table = cloth.model->table(pass.constraint);
-    const Batch& batch = table.batches[pass.batch];
-    for (std::uint32_t row = batch.begin; row < batch.begin + batch.rows; ++row) {
-        std::string names;
-        bool here = false;
-        for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
-            const std::uint32_t other = table.particles[std::size_t{slot} * table.stride + row];
-            names += (slot == 0 ? " between particles " : ", ") + std::to_string(other);
-            here = here || other == particle;
-        }
-        if (here && table.is_real(row)) return names;
-    }
-    return "";
-}
-
-std::string name_input(const ClothState& cloth, const StepInput& input) {
-    if (!finite(input.gravity)) return "gravity is not finite";
-    if (!std::isfinite(input.air_density)) return "the density of the air is not finite";
-    for (const WindNow& wind : input.winds) {
-        const bool sound = finite(wind.numbers[0]) && finite(wind.numbers[1]) && finite(wind.numbers[2]);
-        if (!sound) return "a wind is not finite";
-    }
-    for (std::size_t i = 0; i < input.poses.size(); ++i) {
-        const Pose& pose = input.poses[i];
-        if (!finite(pose.position) || !finite(pose.rotation.x) || !finite(pose.rotation.y) ||
-            !finite(pose.rotation.z)) {
-            return "the pose of collider '" + input.colliders[i % input.colliders.size()].name + "' is not finite";
-        }
-    }
-    for (const Pose& pose : input.mover_poses) {
-        if (!finite(pose.position)) return "the motion of a pin is not finite";
-    }
-    const std::uint32_t p = first_non_finite(cloth);
-    return p == none ? "" : "particle " + std::to_string(p) + " was not finite when the frame began";
-}
-
 }  // namespace
 
 struct Executor::Frame {
@@ -116,23 +62,22 @@ struct Executor::Frame {
     std::span<Rank> ranks;  // those at work on this cloth
     unsigned rank_count() const { return static_cast<unsigned>(ranks.size()); }
     ParticleView particles;
-    float h;
-    float max_speed;
-    float viscous;  // s²: retardation time times the frame that damping acts for
+    float h, max_speed, viscous, half_thickness, depenetration;  // as in FrameNumbers
 };
 
 Executor::Frame Executor::make_frame(const Job& job, std::span<Rank> ranks) {
     ClothState& cloth = *job.cloth;
-    const double h = job.input->dt / job.plan->substeps;
-    const double reach = std::max(cloth.model->fabric.contact.thickness, cloth.model->mean_edge);
+    const FrameNumbers numbers = frame_numbers(*cloth.model, *job.plan, job.input->dt);
     return {.cloth = cloth,
             .plan = *job.plan,
             .input = *job.input,
             .ranks = ranks,
             .particles = cloth.now.view(),
-            .h = static_cast<float>(h),
-            .max_speed = static_cast<float>(std::min(capped_edges_per_substep * reach / h, 1e18)),
-            .viscous = std::max(static_cast<float>(cloth.model->fabric.body.damping * job.input->dt), 1e-30f)};
+            .h = numbers.h,
+            .max_speed = numbers.max_speed,
+            .viscous = numbers.viscous,
+            .half_thickness = numbers.half_thickness,
+            .depenetration = numbers.depenetration};
 }
 
 void Executor::run(std::span<Job> jobs, std::array<double, stage_count>& stage_ms) {
@@ -154,7 +99,7 @@ void Executor::run(std::span<Job> jobs, std::array<double, stage_count>& stage_m
 }
 
 void Executor::run_together(Job& job, std::array<double, stage_count>& stage_ms) {
-    job.cloth->begin_frame();
+    job.cloth->begin_frame(*job.plan);
     const Frame frame = make_frame(job, ranks_);
     std::array<double, stage_count> unused{};
     for (Rank& rank : ranks_) rank.reports = report_none;
@@ -175,7 +120,7 @@ void Executor::run_side_by_side(std::array<double, stage_count>& stage_ms) {
         mine.stage_ms.fill(0);
         for (std::size_t i = next.fetch_add(1); i < small_.size(); i = next.fetch_add(1)) {
             Job& job = *small_[i];
-            job.cloth->begin_frame();
+            job.cloth->begin_frame(*job.plan);
             mine.reports = report_none;
             run_rank(make_frame(job, std::span(&mine, 1)), 0, mine.stage_ms);
             job.cloth->end_frame(*job.plan, job.input->dt);
@@ -208,8 +153,8 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
     run_list(frame.plan.frame_begin, 0);
     // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
     const std::span<const Pass> substep_passes(frame.plan.substep);
-    const bool together =
-        substep_passes.front().kind == PassKind::predict && substep_passes.back().kind == PassKind::velocities;
+    const bool together = !substep_passes.empty() && substep_passes.front().kind == PassKind::predict &&
+                          substep_passes.back().kind == PassKind::velocities;
     for (std::uint32_t substep = 0; substep < frame.plan.substeps; ++substep) {
         const bool begun = together && substep > 0, goes_on = together && substep + 1 < frame.plan.substeps;
         run_list(substep_passes.subspan(begun, substep_passes.size() - begun - goes_on), substep);
@@ -270,7 +215,7 @@ void Executor::run_pass(const Frame& frame, const Pass& pass, std::uint32_t subs
             run_corrections(frame, pass, substep, rank);
             break;
         case PassKind::average:
-            passes_.average(frame.particles, frame.cloth.gather_view(frame.plan.method == Method::pbd),
+            passes_.average(frame.particles, frame.cloth.gather_view(frame.plan),
                             {mine.begin, std::min(mine.end, model.point_count())});
             break;
         case PassKind::wind:
@@ -424,19 +369,19 @@ void Executor::run_holds(const Frame& frame, std::uint32_t substep, Share mine) 
 
 void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank) {
     const ClothModel& model = *frame.cloth.model;
-    const ContactMaterial& cloth = model.fabric.contact;
     const Share share = share_of(padded(model.point_count()), lane_padding, rank, frame.rank_count());
     const std::size_t count = frame.input.colliders.size();
     for (std::size_t i = 0; i < count; ++i) {
         const Collider& collider = frame.input.colliders[i];
+        const auto [static_friction, kinetic_friction] = friction_between(model, collider);
         const ContactView view{
             .numbers = collider.numbers,
             .now = frame.input.poses[(substep + 1) * count + i],
             .before = frame.input.poses[substep * count + i],
-            .static_friction = std::sqrt(cloth.friction[0] * collider.friction[0]),
-            .kinetic_friction = std::sqrt(cloth.friction[1] * collider.friction[1]),
-            .half_thickness = 0.5f * cloth.thickness,
-            .depenetration = depenetration_speed * frame.h,
+            .static_friction = static_friction,
+            .kinetic_friction = kinetic_friction,
+            .half_thickness = frame.half_thickness,
+            .depenetration = frame.depenetration,
             .sums = frame.cloth.contact_sums.empty() ? nullptr : &frame.cloth.contact_sums[i * model.capacity()].x,
             .first_iteration = pass.first_iteration,
         };
@@ -458,7 +403,10 @@ void Executor::check_finite(const Frame& frame, unsigned rank) {
 }
 
 std::string Executor::find_non_finite(ClothState& cloth, const StepPlan& plan, const StepInput& input) {
-    if (std::string culprit = name_input(cloth, input); !culprit.empty()) return culprit;
+    const std::size_t points = cloth.model->point_count();
+    const std::span positions = std::span(cloth.now.position).first(points);
+    const std::span velocities = std::span(cloth.now.velocity).first(points);
+    if (std::string culprit = name_input(input, positions, velocities); !culprit.empty()) return culprit;
     const FlushSubnormals flush;
     Rank rank;
     const Frame frame = make_frame({&cloth, &plan, &input}, std::span(&rank, 1));
@@ -466,14 +414,11 @@ std::string Executor::find_non_finite(ClothState& cloth, const StepPlan& plan, c
     for (std::uint32_t substep = 0; substep < plan.substeps; ++substep) {
         for (const Pass& pass : plan.substep) {
             run_pass(frame, pass, substep, 0);
-            const std::uint32_t p = first_non_finite(cloth);
-            if (p == none) continue;
-            std::string where = std::string(stage_name(stage_of(pass)));
-            if (pass.kind == PassKind::project) where += row_at(cloth, pass, p);
-            return where + " made particle " + std::to_string(p) + " non-finite in substep " + std::to_string(substep);
+            const std::uint32_t p = first_non_finite(positions, velocities);
+            if (p != none) return name_pass(*cloth.model, pass, substep, p);
         }
     }
-    return "damping or a rounding carry became non-finite at the end of the frame";
+    return std::string(late_non_finite);
 }
 
 }  // namespace weft::cpu

@@ -72,7 +72,8 @@ struct GatherView {
     const float* blocks;
     const std::uint32_t* offsets;
     const std::uint32_t* items;
-    bool mean;  ///< the sum divided by its terms; otherwise the sum
+    bool mean;   ///< the sum divided by its terms; otherwise the sum
+    bool fixed;  ///< in fixed point (accumulate.kernel.h)
 };
 
 /// One coarse level. Blocks of four floats per node.

@@ -3,6 +3,7 @@
 #include "physics/scalar.h"
 
 #include <algorithm>
+#include <array>
 
 namespace weft::cpu {
 namespace {
@@ -21,6 +22,20 @@ scalar::vec3 sum_of_one(const AroundView& around, const float* blocks, std::size
     const std::uint32_t* list = around.offsets + around.own[packet] + lane;
     for (std::uint32_t k = list[0]; k < list[1]; ++k) add(around.items[k]);
     return sum;
+}
+
+// Beyond 32 bits it goes round, as on a device.
+scalar::vec3 fixed_sum(const GatherView& gather, std::uint32_t begin, std::uint32_t end) {
+    std::array<std::uint32_t, 3> sum{};
+    for (std::uint32_t k = begin; k < end; ++k) {
+        const float* c = gather.blocks + std::size_t{4} * gather.items[k];
+        for (int axis = 0; axis < 3; ++axis)
+            sum[axis] += static_cast<std::uint32_t>(static_cast<std::int32_t>(scalar::to_quanta(c[axis])));
+    }
+    const auto meters = [&](int axis) {
+        return scalar::from_quanta(static_cast<float>(static_cast<std::int32_t>(sum[axis])));
+    };
+    return {meters(0), meters(1), meters(2)};
 }
 
 }  // namespace
@@ -52,8 +67,8 @@ void average_pass(const ParticleView& p, const GatherView& gather, Range range) 
     for (std::size_t i = range.begin; i < range.end; ++i) {
         const std::uint32_t begin = gather.offsets[i], end = gather.offsets[i + 1];
         if (begin == end) continue;
-        vec3 sum(0.0f);
-        for (std::uint32_t k = begin; k < end; ++k) {
+        vec3 sum = gather.fixed ? fixed_sum(gather, begin, end) : vec3(0.0f);
+        for (std::uint32_t k = begin; k < end && !gather.fixed; ++k) {
             const float* c = gather.blocks + std::size_t{4} * gather.items[k];
             sum = sum + vec3(c[0], c[1], c[2]);
         }

@@ -4,6 +4,7 @@
 #include "mesh/topology.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,5 +26,16 @@ struct HingeList {
 /// One hinge per edge with exactly two triangles. Where the two wind the edge the same way, the first of them is right
 /// and the second is taken as turned over, so that the two wings still lie on different sides: flat is flat.
 HingeList build_hinges(const EdgeList& edges, std::span<const Triangle> triangles);
+
+struct EdgesAndHinges {
+    EdgeList edges;
+    HingeList hinges;
+};
+
+/// Another way to the very lists that build_edges and build_hinges give. Empty: those themselves.
+using FindEdges = std::function<Result<EdgesAndHinges>(std::span<const Triangle>, std::uint32_t particle_count)>;
+
+/// As in topology.h, with edges and hinges found this way: twice, if particles are reordered. Fails where it fails.
+Result<Topology> build_topology(const TriangleMesh& mesh, const TopologyOptions& options, const FindEdges& find);
 
 }  // namespace weft

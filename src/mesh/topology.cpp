@@ -88,9 +88,29 @@ Adjacency adjacency_of(std::span<const Row> rows, std::uint32_t particle_count, 
     return {std::move(groups.offsets), std::move(groups.items)};
 }
 
-/// Everything that follows from the triangles and the edges.
-void derive(Topology& topology, EdgeList edges) {
-    HingeList hinges = build_hinges(edges, topology.triangles);
+/// Finds edges, and then the hinges of those that it found last.
+class EdgeFinder {
+  public:
+    explicit EdgeFinder(const FindEdges& other) : other_(other) {}
+
+    Result<EdgeList> edges(const Topology& topology) {
+        if (!other_) return build_edges(topology.triangles, topology.particle_count);
+        auto found = other_(topology.triangles, topology.particle_count);
+        if (!found) return found.errors();
+        hinges_ = std::move(found->hinges);
+        return std::move(found->edges);
+    }
+    HingeList hinges(const EdgeList& edges, const Topology& topology) {
+        return other_ ? std::move(hinges_) : build_hinges(edges, topology.triangles);
+    }
+
+  private:
+    const FindEdges& other_;
+    HingeList hinges_;  // of the other way, which finds both at once
+};
+
+/// Everything that follows from the triangles, the edges and the hinges.
+void derive(Topology& topology, EdgeList edges, HingeList hinges) {
     topology.report.non_manifold_edges = static_cast<std::uint32_t>(edges.non_manifold.size());
     topology.report.inconsistent_edges = hinges.inconsistent;
     topology.edges = std::move(edges.edges);
@@ -126,6 +146,10 @@ void place_vertices(Topology& topology, const TriangleMesh& mesh, const Weld& we
 }  // namespace
 
 Result<Topology> build_topology(const TriangleMesh& mesh, const TopologyOptions& options) {
+    return build_topology(mesh, options, FindEdges{});
+}
+
+Result<Topology> build_topology(const TriangleMesh& mesh, const TopologyOptions& options, const FindEdges& find) {
     if (Errors errors = check(mesh, options); !errors.empty()) return errors;
 
     const Weld weld = weld_vertices(mesh.positions, options.weld_distance);
@@ -144,17 +168,20 @@ Result<Topology> build_topology(const TriangleMesh& mesh, const TopologyOptions&
     topology.welded_to_particle = number_used(sound.triangles, weld.first_vertex.size(), topology.particle_count);
     topology.triangles = mapped(sound.triangles, topology.welded_to_particle);
 
-    EdgeList edges = build_edges(topology.triangles, topology.particle_count);
-    if (options.reorder) {
-        if (const auto order = better_order(edges.edges, topology.particle_count); !order.empty()) {
+    EdgeFinder finder(find);
+    auto edges = finder.edges(topology);
+    if (edges && options.reorder) {
+        if (const auto order = better_order(edges->edges, topology.particle_count); !order.empty()) {
             for (std::uint32_t& particle : topology.welded_to_particle)
                 if (particle != none) particle = order[particle];
             topology.triangles = mapped(topology.triangles, order);
-            edges = build_edges(topology.triangles, topology.particle_count);
+            edges = finder.edges(topology);
         }
     }
+    if (!edges) return edges.errors();
     place_vertices(topology, mesh, weld);
-    derive(topology, std::move(edges));
+    HingeList hinges = finder.hinges(*edges, topology);
+    derive(topology, std::move(*edges), std::move(hinges));
     return topology;
 }
 

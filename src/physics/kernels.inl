@@ -4,6 +4,7 @@
 
 // clang-format off: each file builds on those before it
 #include "physics/trigonometry.kernel.h"
+#include "physics/accumulate.kernel.h"
 #include "physics/integrate/integrate.kernel.h"
 #include "physics/surface/normals.kernel.h"
 #include "physics/surface/tangents.kernel.h"

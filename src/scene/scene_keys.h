@@ -60,6 +60,10 @@ inline constexpr Parameter solver_keys[] = {
              "another, color by color; `jacobi`: all at once, averaged, slower to converge; `auto`: `lines`, with "
              "`pbd` `gauss-seidel`",
      .choices = "auto|lines|gauss-seidel|jacobi"},
+    {.key = "accumulate", .kind = ParameterKind::choice, .offset = offsetof(SolverDesc, accumulate),
+     .what = "how `jacobi` adds up what rows want of a particle: `gather` in floats, in a fixed order; `fixed-point` in "
+             "whole 1/65536 m, in any order",
+     .choices = "gather|fixed-point"},
     {.key = "hierarchy", .kind = ParameterKind::flag, .offset = offsetof(SolverDesc, hierarchy),
      .what = "coarse levels over each cloth, projected first: far less stretch of large ones; little for soft fabrics"},
     {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,

@@ -6,7 +6,10 @@
 #include "solver/collider.h"
 #include "solver/frame.h"
 #include "solver/holds.h"
+#include "solver/residual.h"
 #include "solver/snapshot.h"
+
+#include <weft/result.h>
 
 #include <memory>
 #include <span>
@@ -42,11 +45,6 @@ struct ClothStep {
     ClothFrame* frame = nullptr;  ///< what comes of it
 };
 
-/// What the solver left of stretch, its material set aside: |C + α̃λ| / rest length over the rows.
-struct Residual {
-    double mean = 0, max = 0;
-};
-
 class Backend {
   public:
     virtual ~Backend() = default;
@@ -55,20 +53,24 @@ class Backend {
     virtual std::string device() const = 0;     ///< for a human
     virtual unsigned threads() const = 0;
 
-    virtual ClothHandle add_cloth(std::shared_ptr<const ClothModel> model) = 0;
+    /// Fails where the device has no room for it.
+    virtual Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) = 0;
     virtual void remove_cloth(ClothHandle cloth) = 0;
     /// Another model for the same particles: other rows, other masses, other pins. What moved goes on moving.
-    virtual void set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
+    /// Where it fails, all is as it was.
+    virtual Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
     /// Advances cloths by a frame, each once. They have nothing to do with one another, and may run side by side: times
-    /// are then shares of the time that passes.
+    /// are then shares of the time that passes. Leaves reports and details in their frames; the rest is for read().
     virtual void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) = 0;
-    /// The cloth as it is.
-    virtual void read(ClothHandle cloth, ClothFrame& frame) const = 0;
+    /// The cloth as it is, in arrays that stay until the next call of anything. False if the device cannot tell any
+    /// more: then as it was when it was last read.
+    virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;
     /// Of the last substep.
     virtual Residual stretch_residual(ClothHandle cloth) const = 0;
+    /// Empty if the device cannot tell any more.
     virtual ClothSnapshot save(ClothHandle cloth) const = 0;
     /// `snapshot` has the sizes that save() gives for this cloth.
-    virtual void restore(ClothHandle cloth, const ClothSnapshot& snapshot) = 0;
+    virtual Result<Done> restore(ClothHandle cloth, const ClothSnapshot& snapshot) = 0;
     /// Adds everything that decides what the cloth does next.
     virtual void hash(ClothHandle cloth, StateHash& hash) const = 0;
 };

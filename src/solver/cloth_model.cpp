@@ -210,4 +210,14 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 
+std::vector<float> face_masses(const ClothModel& model) {
+    std::vector<float> masses(model.face_stride);
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        const auto [a, b, c] = model.triangle(t);
+        masses[t] =
+            model.fabric.body.density * area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
+    }
+    return masses;
+}
+
 }  // namespace weft

@@ -83,6 +83,9 @@ struct ClothModel {
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
 };
 
+/// kg, of every triangle at rest, with padding, which weighs nothing.
+std::vector<float> face_masses(const ClothModel& model);
+
 /// `topology` is that of `desc.mesh`. Fails where values are such that no simulation could follow: density ≤ 0 or not
 /// finite, total mass that float cannot hold, a pinned or attached particle out of range, a compliance that is not > 0
 /// and finite, a drawn mesh that is not sound.

@@ -18,8 +18,9 @@ namespace weft {
 /// What went wrong in a step, or was held back; combined by or.
 enum Report : std::uint32_t {
     report_none = 0,
-    report_speed_capped = 1u << 0,  ///< particles went faster than the cap and were slowed to it
-    report_non_finite = 1u << 1,    ///< a NaN or infinity arose; the cloth is back where the frame began
+    report_speed_capped = 1u << 0,   ///< particles went faster than the cap and were slowed to it
+    report_non_finite = 1u << 1,     ///< a NaN or infinity arose; the cloth is back where the frame began
+    report_device_failed = 1u << 2,  ///< the device is lost or out of memory; the cloth is as it was last read
 };
 
 /// The names of the bits, in the order of the bits.
@@ -33,7 +34,7 @@ struct ClothFrame {
     std::span<const Vec4> velocities;  ///< m/s; w is internal
     std::span<const Vec4> normals;     ///< unit; empty if the settings leave the surface out
     std::uint32_t reports = report_none;
-    std::string detail;  ///< the first input or constraint that produced a non-finite value
+    std::string detail;  ///< the first input or constraint that produced a non-finite value, or what the device says
 };
 
 struct Frame {

@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 #include <tuple>
 
 namespace weft {
@@ -165,8 +164,9 @@ void sort_by_place(const RowList& rows, Lines& lines) {
 void lay_out(const Lines& lines, ConstraintTable& table) {
     const auto block_of = [&](std::span<const std::uint32_t> paths) {
         const auto lanes = paths.first(std::min<std::size_t>(lane_padding, paths.size()));
-        const auto length = [&](std::uint32_t path) { return lines.paths.length(path); };
-        return LineBlock{table.stride, std::ranges::max(lanes | std::views::transform(length))};
+        std::uint32_t longest = 0;
+        for (const std::uint32_t path : lanes) longest = std::max(longest, lines.paths.length(path));
+        return LineBlock{table.stride, longest};
     };
     for (const auto& color : lines.colors) {
         if (color.empty()) continue;

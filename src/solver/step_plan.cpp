@@ -1,7 +1,9 @@
 #include "solver/step_plan.h"
 
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <tuple>
 
 namespace weft {
 namespace {
@@ -74,6 +76,11 @@ void plan_iteration(const ClothModel& model, const StepSettings& settings, bool 
     if (settings.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
 }
 
+std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+}
+
 // Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
 void plan_damping(const ClothModel& model, std::vector<Pass>& passes) {
     for_each_batch(model, [&](ConstraintKind kind, std::uint32_t batch) {
@@ -84,14 +91,25 @@ void plan_damping(const ClothModel& model, std::vector<Pass>& passes) {
 
 }  // namespace
 
+bool same_plan(const StepPlan& a, const StepPlan& b) {
+    if (a.serial != 0 && a.serial == b.serial) return true;
+    const auto what = [](const StepPlan& plan) {
+        return std::tie(plan.substeps, plan.iterations, plan.method, plan.projection, plan.accumulate, plan.stiffness,
+                        plan.frame_begin, plan.substep, plan.frame_end);
+    };
+    return what(a) == what(b);
+}
+
 StepPlan plan_step(const ClothModel& model, const StepSettings& settings) {
     StepPlan plan{.substeps = settings.substeps,
                   .iterations = settings.iterations,
                   .method = settings.method,
                   .projection = resolve(settings.projection, settings.method),
+                  .accumulate = settings.accumulate,
                   .frame_begin = {},
                   .substep = {},
-                  .frame_end = {}};
+                  .frame_end = {},
+                  .serial = next_serial()};
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)         \
     plan.stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = \
         plain_stiffness<Name##Material>(model.fabric, settings.iterations);
@@ -145,7 +163,7 @@ enum Stage : std::uint32_t {
     stage_surface,
     stage_end,
 };
-static_assert(stage_end == stage_count);
+static_assert(stage_end == stage_fused);
 
 }  // namespace
 
@@ -184,7 +202,7 @@ std::uint32_t stage_of(const Pass& pass) {
 
 std::string_view stage_name(std::uint32_t stage) {
     constexpr std::array<std::string_view, stage_count - constraint_kind_count> others = {
-        "air", "predict", "hierarchy", "average", "contact", "velocities", "damp", "surface"};
+        "air", "predict", "hierarchy", "average", "contact", "velocities", "damp", "surface", "fused"};
     return stage < constraint_kind_count ? constraint_info(static_cast<ConstraintKind>(stage)).name
                                          : others[stage - constraint_kind_count];
 }

@@ -40,6 +40,7 @@ struct Pass {
     bool first_iteration = true;  ///< of project, reach, correct and contact: no lambda, no friction from before
     std::uint32_t level = 0;      ///< of collect, lift, reach and settle
     bool alone = false;           ///< of those: so little that one thread has it done before others would have joined
+    friend bool operator==(const Pass&, const Pass&) = default;
 };
 
 /// Whether a pass may begin on one thread while another is still in the one before.
@@ -62,6 +63,7 @@ struct StepSettings {
     bool hierarchy = false;  ///< coarse levels first, where the model has them
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
+    Accumulate accumulate = Accumulate::gather;
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
@@ -71,20 +73,26 @@ struct StepPlan {
     std::uint32_t iterations = 0;
     Method method = Method::xpbd;
     Projection projection = Projection::lines;  ///< resolved; lines where the model has them
+    Accumulate accumulate = Accumulate::gather;
     /// What an iteration undoes of a constraint, 0…1, while C > 0 and while C < 0. Method pbd only.
     std::array<std::array<float, 2>, constraint_kind_count> stiffness{};
     std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
+    std::uint64_t serial = 0;  ///< another one for each plan that is made; 0 if made by hand
 };
+
+/// Whether both do the same. At once for a plan and its copy.
+bool same_plan(const StepPlan& a, const StepPlan& b);
 
 StepPlan plan_step(const ClothModel& model, const StepSettings& settings);
 
 /// What timings are kept by: one per constraint, then air, predict, hierarchy, average, contact, velocities, damp,
-/// surface.
+/// surface; and for frames that a device runs as a whole, fused.
 std::uint32_t stage_of(const Pass& pass);
 std::string_view stage_name(std::uint32_t stage);
-inline constexpr std::uint32_t stage_count = constraint_kind_count + 8;
+inline constexpr std::uint32_t stage_count = constraint_kind_count + 9;
+inline constexpr std::uint32_t stage_fused = stage_count - 1;
 
 /// One line per run of alike passes.
 std::string describe(const StepPlan& plan);

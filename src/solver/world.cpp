@@ -6,6 +6,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 namespace weft {
 
@@ -14,30 +15,38 @@ World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
     assert(settings_.substeps > 0 && settings_.iterations > 0);
 }
 
-ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
-    const ClothHandle handle = backend_->add_cloth(model);
-    const ClothId id = cloths_.add({handle, std::move(model), std::move(holds), {}, {}});
-    read_cloths();
+Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
+    const auto handle = backend_->add_cloth(model);
+    if (!handle) return handle.errors();
+    const ClothId id = cloths_.add({*handle, std::move(model), std::move(holds), {}, {}});
+    list_cloths();
     replan();
     return id;
+}
+
+ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
+    auto id = try_add(std::move(model), std::move(holds));
+    if (!id) throw std::runtime_error(id.error().message());
+    return *id;
 }
 
 void World::remove(ClothId id) {
     assert(contains(id));
     backend_->remove_cloth(cloths_[cloths_.find(id)].handle);
     cloths_.remove(id);
-    read_cloths();
+    list_cloths();
 }
 
-void World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
+Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
     assert(contains(id));
     Cloth& cloth = cloths_[cloths_.find(id)];
     assert(model->particle_count == cloth.model->particle_count);
-    backend_->set_model(cloth.handle, model);
+    if (auto set = backend_->set_model(cloth.handle, model); !set) return set;
     cloth.model = std::move(model);
     cloth.holds = std::move(holds);
-    read_cloths();
+    list_cloths();
     replan();
+    return Done{};
 }
 
 ColliderId World::add(Collider collider) {
@@ -80,12 +89,20 @@ void World::configure(WorldSettings settings) {
     replan();
 }
 
-void World::read_cloths() {
+void World::list_cloths() {
     frame_.cloths.resize(cloths_.size());
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         frame_.cloths[i].id = cloths_.id_of(i);
-        backend_->read(cloths_[i].handle, frame_.cloths[i]);
+        frame_.cloths[i].model = cloths_[i].model.get();
     }
+    unread_ = true;
+}
+
+const Frame& World::frame() const {
+    if (!unread_) return frame_;
+    for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->read(cloths_[i].handle, frame_.cloths[i]);
+    unread_ = false;
+    return frame_;
 }
 
 void World::replan() {
@@ -99,7 +116,8 @@ void World::replan() {
                           .surface = settings_.surface,
                           .hierarchy = settings_.hierarchy,
                           .method = settings_.method,
-                          .projection = settings_.projection};
+                          .projection = settings_.projection,
+                          .accumulate = settings_.accumulate};
     const std::size_t places = std::size_t{settings_.substeps} + 1;
     for (Cloth& cloth : cloths_) {
         settings.holds = !cloth.holds.particles.empty();
@@ -138,7 +156,7 @@ void World::place_movers(Cloth& cloth, double dt) const {
     }
 }
 
-const Frame& World::step(double dt) {
+void World::advance(double dt) {
     assert(dt > 0 && std::isfinite(dt));
     place_colliders(dt);
     for (Cloth& cloth : cloths_) place_movers(cloth, dt);
@@ -167,13 +185,13 @@ const Frame& World::step(double dt) {
                           .frame = &frame_.cloths[i]});
     }
     backend_->step(steps_, frame_.stage_ms);
+    unread_ = true;
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];
         colliders_[i].next_pose.reset();
     }
     frame_.step_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    return frame_;
 }
 
 Snapshot World::save() const {
@@ -202,7 +220,9 @@ Result<Done> World::restore(const Snapshot& snapshot) {
         if (saved.lambda.size() != rows) return differs("rows of stretch", saved.lambda.size(), rows);
     }
     if (auto checked = check_numbers(snapshot); !checked) return checked;
-    for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->restore(cloths_[i].handle, snapshot.cloths[i]);
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        if (auto restored = backend_->restore(cloths_[i].handle, snapshot.cloths[i]); !restored) return restored;
+    }
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = snapshot.colliders[i];
         colliders_[i].next_pose.reset();
@@ -210,7 +230,7 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     frame_.index = snapshot.frame;
     frame_.time = snapshot.time;
     frame_.reports = report_none;
-    read_cloths();
+    list_cloths();
     return Done{};
 }
 

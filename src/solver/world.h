@@ -16,6 +16,7 @@ struct WorldSettings {
     std::uint32_t iterations = 1;
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
+    Accumulate accumulate = Accumulate::gather;
     bool hierarchy = false;           ///< coarse levels first, for cloths whose model has them
     std::optional<AirDesc> air = {};  ///< without, a vacuum
     bool surface = true;              ///< keep normals up to date
@@ -31,11 +32,13 @@ class World {
   public:
     World(std::unique_ptr<Backend> backend, WorldSettings settings);
 
-    /// `holds` names colliders that are there already.
+    /// `holds` names colliders that are there already. Fails where the backend's device has no room for the cloth.
+    Result<ClothId> try_add(std::shared_ptr<const ClothModel> model, Holds holds = {});
+    /// For backends that have the memory of the program itself, which is there or throws.
     ClothId add(std::shared_ptr<const ClothModel> model, Holds holds = {});
     void remove(ClothId id);
     /// Another model for the same particles, with other material or other pins; what moves goes on moving.
-    void set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
+    Result<Done> set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
     bool contains(ClothId id) const { return cloths_.contains(id); }
     const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
 
@@ -51,10 +54,17 @@ class World {
 
     void configure(WorldSettings settings);
 
-    /// Advances by dt seconds, > 0 and finite. The frame stays valid until the next step or change.
-    const Frame& step(double dt);
+    /// Advances by dt seconds, > 0 and finite. What becomes of the cloths may stay on a device until frame() is called.
+    void advance(double dt);
+    /// And brings them here. The frame stays valid until the next step or change.
+    const Frame& step(double dt) {
+        advance(dt);
+        return frame();
+    }
     /// The last frame; before the first step, the start.
-    const Frame& frame() const { return frame_; }
+    const Frame& frame() const;
+    /// Of that frame, without the cloths' arrays.
+    const Frame& summary() const { return frame_; }
 
     const WorldSettings& settings() const { return settings_; }
     const std::vector<Collider>& colliders() const { return colliders_.values(); }
@@ -82,7 +92,7 @@ class World {
     };
 
     void replan();
-    void read_cloths();
+    void list_cloths();
     void place_colliders(double dt);
     void place_movers(Cloth& cloth, double dt) const;
 
@@ -93,7 +103,8 @@ class World {
     std::vector<Pose> poses_;
     std::vector<WindNow> winds_;
     std::vector<ClothStep> steps_;  // of a frame
-    Frame frame_;
+    mutable Frame frame_;
+    mutable bool unread_ = false;  ///< its arrays are still those of a frame before
 };
 
 }  // namespace weft

@@ -8,8 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#ifdef WEFT_VULKAN
+#include "../vulkan/vulkan_fixture.h"
+#endif
+
+#include <cstdlib>
 #include <functional>
 #include <memory>
+#include <stdexcept>
+#include <string_view>
 
 namespace weft::physical {
 
@@ -71,13 +78,30 @@ inline double sag(const World& world) {
     return -1 - lowest;
 }
 
-inline World make_world(const WorldSettings& settings, const CpuOptions& options = {}) {
+inline World make_world(const WorldSettings& settings, const CpuOptions& options) {
     auto backend = make_cpu_backend(options);
     EXPECT_TRUE(backend.ok());
     return World(std::move(*backend), settings);
 }
 
-inline World make_world(const WorldSettings& settings, const SheetDesc& sheet, const CpuOptions& options = {}) {
+/// On the CPU, or on Vulkan where WEFT_TEST_BACKEND says so: what a test says of cloth holds on both.
+inline World make_world(const WorldSettings& settings) {
+    const char* backend = std::getenv("WEFT_TEST_BACKEND");
+    if (!backend || std::string_view(backend) != "vulkan") return make_world(settings, CpuOptions{});
+#ifdef WEFT_VULKAN
+    return World(checked_vulkan_backend(), settings);
+#else
+    throw std::runtime_error("this build has no Vulkan");
+#endif
+}
+
+inline World make_world(const WorldSettings& settings, const SheetDesc& sheet) {
+    World world = make_world(settings);
+    world.add(make_sheet(sheet));
+    return world;
+}
+
+inline World make_world(const WorldSettings& settings, const SheetDesc& sheet, const CpuOptions& options) {
     World world = make_world(settings, options);
     world.add(make_sheet(sheet));
     return world;

@@ -130,7 +130,7 @@ TEST(World, changes_material_and_pins_while_cloth_moves) {
     const Vec4 before = world.frame().cloths[0].positions[3], velocity = world.frame().cloths[0].velocities[3];
     desc.fabric.body.density = 1;
     desc.pinned = [](Vec3 p) { return p.x < -0.19f; };
-    world.set_model(id, make_sheet(desc), {});
+    ASSERT_TRUE(world.set_model(id, make_sheet(desc), {}));
     EXPECT_EQ(world.frame().cloths[0].positions[3].xyz(), before.xyz());
     EXPECT_EQ(world.frame().cloths[0].velocities[3].xyz(), velocity.xyz());
     const Vec3 corner = world.frame().cloths[0].positions[0].xyz();
