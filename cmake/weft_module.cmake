@@ -34,9 +34,21 @@ target_link_libraries(weft_options INTERFACE weft_flags)
 target_include_directories(weft_options INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
 target_compile_definitions(weft_options INTERFACE WEFT_VERSION="${PROJECT_VERSION}")
 
+# Every program says this of itself: under the address sanitizer what libraries and drivers lose is not its
+# own (foreign_leaks.cpp).
+if(WEFT_SANITIZE MATCHES address)
+    add_library(weft_foreign_leaks OBJECT ${PROJECT_SOURCE_DIR}/cmake/foreign_leaks.cpp)
+endif()
+function(weft_program name)
+    if(TARGET weft_foreign_leaks)
+        target_sources(${name} PRIVATE $<TARGET_OBJECTS:weft_foreign_leaks>)
+    endif()
+endfunction()
+
 function(weft_test name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
+    weft_program(${name})
     target_link_libraries(${name} PRIVATE ${ARG_LINK} weft_options GTest::gtest_main GTest::gmock)
     target_compile_definitions(${name} PRIVATE WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
         WEFT_BINARY_DIR="${PROJECT_BINARY_DIR}")

@@ -10,14 +10,6 @@
 #include <limits>
 #include <random>
 
-#if defined(__SANITIZE_ADDRESS__)
-// Assimp does not give back everything that it took for a file it then refused. That is known, and not ours.
-extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() {
-    return "leak:libassimp";
-}
-#endif
-
 namespace weft {
 namespace {
 

@@ -206,11 +206,6 @@ void check_loaded(const TriangleMesh& mesh) {
 
 }  // namespace
 
-// Assimp's PLY reader loses some of its own memory when it gives up on a file.
-extern "C" const char* __lsan_default_suppressions() {
-    return "leak:libassimp";
-}
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span bytes(data, size);
     ByteReader in(bytes);

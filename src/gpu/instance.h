@@ -1,0 +1,52 @@
+// The Vulkan loader, an instance, and the devices that there are.
+#pragma once
+
+#include "gpu/device_info.h"
+#include "gpu/vulkan.h"
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace weft::gpu {
+
+struct InstanceOptions {
+    /// Validation layers, checks of synchronization among them: slow, for tests. Fails if they are not installed.
+    bool validation = false;
+    /// What layers and drivers complain about, from any thread. Without it, on stderr.
+    std::function<void(std::string_view)> on_message = {};
+};
+
+class Instance {
+  public:
+    /// Fails without a loader (the system has no Vulkan at all) and where it is older than 1.2.
+    static Result<std::shared_ptr<const Instance>> create(InstanceOptions options = {});
+    /// A host's own, made for Vulkan 1.2 or later, which outlives this one.
+    static Result<std::shared_ptr<const Instance>> adopt(VkInstance instance);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    VkInstance handle() const { return instance_; }
+    /// Names objects for layers and tools; nullptr where nobody would read them.
+    PFN_vkSetDebugUtilsObjectNameEXT set_name() const { return set_name_; }
+    const std::vector<DeviceInfo>& devices() const { return infos_; }
+    VkPhysicalDevice physical(const DeviceInfo& info) const { return physical_[info.index]; }
+
+  private:
+    Instance() = default;
+    Result<Done> find_devices();
+
+    InstanceOptions options_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    bool owned_ = true;
+    // Of this instance: volk's are those of the last one made, which may be without the extension.
+    PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger_ = nullptr;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;
+    std::vector<VkPhysicalDevice> physical_;
+    std::vector<DeviceInfo> infos_;
+};
+
+}  // namespace weft::gpu

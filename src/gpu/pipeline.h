@@ -1,0 +1,43 @@
+// A compute shader, ready to run. What it is given, and in which layout, is read from the shader itself.
+#pragma once
+
+#include "gpu/spirv.h"
+#include "gpu/vulkan.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace weft::gpu {
+
+class Device;
+
+class Pipeline {
+  public:
+    /// `constants`: values of the shader's specialization constants, those with ids 0, 1, 2, …
+    static Result<Pipeline> create(const Device& device, const Shader& shader,
+                                   std::span<const std::uint32_t> constants = {});
+    Pipeline(Pipeline&& other) noexcept { swap(other); }
+    Pipeline& operator=(Pipeline&& other) noexcept {
+        Pipeline(std::move(other)).swap(*this);
+        return *this;
+    }
+    ~Pipeline();
+
+    VkPipeline handle() const { return pipeline_; }
+    VkPipelineLayout layout() const { return layout_; }
+    std::uint32_t push_constants() const { return interface_.push_constants; }
+    std::uint32_t workgroup() const { return interface_.workgroup[0]; }  ///< invocations along x
+
+  private:
+    Pipeline() = default;
+    void swap(Pipeline& other);
+
+    const Device* device_ = nullptr;
+    ShaderInterface interface_;
+    std::vector<VkDescriptorSetLayout> sets_;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+}  // namespace weft::gpu
