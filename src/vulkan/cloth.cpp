@@ -1,0 +1,83 @@
+#include "vulkan/cloth.h"
+
+#include <algorithm>
+
+namespace weft::vulkan {
+
+Result<std::unique_ptr<Cloth>> Cloth::create(gpu::Device& device, Programs& programs,
+                                             std::shared_ptr<const ModelBuffers> buffers) {
+    auto self = std::unique_ptr<Cloth>(new Cloth(device, programs));
+    auto state = ClothState::create(device, std::move(buffers));
+    if (!state) return state.errors();
+    self->state_ = std::move(*state);
+    if (auto made = self->make_readable(); !made) return made.errors();
+    if (auto done = self->update_normals(); !done) return done.errors();
+    return self;
+}
+
+Result<Done> Cloth::make_readable() {
+    const std::uint64_t bytes = model().particle_count * sizeof(Vec4);
+    auto readback =
+        device_.memory().buffer(3 * bytes, gpu::MemoryKind::readback, "what the host reads of " + model().name);
+    if (!readback) return readback.errors();
+    readback_ = std::move(*readback);
+    auto commands = gpu::Commands::create(device_);
+    if (!commands) return commands.errors();
+    if (auto begun = commands->begin(); !begun) return begun;
+    std::uint64_t to = 0;
+    for (const Slot slot : {state_->position, state_->velocity, state_->normals}) {
+        commands->copy(state_->arena().buffer(), readback_, bytes, slot.offset, to);
+        to += bytes;
+    }
+    commands->host_barrier();
+    if (auto ended = commands->end(); !ended) return ended;
+    read_commands_ = std::move(*commands);
+    return Done{};
+}
+
+Result<Done> Cloth::update_normals() {
+    auto surface = compile_surface(programs_, *state_);
+    if (!surface) return surface.errors();
+    return gpu::run_once(device_, [&](gpu::Commands& commands) {
+        for (const Command& command : *surface) record(commands, command, device_.limits());
+    });
+}
+
+Result<Done> Cloth::read() {
+    auto value = read_commands_->submit();
+    if (!value) return value.errors();
+    return device_.wait(*value);
+}
+
+std::span<const Vec4> Cloth::read_array(std::uint32_t which) const {
+    const std::size_t count = model().particle_count;
+    return std::span<const Vec4>(readback_.as<Vec4>()).subspan(which * count, count);
+}
+
+Result<Done> Cloth::restore(const ClothSnapshot& snapshot) {
+    if (auto done = state_->restore(device_, snapshot); !done) return done;
+    return update_normals();
+}
+
+Residual Cloth::stretch_residual() const {
+    const auto positions = state_->download_points(device_, state_->position);
+    const auto lambda = state_->download_lambda(device_);
+    if (!positions || !lambda) return {};
+    return weft::stretch_residual(model(), *positions, *lambda, state_->substep_seconds);
+}
+
+void Cloth::hash(StateHash& hash) const {
+    const auto position = state_->download_points(device_, state_->position);
+    const auto velocity = state_->download_points(device_, state_->velocity);
+    const auto carry = state_->download_points(device_, state_->carry);
+    const auto start = state_->download_points(device_, state_->start);
+    if (!position || !velocity || !carry || !start) return;
+    for (std::uint32_t p = 0; p < model().particle_count; ++p) {
+        for (const Vec4& v : {(*position)[p], (*velocity)[p], (*carry)[p]}) {
+            hash.add(v.x), hash.add(v.y), hash.add(v.z), hash.add(v.w);
+        }
+        hash.add((*start)[p].w);
+    }
+}
+
+}  // namespace weft::vulkan

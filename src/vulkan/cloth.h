@@ -1,0 +1,49 @@
+// One cloth on the device, and what the host sees of it.
+#pragma once
+
+#include "base/hash.h"
+#include "gpu/commands.h"
+#include "solver/residual.h"
+#include "vulkan/cloth_state.h"
+#include "vulkan/compiled_plan.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace weft::vulkan {
+
+class Cloth {
+  public:
+    static Result<std::unique_ptr<Cloth>> create(gpu::Device& device, Programs& programs,
+                                                 std::shared_ptr<const ModelBuffers> buffers);
+
+    const ClothModel& model() const { return state_->model(); }
+    ClothState& state() { return *state_; }
+    const ClothState& state() const { return *state_; }
+
+    /// Brings positions, velocities and normals to the host, where they stay until the next call.
+    Result<Done> read();
+    std::span<const Vec4> positions() const { return read_array(0); }
+    std::span<const Vec4> velocities() const { return read_array(1); }
+    std::span<const Vec4> normals() const { return read_array(2); }
+
+    Result<ClothSnapshot> save() const { return state_->save(device_); }
+    Result<Done> restore(const ClothSnapshot& snapshot);
+    Result<Done> update_normals();
+    Residual stretch_residual() const;
+    void hash(StateHash& hash) const;
+
+  private:
+    Cloth(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
+    Result<Done> make_readable();
+    std::span<const Vec4> read_array(std::uint32_t which) const;
+
+    gpu::Device& device_;
+    Programs& programs_;
+    std::unique_ptr<ClothState> state_;
+    gpu::Buffer readback_;  ///< positions, velocities, normals
+    std::optional<gpu::Commands> read_commands_;
+};
+
+}  // namespace weft::vulkan

@@ -1,0 +1,66 @@
+// What changes while a cloth moves, as the Vulkan backend keeps it.
+#pragma once
+
+#include "solver/jacobi.h"
+#include "solver/snapshot.h"
+#include "vulkan/frame_input.h"
+#include "vulkan/model_buffers.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace weft::vulkan {
+
+/// What a plan needs beyond the particles. Nothing of it outlives a frame.
+struct WorkBuffers {
+    struct Level {
+        Slot position, origin, displacement, lambda;
+    };
+
+    Arena arena;
+    Slot wind;
+    std::vector<Level> levels;
+    std::array<Slot, constraint_kind_count> lambda;  ///< of constraints other than stretch, with several iterations
+    Slot contact_sums;
+    Slot corrections;  ///< in floats, or
+    Slot sums;         ///< in fixed point
+    Slot gather_offsets, gather_items;
+    std::array<Slot, constraint_kind_count> share, corrections_of;
+    Slot line_scratch;
+
+    static Result<WorkBuffers> create(gpu::Device& device, const ClothModel& model, const StepPlan& plan,
+                                      const InputShape& shape);
+};
+
+/// Where everything lies that outlives a frame.
+class ClothState {
+  public:
+    static Result<std::unique_ptr<ClothState>> create(gpu::Device& device, std::shared_ptr<const ModelBuffers> buffers);
+
+    const ClothModel& model() const { return *buffers_->model; }
+    const ModelBuffers& buffers() const { return *buffers_; }
+    const Arena& arena() const { return arena_; }
+    std::uint64_t address(Slot slot) const { return arena_.address(slot); }
+
+    Slot position, start, velocity, carry;
+    Slot good_position, good_velocity, good_carry;
+    Slot normals, by_face, lambda, limits;
+    double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
+
+    Result<ClothSnapshot> save(gpu::Device& device) const;
+    /// Normals are not brought up to date.
+    Result<Done> restore(gpu::Device& device, const ClothSnapshot& snapshot);
+    /// The rounding carries too: all that decides what comes next. Whole arrays with padding.
+    Result<std::vector<Vec4>> download_points(gpu::Device& device, Slot slot) const;
+    Result<std::vector<float>> download_lambda(gpu::Device& device) const;
+
+  private:
+    explicit ClothState(std::shared_ptr<const ModelBuffers> buffers) : buffers_(std::move(buffers)) {}
+
+    std::shared_ptr<const ModelBuffers> buffers_;
+    Arena arena_;
+};
+
+}  // namespace weft::vulkan

@@ -1,0 +1,92 @@
+#include "vulkan/command_lists.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace weft::vulkan {
+namespace {
+
+// As fused.comp has them.
+struct ListIn {
+    std::uint64_t commands;
+    std::uint32_t count, points;
+    std::uint64_t position, unused;
+};
+constexpr std::size_t head_bytes = 16, command_bytes = head_bytes + 128;
+
+// Of shared memory: bins in which tensions are counted, and a few numbers.
+constexpr std::uint32_t shared_besides = 512;
+
+}  // namespace
+
+bool fits_at_hand(const gpu::Device& device, std::uint32_t points) {
+    return std::uint64_t{points} * sizeof(Vec4) + shared_besides <= device.limits().shared_memory;
+}
+
+std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsAtHand& points) {
+    List& list = lists_.emplace_back();
+    list.points = points;
+    for (const Command& command : commands) {
+        if (command.invocations == 0) continue;
+        std::array<std::byte, command_bytes> bytes{};
+        const std::array head = {command.program, command.invocations};
+        std::memcpy(bytes.data(), head.data(), sizeof head);
+        std::memcpy(bytes.data() + head_bytes, command.args.data(), command.arg_bytes);
+        list.commands.insert(list.commands.end(), bytes.begin(), bytes.end());
+        list.widest = std::max(list.widest, command.invocations);
+        ++list.count;
+        assert(command.program < 64);
+        used_ |= std::uint64_t{1} << command.program;
+    }
+    return static_cast<std::uint32_t>(lists_.size() - 1);
+}
+
+Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const std::string& name) {
+    if (lists_.empty()) return Done{};
+    std::vector<Slot> slots;
+    for (const List& list : lists_) slots.push_back(arena_.add_array(list.commands));
+    table_ = arena_.reserve(lists_.size() * sizeof(ListIn));
+    if (auto built = arena_.build(device, "commands of " + name); !built) return built;
+    std::vector<ListIn> table;
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+        table.push_back({.commands = arena_.address(slots[i]),
+                         .count = lists_[i].count,
+                         .points = lists_[i].points.count,
+                         .position = lists_[i].points.position,
+                         .unused = 0});
+    }
+    if (auto done = upload(device, arena_, table_, std::as_bytes(std::span(table))); !done) return done;
+    return choose_pipeline(device, programs);
+}
+
+Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& programs) {
+    std::uint32_t widest = 0, points = 1;
+    for (const List& list : lists_) {
+        widest = std::max(widest, list.widest);
+        points = std::max(points, list.points.count);
+    }
+    const std::uint32_t most = std::min(device.limits().workgroup_invocations, device.limits().workgroup_size[0]);
+    const std::uint32_t least = std::max(1u, std::min(64u, most));
+    const std::array constants = {std::clamp(std::bit_ceil(std::max(1u, widest)), least, std::bit_floor(most)),
+                                  static_cast<std::uint32_t>(used_), static_cast<std::uint32_t>(used_ >> 32), points};
+    auto pipeline = programs.get("fused", constants);
+    if (!pipeline) return pipeline.errors();
+    pipeline_ = *pipeline;
+    for (List& list : lists_) list.commands = {};
+    return Done{};
+}
+
+void CommandLists::record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count) const {
+    struct {
+        std::uint64_t lists;
+        std::uint32_t first, unused;
+    } const args{arena_.address(table_), first, 0};
+    commands.bind(*pipeline_);
+    commands.push(std::as_bytes(std::span(&args, 1)));
+    commands.dispatch(count);
+}
+
+}  // namespace weft::vulkan

@@ -1,0 +1,462 @@
+#include "vulkan/compiled_plan.h"
+
+#include "solver/frame_numbers.h"
+#include "vulkan/args.data.h"
+#include "vulkan/shaders.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+namespace weft::vulkan {
+namespace {
+
+// Largest of what shaders are told; every device has room for so much.
+static_assert(sizeof(RowArgs) <= 128 && sizeof(KeepArgs) <= 128 && sizeof(LimitArgs) <= 128 &&
+              sizeof(ContactArgs) <= 128 && sizeof(FaceArgs) <= 128);
+
+class Compiler {
+  public:
+    Compiler(Programs& programs, const ClothState& cloth, const WorkBuffers& work, const FrameInput& input,
+             const InputShape& shape, const StepPlan& plan)
+        : programs_(programs),
+          cloth_(cloth),
+          model_(cloth.model()),
+          buffers_(cloth.buffers()),
+          work_(work),
+          input_(input),
+          shape_(shape),
+          plan_(plan) {}
+
+    Result<CompiledPlan> run() {
+        CompiledPlan out;
+        begin_frame(out.commands);
+        add_substeps(out.commands);
+        add_frame_end(out);
+        if (!errors_.empty()) return errors_;
+        return out;
+    }
+
+    Result<std::vector<Command>> surface() {
+        std::vector<Command> out;
+        add_pass(out, {.kind = PassKind::faces}, 0);
+        add_pass(out, {.kind = PassKind::normals}, 0);
+        if (!errors_.empty()) return errors_;
+        return out;
+    }
+
+  private:
+    using List = std::vector<Command>;
+
+    template <class Args>
+    Command& add(List& list, std::string_view program, const Args& args, std::uint32_t invocations, const Pass& pass,
+                 std::uint32_t substep = 0) {
+        auto pipeline = programs_.get(program);
+        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
+        Command& command = list.emplace_back();
+        command.pipeline = pipeline ? *pipeline : nullptr;
+        command.program = shader_number(program);
+        command.invocations = invocations;
+        command.pass = pass;
+        command.substep = substep;
+        command.arg_bytes = sizeof args;
+        std::memcpy(command.args.data(), &args, sizeof args);
+        return command;
+    }
+
+    std::uint64_t state(Slot slot) const { return cloth_.address(slot); }
+    std::uint64_t of_model(Slot slot) const { return buffers_.address(slot); }
+    std::uint64_t work(Slot slot) const { return work_.arena.address(slot); }
+
+    void begin_frame(List& list) {
+        const Pass like_predict{.kind = PassKind::predict};
+        add(list, "keep", keep_args(), model_.point_count(), like_predict);
+        if (has_limits(model_, plan_))
+            add(list, "limits", limit_args(), 1, {.kind = PassKind::spread}).needs_barrier = false;
+        for (const Pass& pass : plan_.frame_begin) add_pass(list, pass, 0);
+    }
+
+    void add_substeps(List& list) {
+        // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
+        const std::span<const Pass> passes(plan_.substep);
+        const bool together =
+            !passes.empty() && passes.front().kind == PassKind::predict && passes.back().kind == PassKind::velocities;
+        for (std::uint32_t substep = 0; substep < plan_.substeps; ++substep) {
+            const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan_.substeps;
+            for (const Pass& pass : passes.subspan(begun, passes.size() - begun - goes_on))
+                add_pass(list, pass, substep);
+            if (goes_on) add(list, "advance", particle_args(), model_.point_count(), passes.back(), substep);
+        }
+    }
+
+    // Whether all is finite is asked before normals are made of it.
+    void add_frame_end(CompiledPlan& out) {
+        const auto is_surface = [](const Pass& pass) {
+            return pass.kind == PassKind::faces || pass.kind == PassKind::normals;
+        };
+        for (const Pass& pass : plan_.frame_end) {
+            if (!is_surface(pass)) add_pass(out.commands, pass, plan_.substeps - 1);
+        }
+        const Pass like_velocities{.kind = PassKind::velocities};
+        const KeepArgs args = keep_args();
+        out.check = out.commands.size();
+        add(out.commands, "check", args, args.count, like_velocities);
+        out.roll_back = add(out.commands, "roll_back", args, std::max(args.count, args.lambdas), like_velocities);
+        for (const Pass& pass : plan_.frame_end) {
+            if (is_surface(pass)) add_pass(out.commands, pass, plan_.substeps - 1);
+        }
+    }
+
+    void add_pass(List& list, const Pass& pass, std::uint32_t substep) {
+        const std::uint32_t points = model_.point_count();
+        switch (pass.kind) {
+            case PassKind::predict:
+                add(list, "predict", particle_args(), points, pass, substep);
+                break;
+            case PassKind::velocities:
+                add(list, "velocities", particle_args(), points, pass, substep);
+                break;
+            case PassKind::hold:
+                add_holds(list, pass, substep);
+                break;
+            case PassKind::project:
+            case PassKind::damp:
+                add_rows(list, pass, substep);
+                break;
+            case PassKind::correct:
+                add_corrections(list, pass, substep);
+                break;
+            case PassKind::average:
+                add_average(list, pass, substep);
+                break;
+            case PassKind::contact:
+                add_contacts(list, pass, substep);
+                break;
+            case PassKind::collect:
+            case PassKind::lift:
+            case PassKind::settle:
+                add_level(list, pass, substep);
+                break;
+            case PassKind::reach:
+                add_reach(list, pass, substep);
+                break;
+            case PassKind::spread:
+                add_spread(list, pass, substep);
+                break;
+            case PassKind::wind:
+                add(list, "wind", face_args(), model_.face_stride, pass, substep);
+                break;
+            case PassKind::air:
+                add(list, "air", face_args(), model_.face_stride, pass, substep);
+                break;
+            case PassKind::faces:
+                add(list, "faces", face_args(), model_.face_stride, pass, substep);
+                break;
+            case PassKind::push:
+                add(list, "push", around_args(), model_.particle_count, pass, substep);
+                break;
+            case PassKind::normals:
+                add(list, "normals", around_args(), model_.particle_count, pass, substep);
+                break;
+        }
+    }
+
+    ParticleArgs particle_args() const {
+        return {.position = state(cloth_.position),
+                .start = state(cloth_.start),
+                .velocity = state(cloth_.velocity),
+                .carry = state(cloth_.carry),
+                .frame = input_.frame(),
+                .report = input_.report(),
+                .count = model_.point_count(),
+                .unused = 0};
+    }
+
+    KeepArgs keep_args() const {
+        return {.position = state(cloth_.position),
+                .start = state(cloth_.start),
+                .velocity = state(cloth_.velocity),
+                .carry = state(cloth_.carry),
+                .good_position = state(cloth_.good_position),
+                .good_velocity = state(cloth_.good_velocity),
+                .good_carry = state(cloth_.good_carry),
+                .weights = of_model(buffers_.weights),
+                .lambda = state(cloth_.lambda),
+                .report = input_.report(),
+                .count = model_.point_count(),
+                .lambdas = static_cast<std::uint32_t>(model_.table(ConstraintKind::stretch).lambda_count())};
+    }
+
+    LimitArgs limit_args() const {
+        const ConstraintTable& table = model_.table(ConstraintKind::stretch);
+        const TableBuffers& rows = buffers_.tables[static_cast<std::uint32_t>(ConstraintKind::stretch)];
+        const StretchMaterial& fabric = model_.fabric.stretch;
+        const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
+        const Elasticity& elastic = model_.elasticity;
+        return {.position = state(cloth_.position),
+                .particles = of_model(rows.particles),
+                .rest = of_model(rows.fields),
+                .lambda = state(cloth_.lambda),
+                .span_ends = of_model(buffers_.span_ends),
+                .span_lengths = of_model(buffers_.span_lengths),
+                .limits = state(cloth_.limits),
+                .frame = input_.frame(),
+                .rows = table.stride,
+                .first_dummy = table.first_dummy,
+                .stride = table.stride,
+                .spans = static_cast<std::uint32_t>(model_.pin_spans.size()),
+                .softest = static_cast<float>(softest),
+                .model_tension = static_cast<float>(elastic.tension),
+                .stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)),
+                .unused = 0};
+    }
+
+    FaceArgs face_args() const {
+        return {.position = state(cloth_.position),
+                .velocity = state(cloth_.velocity),
+                .faces = of_model(buffers_.faces),
+                .mass = of_model(buffers_.face_mass),
+                .wind = work(work_.wind),
+                .by_face = state(cloth_.by_face),
+                .frame = input_.frame(),
+                .winds = input_.winds(),
+                .stride = model_.face_stride,
+                .count = model_.face_stride};
+    }
+
+    AroundArgs around_args() const {
+        return {.by_face = state(cloth_.by_face),
+                .offsets = of_model(buffers_.around_offsets),
+                .items = of_model(buffers_.around_items),
+                .normals = state(cloth_.normals),
+                .position = state(cloth_.position),
+                .start = state(cloth_.start),
+                .velocity = state(cloth_.velocity),
+                .carry = state(cloth_.carry),
+                .count = model_.particle_count,
+                .unused = 0};
+    }
+
+    std::uint64_t lambda_of(ConstraintKind kind) const {
+        return kind == ConstraintKind::stretch ? state(cloth_.lambda)
+                                               : work(work_.lambda[static_cast<std::uint32_t>(kind)]);
+    }
+
+    // Lambda is read again by a later iteration; that of stretch, after the last substep, by whoever asks for the
+    // tension in the cloth or the residual.
+    std::uint32_t lambda_use(const Pass& pass, std::uint32_t substep) const {
+        if (!pass.first_iteration) return WEFT_LAMBDA_ACCUMULATE;
+        const bool last = pass.constraint == ConstraintKind::stretch && substep + 1 == plan_.substeps;
+        return plan_.iterations > 1 || last ? WEFT_LAMBDA_STORE : WEFT_LAMBDA_DISCARD;
+    }
+
+    RowArgs row_args(ConstraintKind kind) const {
+        const auto index = static_cast<std::uint32_t>(kind);
+        const TableBuffers& rows = buffers_.tables[index];
+        return {.position = state(cloth_.position),
+                .velocity = state(cloth_.velocity),
+                .particles = of_model(rows.particles),
+                .fields = of_model(rows.fields),
+                .lambda = lambda_of(kind),
+                .corrections = 0,
+                .sums = 0,
+                .share = 0,
+                .blocks = 0,
+                .frame = input_.frame(),
+                .limits = state(cloth_.limits),
+                .plain_positive = plan_.stiffness[index][0],
+                .plain_negative = plan_.stiffness[index][1],
+                .stride = model_.constraints[index].stride,
+                .begin = 0,
+                .count = 0,
+                .lambda_use = WEFT_LAMBDA_DISCARD,
+                .hand_out = WEFT_ROWS_SINGLE,
+                .unused = 0};
+    }
+
+    // The batch's part of the rows; returns invocations.
+    static std::uint32_t hand_out(RowArgs& args, const Batch& batch, std::uint64_t blocks) {
+        args.begin = batch.begin;
+        args.count = batch.rows;
+        if (batch.serial) {
+            args.hand_out = WEFT_ROWS_SERIAL;
+            return 1;
+        }
+        if (batch.blocks == 0) return batch.rows;
+        args.hand_out = WEFT_ROWS_LINES;
+        args.blocks = blocks + std::uint64_t{batch.first_block} * 2 * sizeof(std::uint32_t);
+        args.count = batch.blocks;
+        return batch.blocks * lane_padding;
+    }
+
+    void add_rows(List& list, const Pass& pass, std::uint32_t substep) {
+        const ConstraintTable& table = model_.table(pass.constraint);
+        const Batch& batch = table.batches[pass.batch];
+        const TableBuffers& buffers = buffers_.tables[static_cast<std::uint32_t>(pass.constraint)];
+        const bool plain = plan_.method == Method::pbd;
+        if (pass.kind == PassKind::project && !plain && batch.blocks > 0 && plan_.projection == Projection::lines)
+            return add_lines(list, pass, substep);
+        RowArgs args = row_args(pass.constraint);
+        const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));
+        std::string program = pass.kind == PassKind::damp ? "damp_" : plain ? "plain_" : "project_";
+        if (pass.kind == PassKind::project && !plain) args.lambda_use = lambda_use(pass, substep);
+        add(list, program + std::string(constraint_info(pass.constraint).name), args, invocations, pass, substep);
+    }
+
+    void add_lines(List& list, const Pass& pass, std::uint32_t substep) {
+        const auto index = static_cast<std::uint32_t>(pass.constraint);
+        const ConstraintTable& table = model_.constraints[index];
+        const Batch& batch = table.batches[pass.batch];
+        const TableBuffers& buffers = buffers_.tables[index];
+        const LineArgs args{
+            .position = state(cloth_.position),
+            .particles = of_model(buffers.particles),
+            .fields = of_model(buffers.fields),
+            .lambda = state(cloth_.lambda),
+            .blocks = of_model(buffers.blocks) + std::uint64_t{batch.first_block} * 2 * sizeof(std::uint32_t),
+            .scratch = work(work_.line_scratch),
+            .frame = input_.frame(),
+            .stride = table.stride,
+            .count = batch.blocks,
+            .lambda_use = lambda_use(pass, substep),
+            .unused = 0};
+        add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
+    }
+
+    void add_corrections(List& list, const Pass& pass, std::uint32_t substep) {
+        const auto index = static_cast<std::uint32_t>(pass.constraint);
+        RowArgs args = row_args(pass.constraint);
+        const bool plain = plan_.method == Method::pbd;
+        args.corrections = work(work_.corrections_of[index]);
+        args.sums = work(work_.sums);
+        args.share = plain ? 0 : work(work_.share[index]);
+        args.count = model_.constraints[index].stride;
+        args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : lambda_use(pass, substep);
+        const bool again = !list.empty() && list.back().pass.kind == PassKind::correct;
+        // Rows side by side write to places of their own.
+        add(list, "side_by_side_" + std::string(constraint_info(pass.constraint).name), args, args.count, pass, substep)
+            .needs_barrier = !again;
+    }
+
+    void add_average(List& list, const Pass& pass, std::uint32_t substep) {
+        const AverageArgs args{.position = state(cloth_.position),
+                               .corrections = work(work_.corrections),
+                               .sums = work(work_.sums),
+                               .offsets = work(work_.gather_offsets),
+                               .items = work(work_.gather_items),
+                               .count = model_.point_count(),
+                               .mean = plan_.method == Method::pbd ? 1u : 0u};
+        add(list, "average", args, args.count, pass, substep);
+    }
+
+    void add_holds(List& list, const Pass& pass, std::uint32_t substep) {
+        const HoldArgs args{.position = state(cloth_.position),
+                            .held = input_.held(),
+                            .poses = input_.mover_poses(),
+                            .frame = input_.frame(),
+                            .count = shape_.held,
+                            .substep = substep};
+        if (args.count > 0) add(list, "hold", args, args.count, pass, substep);
+    }
+
+    void add_contacts(List& list, const Pass& pass, std::uint32_t substep) {
+        const ContactArgs args{.position = state(cloth_.position),
+                               .start = state(cloth_.start),
+                               .sums = work(work_.contact_sums),
+                               .frame = input_.frame(),
+                               .colliders = input_.colliders(),
+                               .poses = input_.poses(),
+                               .count = model_.point_count(),
+                               .capacity = model_.capacity(),
+                               .substep = substep,
+                               .first_iteration = pass.first_iteration ? 1u : 0u};
+        if (shape_.colliders > 0) add(list, "contact", args, args.count, pass, substep);
+    }
+
+    void add_level(List& list, const Pass& pass, std::uint32_t substep) {
+        const CoarseLevel& level = model_.hierarchy[pass.level];
+        const WorkBuffers::Level& mine = work_.levels[pass.level];
+        LevelArgs args{.position = work(mine.position),
+                       .origin = work(mine.origin),
+                       .displacement = work(mine.displacement),
+                       .finer = pass.level == 0 ? state(cloth_.position) : work(work_.levels[pass.level - 1].origin),
+                       .coarser = 0,
+                       .nodes = of_model(buffers_.levels[pass.level].around_node),
+                       .weights = of_model(buffers_.levels[pass.level].around_weight),
+                       .stride = level.around.stride,
+                       .count = level.count};
+        if (pass.kind == PassKind::collect) {
+            add(list, "collect", args, level.count, pass, substep);
+        } else if (pass.kind == PassKind::settle) {
+            add(list, "settle", args, level.count, pass, substep);
+        } else {
+            if (pass.level + 1 < model_.hierarchy.size()) follow(args, pass.level + 1);
+            add(list, "lift", args, level.count, pass, substep);
+        }
+    }
+
+    // What moves the nodes of `level` moves those of the finer one.
+    void follow(LevelArgs& args, std::uint32_t level) const {
+        args.coarser = work(work_.levels[level].displacement);
+        args.nodes = of_model(buffers_.levels[level].carry_node);
+        args.weights = of_model(buffers_.levels[level].carry_weight);
+        args.stride = model_.hierarchy[level].carry.stride;
+    }
+
+    void add_spread(List& list, const Pass& pass, std::uint32_t substep) {
+        LevelArgs args{};
+        args.position = state(cloth_.position);
+        args.count = model_.particle_count;
+        follow(args, 0);
+        add(list, "spread", args, args.count, pass, substep);
+    }
+
+    void add_reach(List& list, const Pass& pass, std::uint32_t substep) {
+        const ConstraintTable& table = model_.hierarchy[pass.level].reach;
+        const TableBuffers& rows = buffers_.levels[pass.level].reach;
+        RowArgs args = row_args(ConstraintKind::reach);
+        args.position = work(work_.levels[pass.level].position);
+        args.particles = of_model(rows.particles);
+        args.fields = of_model(rows.fields);
+        args.lambda = work(work_.levels[pass.level].lambda);
+        args.stride = table.stride;
+        args.lambda_use = pass.first_iteration ? WEFT_LAMBDA_STORE : WEFT_LAMBDA_ACCUMULATE;
+        const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], of_model(rows.blocks));
+        add(list, "project_reach", args, invocations, pass, substep);
+    }
+
+    Programs& programs_;
+    const ClothState& cloth_;
+    const ClothModel& model_;
+    const ModelBuffers& buffers_;
+    const WorkBuffers& work_;
+    const FrameInput& input_;
+    const InputShape& shape_;
+    const StepPlan& plan_;
+    Errors errors_;
+};
+
+}  // namespace
+
+Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const WorkBuffers& work,
+                             const FrameInput& input, const InputShape& shape, const StepPlan& plan) {
+    return Compiler(programs, cloth, work, input, shape, plan).run();
+}
+
+Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth) {
+    return Compiler(programs, cloth, {}, {}, {}, {}).surface();
+}
+
+void record(gpu::Commands& commands, const Command& command, const gpu::DeviceLimits& limits) {
+    if (command.invocations == 0) return;
+    if (command.needs_barrier) commands.barrier();
+    assert(command.arg_bytes == command.pipeline->push_constants());
+    commands.bind(*command.pipeline);
+    commands.push(std::span(command.args).first(command.arg_bytes));
+    const std::uint32_t size = command.pipeline->workgroup();
+    const std::uint32_t groups = (command.invocations + size - 1) / size;
+    const std::uint32_t wide = std::min(groups, limits.workgroup_count[0]);
+    commands.dispatch(wide, (groups + wide - 1) / wide);
+}
+
+}  // namespace weft::vulkan

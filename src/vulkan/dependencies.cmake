@@ -1,0 +1,1 @@
+include(${folder}/shaders.cmake)

@@ -1,0 +1,149 @@
+#include "vulkan/frame_input.h"
+
+#include "solver/frame_numbers.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace weft::vulkan {
+namespace {
+
+// The layout that GLSL has.
+static_assert(sizeof(FrameIn) == 80 && sizeof(ColliderIn) == 32 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 &&
+              sizeof(HeldIn) == 32);
+
+Vec4 with(Vec3 v, float w) {
+    return {v.x, v.y, v.z, w};
+}
+
+PoseIn pose_in(const Pose& pose) {
+    return {with(pose.rotation.x, 0), with(pose.rotation.y, 0), with(pose.rotation.z, 0), with(pose.position, 0)};
+}
+
+WindIn wind_in(const WindNow& wind) {
+    return {.n0 = with(wind.numbers[0], wind.gust),
+            .n1 = with(wind.numbers[1], wind.gust_turns),
+            .n2 = with(wind.numbers[2], wind.gust_per_meter),
+            .noise_offset = with(wind.noise_offset, wind.scattered ? 1.0f : 0.0f),
+            .turbulence = wind.turbulence,
+            .noise_per_meter = wind.noise_per_meter,
+            .noise_time = wind.noise_time,
+            .kind = static_cast<std::uint32_t>(wind.kind)};
+}
+
+// Strain of stretch per lambda and rest length: what tension_in (solver/tension.h) begins with.
+float strain_per_lambda(const ClothModel& model, double substep_seconds) {
+    const StretchMaterial& fabric = model.fabric.stretch;
+    const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
+    if (fabric.inextensible || !(softest > 0) || !(substep_seconds > 0)) return 0;
+    return static_cast<float>(-1 / (substep_seconds * substep_seconds * softest));
+}
+
+FrameIn frame_in(const ClothModel& model, const StepPlan& plan, const StepInput& input, double substep_seconds) {
+    const FrameNumbers numbers = frame_numbers(model, plan, input.dt);
+    const AirMaterial& air = model.fabric.air;
+    return {.h = numbers.h,
+            .inv_h = 1.0f / numbers.h,
+            .inv_h2 = 1.0f / numbers.h / numbers.h,
+            .max_speed = numbers.max_speed,
+            .gravity_x = input.gravity.x,
+            .gravity_y = input.gravity.y,
+            .gravity_z = input.gravity.z,
+            .viscous = numbers.viscous,
+            .half_thickness = numbers.half_thickness,
+            .depenetration = numbers.depenetration,
+            .drag = 0.5f * input.air_density * air.drag,
+            .lift = 0.5f * input.air_density * air.lift,
+            .listing = air.lift_model == LiftModel::listing ? 1.0f : 0.0f,
+            .colliders = static_cast<std::uint32_t>(input.colliders.size()),
+            .winds = static_cast<std::uint32_t>(input.winds.size()),
+            .movers = input.movers,
+            .strain_per_lambda = strain_per_lambda(model, substep_seconds),
+            .unused0 = 0,
+            .unused1 = 0,
+            .unused2 = 0};
+}
+
+}  // namespace
+
+InputShape shape_of(const StepPlan& plan, const StepInput& input) {
+    return {plan.substeps, static_cast<std::uint32_t>(input.colliders.size()),
+            static_cast<std::uint32_t>(input.winds.size()), input.movers,
+            static_cast<std::uint32_t>(input.held.size())};
+}
+
+FrameInput::FrameInput(const InputShape& shape) {
+    const std::uint64_t places = shape.substeps + std::uint64_t{1};
+    const auto take = [&](std::uint64_t bytes) {
+        const std::uint64_t at = bytes_;
+        bytes_ += (bytes + 63) / 64 * 64;
+        return at;
+    };
+    take(sizeof(std::uint32_t));  // the report
+    frame_ = take(sizeof(FrameIn));
+    colliders_ = take(shape.colliders * sizeof(ColliderIn));
+    winds_ = take(shape.winds * sizeof(WindIn));
+    poses_ = take(places * shape.colliders * sizeof(PoseIn));
+    mover_poses_ = take(places * shape.movers * sizeof(PoseIn));
+    held_ = take(shape.held * sizeof(HeldIn));
+}
+
+void FrameInput::write(const ClothModel& model, const StepPlan& plan, const StepInput& input, double substep_seconds) {
+    const auto put = [&](std::uint64_t at, const auto& value) { std::memcpy(host_ + at, &value, sizeof value); };
+    put(0, std::uint32_t{report_none});
+    put(frame_, frame_in(model, plan, input, substep_seconds));
+    for (std::size_t i = 0; i < input.colliders.size(); ++i) {
+        const Collider& collider = input.colliders[i];
+        const auto [held, sliding] = friction_between(model, collider);
+        const auto& n = collider.numbers;
+        put(colliders_ + i * sizeof(ColliderIn),
+            ColliderIn{{n[0], n[1], n[2], n[3]}, held, sliding, static_cast<std::uint32_t>(collider.shape), 0});
+    }
+    for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
+    for (std::size_t i = 0; i < input.poses.size(); ++i) put(poses_ + i * sizeof(PoseIn), pose_in(input.poses[i]));
+    for (std::size_t i = 0; i < input.mover_poses.size(); ++i)
+        put(mover_poses_ + i * sizeof(PoseIn), pose_in(input.mover_poses[i]));
+    for (std::size_t i = 0; i < input.held.size(); ++i) {
+        const HeldParticle& held = input.held[i];
+        put(held_ + i * sizeof(HeldIn), HeldIn{with(held.local, 0), held.particle, held.mover, 0, 0});
+    }
+}
+
+Result<FrameBuffers> FrameBuffers::create(gpu::Device& device, std::span<const InputShape> shapes,
+                                          const std::string& name) {
+    FrameBuffers self;
+    std::uint64_t bytes = 0;
+    for (const InputShape& shape : shapes) {
+        self.inputs_.emplace_back(shape);
+        self.offsets_.push_back(bytes);
+        bytes += self.inputs_.back().bytes();
+    }
+    auto upload = device.memory().buffer(bytes, gpu::MemoryKind::upload, "frame of " + name + ", on its way");
+    if (!upload) return upload.errors();
+    auto buffer = device.memory().buffer(bytes, gpu::MemoryKind::device, "frame of " + name);
+    if (!buffer) return buffer.errors();
+    auto reports =
+        device.memory().buffer(shapes.size() * sizeof(std::uint32_t), gpu::MemoryKind::readback, "reports of " + name);
+    if (!reports) return reports.errors();
+    self.upload_ = std::move(*upload);
+    self.buffer_ = std::move(*buffer);
+    self.reports_ = std::move(*reports);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        self.inputs_[i].attach(self.upload_.mapped().data() + self.offsets_[i],
+                               self.buffer_.address() + self.offsets_[i]);
+    }
+    return self;
+}
+
+void FrameBuffers::record_begin(gpu::Commands& commands) const {
+    commands.copy(upload_, buffer_, buffer_.size());
+}
+
+void FrameBuffers::record_end(gpu::Commands& commands) const {
+    commands.barrier();
+    for (std::size_t i = 0; i < offsets_.size(); ++i)
+        commands.copy(buffer_, reports_, sizeof(std::uint32_t), offsets_[i], i * sizeof(std::uint32_t));
+    commands.host_barrier();
+}
+
+}  // namespace weft::vulkan

@@ -1,0 +1,195 @@
+#include "vulkan/frame_run.h"
+
+#include "solver/diagnosis.h"
+#include "solver/frame_numbers.h"
+
+#include <algorithm>
+
+namespace weft::vulkan {
+namespace {
+
+// Commands [begin, end) of a plan: one dispatch each, or one for all where their levels are small.
+struct Segment {
+    std::size_t begin = 0, end = 0;
+    std::uint32_t list = none;
+};
+
+bool is_alone(const Command& command) {
+    return command.pass.alone;
+}
+
+std::vector<Segment> segments_of(std::span<const Command> commands, bool grouped, CommandLists& lists) {
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < commands.size();) {
+        Segment segment{i, i + 1};
+        if (grouped && is_alone(commands[i])) {
+            while (segment.end < commands.size() && is_alone(commands[segment.end])) ++segment.end;
+            if (segment.end - i > 1) segment.list = lists.add(commands.subspan(i, segment.end - i));
+        }
+        i = segment.end;
+        segments.push_back(segment);
+    }
+    return segments;
+}
+
+}  // namespace
+
+bool fits_fused(const gpu::Device& device, const ClothModel& model) {
+    return fits_at_hand(device, model.point_count());
+}
+
+FrameRun::FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution)
+    : device_(device), programs_(programs), members_(members.begin(), members.end()), execution_(execution) {
+    plans_of_members_.reserve(members.size());
+    for (Member& member : members_) member.plan = &plans_of_members_.emplace_back(*member.plan);
+}
+
+Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs& programs,
+                                                   std::span<const Member> members, Execution execution, bool timings) {
+    auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, members, execution));
+    if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
+    auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_streamed(timings);
+    if (!recorded) return recorded.errors();
+    return self;
+}
+
+Result<Done> FrameRun::compile_members() {
+    std::vector<InputShape> shapes;
+    for (const Member& member : members_) shapes.push_back(member.shape);
+    const std::string name = members_.front().cloth->model().name;
+    auto buffers = FrameBuffers::create(device_, shapes, name);
+    if (!buffers) return buffers.errors();
+    buffers_ = std::move(*buffers);
+    work_.reserve(members_.size());
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const Member& member = members_[i];
+        auto work = WorkBuffers::create(device_, member.cloth->model(), *member.plan, member.shape);
+        if (!work) return work.errors();
+        work_.push_back(std::move(*work));
+        auto plan =
+            compile(programs_, member.cloth->state(), work_.back(), buffers_.input(i), member.shape, *member.plan);
+        if (!plan) return plan.errors();
+        plans_.push_back(std::move(*plan));
+    }
+    return Done{};
+}
+
+Result<Done> FrameRun::begin_recording(bool timings, std::size_t stages) {
+    auto commands = gpu::Commands::create(device_, timings ? static_cast<std::uint32_t>(stages + 1) : 0);
+    if (!commands) return commands.errors();
+    commands_ = std::move(*commands);
+    if (auto begun = commands_->begin(); !begun) return begun;
+    buffers_.record_begin(*commands_);
+    return Done{};
+}
+
+Result<Done> FrameRun::end_recording() {
+    commands_->stamp();
+    buffers_.record_end(*commands_);
+    return commands_->end();
+}
+
+Result<Done> FrameRun::record_fused(bool timings) {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const Cloth& cloth = *members_[i].cloth;
+        PointsAtHand points;
+        if (fits_fused(device_, cloth.model()))
+            points = {cloth.state().address(cloth.state().position), cloth.model().point_count()};
+        lists_.add(plans_[i].commands, points);
+    }
+    if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
+    stages_ = {stage_fused};
+    if (auto begun = begin_recording(timings, 1); !begun) return begun;
+    commands_->barrier();
+    commands_->stamp();
+    lists_.record(*commands_, 0, static_cast<std::uint32_t>(members_.size()));
+    return end_recording();
+}
+
+Result<Done> FrameRun::record_streamed(bool timings) {
+    std::vector<std::vector<Segment>> segments;
+    for (const CompiledPlan& plan : plans_)
+        segments.push_back(segments_of(plan.commands, execution_ == Execution::grouped, lists_));
+    if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
+        for (const Segment& segment : segments[i]) {
+            const std::uint32_t stage = stage_of(plans_[i].commands[segment.begin].pass);
+            if (stages_.empty() || stages_.back() != stage) stages_.push_back(stage);
+        }
+    }
+    if (auto begun = begin_recording(timings, stages_.size()); !begun) return begun;
+    std::uint32_t last = stage_count;
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
+        for (const Segment& segment : segments[i]) {
+            const Command& first = plans_[i].commands[segment.begin];
+            if (const std::uint32_t stage = stage_of(first.pass); stage != last) {
+                commands_->stamp();
+                last = stage;
+            }
+            if (segment.list == none) {
+                record(*commands_, first, device_.limits());
+            } else {
+                commands_->barrier();
+                lists_.record(*commands_, segment.list, 1);
+            }
+        }
+    }
+    return end_recording();
+}
+
+Result<std::uint64_t> FrameRun::submit(std::span<const StepInput* const> inputs) {
+    seconds_.clear();
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const Member& member = members_[i];
+        buffers_.input(i).write(member.cloth->model(), *member.plan, *inputs[i], member.cloth->state().substep_seconds);
+        seconds_.push_back(lambda_seconds(*member.plan, inputs[i]->dt));
+    }
+    return commands_->submit();
+}
+
+void FrameRun::finish(std::array<double, stage_count>& stage_ms) {
+    for (std::size_t i = 0; i < members_.size(); ++i) members_[i].cloth->state().substep_seconds = seconds_[i];
+    const std::vector<double> intervals = commands_->intervals();
+    for (std::size_t i = 0; i < intervals.size(); ++i) stage_ms[stages_[i]] += intervals[i];
+}
+
+Result<FrameRun::Place> FrameRun::download_place(const Cloth& cloth) const {
+    auto positions = cloth.state().download_points(device_, cloth.state().position);
+    if (!positions) return positions.errors();
+    auto velocities = cloth.state().download_points(device_, cloth.state().velocity);
+    if (!velocities) return velocities.errors();
+    return Place{std::move(*positions), std::move(*velocities)};
+}
+
+// Runs the cloth's frame once more, command by command.
+Result<std::string> FrameRun::replay(std::size_t member) {
+    const Cloth& cloth = *members_[member].cloth;
+    const CompiledPlan& plan = plans_[member];
+    for (const Command& command : std::span(plan.commands).first(plan.check)) {
+        auto done = gpu::run_once(device_, [&](gpu::Commands& now) { record(now, command, device_.limits()); });
+        if (!done) return done.errors();
+        if (command.pass.kind == PassKind::damp) continue;
+        const auto place = download_place(cloth);
+        if (!place) return place.errors();
+        const std::uint32_t particle = first_non_finite(place->positions, place->velocities);
+        if (particle != none) return name_pass(cloth.model(), command.pass, command.substep, particle);
+    }
+    return std::string(late_non_finite);
+}
+
+Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInput& input) {
+    Cloth& cloth = *members_[member].cloth;
+    const auto before = download_place(cloth);
+    if (!before) return before.errors();
+    if (std::string culprit = name_input(input, before->positions, before->velocities); !culprit.empty())
+        return culprit;
+    auto found = replay(member);
+    // The report still says that the frame was not finite, so this goes back.
+    const Command& back = plans_[member].roll_back;
+    auto done = gpu::run_once(device_, [&](gpu::Commands& now) { record(now, back, device_.limits()); });
+    if (!done) return done.errors();
+    if (auto updated = cloth.update_normals(); !updated) return updated.errors();
+    return found;
+}
+
+}  // namespace weft::vulkan

@@ -1,0 +1,87 @@
+// The frame of some cloths as one command buffer, recorded once and submitted every frame.
+#pragma once
+
+#include "gpu/commands.h"
+#include "vulkan/cloth.h"
+#include "vulkan/command_lists.h"
+#include "vulkan/frame_input.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace weft::vulkan {
+
+/// How passes become dispatches.
+enum class Execution {
+    automatic,
+    streamed,  ///< a dispatch per pass
+    grouped,   ///< the same, but one for as many passes as are together on coarse levels of few nodes
+    fused,     ///< one for the whole frame, a workgroup to a cloth
+};
+
+/// Whether a workgroup can have all of the cloth at hand.
+bool fits_fused(const gpu::Device& device, const ClothModel& model);
+
+class FrameRun {
+  public:
+    struct Member {
+        Cloth* cloth = nullptr;
+        const StepPlan* plan = nullptr;
+        InputShape shape;
+    };
+
+    /// `execution` is not automatic.
+    static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs,
+                                                    std::span<const Member> members, Execution execution, bool timings);
+
+    /// Plans are kept as copies.
+    bool is_for(std::span<const Member> members, Execution execution) const {
+        const auto same = [](const Member& a, const Member& b) {
+            return a.cloth == b.cloth && a.shape == b.shape && same_plan(*a.plan, *b.plan);
+        };
+        return execution == execution_ && std::ranges::equal(members, members_, same);
+    }
+    bool has(const Cloth* cloth) const { return std::ranges::find(members_, cloth, &Member::cloth) != members_.end(); }
+
+    /// One input for each cloth; valid until finish(). The device may still be at work when this returns.
+    Result<std::uint64_t> submit(std::span<const StepInput* const> inputs);
+    /// When the device is done with it.
+    void finish(std::array<double, stage_count>& stage_ms);
+    std::uint32_t report(std::size_t member) const { return buffers_.report(member); }
+    /// After a frame in which the cloth was not finite: what did it. The state is that before the frame, before and
+    /// after.
+    Result<std::string> find_non_finite(std::size_t member, const StepInput& input);
+
+  private:
+    struct Place {
+        std::vector<Vec4> positions, velocities;
+    };
+
+    FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution);
+    Result<Done> compile_members();
+    Result<Done> record_fused(bool timings);
+    Result<Done> record_streamed(bool timings);
+    Result<Done> begin_recording(bool timings, std::size_t stages);
+    Result<Done> end_recording();
+    Result<Place> download_place(const Cloth& cloth) const;
+    Result<std::string> replay(std::size_t member);
+
+    gpu::Device& device_;
+    Programs& programs_;
+    std::vector<StepPlan> plans_of_members_;
+    std::vector<Member> members_;
+    Execution execution_;
+    FrameBuffers buffers_;
+    std::vector<WorkBuffers> work_;
+    std::vector<CompiledPlan> plans_;
+    CommandLists lists_;
+    std::optional<gpu::Commands> commands_;
+    std::vector<std::uint32_t> stages_;  ///< between one stamp and the next
+    std::vector<double> seconds_;        ///< lambda_seconds of the frame that runs, by member
+};
+
+}  // namespace weft::vulkan

@@ -1,0 +1,80 @@
+#include "vulkan/model_buffers.h"
+
+#include <algorithm>
+
+namespace weft::vulkan {
+namespace {
+
+// What lies in an arena until it is built.
+struct Lists {
+    std::vector<std::vector<std::uint32_t>> blocks;
+    std::vector<std::uint32_t> offsets, items, span_ends;
+    std::vector<float> weights, masses, span_lengths;
+};
+
+TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists) {
+    TableBuffers buffers{
+        .particles = arena.add_array(table.particles), .fields = arena.add_array(table.fields), .blocks = {}};
+    auto& list = lists.blocks.emplace_back();
+    for (const LineBlock& block : table.blocks) list.insert(list.end(), {block.begin, block.length});
+    buffers.blocks = arena.add_array(list);
+    return buffers;
+}
+
+// Lists of the triangles at each particle, one after another; the zeros that packets of lanes are padded with are left
+// out, so sums are the same.
+void list_around(const ClothModel& model, Lists& lists) {
+    const FacesAround& around = model.around;
+    lists.offsets.push_back(0);
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+        const std::uint32_t packet = p / lane_padding, lane = p % lane_padding;
+        if (around.abreast(packet)) {
+            for (std::size_t k = around.begin[packet]; k < around.begin[packet + 1]; ++k) {
+                const std::uint32_t triangle = around.triangles[k * lane_padding + lane];
+                if (triangle < model.triangle_count) lists.items.push_back(triangle);
+            }
+        } else {
+            const std::uint32_t* own = around.offsets.data() + around.own[packet] + lane;
+            lists.items.insert(lists.items.end(), around.items.begin() + own[0], around.items.begin() + own[1]);
+        }
+        lists.offsets.push_back(static_cast<std::uint32_t>(lists.items.size()));
+    }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& device,
+                                                                 std::shared_ptr<const ClothModel> cloth_model) {
+    auto self = std::shared_ptr<ModelBuffers>(new ModelBuffers(std::move(cloth_model)));
+    const ClothModel& model = *self->model;
+    Arena& arena = self->arena_;
+    Lists lists;
+    lists.blocks.reserve(constraint_kind_count + model.hierarchy.size());  // the arena reads them where they are
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
+        self->tables[kind] = add_table(arena, model.constraints[kind], lists);
+    for (const CoarseLevel& level : model.hierarchy) {
+        self->levels.push_back({.around_node = arena.add_array(level.around.node),
+                                .around_weight = arena.add_array(level.around.weight),
+                                .carry_node = arena.add_array(level.carry.node),
+                                .carry_weight = arena.add_array(level.carry.weight),
+                                .reach = add_table(arena, level.reach, lists)});
+    }
+    list_around(model, lists);
+    lists.masses = face_masses(model);
+    for (const Vec4& start : model.start) lists.weights.push_back(start.w);
+    for (const PinSpan& span : model.pin_spans) {
+        lists.span_ends.insert(lists.span_ends.end(), {span.a, span.b});
+        lists.span_lengths.push_back(span.length);
+    }
+    self->faces = arena.add_array(model.faces);
+    self->face_mass = arena.add_array(lists.masses);
+    self->around_offsets = arena.add_array(lists.offsets);
+    self->around_items = arena.add_array(lists.items);
+    self->weights = arena.add_array(lists.weights);
+    self->span_ends = arena.add_array(lists.span_ends);
+    self->span_lengths = arena.add_array(lists.span_lengths);
+    if (auto built = arena.build(device, "model of " + model.name); !built) return built.errors();
+    return std::shared_ptr<const ModelBuffers>(std::move(self));
+}
+
+}  // namespace weft::vulkan

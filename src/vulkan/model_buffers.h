@@ -1,0 +1,44 @@
+// A ClothModel on the device: what does not change while a cloth moves. Shared by all cloths of that model.
+#pragma once
+
+#include "solver/cloth_model.h"
+#include "vulkan/arena.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace weft::vulkan {
+
+struct TableBuffers {
+    Slot particles, fields;
+    Slot blocks;  ///< begin and length of each, where rows lie along lines
+};
+
+struct LevelBuffers {
+    Slot around_node, around_weight, carry_node, carry_weight;
+    TableBuffers reach;
+};
+
+class ModelBuffers {
+  public:
+    static Result<std::shared_ptr<const ModelBuffers>> create(gpu::Device& device,
+                                                              std::shared_ptr<const ClothModel> model);
+
+    const std::shared_ptr<const ClothModel> model;
+    std::array<TableBuffers, constraint_kind_count> tables;
+    std::vector<LevelBuffers> levels;
+    Slot faces, face_mass, around_offsets, around_items;
+    Slot weights;  ///< inverse masses
+    Slot span_ends, span_lengths;
+
+    std::uint64_t address(Slot slot) const { return arena_.address(slot); }
+    std::uint64_t bytes() const { return arena_.size(); }
+
+  private:
+    explicit ModelBuffers(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {}
+
+    Arena arena_;
+};
+
+}  // namespace weft::vulkan

@@ -1,0 +1,28 @@
+// Pipelines of the shaders, made when they are first needed.
+#pragma once
+
+#include "gpu/device.h"
+#include "gpu/pipeline.h"
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace weft::vulkan {
+
+class Programs {
+  public:
+    explicit Programs(const gpu::Device& device) : device_(device) {}
+
+    Result<const gpu::Pipeline*> get(std::string_view name);
+    /// With values for its specialization constants, the workgroup's size first.
+    Result<const gpu::Pipeline*> get(std::string_view name, std::span<const std::uint32_t> constants);
+
+  private:
+    const gpu::Device& device_;
+    std::map<std::string, std::unique_ptr<gpu::Pipeline>, std::less<>> made_;
+};
+
+}  // namespace weft::vulkan

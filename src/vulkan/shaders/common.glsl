@@ -1,0 +1,63 @@
+// What every shader begins with: the kernels, what they are told, and which invocation this is.
+#ifndef WEFT_COMMON_GLSL
+#define WEFT_COMMON_GLSL
+
+#include "vulkan/args.data.h"
+
+#include "physics/kernels.glsl"
+
+layout(local_size_x_id = 0) in;
+
+// A dispatch of more workgroups than fit along one axis goes on along the next.
+uint invocation()
+{
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+
+bool is_none(uvec2 address) { return address == uvec2(0u); }
+
+// A particle or node with its inverse mass. Where one workgroup runs a whole frame, particles may live in its shared
+// memory meanwhile.
+#ifdef WEFT_POINTS_AT_HAND
+layout(constant_id = 3) const uint points_at_hand = 1u;   // 1: none
+shared vec4 points[points_at_hand];
+uvec2 home_of_points = uvec2(0u);
+
+vec4 load_point(Vec4s array, uint p)
+{
+    if (points_at_hand > 1u && uvec2(array) == home_of_points) return points[p];
+    return array.at[p];
+}
+void store_point(Vec4s array, uint p, vec4 point)
+{
+    if (points_at_hand > 1u && uvec2(array) == home_of_points) points[p] = point;
+    else array.at[p] = point;
+}
+#else
+vec4 load_point(Vec4s array, uint p) { return array.at[p]; }
+void store_point(Vec4s array, uint p, vec4 point) { array.at[p] = point; }
+#endif
+
+Step substep_of(FrameRef frame)
+{
+    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, 0.0, 1.0);
+}
+
+Step substep_with(FrameRef frame, LimitsRef limits)
+{
+    return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, limits.at.tension, limits.at.allowed);
+}
+
+// A step in which every constraint is rigid: compliance over its square is nothing.
+Step rigid_step(LimitsRef limits) { return Step(1e3, 1e-3, 0.0, limits.at.tension, limits.at.allowed); }
+
+// Also where a driver takes it for granted that no number is a NaN.
+bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+bool is_finite(vec4 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z) && is_finite(v.w); }
+
+#define WEFT_LINES_ABREAST 16u  // lane_padding
+
+#define WEFT_REPORT_SPEED_CAPPED 1u
+#define WEFT_REPORT_NON_FINITE 2u
+
+#endif

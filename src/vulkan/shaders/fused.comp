@@ -1,0 +1,136 @@
+#version 450
+// Lists of commands, one list to a workgroup, from the first to the last in one dispatch: whole frames of small cloths,
+// or the passes of coarse levels that are too small to be worth a dispatch each. A command is what would be pushed with a
+// dispatch, behind the number of its shader.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
+#define WEFT_POINTS_AT_HAND
+#include "vulkan/shaders/common.glsl"
+#include "vulkan/shaders/faces.glsl"
+#include "vulkan/shaders/levels.glsl"
+#include "vulkan/shaders/limits.glsl"
+#include "vulkan/shaders/lines.glsl"
+#include "vulkan/shaders/particles.glsl"
+#include "vulkan/shaders/rows.glsl"
+#include <shader_ids.glsl>
+
+// Which shaders there are commands of: the others need not take registers.
+layout(constant_id = 1) const uint used_low = 0xffffffffu;
+layout(constant_id = 2) const uint used_high = 0xffffffffu;
+bool uses(uint id) { return ((id < 32u ? used_low >> id : used_high >> (id - 32u)) & 1u) != 0u; }
+
+struct ListIn {
+    uvec2 commands;
+    uint count;
+    uint points;      // particles to be kept at hand
+    uvec2 position;   // where they live
+    uvec2 unused;
+};
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ListRef { ListIn at[]; };
+layout(push_constant) uniform Push { ListRef lists; uint first; uint unused; };
+
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CommandRef { uint program; uint invocations; };
+#define WEFT_COMMAND(Args) \
+    layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Args##Command { uvec4 head; Args args; };
+WEFT_COMMAND(ParticleArgs)
+WEFT_COMMAND(HoldArgs)
+WEFT_COMMAND(AverageArgs)
+WEFT_COMMAND(ContactArgs)
+WEFT_COMMAND(KeepArgs)
+WEFT_COMMAND(LevelArgs)
+WEFT_COMMAND(FaceArgs)
+WEFT_COMMAND(AroundArgs)
+WEFT_COMMAND(LineArgs)
+WEFT_COMMAND(LimitArgs)
+WEFT_COMMAND(RowArgs)
+
+#define WEFT_COMMAND_BYTES 144u
+
+uvec2 advanced(uvec2 address, uint bytes)
+{
+    uint carry;
+    uint low = uaddCarry(address.x, bytes, carry);
+    return uvec2(low, address.y + carry);
+}
+
+// All that came before is done and seen by the whole workgroup. Without the Vulkan memory model every access is one that
+// others may see, and such a barrier makes what was written available and visible.
+void meet()
+{
+    controlBarrier(gl_ScopeWorkgroup, gl_ScopeWorkgroup, gl_StorageSemanticsBuffer | gl_StorageSemanticsShared,
+                   gl_SemanticsAcquireRelease);
+}
+
+#define WEFT_EACH(name, Args)                                               \
+    case WEFT_ID_##name:                                                    \
+        if (uses(WEFT_ID_##name)) {                                         \
+            Args a = Args##Command(at).args;                                \
+            for (uint i = me; i < invocations; i += all) run_##name(a, i);  \
+        }                                                                   \
+        break;
+
+#define WEFT_EACH_ROW(id, pass)                                                                 \
+    case id:                                                                                    \
+        if (uses(id)) {                                                                         \
+            RowArgs a = RowArgsCommand(at).args;                                                \
+            for (uint i = me; i < invocations; i += all) {                                      \
+                RowRange rows = rows_of(a, i);                                                  \
+                for (uint k = 0u; k < rows.count; ++k) pass(a, rows.row + k * rows.stride);     \
+            }                                                                                   \
+        }                                                                                       \
+        break;
+
+void run_command(uvec2 at, uint me, uint all)
+{
+    uint invocations = CommandRef(at).invocations;
+    switch (CommandRef(at).program) {
+    WEFT_EACH(predict, ParticleArgs)
+    WEFT_EACH(velocities, ParticleArgs)
+    WEFT_EACH(advance, ParticleArgs)
+    WEFT_EACH(hold, HoldArgs)
+    WEFT_EACH(average, AverageArgs)
+    WEFT_EACH(contact, ContactArgs)
+    WEFT_EACH(keep, KeepArgs)
+    WEFT_EACH(check, KeepArgs)
+    WEFT_EACH(roll_back, KeepArgs)
+    WEFT_EACH(collect, LevelArgs)
+    WEFT_EACH(lift, LevelArgs)
+    WEFT_EACH(settle, LevelArgs)
+    WEFT_EACH(spread, LevelArgs)
+    WEFT_EACH(wind, FaceArgs)
+    WEFT_EACH(air, FaceArgs)
+    WEFT_EACH(faces, FaceArgs)
+    WEFT_EACH(push, AroundArgs)
+    WEFT_EACH(normals, AroundArgs)
+    WEFT_EACH(lines, LineArgs)
+    case WEFT_ID_limits:
+        if (uses(WEFT_ID_limits)) run_limits(LimitArgsCommand(at).args);
+        break;
+#define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas)                      \
+    WEFT_EACH_ROW(WEFT_ID_project_##name, project_row_##name)                   \
+    WEFT_EACH_ROW(WEFT_ID_plain_##name, plain_row_##name)                       \
+    WEFT_EACH_ROW(WEFT_ID_side_by_side_##name, side_by_side_row_##name)         \
+    WEFT_EACH_ROW(WEFT_ID_damp_##name, damp_row_##name)
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+    }
+}
+
+void main()
+{
+    uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
+    ListIn list = lists.at[first + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x];
+    Vec4s home = Vec4s(list.position);
+    if (points_at_hand > 1u) {
+        for (uint p = me; p < list.points; p += all) points[p] = home.at[p];
+        home_of_points = list.position;
+        meet();
+    }
+    for (uint c = 0u; c < list.count; ++c) {
+        run_command(advanced(list.commands, c * WEFT_COMMAND_BYTES), me, all);
+        meet();
+    }
+    if (points_at_hand > 1u) {
+        for (uint p = me; p < list.points; p += all) home.at[p] = points[p];
+    }
+}

@@ -1,0 +1,55 @@
+// What one-sided rows allow for in this frame: the tension that the last one left in the cloth, all but a twentieth of
+// the rows stay below it, and what pins stretch that are held too far apart. The work of one workgroup.
+// (solver/tension.cpp has the same for the CPU.)
+#ifndef WEFT_LIMITS_GLSL
+#define WEFT_LIMITS_GLSL
+
+#define WEFT_BINS 80u
+#define WEFT_BINS_PER_DOUBLING 4.0
+#define WEFT_LEAST 1e-5
+#define WEFT_ROWS_LOOKED_AT 16u  // of four times as many
+
+shared uint bins[WEFT_BINS];
+shared uint strain_bits;  // the largest one between pins; as bits, positive floats are in order
+
+void run_limits(LimitArgs args)
+{
+    uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
+    for (uint i = me; i < WEFT_BINS; i += all) bins[i] = 0u;
+    if (me == 0u) strain_bits = 0u;
+    barrier();
+
+    float scale = args.frame.at.strain_per_lambda;
+    uint looked_at = scale != 0.0 ? args.rows / (4u * WEFT_ROWS_LOOKED_AT) * WEFT_ROWS_LOOKED_AT +
+                                             min(args.rows % (4u * WEFT_ROWS_LOOKED_AT), WEFT_ROWS_LOOKED_AT)
+                                       : 0u;
+    for (uint i = me; i < looked_at; i += all) {
+        uint r = i / WEFT_ROWS_LOOKED_AT * 4u * WEFT_ROWS_LOOKED_AT + i % WEFT_ROWS_LOOKED_AT;
+        uint a = args.particles.at[r];
+        if (a >= args.first_dummy || a == args.particles.at[args.stride + r]) continue;
+        float strain = scale * args.lambda.at[r] / args.rest.at[r];
+        uint bin = 0u;
+        if (strain > WEFT_LEAST)
+            bin = uint(min(1.0 + floor(WEFT_BINS_PER_DOUBLING * log2(strain / WEFT_LEAST)), float(WEFT_BINS - 1u)));
+        atomicAdd(bins[bin], 1u);
+    }
+    for (uint i = me; i < args.spans; i += all) {
+        vec3 a = load_point(args.position, args.span_ends.at[2u * i]).xyz;
+        vec3 b = load_point(args.position, args.span_ends.at[2u * i + 1u]).xyz;
+        atomicMax(strain_bits, floatBitsToUint(max(0.0, length(a - b) / args.span_lengths.at[i] - 1.0)));
+    }
+    barrier();
+    if (me == 0u) {
+        uint count = 0u;
+        for (uint i = 0u; i < WEFT_BINS; ++i) count += bins[i];
+        uint above = 0u, bin = WEFT_BINS;
+        while (bin > 1u && 20u * (above + bins[bin - 1u]) <= count) above += bins[--bin];
+        // The upper end of the bin.
+        float strain = bin <= 1u ? 0.0 : WEFT_LEAST * exp2(float(bin - 1u) / WEFT_BINS_PER_DOUBLING);
+        float tension = max(0.0, strain * args.softest - args.model_tension);
+        args.limits.at.tension = tension;
+        args.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + args.stretched * tension));
+    }
+}
+
+#endif

@@ -1,0 +1,14 @@
+#version 450
+// Rows of one constraint: WEFT_ROW_PASS is project_row_<name>, plain_row_<name>, side_by_side_row_<name> or
+// damp_row_<name>.
+#extension GL_GOOGLE_include_directive : require
+#include "vulkan/shaders/common.glsl"
+#include "vulkan/shaders/rows.glsl"
+
+layout(push_constant) uniform Push { RowArgs args; };
+
+void main()
+{
+    RowRange rows = rows_of(args, invocation());
+    for (uint k = 0u; k < rows.count; ++k) WEFT_ROW_PASS(args, rows.row + k * rows.stride);
+}

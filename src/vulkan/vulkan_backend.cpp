@@ -1,0 +1,266 @@
+#include "vulkan/vulkan_backend.h"
+
+#include "gpu/device.h"
+#include "vulkan/frame_run.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+#include <map>
+
+namespace weft {
+namespace {
+
+using vulkan::Cloth;
+using vulkan::Execution;
+using vulkan::FrameRun;
+using vulkan::ModelBuffers;
+
+// Where the system keeps what can be made again; nowhere if it does not say.
+std::filesystem::path pipeline_cache_file(const gpu::DeviceInfo& device) {
+    std::filesystem::path folder;
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
+        folder = cache;
+    } else if (const char* home = std::getenv("HOME"); home && *home) {
+        folder = std::filesystem::path(home) / ".cache";
+    } else {
+        return {};
+    }
+    std::string name = device.name + "-" + device.driver;
+    for (char& c : name) {
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+    }
+    return folder / "weft" / (name + ".pipelines");
+}
+
+class VulkanBackend final : public Backend {
+  public:
+    VulkanBackend(std::shared_ptr<gpu::Device> device, Execution execution, bool timings)
+        : device_(std::move(device)), programs_(*device_), execution_(execution), timings_(timings) {}
+
+    std::string_view name() const override { return "vulkan"; }
+    std::string device() const override { return device_->info().name + ", " + device_->info().driver; }
+    unsigned threads() const override { return 1; }
+
+    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
+        auto cloth = make_cloth(std::move(model));
+        if (!cloth) return cloth.errors();
+        const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
+        const auto at = static_cast<std::uint32_t>(free - cloths_.begin());
+        if (free == cloths_.end()) {
+            cloths_.push_back(std::move(*cloth));
+        } else {
+            *free = std::move(*cloth);
+        }
+        return ClothHandle{at};
+    }
+
+    void remove_cloth(ClothHandle handle) override {
+        forget_runs(cloth(handle));
+        cloths_[handle.value] = nullptr;
+    }
+
+    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+        Cloth& old = cloth(handle);
+        assert(model->particle_count == old.model().particle_count);
+        auto snapshot = old.save();
+        if (!snapshot) return snapshot.errors();
+        const bool same_anchors = model->anchor_count == old.model().anchor_count;
+        auto next = make_cloth(std::move(model));
+        if (!next) return next.errors();
+        keep_what_moves(*snapshot, (*next)->model(), same_anchors);
+        if (auto restored = (*next)->restore(*snapshot); !restored) return restored;
+        forget_runs(old);
+        cloths_[handle.value] = std::move(*next);
+        return Done{};
+    }
+
+    void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) override {
+        group(cloths);
+        std::uint64_t last = 0;
+        for (Group& group : groups_) {
+            auto value = submit(group);
+            if (value) last = *value;
+        }
+        const auto done = device_->wait(last);
+        for (Group& group : groups_) {
+            if (!group.run) continue;
+            if (done) {
+                finish(group, stage_ms);
+            } else {
+                fail(group, done.error());
+            }
+        }
+    }
+
+    bool read(ClothHandle handle, ClothFrame& frame) const override {
+        Cloth& one = cloth(handle);
+        const bool read = one.read().ok();
+        frame.model = &one.model();
+        frame.positions = one.positions();
+        frame.velocities = one.velocities();
+        frame.normals = one.normals();
+        return read;
+    }
+
+    Residual stretch_residual(ClothHandle handle) const override { return cloth(handle).stretch_residual(); }
+    ClothSnapshot save(ClothHandle handle) const override {
+        auto snapshot = cloth(handle).save();
+        return snapshot ? std::move(*snapshot) : ClothSnapshot{};
+    }
+    Result<Done> restore(ClothHandle handle, const ClothSnapshot& snapshot) override {
+        return cloth(handle).restore(snapshot);
+    }
+    void hash(ClothHandle handle, StateHash& hash) const override { cloth(handle).hash(hash); }
+
+  private:
+    Cloth& cloth(ClothHandle handle) const {
+        assert(handle.value < cloths_.size() && cloths_[handle.value]);
+        return *cloths_[handle.value];
+    }
+
+    Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model) {
+        // Cloths of one model share it on the device too.
+        std::shared_ptr<const ModelBuffers> buffers = models_[model.get()].lock();
+        if (!buffers) {
+            std::erase_if(models_, [](const auto& one) { return one.second.expired(); });
+            auto made = ModelBuffers::create(*device_, model);
+            if (!made) return made.errors();
+            buffers = std::move(*made);
+            models_[model.get()] = buffers;
+        }
+        return Cloth::create(*device_, programs_, std::move(buffers));
+    }
+
+    // Of another set of anchors nobody can tell which is which; they start where the model has them.
+    static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& model, bool same_anchors) {
+        const std::size_t kept = same_anchors ? model.point_count() : model.particle_count;
+        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
+            array->resize(kept), array->resize(model.point_count());
+        for (std::size_t p = kept; p < model.point_count(); ++p) snapshot.position[p] = model.start[p];
+        snapshot.lambda.assign(model.table(ConstraintKind::stretch).lambda_count(), 0.0f);
+    }
+
+    // Cloths that a frame takes together.
+    struct Group {
+        Execution execution{};
+        std::vector<const ClothStep*> steps;
+        FrameRun* run = nullptr;  ///< none where that failed
+    };
+
+    Execution execution_for(const Cloth& cloth) const {
+        if (execution_ != Execution::automatic) return execution_;
+        if (!device_->info().is_gpu()) return Execution::streamed;
+        return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::grouped;
+    }
+
+    // Small cloths go into one dispatch; each of the others has its own.
+    void group(std::span<const ClothStep> cloths) {
+        groups_.clear();
+        Group small{.execution = Execution::fused, .steps = {}};
+        for (const ClothStep& step : cloths) {
+            const Execution execution = execution_for(cloth(step.cloth));
+            if (execution == Execution::fused) {
+                small.steps.push_back(&step);
+            } else {
+                groups_.push_back({.execution = execution, .steps = {&step}});
+            }
+        }
+        if (!small.steps.empty()) groups_.push_back(std::move(small));
+    }
+
+    Result<std::uint64_t> submit(Group& group) {
+        members_.clear();
+        inputs_.clear();
+        for (const ClothStep* step : group.steps) {
+            step->frame->reports = report_none;
+            step->frame->detail.clear();
+            members_.push_back({&cloth(step->cloth), step->plan, vulkan::shape_of(*step->plan, step->input)});
+            inputs_.push_back(&step->input);
+        }
+        auto run = find_run(members_, group.execution);
+        if (!run) {
+            fail(group, run.error());
+            return run.errors();
+        }
+        auto value = (*run)->submit(inputs_);
+        if (value) {
+            group.run = *run;
+        } else {
+            fail(group, value.error());
+        }
+        return value;
+    }
+
+    // The one that was recorded for a frame like this, or a new one in place of those with other plans.
+    Result<FrameRun*> find_run(std::span<const FrameRun::Member> members, Execution execution) {
+        for (const auto& run : runs_) {
+            if (run->is_for(members, execution)) return run.get();
+        }
+        for (const FrameRun::Member& member : members) forget_runs(*member.cloth);
+        auto run = FrameRun::create(*device_, programs_, members, execution, timings_);
+        if (!run) return run.errors();
+        runs_.push_back(std::move(*run));
+        return runs_.back().get();
+    }
+
+    void forget_runs(const Cloth& cloth) {
+        std::erase_if(runs_, [&](const auto& run) { return run->has(&cloth); });
+    }
+
+    void finish(Group& group, std::array<double, stage_count>& stage_ms) {
+        group.run->finish(stage_ms);
+        for (std::size_t i = 0; i < group.steps.size(); ++i) {
+            ClothFrame& frame = *group.steps[i]->frame;
+            frame.reports = group.run->report(i);
+            if (!(frame.reports & report_non_finite)) continue;
+            auto culprit = group.run->find_non_finite(i, group.steps[i]->input);
+            frame.detail = culprit ? *culprit : culprit.error().message();
+        }
+    }
+
+    static void fail(const Group& group, const Error& error) {
+        for (const ClothStep* step : group.steps) {
+            step->frame->reports = report_device_failed;
+            step->frame->detail = error.message();
+        }
+    }
+
+    std::shared_ptr<gpu::Device> device_;
+    vulkan::Programs programs_;
+    Execution execution_;
+    bool timings_;
+    std::map<const ClothModel*, std::weak_ptr<const ModelBuffers>> models_;
+    std::vector<std::unique_ptr<Cloth>> cloths_;
+    std::vector<std::unique_ptr<FrameRun>> runs_;
+    // Of a frame:
+    std::vector<Group> groups_;
+    std::vector<FrameRun::Member> members_;
+    std::vector<const StepInput*> inputs_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
+    const auto execution = std::ranges::find(execution_names, options.execution);
+    if (execution == execution_names.end())
+        return Error{"execution", "must be auto, streamed, grouped or fused, got '" + options.execution + "'"};
+    auto instance = gpu::Instance::create({.validation = options.validation, .on_message = options.on_message});
+    if (!instance) return instance.errors();
+    auto info = gpu::choose_device((*instance)->devices(), options.device, options.software);
+    if (!info) return info.errors();
+    auto device = gpu::Device::create(*instance, *info,
+                                      {.pipeline_cache = pipeline_cache_file(*info),
+                                       .memory_limit = options.memory_limit,
+                                       .intercept = options.intercept});
+    if (!device) return device.errors();
+    return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(
+        std::move(*device), static_cast<Execution>(execution - execution_names.begin()), options.timings));
+}
+
+std::vector<gpu::DeviceInfo> vulkan_devices() {
+    auto instance = gpu::Instance::create();
+    return instance ? (*instance)->devices() : std::vector<gpu::DeviceInfo>{};
+}
+
+}  // namespace weft
