@@ -94,8 +94,9 @@ TEST_F(Cli, wrong_usage_is_one_line_and_status_2) {
     expect_usage_error("run sheet.json --frames 5 --seconds 1", "--frames");
     expect_usage_error("run sheet.json --threads 0", "threads: must be from 1 to 256, got 0");
     expect_usage_error("run sheet.json --substeps 0", "substeps: must be from 1 to 10000, got 0");
-    expect_usage_error("run sheet.json --backend gpu", "backend: must be auto or cpu, got 'gpu'");
-    expect_usage_error("run sheet.json --backend vulkan", "backend: must be auto or cpu, got 'vulkan'");
+    expect_usage_error("run sheet.json --backend gpu", "backend: must be \"auto\", \"cpu\" or \"vulkan\", got 'gpu'");
+    expect_usage_error("run sheet.json --backend cpu --device arc",
+                       "device: names a Vulkan device, and the backend is cpu");
     expect_usage_error("run sheet.json --isa nonsense", "instruction set 'nonsense': this machine has ");
     expect_usage_error("run sheet.json --isa mmx", "instruction set 'mmx'");
     expect_usage_error("run sheet.json --out film.avi", ".glb");
@@ -253,5 +254,46 @@ TEST_F(Cli, info_lists_what_there_is) {
     EXPECT_EQ(weft("--help").status, 0);
     EXPECT_NE(weft("run --help").out.find("Examples:"), std::string::npos);
 }
+
+#ifdef WEFT_VULKAN
+
+TEST_F(Cli, runs_on_vulkan_and_says_so) {
+    const Json on_cpu = stats("--frames 3 --backend cpu"), on_vulkan = stats("--frames 3 --backend vulkan");
+    EXPECT_EQ(on_vulkan["backend"], "vulkan");
+    EXPECT_EQ(on_cpu["backend"], "cpu");
+    EXPECT_NEAR(on_vulkan["kinetic_energy"].get<double>(), on_cpu["kinetic_energy"].get<double>(), 1e-6);
+    const Json info = Json::parse(weft("info --json").out);
+    ASSERT_FALSE(info["vulkan_devices"].empty());
+    EXPECT_NE(on_vulkan["device"].get<std::string>().find(info["vulkan_devices"][0]["name"].get<std::string>()),
+              std::string::npos);
+}
+
+TEST_F(Cli, names_what_vulkan_lacks_with_status_1) {
+    const auto expect_failure = [&](const std::string& arguments, const std::string& before, const std::string& says) {
+        const Outcome outcome = weft("run sheet.json --frames 2 --quiet " + arguments, before);
+        EXPECT_EQ(outcome.status, 1) << outcome.err;
+        EXPECT_EQ(outcome.err.rfind("weft: error: ", 0), 0u) << outcome.err;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    };
+    std::filesystem::create_directories(folder_ / "broken");
+    write("broken/libvulkan.so.1", "no library");
+    write("broken/libvulkan.so", "no library");
+    const std::string no_loader = "LD_LIBRARY_PATH=" + (folder_ / "broken").string();
+    const std::string no_driver = "VK_ICD_FILENAMES=/nowhere.json VK_DRIVER_FILES=/nowhere.json";
+    expect_failure("--backend vulkan", no_loader, "install libvulkan1");
+    expect_failure("--backend vulkan", no_driver, "mesa-vulkan-drivers");
+    expect_failure("--backend vulkan --device voodoo", "", "device 'voodoo': there is none; there are '");
+    expect_failure("--device voodoo", "", "device 'voodoo': there is none");  // who names one wants that one
+
+    // Nobody asked for a GPU: there is the CPU.
+    for (const std::string& before : {no_loader, no_driver, std::string()}) {
+        const Outcome outcome = weft("run sheet.json --frames 2 --quiet", before);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(weft("info", before).status, 0);
+    }
+}
+
+#endif
 
 }  // namespace

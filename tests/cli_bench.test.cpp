@@ -162,6 +162,19 @@ TEST_F(CliBench, builds_sheets_with_tethers_and_coarse_levels) {
     expect_usage_error("bench --build 20 --curves 8", "does not go with --curves");
 }
 
+#ifdef WEFT_VULKAN
+TEST_F(CliBench, finds_edges_on_the_device_too) {
+    const Outcome outcome = weft("bench --backend vulkan --build 20 33 --frames 1 --warmup 0 --repeat 1 --substeps 1");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const std::size_t table = outcome.out.find("\nms for edges and hinges ");
+    ASSERT_NE(table, std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\nbuild 20 ", table), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(" 2048 ", table), std::string::npos) << "triangles of 33 x 33\n" << outcome.out;
+    EXPECT_EQ(weft("bench --backend cpu --build 20 --frames 1 --warmup 0 --repeat 1").out.find("edges and hinges"),
+              std::string::npos);
+}
+#endif
+
 TEST_F(CliBench, compares_with_a_former_report) {
     bench("sheet.json");
     const Outcome same = compare();

@@ -1,4 +1,5 @@
 #include "cli/bench_curves.h"
+#include "cli/bench_edges.h"
 #include "cli/bench_reference.h"
 #include "cli/bench_report.h"
 #include "cli/stats.h"
@@ -116,11 +117,19 @@ Result<Done> write_files(const BenchOptions& options, const BenchReport& report,
     return Done{};
 }
 
+// Of the sheets of --build, where their backend is a device.
+Result<std::vector<EdgeFigures>> edges_of(const BenchOptions& options, const BenchReport& report) {
+    const bool on_device = std::ranges::find(report.scenes, "vulkan", &SceneFigures::backend) != report.scenes.end();
+    if (options.build.empty() || !on_device) return std::vector<EdgeFigures>{};
+    return measure_edges(options.build, options.settings);
+}
+
 int bench(BenchOptions options) {
     const auto failed = [](const Errors& errors, ExitCode code) {
         print_errors(errors);
         return code;
     };
+    options.settings.common.stage_timings = true;
     // Curves are of cloths that have come to rest as far as they will in 5 s.
     options.settings.warmup = options.warmup.value_or(options.curves.sides.empty() ? 30 : 180);
     const std::vector<BenchSubject> subjects = subjects_of(options);
@@ -134,11 +143,14 @@ int bench(BenchOptions options) {
     Curves curves;
     const auto report = measure(options, subjects, curves);
     if (!report) return failed(report.errors(), exit_failed);
+    const auto edges = edges_of(options, *report);
+    if (!edges) return failed(edges.errors(), exit_failed);
     if (const auto written = write_files(options, *report, curves); !written)
         return failed(written.errors(), exit_failed);
 
     const bool quiet = options.settings.quiet;
     if (!quiet) std::fputs((curves.points.empty() ? tables(*report) : curves_table(curves)).c_str(), stdout);
+    if (!quiet && !edges->empty()) std::printf("\n%s", edges_table(*edges).c_str());
     if (before) std::printf("%s%s", quiet ? "" : "\n", comparison(*report, *before, options.compare).c_str());
     for (const std::string& file : {options.json, options.plot}) {
         if (!file.empty() && !quiet) std::printf("\nwrote %s\n", file.c_str());

@@ -322,7 +322,8 @@ Result<std::optional<SceneFigures>> sample_scene(const BenchSubject& subject, co
     std::uint64_t frames = plan->all();
     for (std::uint32_t run = 0; run < settings.repeat; ++run) {
         for (std::uint64_t i = 0; i < frames_per_sample; ++i) {
-            timings.add(session->step());
+            session->advance();
+            timings.add(session->world().summary());
             if (!go_on(++frames)) return Nothing();
         }
         timings.end_run();

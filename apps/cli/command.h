@@ -15,6 +15,8 @@ namespace weft::cli {
 
 enum ExitCode : int { exit_done = 0, exit_failed = 1, exit_usage = 2 };
 
+/// What the program says with its exit status of these.
+int exit_code(const Errors& errors);
 /// `weft: error: …`, a line each, on stderr.
 void print_errors(const Errors& errors);
 void print_warning(const std::string& text);

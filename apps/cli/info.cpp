@@ -7,6 +7,10 @@
 #include "scene/check.h"
 #include "scene/fabric.h"
 
+#ifdef WEFT_VULKAN
+#include "vulkan/vulkan_backend.h"
+#endif
+
 #include <weft/weft.h>
 
 #include <nlohmann/json.hpp>
@@ -51,10 +55,38 @@ Json fabric_json(const FabricPreset& preset) {
     return fabric;
 }
 
+// What of a device matters here.
+Json devices_json() {
+    Json list = Json::array();
+#ifdef WEFT_VULKAN
+    for (const gpu::DeviceInfo& device : vulkan_devices()) {
+        const gpu::DeviceLimits& limits = device.limits;
+        Json one = {{"name", device.name},
+                    {"type", gpu::type_name(device.type)},
+                    {"driver", device.driver},
+                    {"vulkan", std::to_string(device.api[0]) + "." + std::to_string(device.api[1]) + "." +
+                                   std::to_string(device.api[2])},
+                    {"memory_bytes", device.memory},
+                    {"shared_memory_bytes", limits.shared_memory},
+                    {"workgroup_invocations", limits.workgroup_invocations},
+                    {"subgroup_size", limits.subgroup_size},
+                    {"largest_allocation_bytes", limits.largest_allocation},
+                    {"usable", device.usable()}};
+        if (!device.usable()) one["missing"] = device.missing;
+        list.push_back(std::move(one));
+    }
+#endif
+    return list;
+}
+
 Json gather() {
     Json info;
     info["version"] = version();
     info["backends"] = {"cpu"};
+#ifdef WEFT_VULKAN
+    info["backends"].push_back("vulkan");
+#endif
+    info["vulkan_devices"] = devices_json();
     info["instruction_sets"] = cpu_instruction_sets();
     info["hardware_threads"] = std::thread::hardware_concurrency();
     for (std::string_view ending : mesh_formats()) info["mesh_formats"].push_back(ending);
@@ -93,8 +125,21 @@ void print_text(const Json& info) {
               << "backends          " << joined(info["backends"]) << '\n'
               << "instruction sets  " << joined(info["instruction_sets"]) << " (the first is used)\n"
               << "hardware threads  " << info["hardware_threads"] << '\n'
-              << "reads meshes      " << joined(info["mesh_formats"]) << '\n'
-              << "writes\n";
+              << "Vulkan devices\n";
+    for (const Json& device : info["vulkan_devices"]) {
+        const auto mebibytes = [&](const char* key) { return device[key].get<double>() / (1 << 20); };
+        std::printf(
+            "  %s (%s)  Vulkan %s, %s\n    %.0f MiB, at most %.0f at once; workgroups of %u with %u KiB, subgroups "
+            "of %u%s\n",
+            device["name"].get<std::string>().c_str(), device["type"].get<std::string>().c_str(),
+            device["vulkan"].get<std::string>().c_str(), device["driver"].get<std::string>().c_str(),
+            mebibytes("memory_bytes"), mebibytes("largest_allocation_bytes"),
+            device["workgroup_invocations"].get<unsigned>(), device["shared_memory_bytes"].get<unsigned>() / 1024,
+            device["subgroup_size"].get<unsigned>(),
+            device["usable"].get<bool>() ? "" : ("; lacks " + joined(device["missing"])).c_str());
+    }
+    if (info["vulkan_devices"].empty()) std::printf("  none: no loader, no driver, or a build without Vulkan\n");
+    std::cout << "reads meshes      " << joined(info["mesh_formats"]) << '\n' << "writes\n";
     for (const Json& format : info["export_formats"]) {
         std::printf("  %-6s %s\n", format["ending"].get<std::string>().c_str(),
                     format["what"].get<std::string>().c_str());
@@ -113,7 +158,8 @@ void print_text(const Json& info) {
 }  // namespace
 
 Command add_info(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("info", "instruction sets, threads, formats, fabrics with their values");
+    CLI::App* command =
+        program.add_subcommand("info", "instruction sets, threads, Vulkan devices, formats, fabrics with their values");
     auto json = std::make_shared<bool>(false);
     auto schema = std::make_shared<bool>(false);
     auto* as_json = command->add_flag("--json", *json, "as JSON");

@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <weft/weft.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -16,6 +17,11 @@
 
 namespace weft::cli {
 
+int exit_code(const Errors& errors) {
+    const bool machine = std::ranges::any_of(errors, [](const Error& error) { return error.fault == Fault::machine; });
+    return machine ? exit_failed : exit_usage;
+}
+
 void print_errors(const Errors& errors) {
     for (const Error& error : errors) std::cerr << "weft: error: " << error.message() << '\n';
 }
@@ -25,7 +31,12 @@ void print_warning(const std::string& text) {
 }
 
 void add_common_options(CLI::App& command, Options& options) {
-    command.add_option("--backend", options.backend, "auto or cpu")->capture_default_str();
+    command.add_option("--backend", options.backend, "auto, cpu or vulkan")->capture_default_str();
+    command.add_option("--device", options.device, "Vulkan device: part of its name, see weft info");
+    command
+        .add_option("--execution", options.execution,
+                    "Vulkan: auto, streamed, grouped or fused; never changes the result on a device")
+        ->capture_default_str();
     command.add_option("--threads", options.threads, "threads in all, 1 to 256; never changes the result")
         ->capture_default_str();
     command.add_option("--isa", options.isa, "instruction set, see weft info; never changes the result");
@@ -38,6 +49,8 @@ void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--method", options.method, "xpbd or pbd, instead of the scene's");
     command.add_option("--projection", options.projection,
                        "auto, lines, gauss-seidel or jacobi, instead of the scene's");
+    command.add_option("--accumulate", options.accumulate,
+                       "gather or fixed-point, instead of the scene's; with jacobi");
 }
 
 void add_length_options(CLI::App& command, Length& length, const std::string& verb) {

@@ -67,9 +67,12 @@ Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporte
     Progress progress("simulating", frames, quiet);
     bool warned = false;
     for (std::uint64_t i = 1; i <= frames; ++i) {
-        const Frame& frame = session.step();
-        statistics.add(frame);
+        session.advance();
+        const Frame& frame = session.world().summary();
+        statistics.add(session.world());
         for (const ClothFrame& cloth : frame.cloths) {
+            if (cloth.reports & report_device_failed)
+                return Error::of_machine("frame " + std::to_string(i), cloth.detail);
             if (warned || !(cloth.reports & report_non_finite)) continue;
             print_warning("frame " + std::to_string(i) + ": cloth '" + cloth.model->name +
                           "' is held where the frame began: " + cloth.detail);
@@ -87,11 +90,13 @@ Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporte
 int run(const RunOptions& options) {
     const auto wrong = [](const Errors& errors) {
         print_errors(errors);
-        return exit_usage;
+        return exit_code(errors);
     };
     auto exporters = open_exporters(options);
     if (!exporters) return wrong(exporters.errors());
-    auto session = Session::open(options.scene, options.common);
+    Options common = options.common;
+    common.stage_timings = !options.stats.empty();
+    auto session = Session::open(options.scene, common);
     if (!session) return wrong(session.errors());
     const auto frames = frame_count(options.length, session->frame_seconds());
     if (!frames) return wrong(frames.errors());

@@ -39,12 +39,13 @@ RunStatistics::RunStatistics(const Session& session, std::uint64_t frames) : fra
     step_ms_.reserve(frames);
 }
 
-void RunStatistics::add(const Frame& frame) {
+void RunStatistics::add(const World& world) {
+    const Frame& frame = world.summary();
     step_ms_.push_back(frame.step_ms);
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms_[stage] += frame.stage_ms[stage];
     reports_ |= frame.reports;
     if (frame.index == snapshot_frame_) {
-        collect_positions(frame, snapshot_);
+        collect_positions(world.frame(), snapshot_);
         snapshot_time_ = frame.time;
     }
 }

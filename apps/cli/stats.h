@@ -21,7 +21,7 @@ class RunStatistics {
     RunStatistics(const Session& session, std::uint64_t frames);
 
     /// After every step.
-    void add(const Frame& frame);
+    void add(const World& world);
 
     /// After the last one: everything that --stats writes. Counting intersections takes a while on large meshes.
     nlohmann::ordered_json gather(const Session& session, const std::string& scene_file) const;

@@ -1,12 +1,12 @@
 #include "weft/session.h"
 
-#include "cpu/cpu_backend.h"
 #include "io/mesh_file.h"
 #include "io/scene_file.h"
 #include "mesh/topology.h"
 #include "scene/check.h"
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
+#include "weft/backends.h"
 #include "weft/placement.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ Result<LoadedMesh> load_placed(const MeshDesc& desc, const TransformDesc& transf
 // `where` of what lies deeper, put behind the place in the scene.
 Errors within(const std::string& place, const Errors& errors) {
     Errors placed;
-    for (const Error& error : errors) placed.push_back({place, error.message()});
+    for (const Error& error : errors) placed.push_back({place, error.message(), error.fault});
     return placed;
 }
 
@@ -112,14 +112,12 @@ Errors apply(const Options& options, SceneDesc& scene) {
     };
     choose(options.method, names_of("method"), scene.solver.method, "method");
     choose(options.projection, names_of("projection"), scene.solver.projection, "projection");
+    choose(options.accumulate, names_of("accumulate"), scene.solver.accumulate, "accumulate");
     if (options.hierarchy) scene.solver.hierarchy = *options.hierarchy;
     set(options.substeps, scene.solver.substeps, "substeps");
     set(options.iterations, scene.solver.iterations, "iterations");
     if (options.threads < 1 || options.threads > 256) {
         errors.push_back({"threads", "must be from 1 to 256, got " + std::to_string(options.threads)});
-    }
-    if (options.backend != "auto" && options.backend != "cpu") {
-        errors.push_back({"backend", "must be auto or cpu, got '" + options.backend + "'"});
     }
     return errors;
 }
@@ -153,7 +151,7 @@ Session::~Session() = default;
 Result<Session> Session::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder) {
     Session session;
     if (Errors errors = apply(options, scene); !errors.empty()) return errors;
-    auto backend = make_cpu_backend({.workers = options.threads - 1, .isa = options.isa});
+    auto backend = make_backend(options);
     if (!backend) return backend.errors();
     session.folder_ = folder;
     session.world_ = std::make_unique<World>(std::move(*backend), WorldSettings{.gravity = scene.gravity,
@@ -161,6 +159,7 @@ Result<Session> Session::create(SceneDesc scene, const Options& options, const s
                                                                                 .iterations = scene.solver.iterations,
                                                                                 .method = scene.solver.method,
                                                                                 .projection = scene.solver.projection,
+                                                                                .accumulate = scene.solver.accumulate,
                                                                                 .hierarchy = scene.solver.hierarchy,
                                                                                 .air = scene.air});
     for (const ColliderDesc& collider : scene.colliders) session.world_->add(make_collider(collider));
@@ -183,7 +182,7 @@ Result<Session> Session::open(const std::filesystem::path& scene_file, const Opt
     for (const Error& error : session.errors()) {
         // What options are wrong the file cannot help.
         const bool of_file = error.where.starts_with('/');
-        errors.push_back(of_file ? Error{scene_file.string() + ": " + error.where, error.what} : error);
+        errors.push_back(of_file ? Error{scene_file.string() + ": " + error.where, error.what, error.fault} : error);
     }
     return errors;
 }
@@ -227,7 +226,9 @@ Result<ClothId> Session::add(const SceneCloth& cloth, const std::string& pointer
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes_);
-    entry.id = world_->add(std::move(*model), std::move(pinned->holds));
+    auto id = world_->try_add(std::move(*model), std::move(pinned->holds));
+    if (!id) return id.errors();
+    entry.id = *id;
     entries_.push_back(std::move(entry));
     return entries_.back().id;
 }
@@ -244,11 +245,10 @@ Result<Done> Session::rebuild(Entry& entry, const SceneCloth& desc, const ClothP
     if (!topology) return topology.errors();
     auto model = change_cloth_model(now, mesh, *topology, fabric_of(desc), pins, world_->settings().layout());
     if (!model) return model.errors();
-    // A place for what the cloth is now, taken before anything of it changes.
+    if (auto set = world_->set_model(entry.id, std::move(*model), holds); !set) return set;
     entry.desc = desc;
     entry.pins = pins;
-    entry.holds = holds;
-    world_->set_model(entry.id, std::move(*model), std::move(holds));
+    entry.holds = std::move(holds);
     return Done{};
 }
 

@@ -55,6 +55,7 @@ class Session {
     World& world() { return *world_; }
     const World& world() const { return *world_; }
     double frame_seconds() const { return 1.0 / static_cast<double>(scene_.frame_rate); }
+    void advance() { world_->advance(frame_seconds()); }
     const Frame& step() { return world_->step(frame_seconds()); }
     const Frame& step(double dt) { return world_->step(dt); }
 

@@ -259,6 +259,7 @@ Result<Done> Simulation::set_solver(const SolverDesc& solver) {
     settings.iterations = solver.iterations;
     settings.method = solver.method;
     settings.projection = solver.projection;
+    settings.accumulate = solver.accumulate;
     settings.hierarchy = solver.hierarchy;
     auto done = impl_->session.configure(settings);
     impl_->draw();

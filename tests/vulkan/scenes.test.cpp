@@ -1,0 +1,90 @@
+// Every scene of the library on both backends: the same invariants, and the same bits twice on the same device.
+
+#include "vulkan_fixture.h"
+
+#include "solver/statistics.h"
+#include "weft/session.h"
+
+#include <filesystem>
+
+namespace weft {
+namespace {
+
+struct Outcome {
+    std::string hash;
+    std::uint32_t reports = 0;
+    double stretch = 0, residual = 0, speed = 0, energy = 0, penetration = 0;
+};
+
+Outcome simulate(const std::filesystem::path& scene, const std::string& backend, int frames) {
+    auto session = Session::open(scene, {.backend = backend});
+    if (!session) {
+        ADD_FAILURE() << session.error().message();
+        return {};
+    }
+    Outcome outcome;
+    for (int i = 0; i < frames; ++i) {
+        session->advance();
+        outcome.reports |= session->world().summary().reports;
+    }
+    const Frame& frame = session->world().frame();
+    EXPECT_TRUE(all_finite(frame));
+    for (const ClothFrame& cloth : frame.cloths) {
+        for (const Vec4& n : cloth.normals) EXPECT_NEAR(length(n.xyz()), 1, 1e-5);
+    }
+    outcome.hash = session->world().state_hash();
+    outcome.stretch = measure_strain(frame).stretch.mean;
+    outcome.residual = session->world().stretch_residual().mean;
+    outcome.speed = max_speed(frame);
+    outcome.energy = kinetic_energy(frame);
+    outcome.penetration = measure_penetration(frame, session->world().colliders()).max;
+    return outcome;
+}
+
+TEST(VulkanScenes, are_as_on_the_cpu) {
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(WEFT_SOURCE_DIR) / "scenes")) {
+        if (entry.path().extension() != ".json") continue;
+        SCOPED_TRACE(entry.path().filename().string());
+        const Outcome cpu = simulate(entry.path(), "cpu", 4), vulkan = simulate(entry.path(), "vulkan", 4);
+        EXPECT_EQ(cpu.reports, vulkan.reports);
+        EXPECT_NEAR(vulkan.stretch, cpu.stretch, 0.02 * cpu.stretch + 1e-6);
+        EXPECT_NEAR(vulkan.residual, cpu.residual, 0.02 * cpu.residual + 1e-6);
+        EXPECT_NEAR(vulkan.speed, cpu.speed, 0.02 * cpu.speed);
+        EXPECT_NEAR(vulkan.energy, cpu.energy, 0.01 * cpu.energy);
+        EXPECT_LT(vulkan.penetration, 0.01);
+        ++scenes;
+    }
+    EXPECT_GE(scenes, 9);
+}
+
+// However passes become dispatches, the order of the arithmetic is the same.
+TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
+    const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / "sheet_on_sphere.json";
+    const auto run = [&](const char* execution, std::uint32_t substeps) {
+        auto session = Session::open(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
+        if (!session) {
+            ADD_FAILURE() << session.error().message();
+            return std::string();
+        }
+        for (int i = 0; i < 2; ++i) session->advance();
+        EXPECT_EQ(session->world().summary().reports, report_none);
+        return session->world().state_hash();
+    };
+    const std::string expected = run("streamed", 3);
+    EXPECT_EQ(run("grouped", 3), expected);
+    EXPECT_EQ(run("fused", 3), expected);
+    EXPECT_NE(run("streamed", 4), expected);
+}
+
+TEST(VulkanScenes, give_the_same_bits_twice) {
+    for (const char* name : {"sheet_on_sphere", "flag"}) {
+        const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
+        const Outcome once = simulate(scene, "vulkan", 4);
+        EXPECT_EQ(once.hash, simulate(scene, "vulkan", 4).hash) << name;
+        EXPECT_FALSE(once.hash.empty());
+    }
+}
+
+}  // namespace
+}  // namespace weft
