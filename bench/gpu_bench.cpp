@@ -10,6 +10,8 @@
 
 #include <charconv>
 #include <cstdio>
+#include <map>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -30,18 +32,33 @@ struct Method {
     std::uint32_t substeps, iterations;
     Projection projection;
     bool hierarchy;
+    Accumulate accumulate = Accumulate::gather;
+    const char* execution = "auto";
+    std::uint32_t largest = 4096;  ///< particles along a side of the largest sheet that is worth the time
 };
-constexpr Method methods[] = {{"jacobi", 6, 42, Projection::jacobi, false},
-                              {"gauss-seidel", 20, 1, Projection::gauss_seidel, false},
-                              {"gauss-seidel", 30, 1, Projection::gauss_seidel, false},
-                              {"lines+hierarchy", 20, 1, Projection::lines, true},
-                              {"lines+hierarchy", 30, 1, Projection::lines, true}};
+// One workgroup for a whole cloth is for small ones.
+constexpr std::uint32_t largest_fused = 64;
+constexpr Method methods[] = {
+    {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "streamed"},
+    {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "patched"},
+    {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "fused", largest_fused},
+    {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "streamed"},
+    {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "patched"},
+    {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "fused", largest_fused},
+    {"gauss-seidel", 20, 1, Projection::gauss_seidel, false},
+    {"gauss-seidel", 30, 1, Projection::gauss_seidel, false},
+    {"lines+hierarchy", 20, 1, Projection::lines, true},
+    {"lines+hierarchy", 30, 1, Projection::lines, true}};
+// Of many small cloths at once.
+constexpr Method methods_of_many[] = {{"gauss-seidel", 20, 1, Projection::gauss_seidel, false},
+                                      {"lines+hierarchy", 20, 1, Projection::lines, true}};
 
 // How many frames, the same on every device: hashes can be compared.
 struct Frames {
     unsigned warmup, runs, per_run;
+    std::uint32_t most_iterations;
 };
-constexpr Frames usual_frames{20, 5, 10}, quick_frames{1, 2, 2};
+constexpr Frames usual_frames{20, 5, 10, 10000}, quick_frames{1, 2, 2, 4};
 
 constexpr double frame_seconds = 1.0 / 60;
 
@@ -49,6 +66,7 @@ WorldSettings settings_of(const Method& method) {
     return {.substeps = method.substeps,
             .iterations = method.iterations,
             .projection = method.projection,
+            .accumulate = method.accumulate,
             .hierarchy = method.hierarchy,
             .surface = false};
 }
@@ -92,6 +110,7 @@ Floor floor_of(const World& world, const Method& method) {
     const cli::FrameTraffic traffic = cli::frame_traffic(world);
     const ClothModel& model = *world.summary().cloths[0].model;
     const double iterations = static_cast<double>(method.substeps) * method.iterations;
+    const auto cloths = static_cast<double>(world.summary().cloths.size());
     double projection = 0;  // all that is done again in every iteration
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
         const std::string_view name = stage_name(stage);
@@ -99,8 +118,8 @@ Floor floor_of(const World& world, const Method& method) {
             projection += traffic.bytes[stage];
     }
     const double rest = traffic.all() - projection;
-    if (method.projection == Projection::jacobi) projection = iterations * gathered_bytes(model);
-    return {rest + projection, projection / iterations / model.point_count()};
+    if (method.projection == Projection::jacobi) projection = cloths * iterations * gathered_bytes(model);
+    return {rest + projection, projection / iterations / (model.point_count() * cloths)};
 }
 
 struct Line {
@@ -113,11 +132,18 @@ struct Line {
     bool failed = false;  ///< one of them is that the device or the numbers gave up
 };
 
-Result<Line> measure(World& world, std::shared_ptr<const ClothModel> model, const Method& method,
-                     const Frames& frames) {
+Result<Line> measure(World& world, const std::shared_ptr<const ClothModel>& model, std::uint32_t cloths,
+                     const Method& method, const Frames& frames) {
     world.configure(settings_of(method));
-    auto id = world.try_add(std::move(model));
-    if (!id) return id.errors();
+    std::vector<ClothId> ids;
+    const auto clear = [&] {
+        for (const ClothId id : ids) world.remove(id);
+    };
+    for (std::uint32_t i = 0; i < cloths; ++i) {
+        auto id = world.try_add(model);
+        if (!id) return clear(), id.errors();
+        ids.push_back(*id);
+    }
     Line line;
     std::uint32_t reports = report_none;
     std::string detail;
@@ -148,7 +174,7 @@ Result<Line> measure(World& world, std::shared_ptr<const ClothModel> model, cons
     for (const std::string_view name : report_names(reports)) line.reports += "  " + std::string(name);
     if (!detail.empty()) line.reports += "  " + detail;
     line.failed = reports & (report_non_finite | report_device_failed);
-    world.remove(*id);
+    clear();
     return line;
 }
 
@@ -164,14 +190,23 @@ void print_head(const gpu::DeviceInfo& info, const bench::Probes& probes, const 
         "1 m of rigid sheet by two corners, 60 frames a second; %u frames after %u, medians; floor: bytes over "
         "the better rate\n\n",
         frames.runs * frames.per_run, frames.warmup);
-    std::printf("%-7s %-4s %-15s %6s %11s %7s %10s %7s %10s %7s %9s  %s\n", "sheet", "bend", "method", "steps",
-                "device ms", "runs +%", "wall ms", "B/p/it", "floor ms", "ratio", "stretch %", "state hash");
+    std::printf("%-8s %-4s %-15s %-8s %6s %11s %7s %10s %7s %10s %7s %9s  %s\n", "sheet", "bend", "method", "executed",
+                "steps", "device ms", "runs +%", "wall ms", "B/p/it", "floor ms", "ratio", "stretch %", "state hash");
 }
 
-void print_line(std::uint32_t side, bool bends, const Method& method, const Result<Line>& result, double rate) {
-    const std::string sheet = std::to_string(side) + "^2",
+/// Sheets of one size.
+struct Sheets {
+    std::uint32_t side = 0;
+    bool bends = false;
+    std::uint32_t count = 1;
+};
+
+void print_line(const Sheets& sheets, const Method& method, const Result<Line>& result, double rate) {
+    const std::string many = sheets.count > 1 ? std::to_string(sheets.count) + "x" : "",
+                      sheet = many + std::to_string(sheets.side) + "^2",
                       steps = std::to_string(method.substeps) + "x" + std::to_string(method.iterations);
-    std::printf("%-7s %-4s %-15s %6s ", sheet.c_str(), bends ? "yes" : "no", method.name, steps.c_str());
+    std::printf("%-8s %-4s %-15s %-8s %6s ", sheet.c_str(), sheets.bends ? "yes" : "no", method.name, method.execution,
+                steps.c_str());
     if (result) {
         const double floor = result->floor.frame_bytes / rate * 1e3;
         std::printf("%11.3f %7.1f %10.3f %7.0f %10.4f %7.2f %9.4f  %s%s\n", result->device_ms, result->spread * 100,
@@ -183,17 +218,45 @@ void print_line(std::uint32_t side, bool bends, const Method& method, const Resu
     std::fflush(stdout);
 }
 
-// Every method on a sheet. False if one failed.
-bool print_sheet(World& world, std::uint32_t side, bool bends, const Frames& frames, double rate) {
+// A world for each way to execute: it is the backend's.
+class Worlds {
+  public:
+    explicit Worlds(std::string device) : device_(std::move(device)) {}
+    Result<World*> get(const std::string& execution) {
+        std::unique_ptr<World>& world = worlds_[execution];
+        if (!world) {
+            auto backend = make_vulkan_backend({.execution = execution, .device = device_, .timings = true});
+            if (!backend) return backend.errors();
+            world = std::make_unique<World>(std::move(*backend), WorldSettings{});
+        }
+        return world.get();
+    }
+
+  private:
+    std::string device_;
+    std::map<std::string, std::unique_ptr<World>> worlds_;
+};
+
+// Every method on sheets of one size. False if one failed.
+bool print_sheets(Worlds& worlds, const Sheets& sheets, std::span<const Method> all, const Frames& frames,
+                  double rate) {
     bool fine = true;
     std::optional<Result<std::shared_ptr<const ClothModel>>> model;
     ClothLayout last;
-    for (const Method& method : methods) {
+    for (Method method : all) {
+        if (sheets.side > method.largest) continue;
+        method.iterations = std::min(method.iterations, frames.most_iterations);
         const ClothLayout layout = settings_of(method).layout();
-        if (!model || layout != last) model = make_sheet(side, bends, layout);
+        if (!model || layout != last) model = make_sheet(sheets.side, sheets.bends, layout);
         last = layout;
-        const Result<Line> line = *model ? measure(world, **model, method, frames) : (*model).errors();
-        print_line(side, bends, method, line, rate);
+        const auto world = worlds.get(method.execution);
+        if (!world) {
+            print_line(sheets, method, world.errors(), rate);
+            fine = false;
+            continue;
+        }
+        const Result<Line> line = *model ? measure(**world, **model, sheets.count, method, frames) : (*model).errors();
+        print_line(sheets, method, line, rate);
         fine &= line.ok() && !line->failed;
     }
     return fine;
@@ -213,13 +276,17 @@ Result<int> run(const Options& options) {
         if (!probed) return probed.errors();
         probes = *probed;
     }
-    auto backend = make_vulkan_backend({.device = options.device, .timings = true});
-    if (!backend) return backend.errors();
     print_head(*info, probes, frames);
-    World world(std::move(*backend), {});
+    Worlds worlds(options.device);
     bool fine = true;
-    for (const std::uint32_t side : options.sizes)
-        for (const bool bends : {false, true}) fine &= print_sheet(world, side, bends, frames, probes.best_rate());
+    for (const std::uint32_t side : options.sizes) {
+        for (const bool bends : {false, true})
+            fine &= print_sheets(worlds, {.side = side, .bends = bends}, methods, frames, probes.best_rate());
+    }
+    const std::uint32_t many = options.quick ? 4 : 256, small = options.quick ? 16 : 32;
+    for (const bool bends : {false, true})
+        fine &= print_sheets(worlds, {.side = small, .bends = bends, .count = many}, methods_of_many, frames,
+                             probes.best_rate());
     return fine ? 0 : 1;
 }
 

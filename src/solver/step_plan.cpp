@@ -163,7 +163,7 @@ enum Stage : std::uint32_t {
     stage_surface,
     stage_end,
 };
-static_assert(stage_end == stage_fused);
+static_assert(stage_end == stage_patched);
 
 }  // namespace
 
@@ -202,7 +202,7 @@ std::uint32_t stage_of(const Pass& pass) {
 
 std::string_view stage_name(std::uint32_t stage) {
     constexpr std::array<std::string_view, stage_count - constraint_kind_count> others = {
-        "air", "predict", "hierarchy", "average", "contact", "velocities", "damp", "surface", "fused"};
+        "air", "predict", "hierarchy", "average", "contact", "velocities", "damp", "surface", "patched", "fused"};
     return stage < constraint_kind_count ? constraint_info(static_cast<ConstraintKind>(stage)).name
                                          : others[stage - constraint_kind_count];
 }

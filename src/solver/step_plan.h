@@ -88,10 +88,11 @@ bool same_plan(const StepPlan& a, const StepPlan& b);
 StepPlan plan_step(const ClothModel& model, const StepSettings& settings);
 
 /// What timings are kept by: one per constraint, then air, predict, hierarchy, average, contact, velocities, damp,
-/// surface; and for frames that a device runs as a whole, fused.
+/// surface; and for what a device runs as a whole: patched, the iterations of a substep, and fused, a frame.
 std::uint32_t stage_of(const Pass& pass);
 std::string_view stage_name(std::uint32_t stage);
-inline constexpr std::uint32_t stage_count = constraint_kind_count + 9;
+inline constexpr std::uint32_t stage_count = constraint_kind_count + 10;
+inline constexpr std::uint32_t stage_patched = stage_count - 2;
 inline constexpr std::uint32_t stage_fused = stage_count - 1;
 
 /// One line per run of alike passes.

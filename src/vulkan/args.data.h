@@ -190,6 +190,19 @@ struct AverageArgs {
     uint mean;  // 1: the sum divided by its terms
 };
 
+// Planes of `width` floats per element between a whole and a part of it.
+struct CopyArgs {
+    Floats whole;
+    Floats part;
+    Uints index;  // elements of the whole
+    uint whole_stride;
+    uint part_stride;
+    uint planes;
+    uint width;
+    uint count;
+    uint back;  // 1: from the part to the whole
+};
+
 // A coarse level.
 struct LevelArgs {
     Vec4s position;  // of the level's nodes, or of particles that are spread to
@@ -206,7 +219,8 @@ struct LevelArgs {
 struct ContactArgs {
     Vec4s position;
     Vec4s start;
-    Vec4s sums;  // [collider · capacity + particle]; 0 with one iteration
+    Vec4s sums;       // [collider · capacity + particle]; 0 with one iteration
+    Uints particles;  // where they start; 0: all of them, in order
     FrameRef frame;
     ColliderRef colliders;
     PoseRef poses;  // [substep · colliders + collider]

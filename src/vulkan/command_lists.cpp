@@ -13,17 +13,20 @@ namespace {
 struct ListIn {
     std::uint64_t commands;
     std::uint32_t count, points;
-    std::uint64_t position, unused;
+    std::uint64_t position, to, indices, sums;
+    std::uint32_t owned, unused;
 };
 constexpr std::size_t head_bytes = 16, command_bytes = head_bytes + 128;
 
 // Of shared memory: bins in which tensions are counted, and a few numbers.
 constexpr std::uint32_t shared_besides = 512;
+constexpr std::uint32_t quanta_per_point = 3;
 
 }  // namespace
 
-bool fits_at_hand(const gpu::Device& device, std::uint32_t points) {
-    return std::uint64_t{points} * sizeof(Vec4) + shared_besides <= device.limits().shared_memory;
+bool fits_at_hand(const gpu::Device& device, std::uint32_t points, bool sums) {
+    const std::uint64_t each = sizeof(Vec4) + (sums ? quanta_per_point * sizeof(std::uint32_t) : 0);
+    return points * each + shared_besides <= device.limits().shared_memory;
 }
 
 std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsAtHand& points) {
@@ -32,7 +35,7 @@ std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsA
     for (const Command& command : commands) {
         if (command.invocations == 0) continue;
         std::array<std::byte, command_bytes> bytes{};
-        const std::array head = {command.program, command.invocations};
+        const std::array head = {command.program, command.invocations, command.needs_barrier ? 1u : 0u};
         std::memcpy(bytes.data(), head.data(), sizeof head);
         std::memcpy(bytes.data() + head_bytes, command.args.data(), command.arg_bytes);
         list.commands.insert(list.commands.end(), bytes.begin(), bytes.end());
@@ -56,6 +59,10 @@ Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const 
                          .count = lists_[i].count,
                          .points = lists_[i].points.count,
                          .position = lists_[i].points.position,
+                         .to = lists_[i].points.to,
+                         .indices = lists_[i].points.indices,
+                         .sums = lists_[i].points.sums,
+                         .owned = lists_[i].points.owned,
                          .unused = 0});
     }
     if (auto done = upload(device, arena_, table_, std::as_bytes(std::span(table))); !done) return done;
@@ -63,15 +70,17 @@ Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const 
 }
 
 Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& programs) {
-    std::uint32_t widest = 0, points = 1;
+    std::uint32_t widest = 0, points = 1, quanta = 1;
     for (const List& list : lists_) {
         widest = std::max(widest, list.widest);
         points = std::max(points, list.points.count);
+        if (list.points.sums != 0) quanta = std::max(quanta, list.points.count * quanta_per_point);
     }
     const std::uint32_t most = std::min(device.limits().workgroup_invocations, device.limits().workgroup_size[0]);
     const std::uint32_t least = std::max(1u, std::min(64u, most));
     const std::array constants = {std::clamp(std::bit_ceil(std::max(1u, widest)), least, std::bit_floor(most)),
-                                  static_cast<std::uint32_t>(used_), static_cast<std::uint32_t>(used_ >> 32), points};
+                                  static_cast<std::uint32_t>(used_), static_cast<std::uint32_t>(used_ >> 32), points,
+                                  quanta};
     auto pipeline = programs.get("fused", constants);
     if (!pipeline) return pipeline.errors();
     pipeline_ = *pipeline;
@@ -79,11 +88,12 @@ Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& 
     return Done{};
 }
 
-void CommandLists::record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count) const {
+void CommandLists::record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count,
+                          std::uint32_t substep) const {
     struct {
         std::uint64_t lists;
-        std::uint32_t first, unused;
-    } const args{arena_.address(table_), first, 0};
+        std::uint32_t first, substep;
+    } const args{arena_.address(table_), first, substep};
     commands.bind(*pipeline_);
     commands.push(std::as_bytes(std::span(&args, 1)));
     commands.dispatch(count);

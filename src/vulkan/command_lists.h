@@ -8,10 +8,14 @@
 
 namespace weft::vulkan {
 
-/// Particles that a workgroup keeps in its shared memory while it runs a list.
+/// Particles that a workgroup keeps in its shared memory while it runs a list, whose commands go by that address.
 struct PointsAtHand {
-    std::uint64_t position = 0;  ///< where they live
+    std::uint64_t position = 0;  ///< where they are
     std::uint32_t count = 0;     ///< 0: they stay there
+    std::uint64_t to = 0;        ///< where the first `owned` of them go at the end
+    std::uint32_t owned = 0;
+    std::uint64_t indices = 0;  ///< which they are; 0: the first ones, in order
+    std::uint64_t sums = 0;  ///< in fixed point, likewise at hand and 0 at first; 0: there are none, or they stay there
 };
 
 class CommandLists {
@@ -20,8 +24,8 @@ class CommandLists {
     std::uint32_t add(std::span<const Command> commands, const PointsAtHand& points = {});
     Result<Done> build(gpu::Device& device, Programs& programs, const std::string& name);
 
-    /// `count` lists from `first` on, side by side.
-    void record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count) const;
+    /// `count` lists from `first` on, side by side. What goes by substeps counts them from `substep` on.
+    void record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t substep = 0) const;
     bool empty() const { return lists_.empty(); }
 
   private:
@@ -39,7 +43,7 @@ class CommandLists {
     const gpu::Pipeline* pipeline_ = nullptr;
 };
 
-/// Whether a device can keep so many particles at hand, beside what else a workgroup needs.
-bool fits_at_hand(const gpu::Device& device, std::uint32_t points);
+/// Whether a device can keep so many particles at hand, and their sums, beside what else a workgroup needs.
+bool fits_at_hand(const gpu::Device& device, std::uint32_t points, bool sums);
 
 }  // namespace weft::vulkan

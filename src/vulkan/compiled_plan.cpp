@@ -2,7 +2,7 @@
 
 #include "solver/frame_numbers.h"
 #include "vulkan/args.data.h"
-#include "vulkan/shaders.h"
+#include "vulkan/make_command.h"
 
 #include <algorithm>
 #include <cassert>
@@ -10,10 +10,6 @@
 
 namespace weft::vulkan {
 namespace {
-
-// Largest of what shaders are told; every device has room for so much.
-static_assert(sizeof(RowArgs) <= 128 && sizeof(KeepArgs) <= 128 && sizeof(LimitArgs) <= 128 &&
-              sizeof(ContactArgs) <= 128 && sizeof(FaceArgs) <= 128);
 
 class Compiler {
   public:
@@ -51,16 +47,9 @@ class Compiler {
     template <class Args>
     Command& add(List& list, std::string_view program, const Args& args, std::uint32_t invocations, const Pass& pass,
                  std::uint32_t substep = 0) {
-        auto pipeline = programs_.get(program);
-        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
-        Command& command = list.emplace_back();
-        command.pipeline = pipeline ? *pipeline : nullptr;
-        command.program = shader_number(program);
-        command.invocations = invocations;
+        Command& command = list.emplace_back(make_command(programs_, errors_, program, args, invocations));
         command.pass = pass;
         command.substep = substep;
-        command.arg_bytes = sizeof args;
-        std::memcpy(command.args.data(), &args, sizeof args);
         return command;
     }
 
@@ -363,6 +352,7 @@ class Compiler {
         const ContactArgs args{.position = state(cloth_.position),
                                .start = state(cloth_.start),
                                .sums = work(work_.contact_sums),
+                               .particles = 0,
                                .frame = input_.frame(),
                                .colliders = input_.colliders(),
                                .poses = input_.poses(),

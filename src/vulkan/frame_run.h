@@ -5,6 +5,7 @@
 #include "vulkan/cloth.h"
 #include "vulkan/command_lists.h"
 #include "vulkan/frame_input.h"
+#include "vulkan/patched_iterations.h"
 
 #include <array>
 #include <memory>
@@ -20,6 +21,7 @@ enum class Execution {
     automatic,
     streamed,  ///< a dispatch per pass
     grouped,   ///< the same, but one for as many passes as are together on coarse levels of few nodes
+    patched,   ///< the same, but one for as many iterations as a workgroup can do of a patch
     fused,     ///< one for the whole frame, a workgroup to a cloth
 };
 
@@ -63,6 +65,7 @@ class FrameRun {
 
     FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution);
     Result<Done> compile_members();
+    Result<Done> patch_members();
     Result<Done> record_fused(bool timings);
     Result<Done> record_streamed(bool timings);
     Result<Done> begin_recording(bool timings, std::size_t stages);
@@ -79,6 +82,7 @@ class FrameRun {
     std::vector<WorkBuffers> work_;
     std::vector<CompiledPlan> plans_;
     CommandLists lists_;
+    std::vector<std::optional<PatchedIterations>> patched_;  ///< by member
     std::optional<gpu::Commands> commands_;
     std::vector<std::uint32_t> stages_;  ///< between one stamp and the next
     std::vector<double> seconds_;        ///< lambda_seconds of the frame that runs, by member

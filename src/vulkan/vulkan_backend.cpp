@@ -151,7 +151,7 @@ class VulkanBackend final : public Backend {
     Execution execution_for(const Cloth& cloth) const {
         if (execution_ != Execution::automatic) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
-        return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::grouped;
+        return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::patched;
     }
 
     // Small cloths go into one dispatch; each of the others has its own.
@@ -244,7 +244,7 @@ class VulkanBackend final : public Backend {
 Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
     const auto execution = std::ranges::find(execution_names, options.execution);
     if (execution == execution_names.end())
-        return Error{"execution", "must be auto, streamed, grouped or fused, got '" + options.execution + "'"};
+        return Error{"execution", "must be auto, streamed, grouped, patched or fused, got '" + options.execution + "'"};
     auto instance = gpu::Instance::create({.validation = options.validation, .on_message = options.on_message});
     if (!instance) return instance.errors();
     auto info = gpu::choose_device((*instance)->devices(), options.device, options.software);

@@ -73,8 +73,44 @@ TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     };
     const std::string expected = run("streamed", 3);
     EXPECT_EQ(run("grouped", 3), expected);
+    EXPECT_EQ(run("patched", 3), expected);
     EXPECT_EQ(run("fused", 3), expected);
     EXPECT_NE(run("streamed", 4), expected);
+}
+
+// Iterations on patches, with contacts, tethers and holds around them: the bits of one dispatch per pass.
+TEST(VulkanScenes, do_not_tell_that_they_are_cut_into_patches) {
+    struct Way {
+        const char *scene, *method, *accumulate;
+    };
+    for (const auto& [name, method, accumulate] : {Way{"sheet_on_sphere", "xpbd", "gather"},
+                                                   {"sheet_on_sphere", "xpbd", "fixed-point"},
+                                                   {"sheet_on_sphere", "pbd", "gather"},
+                                                   {"hanging_bunny", "xpbd", "fixed-point"},
+                                                   {"curtain", "pbd", "fixed-point"}}) {
+        SCOPED_TRACE(std::string(name) + ", " + method + ", " + accumulate);
+        const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
+        const auto run = [&](const char* execution) {
+            auto session = Session::open(scene, {.backend = "vulkan",
+                                                 .execution = execution,
+                                                 .substeps = 2,
+                                                 .iterations = 5,
+                                                 .method = method,
+                                                 .projection = "jacobi",
+                                                 .accumulate = accumulate,
+                                                 .hierarchy = false,
+                                                 .stage_timings = true});
+            if (!session) {
+                ADD_FAILURE() << session.error().message();
+                return std::pair(std::string(), 0.0);
+            }
+            session->advance();
+            return std::pair(session->world().state_hash(), session->world().summary().stage_ms[stage_patched]);
+        };
+        const auto patched = run("patched");
+        EXPECT_EQ(patched.first, run("streamed").first);
+        EXPECT_GT(patched.second, 0);
+    }
 }
 
 TEST(VulkanScenes, give_the_same_bits_twice) {

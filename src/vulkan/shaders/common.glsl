@@ -33,9 +33,41 @@ void store_point(Vec4s array, uint p, vec4 point)
     if (points_at_hand > 1u && uvec2(array) == home_of_points) points[p] = point;
     else array.at[p] = point;
 }
+
+// What rows want of a particle, in fixed point: x, y and z.
+#define WEFT_QUANTA_PER_POINT 3u
+layout(constant_id = 4) const uint quanta_at_hand = 1u;   // 1: none
+shared uint quanta[quanta_at_hand];
+uvec2 home_of_sums = uvec2(0u);
+bool sums_are_at_hand(Uints sums) { return quanta_at_hand > 1u && uvec2(sums) == home_of_sums; }
+
+void add_to_sum(Uints sums, uint p, uint axis, uint change)
+{
+    if (sums_are_at_hand(sums)) atomicAdd(quanta[WEFT_QUANTA_PER_POINT * p + axis], change);
+    else atomicAdd(sums.at[4u * p + axis], change);
+}
+uint take_sum(Uints sums, uint p, uint axis)
+{
+    uint sum = 0u;
+    if (sums_are_at_hand(sums)) {
+        sum = quanta[WEFT_QUANTA_PER_POINT * p + axis];
+        quanta[WEFT_QUANTA_PER_POINT * p + axis] = 0u;
+    } else {
+        sum = sums.at[4u * p + axis];
+        sums.at[4u * p + axis] = 0u;
+    }
+    return sum;
+}
 #else
 vec4 load_point(Vec4s array, uint p) { return array.at[p]; }
 void store_point(Vec4s array, uint p, vec4 point) { array.at[p] = point; }
+void add_to_sum(Uints sums, uint p, uint axis, uint change) { atomicAdd(sums.at[4u * p + axis], change); }
+uint take_sum(Uints sums, uint p, uint axis)
+{
+    uint sum = sums.at[4u * p + axis];
+    sums.at[4u * p + axis] = 0u;
+    return sum;
+}
 #endif
 
 Step substep_of(FrameRef frame)

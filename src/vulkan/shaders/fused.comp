@@ -1,6 +1,6 @@
 #version 450
 // Lists of commands, one list to a workgroup, from the first to the last in one dispatch: whole frames of small cloths,
-// or the passes of coarse levels that are too small to be worth a dispatch each. A command is what would be pushed with a
+// the passes of coarse levels that are too small to be worth a dispatch each, or some iterations of patches. A command is what would be pushed with a
 // dispatch, behind the number of its shader.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_memory_scope_semantics : require
@@ -23,19 +23,28 @@ struct ListIn {
     uvec2 commands;
     uint count;
     uint points;      // particles to be kept at hand
-    uvec2 position;   // where they live
-    uvec2 unused;
+    uvec2 position;   // where they are
+    uvec2 to;         // where the owned ones, which are the first, go at the end
+    uvec2 indices;    // which they are; 0: the first ones
+    uvec2 sums;       // in fixed point, likewise at hand and 0 at first; 0: none
+    uint owned;
+    uint unused;
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ListRef { ListIn at[]; };
-layout(push_constant) uniform Push { ListRef lists; uint first; uint unused; };
+layout(push_constant) uniform Push { ListRef lists; uint first; uint first_substep; };
 
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CommandRef { uint program; uint invocations; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CommandRef {
+    uint program;
+    uint invocations;
+    uint needs_barrier;  // behind the command before it
+};
 #define WEFT_COMMAND(Args) \
     layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Args##Command { uvec4 head; Args args; };
 WEFT_COMMAND(ParticleArgs)
 WEFT_COMMAND(HoldArgs)
 WEFT_COMMAND(AverageArgs)
 WEFT_COMMAND(ContactArgs)
+WEFT_COMMAND(CopyArgs)
 WEFT_COMMAND(KeepArgs)
 WEFT_COMMAND(LevelArgs)
 WEFT_COMMAND(FaceArgs)
@@ -89,7 +98,14 @@ void run_command(uvec2 at, uint me, uint all)
     WEFT_EACH(advance, ParticleArgs)
     WEFT_EACH(hold, HoldArgs)
     WEFT_EACH(average, AverageArgs)
-    WEFT_EACH(contact, ContactArgs)
+    case WEFT_ID_contact:
+        if (uses(WEFT_ID_contact)) {
+            ContactArgs a = ContactArgsCommand(at).args;
+            a.substep += first_substep;
+            for (uint i = me; i < invocations; i += all) run_contact(a, i);
+        }
+        break;
+    WEFT_EACH(copy, CopyArgs)
     WEFT_EACH(keep, KeepArgs)
     WEFT_EACH(check, KeepArgs)
     WEFT_EACH(roll_back, KeepArgs)
@@ -116,21 +132,34 @@ void run_command(uvec2 at, uint me, uint all)
     }
 }
 
+// Which of the whole array is the one that is at hand as number p.
+uint whole_index(ListIn list, uint p)
+{
+    if (is_none(list.indices)) return p;
+    return Uints(list.indices).at[p];
+}
+
 void main()
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     ListIn list = lists.at[first + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x];
-    Vec4s home = Vec4s(list.position);
     if (points_at_hand > 1u) {
-        for (uint p = me; p < list.points; p += all) points[p] = home.at[p];
+        Vec4s from = Vec4s(list.position);
+        for (uint p = me; p < list.points; p += all) points[p] = from.at[whole_index(list, p)];
         home_of_points = list.position;
-        meet();
+    }
+    if (quanta_at_hand > 1u) {
+        for (uint i = me; i < list.points * WEFT_QUANTA_PER_POINT; i += all) quanta[i] = 0u;
+        home_of_sums = list.sums;
     }
     for (uint c = 0u; c < list.count; ++c) {
-        run_command(advanced(list.commands, c * WEFT_COMMAND_BYTES), me, all);
-        meet();
+        uvec2 command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
+        if (CommandRef(command).needs_barrier != 0u || c == 0u) meet();
+        run_command(command, me, all);
     }
     if (points_at_hand > 1u) {
-        for (uint p = me; p < list.points; p += all) home.at[p] = points[p];
+        meet();
+        Vec4s to = Vec4s(list.to);
+        for (uint p = me; p < list.owned; p += all) to.at[whole_index(list, p)] = points[p];
     }
 }

@@ -80,10 +80,7 @@ void run_average(AverageArgs a, uint p)
     if (is_none(uvec2(a.sums))) {
         for (uint k = begin; k < end; ++k) sum = sum + a.corrections.at[a.items.at[k]].xyz;
     } else {
-        for (uint axis = 0u; axis < 3u; ++axis) {
-            sum[axis] = from_quanta(float(int(a.sums.at[4u * p + axis])));
-            a.sums.at[4u * p + axis] = 0u;
-        }
+        for (uint axis = 0u; axis < 3u; ++axis) sum[axis] = from_quanta(float(int(take_sum(a.sums, p, axis))));
     }
     if (a.mean == 1u) sum = sum * (1.0 / float(end - begin));
     vec4 x = load_point(a.position, p);
@@ -93,7 +90,9 @@ void run_average(AverageArgs a, uint p)
 void run_contact(ContactArgs a, uint p)
 {
     vec4 x = load_point(a.position, p);
-    vec3 start = a.start.at[p].xyz;
+    uint whole = p;
+    if (!is_none(uvec2(a.particles))) whole = a.particles.at[p];
+    vec3 start = a.start.at[whole].xyz;
     uint colliders = a.frame.at.colliders;
     bool keeps = !is_none(uvec2(a.sums));
     for (uint c = 0u; c < colliders; ++c) {
@@ -132,6 +131,18 @@ void run_contact(ContactArgs a, uint p)
         if (keeps) a.sums.at[at] = vec4(sum.friction, sum.push);
     }
     store_point(a.position, p, x);
+}
+
+void run_copy(CopyArgs a, uint i)
+{
+    uint whole = a.index.at[i];
+    for (uint k = 0u; k < a.planes * a.width; ++k) {
+        uint plane = k / a.width, w = k % a.width;
+        uint of_whole = (plane * a.whole_stride + whole) * a.width + w;
+        uint of_part = (plane * a.part_stride + i) * a.width + w;
+        if (a.back == 1u) a.whole.at[of_whole] = a.part.at[of_part];
+        else a.part.at[of_part] = a.whole.at[of_whole];
+    }
 }
 
 // What the frame found, to go back to.

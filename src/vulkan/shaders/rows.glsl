@@ -15,7 +15,7 @@ float plain_part(RowArgs a, float lambda) { return lambda < 0.0 ? a.plain_positi
 // Whole numbers give the same sum in whatever order they come.
 void add_quanta(Uints sums, uint p, vec3 change)
 {
-    for (uint axis = 0u; axis < 3u; ++axis) atomicAdd(sums.at[4u * p + axis], uint(int(to_quanta(change[axis]))));
+    for (uint axis = 0u; axis < 3u; ++axis) add_to_sum(sums, p, axis, uint(int(to_quanta(change[axis]))));
 }
 
 #define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas)                                                             \
