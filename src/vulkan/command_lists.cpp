@@ -29,9 +29,32 @@ bool fits_at_hand(const gpu::Device& device, std::uint32_t points, bool sums) {
     return points * each + shared_besides <= device.limits().shared_memory;
 }
 
-std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsAtHand& points) {
+std::uint32_t line_rows_at_hand(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes) {
+    constexpr std::uint64_t each = sizeof(Vec4) + sizeof(float);
+    const std::uint64_t shared = device.limits().shared_memory;
+    const std::uint64_t room = shared > other_bytes ? (shared - other_bytes) / each : 0;
+    if (rows.of_block == 0 || room < rows.of_block) return 1;
+    // Round numbers: pipelines differ by them.
+    constexpr std::uint64_t step = 256;
+    return static_cast<std::uint32_t>(std::min(room, (rows.of_batch + step - 1) / step * step));
+}
+
+LineRows largest_lines(const ConstraintTable& table) {
+    LineRows largest;
+    for (const LineBlock& block : table.blocks)
+        largest.of_block = std::max(largest.of_block, block.length * lane_padding);
+    for (const Batch& batch : table.batches) {
+        if (batch.blocks == 0) continue;
+        const LineBlock& last = table.blocks[batch.first_block + batch.blocks - 1];
+        largest.of_batch = std::max(largest.of_batch, last.end() - table.blocks[batch.first_block].begin);
+    }
+    return largest;
+}
+
+std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsAtHand& points, const LineRows& lines) {
     List& list = lists_.emplace_back();
     list.points = points;
+    list.lines = lines;
     for (const Command& command : commands) {
         if (command.invocations == 0) continue;
         std::array<std::byte, command_bytes> bytes{};
@@ -71,16 +94,23 @@ Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const 
 
 Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& programs) {
     std::uint32_t widest = 0, points = 1, quanta = 1;
+    LineRows lines;
     for (const List& list : lists_) {
         widest = std::max(widest, list.widest);
         points = std::max(points, list.points.count);
+        lines.of_block = std::max(lines.of_block, list.lines.of_block);
+        lines.of_batch = std::max(lines.of_batch, list.lines.of_batch);
         if (list.points.sums != 0) quanta = std::max(quanta, list.points.count * quanta_per_point);
     }
     const std::uint32_t most = std::min(device.limits().workgroup_invocations, device.limits().workgroup_size[0]);
     const std::uint32_t least = std::max(1u, std::min(64u, most));
+    const std::uint64_t taken = shared_besides + points * sizeof(Vec4) + quanta * sizeof(std::uint32_t);
     const std::array constants = {std::clamp(std::bit_ceil(std::max(1u, widest)), least, std::bit_floor(most)),
-                                  static_cast<std::uint32_t>(used_), static_cast<std::uint32_t>(used_ >> 32), points,
-                                  quanta};
+                                  static_cast<std::uint32_t>(used_),
+                                  static_cast<std::uint32_t>(used_ >> 32),
+                                  points,
+                                  quanta,
+                                  line_rows_at_hand(device, lines, taken)};
     auto pipeline = programs.get("fused", constants);
     if (!pipeline) return pipeline.errors();
     pipeline_ = *pipeline;

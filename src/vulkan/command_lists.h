@@ -18,10 +18,20 @@ struct PointsAtHand {
     std::uint64_t sums = 0;  ///< in fixed point, likewise at hand and 0 at first; 0: there are none, or they stay there
 };
 
+/// Rows along lines that the largest block has, and those of the largest batch.
+struct LineRows {
+    std::uint32_t of_block = 0, of_batch = 0;
+};
+LineRows largest_lines(const ConstraintTable& table);
+
+/// Rows whose numbers a workgroup that solves lines has in its shared memory, beside so many bytes of something else: a
+/// batch's if there is room, and not fewer than a block's. 1: none.
+std::uint32_t line_rows_at_hand(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes = 0);
+
 class CommandLists {
   public:
     /// Commands without anything to do are left out. Returns the list's number.
-    std::uint32_t add(std::span<const Command> commands, const PointsAtHand& points = {});
+    std::uint32_t add(std::span<const Command> commands, const PointsAtHand& points = {}, const LineRows& lines = {});
     Result<Done> build(gpu::Device& device, Programs& programs, const std::string& name);
 
     /// `count` lists from `first` on, side by side. What goes by substeps counts them from `substep` on.
@@ -33,6 +43,7 @@ class CommandLists {
         std::vector<std::byte> commands;
         std::uint32_t count = 0, widest = 0;  ///< invocations of the widest command
         PointsAtHand points;
+        LineRows lines;
     };
     Result<Done> choose_pipeline(const gpu::Device& device, Programs& programs);
 

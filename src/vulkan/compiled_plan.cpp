@@ -2,6 +2,7 @@
 
 #include "solver/frame_numbers.h"
 #include "vulkan/args.data.h"
+#include "vulkan/command_lists.h"
 #include "vulkan/make_command.h"
 
 #include <algorithm>
@@ -309,7 +310,15 @@ class Compiler {
             .count = batch.blocks,
             .lambda_use = lambda_use(pass, substep),
             .unused = 0};
-        add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
+        Command& command = add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
+        command.groups = batch.blocks;
+        const gpu::Device& device = programs_.device();
+        const std::uint32_t rows = largest_lines(table).of_block;
+        const std::array constants = {std::min(256u, device.limits().workgroup_size[0]),
+                                      line_rows_at_hand(device, {rows, rows})};
+        auto pipeline = programs_.get("lines", constants);
+        if (pipeline) command.pipeline = *pipeline;
+        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
     }
 
     void add_corrections(List& list, const Pass& pass, std::uint32_t substep) {
@@ -444,7 +453,8 @@ void record(gpu::Commands& commands, const Command& command, const gpu::DeviceLi
     commands.bind(*command.pipeline);
     commands.push(std::span(command.args).first(command.arg_bytes));
     const std::uint32_t size = command.pipeline->workgroup();
-    const std::uint32_t groups = (command.invocations + size - 1) / size;
+    const std::uint32_t filled = (command.invocations + size - 1) / size;
+    const std::uint32_t groups = command.groups > 0 ? command.groups : filled;
     const std::uint32_t wide = std::min(groups, limits.workgroup_count[0]);
     commands.dispatch(wide, (groups + wide - 1) / wide);
 }

@@ -16,6 +16,7 @@ struct Command {
     const gpu::Pipeline* pipeline = nullptr;
     std::uint32_t program = 0;  ///< number of its shader
     std::uint32_t invocations = 0;
+    std::uint32_t groups = 0;   ///< workgroups; 0: as many as the invocations fill
     bool needs_barrier = true;  ///< reads or writes what the command before it writes
     Pass pass{};                ///< what it comes from, or is part of
     std::uint32_t substep = 0;

@@ -108,7 +108,9 @@ Result<Done> FrameRun::record_fused(bool timings) {
             points = {.position = position, .count = count, .to = position, .owned = count};
             if (fits_at_hand(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
         }
-        lists_.add(plans_[i].commands, points);
+        const bool lines = members_[i].plan->projection == Projection::lines;
+        lists_.add(plans_[i].commands, points,
+                   lines ? largest_lines(cloth.model().table(ConstraintKind::stretch)) : LineRows{});
     }
     if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
     stages_ = {stage_fused};

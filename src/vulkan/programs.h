@@ -16,6 +16,8 @@ class Programs {
   public:
     explicit Programs(const gpu::Device& device) : device_(device) {}
 
+    const gpu::Device& device() const { return device_; }
+
     Result<const gpu::Pipeline*> get(std::string_view name);
     /// With values for its specialization constants, the workgroup's size first.
     Result<const gpu::Pipeline*> get(std::string_view name, std::span<const std::uint32_t> constants);

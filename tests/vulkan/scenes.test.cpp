@@ -5,6 +5,8 @@
 #include "solver/statistics.h"
 #include "weft/session.h"
 
+#include <weft/weft.h>
+
 #include <filesystem>
 
 namespace weft {
@@ -76,6 +78,27 @@ TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     EXPECT_EQ(run("patched", 3), expected);
     EXPECT_EQ(run("fused", 3), expected);
     EXPECT_NE(run("streamed", 4), expected);
+}
+
+// Shared memory may have room for a cloth's particles and none for its lines, for both, or for the lines alone.
+TEST(VulkanScenes, do_not_tell_what_is_at_hand) {
+    for (const std::uint32_t side : {20u, 40u, 50u}) {
+        const auto run = [&](const char* execution) {
+            auto made = Simulation::create({.solver = {.substeps = 3}}, {.backend = "vulkan", .execution = execution});
+            if (!made) {
+                ADD_FAILURE() << made.error().message();
+                return std::string();
+            }
+            ClothDesc cloth;
+            cloth.mesh = GridDesc{.size = {1, 1}, .resolution = {side, side}};
+            cloth.pins = {PinDesc{.select = VertexPins{{0, side - 1}}}};
+            EXPECT_TRUE(made->add(cloth).ok());
+            made->step();
+            EXPECT_TRUE(made->reports().empty());
+            return made->state_hash();
+        };
+        EXPECT_EQ(run("fused"), run("streamed")) << side;
+    }
 }
 
 // Iterations on patches, with contacts, tethers and holds around them: the bits of one dispatch per pass.

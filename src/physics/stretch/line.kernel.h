@@ -38,9 +38,16 @@ WEFT_FN LineRow line_start()
     return none;
 }
 
-// a is the point that the row shares with the one before, whose `factor` it completes.
-WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real wa, real wb, real lambda,
-                                  StretchRow row, Step step)
+// What a row brings to its line's system, for itself.
+struct LineTerms {
+    vec3 n;          // as LineRow has it
+    real rhs;
+    real diagonal;
+    real couples;
+    real limit;
+};
+
+WEFT_FN LineTerms line_terms(vec3 a, vec3 b, real wa, real wb, real lambda, StretchRow row, Step step)
 {
     StretchState state = measure_stretch(a, b, row, step);
     real w = wa + wb;
@@ -49,20 +56,41 @@ WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real w
 
     real rhs = select(state.slack, -lambda, -(state.c + state.alpha * lambda));
     real excess = min(real(WEFT_LINE_GIVE), abs(state.c) / max(row.rest, real(1e-30)));
-    real diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + max(state.alpha, w * excess), real(1));
-    LineRow now;
-    now.couples = select(stiff, real(1), real(0));
-    now.n = state.d * select(able, real(1) / state.len, real(0));
-    real coupling = -wa * dot(before.n, now.n);
-    before.factor = before.couples * coupling * before.inverse;
-    real lower = now.couples * coupling;
-    now.inverse = real(1) / (diagonal - lower * before.factor);
-    now.g = select(able, (rhs - lower * before.g) * now.inverse, real(0));
-    now.factor = real(0);
+    LineTerms t;
+    t.rhs = select(able, rhs, real(0));
+    t.diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + max(state.alpha, w * excess), real(1));
+    t.couples = select(stiff, real(1), real(0));
+    t.n = state.d * select(able, real(1) / state.len, real(0));
     // Never less than the row alone would take.
     real alone = abs(rhs) / select(stiff, w + state.alpha, real(1));
-    now.limit = max(alone, row.rest * real(WEFT_LINE_PULL) / max(max(wa, wb), real(1e-30)));
+    t.limit = max(alone, row.rest * real(WEFT_LINE_PULL) / max(max(wa, wb), real(1e-30)));
+    return t;
+}
+
+// How a row and the one before it depend on one another, by the point that they share.
+WEFT_FN real line_coupling(vec3 n_before, vec3 n, real wa) { return -wa * dot(n_before, n); }
+
+// Completes the `factor` of the row before.
+WEFT_FN LineRow eliminate_line(inout_(LineRow) before, real coupling, LineTerms t)
+{
+    before.factor = before.couples * coupling * before.inverse;
+    real lower = t.couples * coupling;
+    LineRow now;
+    now.couples = t.couples;
+    now.n = t.n;
+    now.inverse = real(1) / (t.diagonal - lower * before.factor);
+    now.g = (t.rhs - lower * before.g) * now.inverse;
+    now.factor = real(0);
+    now.limit = t.limit;
     return now;
+}
+
+// Both; a is the point that the row shares with the one before.
+WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real wa, real wb, real lambda,
+                                  StretchRow row, Step step)
+{
+    LineTerms t = line_terms(a, b, wa, wb, lambda, row, step);
+    return eliminate_line(before, line_coupling(before.n, t.n, wa), t);
 }
 
 // Delta lambda of a row from that of the next one.

@@ -3,8 +3,9 @@
 // the passes of coarse levels that are too small to be worth a dispatch each, or some iterations of patches. A command is what would be pushed with a
 // dispatch, behind the number of its shader.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_memory_scope_semantics : require
 #define WEFT_POINTS_AT_HAND
+#define WEFT_LINE_ROWS_ID 5
+#include "vulkan/shaders/meet.glsl"
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/faces.glsl"
 #include "vulkan/shaders/levels.glsl"
@@ -62,12 +63,19 @@ uvec2 advanced(uvec2 address, uint bytes)
     return uvec2(low, address.y + carry);
 }
 
-// All that came before is done and seen by the whole workgroup. Without the Vulkan memory model every access is one that
-// others may see, and such a barrier makes what was written available and visible.
-void meet()
+// As many blocks at once as have their rows at hand.
+void run_all_lines(LineArgs a)
 {
-    controlBarrier(gl_ScopeWorkgroup, gl_ScopeWorkgroup, gl_StorageSemanticsBuffer | gl_StorageSemanticsShared,
-                   gl_SemanticsAcquireRelease);
+    for (uint b = 0u; b < a.count;) {
+        uint base = a.blocks.at[2u * b], end = b + 1u;
+        while (end < a.count &&
+               (line_rows_at_hand == 1u ||
+                a.blocks.at[2u * end] + a.blocks.at[2u * end + 1u] * WEFT_LINES_ABREAST - base <= line_rows_at_hand))
+            ++end;
+        if (b > 0u) meet();
+        run_lines(a, LineRound(b, end, base));
+        b = end;
+    }
 }
 
 #define WEFT_EACH(name, Args)                                               \
@@ -118,7 +126,9 @@ void run_command(uvec2 at, uint me, uint all)
     WEFT_EACH(faces, FaceArgs)
     WEFT_EACH(push, AroundArgs)
     WEFT_EACH(normals, AroundArgs)
-    WEFT_EACH(lines, LineArgs)
+    case WEFT_ID_lines:
+        if (uses(WEFT_ID_lines)) run_all_lines(LineArgsCommand(at).args);
+        break;
     case WEFT_ID_limits:
         if (uses(WEFT_ID_limits)) run_limits(LimitArgsCommand(at).args);
         break;

@@ -1,54 +1,141 @@
-// Rows of stretch, a line to an invocation: elimination along the line, substitution back.
+// Rows of stretch along lines: elimination along the line, substitution back. What each row brings to that, and what
+// comes of it for the particles, is done row by row by all of a workgroup; the way there and back is a line to an
+// invocation, on numbers that are close at hand.
 #ifndef WEFT_LINES_GLSL
 #define WEFT_LINES_GLSL
+
+// Rows whose numbers a workgroup has in shared memory; 1: none, they are in the scratch memory.
+layout(constant_id = WEFT_LINE_ROWS_ID) const uint line_rows_at_hand = 1u;
+// limit, couples, diagonal, right side; after elimination limit, couples, factor, g; after substitution delta lambda first.
+shared vec4 line_numbers[line_rows_at_hand];
+shared float line_couplings[line_rows_at_hand];
+
+// Blocks that are solved together.
+struct LineRound {
+    uint first;
+    uint end;
+    uint base;  // row that is the first at hand
+};
+
+vec4 line_number(LineArgs a, LineRound round, uint r)
+{
+    if (line_rows_at_hand > 1u) return line_numbers[r - round.base];
+    return a.scratch.at[a.stride + r];
+}
+void keep_number(LineArgs a, LineRound round, uint r, vec4 number)
+{
+    if (line_rows_at_hand > 1u) line_numbers[r - round.base] = number;
+    else a.scratch.at[a.stride + r] = number;
+}
+float line_coupling_of(LineArgs a, LineRound round, uint r)
+{
+    if (line_rows_at_hand > 1u) return line_couplings[r - round.base];
+    return a.scratch.at[r].w;
+}
 
 StretchRow line_row(LineArgs a, uint r)
 {
     return StretchRow(a.fields.at[r], a.fields.at[a.stride + r], a.fields.at[2u * a.stride + r]);
 }
 
-void run_lines(LineArgs a, uint i)
+// Direction and weight go to the scratch memory, where the next row looks for them.
+void begin_row(LineArgs a, LineRound round, uint r, Step h)
 {
-    uint block = i / WEFT_LINES_ABREAST, lane = i % WEFT_LINES_ABREAST;
-    if (block >= a.count) return;
-    uint begin = a.blocks.at[2u * block] + lane, length = a.blocks.at[2u * block + 1u];
-    Step h = substep_of(a.frame);
+    vec4 from = load_point(a.position, a.particles.at[r]);
+    vec4 to = load_point(a.position, a.particles.at[a.stride + r]);
+    float lambda = a.lambda_use == WEFT_LAMBDA_ACCUMULATE ? a.lambda.at[r] : 0.0;
+    LineTerms t = line_terms(from.xyz, to.xyz, from.w, to.w, lambda, line_row(a, r), h);
+    a.scratch.at[r] = vec4(t.n, from.w);
+    keep_number(a, round, r, vec4(t.limit, t.couples, t.diagonal, t.rhs));
+}
 
-    // What the way back needs of the way there: direction and g in the first part, factor and limit in the second.
-    vec4 from = load_point(a.position, a.particles.at[begin]);
+void couple_row(LineArgs a, LineRound round, uint r, bool first)
+{
+    vec4 mine = a.scratch.at[r];
+    vec3 before = vec3(0.0);
+    if (!first) before = a.scratch.at[r - WEFT_LINES_ABREAST].xyz;
+    float coupling = line_coupling(before, mine.xyz, mine.w);
+    if (line_rows_at_hand > 1u) line_couplings[r - round.base] = coupling;
+    else a.scratch.at[r].w = coupling;
+}
+
+// The next row's numbers are asked for before this one's are needed: nothing that is written here is read there.
+void solve_line(LineArgs a, LineRound round, uint begin, uint length)
+{
     LineRow before = line_start();
+    vec4 numbers = line_number(a, round, begin);
+    float coupling = line_coupling_of(a, round, begin);
     for (uint k = 0u; k < length; ++k) {
         uint r = begin + k * WEFT_LINES_ABREAST;
-        vec4 b = load_point(a.position, a.particles.at[a.stride + r]);
-        float lambda = a.lambda_use == WEFT_LAMBDA_ACCUMULATE ? a.lambda.at[r] : 0.0;
-        LineRow now = eliminate_stretch(before, from.xyz, b.xyz, from.w, b.w, lambda, line_row(a, r), h);
-        if (k > 0u) a.scratch.at[a.stride + r - WEFT_LINES_ABREAST].x = before.factor;
-        a.scratch.at[r] = vec4(now.n, now.g);
-        a.scratch.at[a.stride + r] = vec4(0.0, now.limit, 0.0, 0.0);
+        uint ahead = min(k + 1u, length - 1u) * WEFT_LINES_ABREAST + begin;
+        vec4 next_numbers = line_number(a, round, ahead);
+        float next_coupling = line_coupling_of(a, round, ahead);
+        LineTerms t = LineTerms(vec3(0.0), numbers.w, numbers.z, numbers.y, numbers.x);
+        LineRow now = eliminate_line(before, coupling, t);
+        if (k > 0u)
+            keep_number(a, round, r - WEFT_LINES_ABREAST, vec4(before.limit, before.couples, before.factor, before.g));
         before = now;
-        from = b;
+        numbers = next_numbers, coupling = next_coupling;
     }
-
-    vec3 pull = vec3(0.0);  // of the row behind
     float next = 0.0;
+    numbers = vec4(before.limit, before.couples, 0.0, before.g);
     for (uint k = length; k-- > 0u;) {
         uint r = begin + k * WEFT_LINES_ABREAST;
-        vec4 kept = a.scratch.at[r];
-        vec4 rest = a.scratch.at[a.stride + r];
+        vec4 next_numbers = line_number(a, round, k > 0u ? r - WEFT_LINES_ABREAST : r);
         LineRow row = line_start();
-        row.n = kept.xyz, row.g = kept.w, row.factor = rest.x, row.limit = rest.y;
+        row.limit = numbers.x, row.factor = numbers.z, row.g = numbers.w;
         next = substitute_stretch(row, next);
-        if (a.lambda_use == WEFT_LAMBDA_STORE) a.lambda.at[r] = next;
-        if (a.lambda_use == WEFT_LAMBDA_ACCUMULATE) a.lambda.at[r] = a.lambda.at[r] + next;
-        vec3 mine = row.n * next;
-        uint second = a.particles.at[a.stride + r];
-        vec4 x = load_point(a.position, second);
-        store_point(a.position, second, vec4(x.xyz + (pull - mine) * x.w, x.w));
-        pull = mine;
+        keep_number(a, round, r, vec4(next, 0.0, 0.0, 0.0));
+        numbers = next_numbers;
     }
-    uint first = a.particles.at[begin];
-    vec4 x = load_point(a.position, first);
-    store_point(a.position, first, vec4(x.xyz + pull * x.w, x.w));
+}
+
+// Each point is moved by the row that it is the second of, and the first one by the first row.
+void end_row(LineArgs a, LineRound round, uint r, bool first, bool last)
+{
+    float change = line_number(a, round, r).x;
+    if (a.lambda_use == WEFT_LAMBDA_STORE) a.lambda.at[r] = change;
+    if (a.lambda_use == WEFT_LAMBDA_ACCUMULATE) a.lambda.at[r] = a.lambda.at[r] + change;
+    uint from = a.particles.at[r], to = a.particles.at[a.stride + r];
+    vec3 mine = a.scratch.at[r].xyz * change;
+    vec3 pull = vec3(0.0);  // of the row behind
+    if (!last) pull = a.scratch.at[r + WEFT_LINES_ABREAST].xyz * line_number(a, round, r + WEFT_LINES_ABREAST).x;
+    // Padding goes from the end of a line to itself; that point is the last real row's.
+    if (from != to) {
+        vec4 x = load_point(a.position, to);
+        store_point(a.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
+        if (first) {
+            vec4 y = load_point(a.position, from);
+            store_point(a.position, from, vec4(y.xyz + mine * y.w, y.w));
+        }
+    }
+}
+
+// By all of a workgroup.
+void run_lines(LineArgs a, LineRound round)
+{
+    uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
+    Step h = substep_of(a.frame);
+    for (uint b = round.first; b < round.end; ++b) {
+        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LINES_ABREAST;
+        for (uint i = me; i < rows; i += all) begin_row(a, round, begin + i, h);
+    }
+    meet();
+    for (uint b = round.first; b < round.end; ++b) {
+        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LINES_ABREAST;
+        for (uint i = me; i < rows; i += all) couple_row(a, round, begin + i, i < WEFT_LINES_ABREAST);
+    }
+    meet();
+    for (uint i = me; i < (round.end - round.first) * WEFT_LINES_ABREAST; i += all) {
+        uint b = round.first + i / WEFT_LINES_ABREAST;
+        solve_line(a, round, a.blocks.at[2u * b] + i % WEFT_LINES_ABREAST, a.blocks.at[2u * b + 1u]);
+    }
+    meet();
+    for (uint b = round.first; b < round.end; ++b) {
+        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LINES_ABREAST;
+        for (uint i = me; i < rows; i += all)
+            end_row(a, round, begin + i, i < WEFT_LINES_ABREAST, i + WEFT_LINES_ABREAST >= rows);
+    }
 }
 
 #endif
