@@ -24,6 +24,7 @@ double mean_stretch(World& world, double seconds) {
 }
 
 TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const std::uint32_t substeps : {5u, 10u}) {
         World with = hung(64, {.substeps = substeps, .hierarchy = true}), without = hung(64, {.substeps = substeps});
         const double a = mean_stretch(with, 4), b = mean_stretch(without, 4);
@@ -34,6 +35,7 @@ TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
 
 // Where the rows are solved, levels have nothing to say: the sheet hangs as far as its fabric lets it.
 TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const float stiffness : {300.0f, 4000.0f}) {
         SheetDesc sheet = hanging_strip({9, 33}, stiffness, 40);
         sheet.layout.hierarchy = true;
@@ -51,6 +53,7 @@ TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
 
 // Between two corners cotton hangs a centimeter lower in the middle than rigid cloth would, since it shears.
 TEST(HierarchyOf, a_sheet_that_gives_way_along_the_bias_leaves_it_hanging) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     constexpr std::uint32_t side = 33;
     const auto hang = [](Tethers tethers, const WorldSettings& settings) {
         SheetDesc sheet = hung_by_corners(side, {.lines = true, .hierarchy = true});

@@ -25,6 +25,7 @@ double residual_after(World world, double seconds) {
 }
 
 TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
         const auto error = [&](Projection projection, std::uint32_t substeps, bool hierarchy) {
             return residual_after(
@@ -43,6 +44,7 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
 
 // Solved or not solved by lines, the sheet hangs as far as its fabric lets it: ρ g L²/2K (docs/validation.md).
 TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     SheetDesc sheet = hanging_strip({9, 33}, 300, 40);
     double sags[2] = {};
     for (const Projection projection : {Projection::gauss_seidel, Projection::lines}) {
@@ -83,6 +85,7 @@ double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
 }
 
 TEST(LinesOf, a_sheet_held_too_far_apart_do_not_crumple_it) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     Fabric rigid;
     rigid.stretch.inextensible = true;
     double cotton_stretch = 0, rigid_stretch = 0;

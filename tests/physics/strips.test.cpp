@@ -106,6 +106,7 @@ TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
 // A strip as limp as Γ = 50 turns by its 90° close to the clamp, which ten cells are too few for: they measure chords,
 // and 3 % less of the drop.
 TEST_P(Cantilever, of_plate_follows_the_curve_within_two_percent) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const Case& one : cases) {
         const bool too_coarse = one.point.gamma > 20 && one.resolution.cells < 14;
         const double error = cantilever_error(GetParam(), BendModel::plate, one.point, one.resolution);
@@ -121,6 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Strips, Cantilever,
 
 // Printed rather than judged: neither model promises anything here.
 TEST(CantileverElsewhere, prints_its_errors) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const BendModel bend : {BendModel::hinges, BendModel::plate}) {
         for (const Strip& strip :
              {Strip{Cut::warp, GridDiagonal::cross}, Strip{Cut::bias_along, GridDiagonal::uniform},
@@ -220,6 +222,7 @@ double sag_over_span(double ratio) {
 }
 
 TEST(Catenary, hangs_as_deep_as_its_length_says) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
     // y = c cosh(x/c) with L = 2c sinh(d/2c), solved for sag = c (cosh(d/2c) - 1).
     constexpr double table[][2] = {{1.05, .13930}, {1.1, .20030}, {1.2, .29234}, {1.5, .50263}, {2, .79639}};
     for (const auto& [ratio, expected] : table) {
