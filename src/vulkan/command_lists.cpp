@@ -14,7 +14,7 @@ struct ListIn {
     std::uint64_t commands;
     std::uint32_t count, points;
     std::uint64_t position, to, indices, sums;
-    std::uint32_t owned, unused;
+    std::uint32_t owned, repeat_begin, repeat_end, times;
 };
 constexpr std::size_t head_bytes = 16, command_bytes = head_bytes + 128;
 
@@ -51,11 +51,17 @@ LineRows largest_lines(const ConstraintTable& table) {
     return largest;
 }
 
-std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsAtHand& points, const LineRows& lines) {
+std::uint32_t CommandLists::add(std::span<const Command> commands, const PointsAtHand& points, const LineRows& lines,
+                                const Repeat& repeat) {
     List& list = lists_.emplace_back();
+    list.times = repeat.times;
+    const std::size_t again = repeat.end + (repeat.end - repeat.begin) * (repeat.times - 1);
     list.points = points;
     list.lines = lines;
-    for (const Command& command : commands) {
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        if (i == repeat.begin) list.repeat_begin = list.count;
+        if (i == repeat.end) list.repeat_end = list.count, i = again;
+        const Command& command = commands[i];
         if (command.invocations == 0) continue;
         std::array<std::byte, command_bytes> bytes{};
         const std::array head = {command.program, command.invocations, command.needs_barrier ? 1u : 0u};
@@ -86,7 +92,9 @@ Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const 
                          .indices = lists_[i].points.indices,
                          .sums = lists_[i].points.sums,
                          .owned = lists_[i].points.owned,
-                         .unused = 0});
+                         .repeat_begin = lists_[i].repeat_begin,
+                         .repeat_end = lists_[i].repeat_end,
+                         .times = lists_[i].times});
     }
     if (auto done = upload(device, arena_, table_, std::as_bytes(std::span(table))); !done) return done;
     return choose_pipeline(device, programs);

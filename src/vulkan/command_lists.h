@@ -30,8 +30,9 @@ std::uint32_t line_rows_at_hand(const gpu::Device& device, const LineRows& rows,
 
 class CommandLists {
   public:
-    /// Commands without anything to do are left out. Returns the list's number.
-    std::uint32_t add(std::span<const Command> commands, const PointsAtHand& points = {}, const LineRows& lines = {});
+    /// Commands without anything to do are left out, and so are those that are others again. Returns the list's number.
+    std::uint32_t add(std::span<const Command> commands, const PointsAtHand& points = {}, const LineRows& lines = {},
+                      const Repeat& repeat = {});
     Result<Done> build(gpu::Device& device, Programs& programs, const std::string& name);
 
     /// `count` lists from `first` on, side by side. What goes by substeps counts them from `substep` on.
@@ -42,6 +43,7 @@ class CommandLists {
     struct List {
         std::vector<std::byte> commands;
         std::uint32_t count = 0, widest = 0;  ///< invocations of the widest command
+        std::uint32_t repeat_begin = 0, repeat_end = 0, times = 1;
         PointsAtHand points;
         LineRows lines;
     };

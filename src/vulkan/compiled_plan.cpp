@@ -28,7 +28,7 @@ class Compiler {
     Result<CompiledPlan> run() {
         CompiledPlan out;
         begin_frame(out.commands);
-        add_substeps(out.commands);
+        add_substeps(out);
         add_frame_end(out);
         if (!errors_.empty()) return errors_;
         return out;
@@ -66,17 +66,47 @@ class Compiler {
         for (const Pass& pass : plan_.frame_begin) add_pass(list, pass, 0);
     }
 
-    void add_substeps(List& list) {
+    void add_substeps(CompiledPlan& out) {
+        List& list = out.commands;
+        std::vector<std::size_t> begins;
         // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
         const std::span<const Pass> passes(plan_.substep);
         const bool together =
             !passes.empty() && passes.front().kind == PassKind::predict && passes.back().kind == PassKind::velocities;
         for (std::uint32_t substep = 0; substep < plan_.substeps; ++substep) {
+            begins.push_back(list.size());
             const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan_.substeps;
             for (const Pass& pass : passes.subspan(begun, passes.size() - begun - goes_on))
                 add_pass(list, pass, substep);
             if (goes_on) add(list, "advance", particle_args(), model_.point_count(), passes.back(), substep);
         }
+        // The first begins and the last ends in its own way.
+        if (plan_.substeps > 3) out.repeat = repeat_of(list, std::span(begins).subspan(1));
+    }
+
+    // From one begin to the next, as long as they are alike; the last begin is the end.
+    static Repeat repeat_of(const List& list, std::span<const std::size_t> begins) {
+        Repeat repeat{begins[0], begins[1], 1};
+        const std::size_t length = repeat.end - repeat.begin;
+        for (std::size_t i = 1; i + 1 < begins.size() && begins[i + 1] - begins[i] == length; ++i) {
+            for (std::size_t k = 0; k < length; ++k)
+                if (!alike(list[repeat.begin + k], list[begins[i] + k])) return repeat;
+            ++repeat.times;
+        }
+        return repeat;
+    }
+
+    static bool alike(const Command& a, const Command& b) {
+        if (a.program != b.program || a.invocations != b.invocations || a.needs_barrier != b.needs_barrier)
+            return false;
+        const auto without_substep = [](const Command& command) {
+            auto args = command.args;
+            const auto clear = [&](std::size_t at) { std::memset(args.data() + at, 0, sizeof(std::uint32_t)); };
+            if (command.program == shader_number("contact")) clear(offsetof(ContactArgs, substep));
+            if (command.program == shader_number("hold")) clear(offsetof(HoldArgs, substep));
+            return args;
+        };
+        return without_substep(a) == without_substep(b);
     }
 
     // Whether all is finite is asked before normals are made of it.

@@ -24,9 +24,17 @@ struct Command {
     alignas(8) std::array<std::byte, 128> args{};
 };
 
+/// Commands [begin, end) are those of a substep; as many follow, alike but for the substep's number, for each further
+/// one.
+struct Repeat {
+    std::size_t begin = 0, end = 0;
+    std::uint32_t times = 1;
+};
+
 /// What a frame does, in order.
 struct CompiledPlan {
     std::vector<Command> commands;
+    Repeat repeat;
     std::size_t check = 0;  ///< from here on: whether all is finite, back if not, and the surface
     Command roll_back;      ///< one of those
 };

@@ -110,7 +110,7 @@ Result<Done> FrameRun::record_fused(bool timings) {
         }
         const bool lines = members_[i].plan->projection == Projection::lines;
         lists_.add(plans_[i].commands, points,
-                   lines ? largest_lines(cloth.model().table(ConstraintKind::stretch)) : LineRows{});
+                   lines ? largest_lines(cloth.model().table(ConstraintKind::stretch)) : LineRows{}, plans_[i].repeat);
     }
     if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
     stages_ = {stage_fused};

@@ -101,6 +101,26 @@ TEST(VulkanScenes, do_not_tell_what_is_at_hand) {
     }
 }
 
+// The substeps between the first and the last one are the same commands again: those that move with keys among them.
+TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
+    for (const char* name : {"turning_drum", "curtain"}) {
+        const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
+        for (const std::uint32_t substeps : {4u, 7u}) {
+            const auto run = [&](const char* execution) {
+                auto session =
+                    Session::open(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
+                if (!session) {
+                    ADD_FAILURE() << session.error().message();
+                    return std::string();
+                }
+                for (int i = 0; i < 2; ++i) session->world().advance(0.8);
+                return session->world().state_hash();
+            };
+            EXPECT_EQ(run("fused"), run("streamed")) << name << ", " << substeps;
+        }
+    }
+}
+
 // Iterations on patches, with contacts, tethers and holds around them: the bits of one dispatch per pass.
 TEST(VulkanScenes, do_not_tell_that_they_are_cut_into_patches) {
     struct Way {

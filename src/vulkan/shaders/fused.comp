@@ -29,7 +29,9 @@ struct ListIn {
     uvec2 indices;    // which they are; 0: the first ones
     uvec2 sums;       // in fixed point, likewise at hand and 0 at first; 0: none
     uint owned;
-    uint unused;
+    uint repeat_begin;  // commands of a substep, which run so many times
+    uint repeat_end;
+    uint times;
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ListRef { ListIn at[]; };
 layout(push_constant) uniform Push { ListRef lists; uint first; uint first_substep; };
@@ -97,19 +99,26 @@ void run_all_lines(LineArgs a)
         }                                                                                       \
         break;
 
-void run_command(uvec2 at, uint me, uint all)
+// `substep`: what those that go by substeps add to their number.
+void run_command(uvec2 at, uint substep, uint me, uint all)
 {
     uint invocations = CommandRef(at).invocations;
     switch (CommandRef(at).program) {
     WEFT_EACH(predict, ParticleArgs)
     WEFT_EACH(velocities, ParticleArgs)
     WEFT_EACH(advance, ParticleArgs)
-    WEFT_EACH(hold, HoldArgs)
+    case WEFT_ID_hold:
+        if (uses(WEFT_ID_hold)) {
+            HoldArgs a = HoldArgsCommand(at).args;
+            a.substep += substep;
+            for (uint i = me; i < invocations; i += all) run_hold(a, i);
+        }
+        break;
     WEFT_EACH(average, AverageArgs)
     case WEFT_ID_contact:
         if (uses(WEFT_ID_contact)) {
             ContactArgs a = ContactArgsCommand(at).args;
-            a.substep += first_substep;
+            a.substep += substep;
             for (uint i = me; i < invocations; i += all) run_contact(a, i);
         }
         break;
@@ -162,10 +171,16 @@ void main()
         for (uint i = me; i < list.points * WEFT_QUANTA_PER_POINT; i += all) quanta[i] = 0u;
         home_of_sums = list.sums;
     }
-    for (uint c = 0u; c < list.count; ++c) {
+    uint round = 0u;
+    for (uint c = 0u; c < list.count;) {
         uvec2 command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
         if (CommandRef(command).needs_barrier != 0u || c == 0u) meet();
-        run_command(command, me, all);
+        run_command(command, first_substep + (c >= list.repeat_begin && c < list.repeat_end ? round : 0u), me, all);
+        ++c;
+        if (c == list.repeat_end && round + 1u < list.times) {
+            c = list.repeat_begin;
+            ++round;
+        }
     }
     if (points_at_hand > 1u) {
         meet();
