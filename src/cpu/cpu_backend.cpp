@@ -82,9 +82,12 @@ class CpuBackend final : public Backend {
         return true;
     }
 
-    Residual stretch_residual(ClothHandle id) const override {
+    void measure(ClothHandle id, MeasureSums& sums) const override {
         const cpu::ClothState& state = cloth(id);
-        return weft::stretch_residual(*state.model, state.now.position, state.stretch_lambda(), state.substep_seconds);
+        const ClothModel& model = *state.model;
+        sums.add(model, state.now.position, state.now.velocity);
+        sums.add_residual(model,
+                          stretch_residual(model, state.now.position, state.stretch_lambda(), state.substep_seconds));
     }
 
     void hash(ClothHandle id, StateHash& hash) const override {

@@ -6,7 +6,7 @@
 #include "solver/collider.h"
 #include "solver/frame.h"
 #include "solver/holds.h"
-#include "solver/residual.h"
+#include "solver/measures.h"
 #include "solver/snapshot.h"
 
 #include <weft/result.h>
@@ -52,6 +52,8 @@ class Backend {
     virtual std::string_view name() const = 0;  ///< as on the command line
     virtual std::string device() const = 0;     ///< for a human
     virtual unsigned threads() const = 0;
+    /// Of a device's memory, taken for cloths beside what the program has of its own.
+    virtual std::uint64_t device_bytes() const { return 0; }
 
     /// Fails where the device has no room for it.
     virtual Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) = 0;
@@ -65,8 +67,9 @@ class Backend {
     /// The cloth as it is, in arrays that stay until the next call of anything. False if the device cannot tell any
     /// more: then as it was when it was last read.
     virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;
-    /// Of the last substep.
-    virtual Residual stretch_residual(ClothHandle cloth) const = 0;
+    /// Adds the cloth as it is, and what the last substep left of stretch; as read() has it if the device cannot tell
+    /// any more.
+    virtual void measure(ClothHandle cloth, MeasureSums& sums) const = 0;
     /// Empty if the device cannot tell any more.
     virtual ClothSnapshot save(ClothHandle cloth) const = 0;
     /// `snapshot` has the sizes that save() gives for this cloth.

@@ -1,6 +1,7 @@
 #include "solver/residual.h"
 
-#include <algorithm>
+#include "solver/measures.h"
+
 #include <cmath>
 
 namespace weft {
@@ -21,7 +22,7 @@ Residual stretch_residual(const ClothModel& model, std::span<const Vec4> positio
         // No stiffness on this side: nothing was to be solved.
         const double left = compliance < 0 ? 0 : std::abs(c + (h2 > 0 ? compliance / h2 * lambda : 0)) / rest;
         residual.mean += left;
-        residual.max = std::max(residual.max, left);
+        residual.max = larger(residual.max, left);
     }
     if (table.rows > 0) residual.mean /= table.rows;
     return residual;

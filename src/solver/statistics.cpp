@@ -3,67 +3,29 @@
 #include "collide/crossings.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace weft {
-namespace {
 
-double distance(Vec3 a, Vec3 b) {
-    const double x = static_cast<double>(a.x) - b.x, y = static_cast<double>(a.y) - b.y,
-                 z = static_cast<double>(a.z) - b.z;
-    return std::sqrt(x * x + y * y + z * z);
+ClothMeasures measure(const Frame& frame) {
+    MeasureSums sums;
+    for (const ClothFrame& cloth : frame.cloths) sums.add(*cloth.model, cloth.positions, cloth.velocities);
+    return sums.result();
 }
-
-double speed2(const Vec4& v) {
-    return static_cast<double>(v.x) * v.x + static_cast<double>(v.y) * v.y + static_cast<double>(v.z) * v.z;
-}
-
-class Mean {
-  public:
-    void add(double value) {
-        sum_ += value;
-        count_ += 1;
-        max_ = std::max(max_, value);
-    }
-    MeanMax result() const { return {count_ > 0 ? sum_ / count_ : 0, max_}; }
-
-  private:
-    double sum_ = 0, count_ = 0, max_ = 0;
-};
-
-}  // namespace
 
 Strain measure_strain(const Frame& frame) {
-    Mean stretch, shear;
-    for (const ClothFrame& cloth : frame.cloths) {
-        const ClothModel& model = *cloth.model;
-        for (std::size_t e = 0; e < model.edges.size(); ++e) {
-            const auto [a, b] = model.edges[e];
-            const double rest = distance(model.rest_position(a), model.rest_position(b));
-            if (rest <= 0) continue;
-            const double now = distance(cloth.positions[a].xyz(), cloth.positions[b].xyz());
-            (e < model.axial_edges ? stretch : shear).add(std::abs(now / rest - 1));
-        }
-    }
-    return {stretch.result(), shear.result()};
+    return measure(frame).strain;
 }
 
 double kinetic_energy(const Frame& frame) {
-    double energy = 0;
-    for (const ClothFrame& cloth : frame.cloths) {
-        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
-            if (cloth.positions[p].w > 0) energy += 0.5 * cloth.model->mass[p] * speed2(cloth.velocities[p]);
-        }
-    }
-    return energy;
+    return measure(frame).kinetic_energy;
 }
 
 double max_speed(const Frame& frame) {
-    double fastest = 0;
-    for (const ClothFrame& cloth : frame.cloths) {
-        for (const Vec4& v : cloth.velocities) fastest = std::max(fastest, speed2(v));
-    }
-    return std::sqrt(fastest);
+    return measure(frame).max_speed;
+}
+
+bool all_finite(const Frame& frame) {
+    return measure(frame).finite;
 }
 
 Penetration measure_penetration(const Frame& frame, std::span<const Collider> colliders) {
@@ -100,20 +62,8 @@ Intersections count_intersections(const Frame& frame) {
     return {crossings.triangles, crossings.edges};
 }
 
-bool all_finite(const Frame& frame) {
-    for (const ClothFrame& cloth : frame.cloths) {
-        for (const Vec4& p : cloth.positions) {
-            if (!finite(p.xyz())) return false;
-        }
-        for (const Vec4& v : cloth.velocities) {
-            if (!finite(v.xyz())) return false;
-        }
-    }
-    return true;
-}
-
 double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to) {
-    Mean mean;
+    Tally mean;
     for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) mean.add(distance(from[i], to[i]));
     return mean.result().mean;
 }

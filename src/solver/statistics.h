@@ -3,27 +3,20 @@
 
 #include "solver/collider.h"
 #include "solver/frame.h"
+#include "solver/measures.h"
 
 #include <cstdint>
 #include <span>
 
 namespace weft {
 
-struct MeanMax {
-    double mean = 0, max = 0;
-};
-
-/// |ℓ/ℓ₀ - 1| over edges: `stretch` those along warp or weft, `shear` the others.
-struct Strain {
-    MeanMax stretch, shear;
-};
+/// Everything but the residual; what World::measure() finds without bringing the cloth to the host.
+ClothMeasures measure(const Frame& frame);
+/// Of these:
 Strain measure_strain(const Frame& frame);
-
-/// J: ½ m v² over all particles that move.
 double kinetic_energy(const Frame& frame);
-
-/// m/s: the fastest particle.
 double max_speed(const Frame& frame);
+bool all_finite(const Frame& frame);
 
 /// How far cloth reaches beyond the colliders' true surfaces (thickness set aside), sampled at the corners, the middles
 /// of the sides and the center of every triangle. A particle that has tunneled deep inside counts with its full depth.
@@ -39,9 +32,6 @@ struct Intersections {
     std::uint64_t edges = 0;      ///< pairs of an edge and a triangle
 };
 Intersections count_intersections(const Frame& frame);
-
-/// No NaN and no infinity in positions or velocities.
-bool all_finite(const Frame& frame);
 
 /// Mean displacement of the particles from one set of positions to another, m.
 double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to);

@@ -2,7 +2,6 @@
 
 #include "base/hash.h"
 
-#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cmath>
@@ -234,18 +233,10 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     return Done{};
 }
 
-Residual World::stretch_residual() const {
-    Residual all;
-    double rows = 0;
-    for (const Cloth& cloth : cloths_) {
-        const double count = cloth.model->table(ConstraintKind::stretch).rows;
-        const Residual one = backend_->stretch_residual(cloth.handle);
-        all.mean += one.mean * count;
-        all.max = std::max(all.max, one.max);
-        rows += count;
-    }
-    if (rows > 0) all.mean /= rows;
-    return all;
+ClothMeasures World::measure() const {
+    MeasureSums sums;
+    for (const Cloth& cloth : cloths_) backend_->measure(cloth.handle, sums);
+    return sums.result();
 }
 
 std::string World::state_hash() const {

@@ -77,8 +77,9 @@ class World {
     /// Fails, and changes nothing, if the cloths or colliders are not as many or as large.
     Result<Done> restore(const Snapshot& snapshot);
 
-    /// Over all cloths.
-    Residual stretch_residual() const;
+    /// Over all cloths, as they are; what is on a device is measured there.
+    ClothMeasures measure() const;
+    Residual stretch_residual() const { return measure().residual; }
     /// 16 hexadecimal digits that differ as soon as one bit of the state does.
     std::string state_hash() const;
 

@@ -59,11 +59,14 @@ Result<Done> Cloth::restore(const ClothSnapshot& snapshot) {
     return update_normals();
 }
 
-Residual Cloth::stretch_residual() const {
-    const auto positions = state_->download_points(device_, state_->position);
+void Cloth::measure(MeasureSums& sums) {
+    if (const auto found = vulkan::measure(device_, programs_, *state_); found && *found) return sums.add(**found);
+    (void)read();  // else as it was read last
+    sums.add(model(), positions(), velocities());
+    const auto points = state_->download_points(device_, state_->position);
     const auto lambda = state_->download_lambda(device_);
-    if (!positions || !lambda) return {};
-    return weft::stretch_residual(model(), *positions, *lambda, state_->substep_seconds);
+    if (points && lambda)
+        sums.add_residual(model(), stretch_residual(model(), *points, *lambda, state_->substep_seconds));
 }
 
 void Cloth::hash(StateHash& hash) const {

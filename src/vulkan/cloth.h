@@ -3,7 +3,7 @@
 
 #include "base/hash.h"
 #include "gpu/commands.h"
-#include "solver/residual.h"
+#include "solver/measures.h"
 #include "vulkan/cloth_state.h"
 #include "vulkan/compiled_plan.h"
 
@@ -31,7 +31,8 @@ class Cloth {
     Result<ClothSnapshot> save() const { return state_->save(device_); }
     Result<Done> restore(const ClothSnapshot& snapshot);
     Result<Done> update_normals();
-    Residual stretch_residual() const;
+    /// On the device; on the host what is not finite there, or where the device has no room for it.
+    void measure(MeasureSums& sums);
     void hash(StateHash& hash) const;
 
   private:

@@ -77,4 +77,13 @@ Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& de
     return std::shared_ptr<const ModelBuffers>(std::move(self));
 }
 
+Result<const MeasureLists*> ModelBuffers::measure_lists(gpu::Device& device) const {
+    if (!measure_lists_) {
+        auto made = MeasureLists::create(device, *model);
+        if (!made) return made.errors();
+        measure_lists_ = std::move(*made);
+    }
+    return measure_lists_.get();
+}
+
 }  // namespace weft::vulkan

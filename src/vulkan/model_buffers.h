@@ -3,6 +3,7 @@
 
 #include "solver/cloth_model.h"
 #include "vulkan/arena.h"
+#include "vulkan/measures/measure.h"
 
 #include <array>
 #include <memory>
@@ -32,6 +33,9 @@ class ModelBuffers {
     Slot weights;  ///< inverse masses
     Slot span_ends, span_lengths;
 
+    /// Made when somebody asks for them.
+    Result<const MeasureLists*> measure_lists(gpu::Device& device) const;
+
     std::uint64_t address(Slot slot) const { return arena_.address(slot); }
     std::uint64_t bytes() const { return arena_.size(); }
 
@@ -39,6 +43,7 @@ class ModelBuffers {
     explicit ModelBuffers(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {}
 
     Arena arena_;
+    mutable std::unique_ptr<const MeasureLists> measure_lists_;
 };
 
 }  // namespace weft::vulkan

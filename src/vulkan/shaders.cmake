@@ -61,6 +61,9 @@ weft_shader(fused fused.comp)
 foreach(pass reduce scan count_digits scatter sides flags edges)
     weft_shader(${pass} topology/${pass}.comp)
 endforeach()
+weft_shader(measure_particles measures/measure.comp WEFT_TERM=particle_term WEFT_ARGS=MeasureParticlesArgs)
+weft_shader(measure_edges measures/measure.comp WEFT_TERM=edge_term WEFT_ARGS=MeasureEdgesArgs)
+weft_shader(measure_rows measures/measure.comp WEFT_TERM=row_term WEFT_ARGS=MeasureRowsArgs)
 
 # One table of all, for shaders.cpp.
 weft_embed_shaders(${shader_output} vulkan_shaders ${shader_names})

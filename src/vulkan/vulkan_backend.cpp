@@ -41,6 +41,7 @@ class VulkanBackend final : public Backend {
     std::string_view name() const override { return "vulkan"; }
     std::string device() const override { return device_->info().name + ", " + device_->info().driver; }
     unsigned threads() const override { return 1; }
+    std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
         auto cloth = make_cloth(std::move(model));
@@ -103,7 +104,7 @@ class VulkanBackend final : public Backend {
         return read;
     }
 
-    Residual stretch_residual(ClothHandle handle) const override { return cloth(handle).stretch_residual(); }
+    void measure(ClothHandle handle, MeasureSums& sums) const override { cloth(handle).measure(sums); }
     ClothSnapshot save(ClothHandle handle) const override {
         auto snapshot = cloth(handle).save();
         return snapshot ? std::move(*snapshot) : ClothSnapshot{};

@@ -300,17 +300,19 @@ std::span<const Vec4> Simulation::tangents(ClothId id) const {
 
 Measures Simulation::measure() const {
     const World& world = impl_->world();
-    const Strain strain = measure_strain(world.frame());
-    const Residual residual = world.stretch_residual();
-    return {.mean_stretch = strain.stretch.mean,
-            .max_stretch = strain.stretch.max,
-            .mean_shear = strain.shear.mean,
-            .max_shear = strain.shear.max,
-            .mean_residual = residual.mean,
-            .max_residual = residual.max,
-            .kinetic_energy = kinetic_energy(world.frame()),
-            .max_speed = max_speed(world.frame()),
-            .max_penetration = measure_penetration(world.frame(), world.colliders()).max};
+    const ClothMeasures measures = world.measure();
+    // The only one for which positions must be here.
+    const double penetration =
+        world.colliders().empty() ? 0 : measure_penetration(world.frame(), world.colliders()).max;
+    return {.mean_stretch = measures.strain.stretch.mean,
+            .max_stretch = measures.strain.stretch.max,
+            .mean_shear = measures.strain.shear.mean,
+            .max_shear = measures.strain.shear.max,
+            .mean_residual = measures.residual.mean,
+            .max_residual = measures.residual.max,
+            .kinetic_energy = measures.kinetic_energy,
+            .max_speed = measures.max_speed,
+            .max_penetration = penetration};
 }
 
 std::vector<std::string_view> Simulation::reports() const {

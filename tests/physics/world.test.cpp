@@ -49,6 +49,22 @@ TEST(Snapshot, brings_back_the_same_bits) {
     EXPECT_EQ(other.state_hash(), later);
 }
 
+TEST(World, is_measured_as_its_frame_is) {
+    World world = lively_world();
+    run(world, 0.25);
+    const auto near = [](double a, double b) { EXPECT_NEAR(a, b, 1e-5 * b); };
+    const ClothMeasures there = world.measure(), here = measure(world.frame());
+    near(there.strain.stretch.mean, here.strain.stretch.mean);
+    near(there.strain.stretch.max, here.strain.stretch.max);
+    near(there.strain.shear.mean, here.strain.shear.mean);
+    near(there.strain.shear.max, here.strain.shear.max);
+    near(there.kinetic_energy, here.kinetic_energy);
+    near(there.max_speed, here.max_speed);
+    EXPECT_GT(there.residual.mean, 0);
+    EXPECT_TRUE(there.finite);
+    EXPECT_EQ(world.stretch_residual().max, there.residual.max) << "the same every time";
+}
+
 TEST(Snapshot, survives_being_written_and_read) {
     World world = lively_world();
     run(world, 0.25);

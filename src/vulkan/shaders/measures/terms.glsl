@@ -1,0 +1,69 @@
+// What a particle, an edge or a row adds. Its size is ≥ 0 and goes as bits, which are in the order of such floats, with
+// what is not finite above all.
+#ifndef WEFT_TERMS_GLSL
+#define WEFT_TERMS_GLSL
+
+#include "vulkan/shaders/measures/two_floats.glsl"
+
+struct Term {
+    float value;
+    uint size;
+};
+
+#define WEFT_NAN 0x7fc00000u
+
+// Also where a driver takes it for granted that no number is a NaN.
+bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
+bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+float square_of(vec3 v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+
+// Kinetic energy, J; the square of the speed, m²/s².
+Term particle_term(MeasureParticlesArgs a, uint p)
+{
+    vec4 x = a.position.at[p];
+    vec3 v = a.velocity.at[p].xyz;
+    if (!is_finite(x.xyz) || !is_finite(v)) return Term(0.0, WEFT_NAN);
+    float speed2 = square_of(v);
+    return Term(x.w > 0.0 ? 0.5 * a.masses.at[p] * speed2 : 0.0, floatBitsToUint(speed2));
+}
+
+Term deviation(float x)
+{
+    return Term(abs(x), floatBitsToUint(x) & 0x7fffffffu);
+}
+
+// ℓ/ℓ₀ - 1 as (ℓ² - ℓ₀²) / (ℓ₀ (ℓ + ℓ₀)), whose difference alone needs more than a float.
+Term edge_term(MeasureEdgesArgs a, uint e)
+{
+    vec3 p = a.position.at[a.edges.at[4u * e]].xyz, q = a.position.at[a.edges.at[4u * e + 1u]].xyz;
+    float rest2 = uintBitsToFloat(a.edges.at[4u * e + 2u]), rest2_low = uintBitsToFloat(a.edges.at[4u * e + 3u]);
+    Two now2 = add(add(square(sum_of(p.x, -q.x)), square(sum_of(p.y, -q.y))), square(sum_of(p.z, -q.z)));
+    float rest = sqrt(rest2), now = sqrt(max(now2.high, 0.0));
+    return deviation(value(add(now2, Two(-rest2, -rest2_low))) / (rest * (now + rest)));
+}
+
+// What is left of a row of stretch (solver/residual.cpp): |C + α̃λ| over the rest length, C from the length as float
+// that the solver has seen.
+Term row_term(MeasureRowsArgs a, uint row)
+{
+    uint p = a.particles.at[row], q = a.particles.at[a.stride + row];
+    if (p >= a.first_dummy || p == q) return Term(0.0, 0u);  // padding
+    float length2 = square_of(a.position.at[p].xyz - a.position.at[q].xyz);
+    float now = sqrt(length2);
+    // A device may have rounded the root as it likes; its error is a float, and makes it the nearest one.
+    Two squared = product_of(now, now);
+    if (now > 0.0) now = now + ((length2 - squared.high) - squared.low) / (2.0 * now);
+    float rest = a.fields.at[row];
+    Two left = sum_of(now, -rest);
+    float compliance = a.fields.at[(left.high > 0.0 ? 1u : 2u) * a.stride + row];
+    if (compliance < 0.0) return Term(0.0, 0u);  // nothing was to be solved
+    if (a.inv_h2 > 0.0) {
+        float lambda = a.lambda.at[row];
+        if (!is_finite(lambda)) return Term(0.0, WEFT_NAN);
+        left = add(left, multiply(multiply(Two(a.inv_h2, a.inv_h2_low), compliance), lambda));
+    }
+    return deviation(value(left) / rest);
+}
+
+#endif
