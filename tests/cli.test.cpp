@@ -72,13 +72,15 @@ TEST_F(Cli, the_state_does_not_depend_on_threads_or_instruction_set_but_on_subst
 
 TEST_F(Cli, options_override_the_scene_s_solver_and_nothing_else_does) {
     EXPECT_EQ(stats("--frames 2")["solver"], "xpbd, lines, hierarchy");
-    EXPECT_EQ(stats("--frames 2 --method pbd --projection jacobi --hierarchy")["solver"], "pbd, jacobi, hierarchy");
+    EXPECT_EQ(stats("--frames 2 --method pbd --projection jacobi --hierarchy")["solver"],
+              "pbd, jacobi by gather, hierarchy");
     write("sheet.json", R"({ "weft": 1, "solver": { "method": "pbd", "projection": "jacobi", "hierarchy": true },
                              "cloths": [{ "mesh": { "grid": { "resolution": [40, 40] } }, "pins": [{ "vertices": [0] }] }] })");
     const Json as_written = stats("--frames 2");
-    EXPECT_EQ(as_written["solver"], "pbd, jacobi, hierarchy");
+    EXPECT_EQ(as_written["solver"], "pbd, jacobi by gather, hierarchy");
     EXPECT_GT(as_written["stage_ms"]["hierarchy"], 0);
-    EXPECT_EQ(stats("--frames 2 --no-hierarchy --method xpbd")["solver"], "xpbd, jacobi");
+    EXPECT_EQ(stats("--frames 2 --no-hierarchy --method xpbd")["solver"], "xpbd, jacobi by gather");
+    EXPECT_EQ(stats("--frames 2 --no-hierarchy --accumulate fixed-point")["solver"], "pbd, jacobi by fixed-point");
     expect_usage_error("run sheet.json --method magic", "must be \"xpbd\" or \"pbd\", got \"magic\"");
 }
 
@@ -266,6 +268,27 @@ TEST_F(Cli, runs_on_vulkan_and_says_so) {
     ASSERT_FALSE(info["vulkan_devices"].empty());
     EXPECT_NE(on_vulkan["device"].get<std::string>().find(info["vulkan_devices"][0]["name"].get<std::string>()),
               std::string::npos);
+}
+
+TEST_F(Cli, stats_say_the_same_of_both_backends) {
+    const Json on_cpu = stats("--frames 3 --backend cpu"), on_vulkan = stats("--frames 3 --backend vulkan");
+    const auto keys = [](const Json& object) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : object.items()) names.push_back(name);
+        return names;
+    };
+    EXPECT_EQ(keys(on_vulkan), keys(on_cpu));
+    const auto expect_near = [&](const Json& a, const Json& b, const std::string& what) {
+        EXPECT_NEAR(a.get<double>(), b.get<double>(), 1e-3 * b.get<double>() + 1e-9) << what;
+    };
+    for (const char* key : {"stretch", "shear", "residual"}) {
+        EXPECT_EQ(keys(on_vulkan[key]), keys(on_cpu[key]));
+        for (const char* of : {"mean", "max"}) expect_near(on_vulkan[key][of], on_cpu[key][of], std::string(key) + of);
+        EXPECT_GT(on_vulkan[key]["mean"], 0) << key;
+    }
+    for (const char* key : {"kinetic_energy", "max_speed", "mean_speed"}) expect_near(on_vulkan[key], on_cpu[key], key);
+    for (const char* key : {"finite", "reports", "constraints", "particles", "solver", "intersections"})
+        EXPECT_EQ(on_vulkan[key], on_cpu[key]) << key;
 }
 
 TEST_F(Cli, names_what_vulkan_lacks_with_status_1) {

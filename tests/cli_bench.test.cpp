@@ -173,6 +173,39 @@ TEST_F(CliBench, finds_edges_on_the_device_too) {
     EXPECT_EQ(weft("bench --backend cpu --build 20 --frames 1 --warmup 0 --repeat 1").out.find("edges and hinges"),
               std::string::npos);
 }
+
+TEST_F(CliBench, writes_and_compares_what_the_device_takes) {
+    const std::string build = " --build 20 33 --substeps 1 --backend ";
+    const Json report = bench(build + "vulkan");
+    ASSERT_EQ(report["edges_and_hinges"].size(), 2u);
+    const Json& edges = report["edges_and_hinges"][1];
+    EXPECT_EQ(edges["scene"], "build 33");
+    EXPECT_EQ(edges["triangles"], 2 * 32 * 32);
+    for (const char* key : {"cpu_ms", "device_ms"}) EXPECT_GT(edges[key], 0) << key;
+    EXPECT_LE(edges["device_work_ms"], edges["device_ms"]);
+    for (const Json& s : report["scenes"]) EXPECT_GT(s["device_bytes_per_particle"], 64) << "blocks of four floats";
+
+    const auto compared = [&](const std::string& backend) {
+        const Outcome outcome =
+            weft("bench --quiet --warmup 2 --frames 5 --repeat 2 --compare b.json" + build + backend);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.out;
+    };
+    const std::string again = compared("vulkan"), on_cpu = compared("cpu");
+    const std::size_t table = again.find("\nedges and hinges, now / before ");
+    ASSERT_NE(table, std::string::npos) << again;
+    EXPECT_NE(again.find("\nbuild 33 ", table), std::string::npos) << again;
+    EXPECT_EQ(on_cpu.find("edges and hinges"), std::string::npos) << on_cpu;
+    EXPECT_NE(on_cpu.find("settings differ: backend cpu (before vulkan)"), std::string::npos) << on_cpu;
+
+    Json broken = report;
+    broken["edges_and_hinges"][0].erase("cpu_ms");
+    write("b.json", broken.dump());
+    expect_usage_error("bench --build 20 --backend cpu --compare b.json", "/edges_and_hinges/0/cpu_ms");
+    const Json plain = bench(build + "cpu");
+    EXPECT_FALSE(plain.contains("edges_and_hinges"));
+    EXPECT_EQ(plain["scenes"][0]["device_bytes_per_particle"], 0);
+}
 #endif
 
 TEST_F(CliBench, compares_with_a_former_report) {

@@ -1,5 +1,4 @@
 #include "cli/bench_curves.h"
-#include "cli/bench_edges.h"
 #include "cli/bench_reference.h"
 #include "cli/bench_report.h"
 #include "cli/stats.h"
@@ -141,16 +140,16 @@ int bench(BenchOptions options) {
     }
     if (const Errors errors = check(options, subjects); !errors.empty()) return failed(errors, exit_usage);
     Curves curves;
-    const auto report = measure(options, subjects, curves);
+    auto report = measure(options, subjects, curves);
     if (!report) return failed(report.errors(), exit_failed);
-    const auto edges = edges_of(options, *report);
+    auto edges = edges_of(options, *report);
     if (!edges) return failed(edges.errors(), exit_failed);
+    report->edges = std::move(*edges);
     if (const auto written = write_files(options, *report, curves); !written)
         return failed(written.errors(), exit_failed);
 
     const bool quiet = options.settings.quiet;
     if (!quiet) std::fputs((curves.points.empty() ? tables(*report) : curves_table(curves)).c_str(), stdout);
-    if (!quiet && !edges->empty()) std::printf("\n%s", edges_table(*edges).c_str());
     if (before) std::printf("%s%s", quiet ? "" : "\n", comparison(*report, *before, options.compare).c_str());
     for (const std::string& file : {options.json, options.plot}) {
         if (!file.empty() && !quiet) std::printf("\nwrote %s\n", file.c_str());

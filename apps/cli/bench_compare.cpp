@@ -140,6 +140,22 @@ std::vector<std::string> line_of(const SceneFigures& now, const SceneFigures& be
     return cells;
 }
 
+/// Edges and hinges of the meshes that both reports have; empty without any.
+std::string edges_comparison(const BenchReport& now, const BenchReport& before) {
+    Table table({"edges and hinges, now / before", "triangles", "CPU", "device, there and back", "of it at work"});
+    bool any = false;
+    for (const EdgeFigures& one : now.edges) {
+        const auto former = std::ranges::find_if(before.edges, [&](const EdgeFigures& other) {
+            return other.name == one.name && other.triangles == one.triangles;
+        });
+        if (former == before.edges.end()) continue;
+        table.add({one.name, std::to_string(one.triangles), ratio(one.cpu_ms, former->cpu_ms),
+                   ratio(one.wall_ms, former->wall_ms), ratio(one.device_ms, former->device_ms)});
+        any = true;
+    }
+    return any ? table.text() : "";
+}
+
 }  // namespace
 
 std::string comparison(const BenchReport& now, const BenchReport& before, const std::string& before_name) {
@@ -168,7 +184,8 @@ std::string comparison(const BenchReport& now, const BenchReport& before, const 
     }
     std::string differing = notes.text();
     if (differing.empty()) differing = "machine, program, settings, scenes and results are the same\n";
-    return "compared with " + before_name + '\n' + (any ? table.text() : "") + differing;
+    return "compared with " + before_name + '\n' + (any ? table.text() : "") + edges_comparison(now, before) +
+           differing;
 }
 
 }  // namespace weft::cli

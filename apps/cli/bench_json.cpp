@@ -72,8 +72,19 @@ Json scene_json(const SceneFigures& scene) {
     out["shear"] = mean_max(scene.shear);
     out["residual"] = mean_max(scene.residual);
     if (scene.bytes_per_particle) out["bytes_per_particle"] = *scene.bytes_per_particle;
+    out["device_bytes_per_particle"] = scene.device_bytes_per_particle;
     out["reports"] = scene.reports;
     out["state_hash"] = scene.state_hash;
+    return out;
+}
+
+Json edges_json(const EdgeFigures& edges) {
+    Json out;
+    out["scene"] = edges.name;
+    out["triangles"] = edges.triangles;
+    out["cpu_ms"] = edges.cpu_ms;
+    out["device_ms"] = edges.wall_ms;
+    out["device_work_ms"] = edges.device_ms;
     return out;
 }
 
@@ -194,6 +205,16 @@ SceneFigures scene_of(Fields fields) {
     return scene;
 }
 
+EdgeFigures edges_of(Fields fields) {
+    EdgeFigures edges;
+    fields.get("scene", edges.name);
+    fields.get("triangles", edges.triangles);
+    fields.get("cpu_ms", edges.cpu_ms);
+    fields.get("device_ms", edges.wall_ms);
+    fields.get("device_work_ms", edges.device_ms);
+    return edges;
+}
+
 BenchReport report_of(const json& root, Problems& problems) {
     BenchReport report;
     if (!root.is_object() || !root.contains("weft_bench")) {
@@ -214,6 +235,10 @@ BenchReport report_of(const json& root, Problems& problems) {
         for (std::size_t i = 0; i < scenes->size(); ++i) {
             report.scenes.push_back(scene_of(Fields((*scenes)[i], at("/scenes", i), problems)));
         }
+    }
+    if (const json* edges = fields.has("edges_and_hinges") ? fields.array("edges_and_hinges") : nullptr) {
+        for (std::size_t i = 0; i < edges->size(); ++i)
+            report.edges.push_back(edges_of(Fields((*edges)[i], at("/edges_and_hinges", i), problems)));
     }
     return report;
 }
@@ -249,6 +274,7 @@ Json to_json(const BenchReport& report) {
                      {"bytes_per_second", report.memory.bandwidth}};
     out["scenes"] = Json::array();
     for (const SceneFigures& scene : report.scenes) out["scenes"].push_back(scene_json(scene));
+    for (const EdgeFigures& edges : report.edges) out["edges_and_hinges"].push_back(edges_json(edges));
     return out;
 }
 

@@ -73,16 +73,17 @@ bool run_for_quality(Session& session, const Plan& plan, double heap_before, con
     const std::uint64_t window = quality_frames(session, plan);
     Average stretch, shear, residual;
     std::uint32_t reports = report_none;
+    std::uint64_t device_bytes = 0;
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
-        const Frame& frame = session.step();
-        reports |= frame.reports;
+        session.advance();
+        reports |= session.world().summary().reports;
         if (!go_on(i + 1)) return false;
         if (i + window < plan.all()) continue;
-        const Strain strain = measure_strain(frame);
-        const Residual left = session.world().stretch_residual();
-        stretch.add(strain.stretch.mean, strain.stretch.max);
-        shear.add(strain.shear.mean, strain.shear.max);
-        residual.add(left.mean, left.max);
+        if (i + window == plan.all()) device_bytes = session.world().backend().device_bytes();  // what steps need
+        const ClothMeasures now = session.world().measure();
+        stretch.add(now.strain.stretch.mean, now.strain.stretch.max);
+        shear.add(now.strain.shear.mean, now.strain.shear.max);
+        residual.add(now.residual.mean, now.residual.max);
     }
     const auto count = static_cast<double>(window);
     figures.quality_seconds = count * session.frame_seconds();
@@ -91,9 +92,10 @@ bool run_for_quality(Session& session, const Plan& plan, double heap_before, con
     figures.residual = residual.over(count);
     for (const std::string_view name : report_names(reports)) figures.reports.emplace_back(name);
     figures.state_hash = session.world().state_hash();
-    if (const double held = heap_bytes() - heap_before; held > 0 && figures.particles > 0) {
-        figures.bytes_per_particle = held / static_cast<double>(figures.particles);
-    }
+    if (figures.particles == 0) return true;
+    const auto particles = static_cast<double>(figures.particles);
+    if (const double held = heap_bytes() - heap_before; held > 0) figures.bytes_per_particle = held / particles;
+    figures.device_bytes_per_particle = static_cast<double>(device_bytes) / particles;
     return true;
 }
 
@@ -137,9 +139,9 @@ Result<std::string> run_for_time(const BenchSubject& subject, const Options& opt
     timings.load_ms.push_back(ms_since(begin));
     add_build_times(*session, timings);
     for (std::uint64_t i = 0; i < plan.all(); ++i) {
-        const Frame& frame = session->step();
+        session->advance();
         if (i == 0) timings.first_frame_ms.push_back(ms_since(begin));
-        if (i >= plan.warmup) timings.add(frame);
+        if (i >= plan.warmup) timings.add(session->world().summary());
         progress.update(frames_before + i + 1);
     }
     timings.end_run();

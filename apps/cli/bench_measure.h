@@ -91,8 +91,10 @@ struct SceneFigures {
     /// Averages over the frames of the last 2 s, or of the whole run, warmup included, if that is shorter.
     MeanMax stretch, shear, residual;
     double quality_seconds = 0;  ///< how long that is
-    /// What the heap holds for the scene, file and drawn mesh included; nothing where that cannot be known.
+    /// What the heap holds for the scene, file and drawn mesh included; nothing where that cannot be known. Where
+    /// software plays a GPU, the GPU's memory too.
     std::optional<double> bytes_per_particle;
+    double device_bytes_per_particle = 0;  ///< of a device's memory, beside that
     std::vector<std::string> reports;
     std::string state_hash;
 
@@ -103,8 +105,9 @@ struct SceneFigures {
 /// Largest less smallest median of the runs, as a part of the median of all frames. One run tells nothing of it.
 std::optional<double> spread(const SceneFigures& figures);
 
-/// Runs the scene once without a clock, for stretch, residual and memory, and then `repeat` times with one. Reading
-/// every particle between two frames would move the second one out of the caches, hence the run apart.
+/// Runs the scene once without a clock, for stretch, residual and memory, and then `repeat` times with one. Measuring
+/// every particle between two frames would move the second one out of the caches, hence the run apart. No frame is
+/// brought to the host.
 /// Fails where the scene cannot be opened, and where two runs end in different states.
 Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSettings& settings);
 

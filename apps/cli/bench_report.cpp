@@ -58,9 +58,9 @@ std::string head_lines(const BenchReport& report) {
     std::string before;
     for (const SceneFigures& scene : report.scenes) {  // mostly the same line for all of them
         const std::string line = scene.backend + " (" + scene.device + "), " + std::to_string(scene.threads) +
-                                 (scene.threads == 1 ? " thread, " : " threads, ") + std::to_string(scene.runs) +
-                                 (scene.runs == 1 ? " run of " : " runs of ") + std::to_string(scene.frames) +
-                                 " frames after " + std::to_string(scene.warmup) + '\n';
+                                 (scene.threads == 1 ? " thread, " : " threads, ") + scene.solver + ", " +
+                                 std::to_string(scene.runs) + (scene.runs == 1 ? " run of " : " runs of ") +
+                                 std::to_string(scene.frames) + " frames after " + std::to_string(scene.warmup) + '\n';
         if (line != before) text += line;
         before = line;
     }
@@ -73,12 +73,13 @@ std::string head_lines(const BenchReport& report) {
 
 std::string times_table(const BenchReport& report) {
     Table table({"ms a frame", "particles", "substeps", "median", "p95", "min", "max", "runs differ by", "load",
-                 "first frame", "B/particle"});
+                 "first frame", "B/particle", "on the device"});
     for (const SceneFigures& scene : report.scenes) {
         table.add({scene.name, std::to_string(scene.particles), steps_text(scene), fixed(scene.ms.median, 3),
                    fixed(scene.ms.p95, 3), fixed(scene.ms.min, 3), fixed(scene.ms.max, 3), spread_text(spread(scene)),
                    fixed(scene.load_ms, 1), fixed(scene.first_frame_ms, 1),
-                   scene.bytes_per_particle ? fixed(*scene.bytes_per_particle, 0) : "?"});
+                   scene.bytes_per_particle ? fixed(*scene.bytes_per_particle, 0) : "?",
+                   scene.device_bytes_per_particle > 0 ? fixed(scene.device_bytes_per_particle, 0) : "-"});
     }
     return table.text();
 }
@@ -179,12 +180,13 @@ std::string spread_text(std::optional<double> spread) {
 }
 
 BenchReport empty_report() {
-    return {version(), compiler_name(), processor_name(), std::thread::hardware_concurrency(), {}, {}};
+    return {version(), compiler_name(), processor_name(), std::thread::hardware_concurrency(), {}, {}, {}};
 }
 
 std::string tables(const BenchReport& report) {
     return head_lines(report) + '\n' + times_table(report) + '\n' + reference_table(report) + '\n' +
-           build_table(report) + '\n' + stages_table(report) + '\n' + rows_table(report) + '\n' + quality_table(report);
+           build_table(report) + '\n' + stages_table(report) + '\n' + rows_table(report) + '\n' +
+           quality_table(report) + (report.edges.empty() ? "" : '\n' + edges_table(report.edges));
 }
 
 }  // namespace weft::cli

@@ -1,6 +1,7 @@
 // The figures of `weft bench`: as JSON and back, as tables, and against former ones.
 #pragma once
 
+#include "cli/bench_edges.h"
 #include "cli/bench_measure.h"
 
 #include <nlohmann/json.hpp>
@@ -22,6 +23,7 @@ struct BenchReport {
     std::uint64_t hardware_threads = 0;
     MemoryFigures memory = {};
     std::vector<SceneFigures> scenes;
+    std::vector<EdgeFigures> edges;  ///< of --build on a device
 };
 
 /// This program on this machine, no scenes yet.

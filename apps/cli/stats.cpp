@@ -77,8 +77,7 @@ Json RunStatistics::gather(const Session& session, const std::string& scene_file
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
         stages[std::string(stage_name(stage))] = stage_ms_[stage] / frames;
     }
-    const Strain strain = measure_strain(frame);
-    const Residual residual = world.stretch_residual();
+    const ClothMeasures measures = world.measure();
     const Penetration penetration = measure_penetration(frame, world.colliders());
     const Intersections intersections = count_intersections(frame);
 
@@ -97,19 +96,19 @@ Json RunStatistics::gather(const Session& session, const std::string& scene_file
     stats["ms_per_frame"] = {
         {"median", median(sorted)}, {"p95", percentile(sorted, 0.95)}, {"max", percentile(sorted, 1)}};
     stats["stage_ms"] = stages;
-    stats["stretch"] = mean_max(strain.stretch);
-    stats["shear"] = mean_max(strain.shear);
-    stats["residual"] = {{"mean", residual.mean}, {"max", residual.max}};
-    stats["kinetic_energy"] = kinetic_energy(frame);
+    stats["stretch"] = mean_max(measures.strain.stretch);
+    stats["shear"] = mean_max(measures.strain.shear);
+    stats["residual"] = {{"mean", measures.residual.mean}, {"max", measures.residual.max}};
+    stats["kinetic_energy"] = measures.kinetic_energy;
     stats["mean_speed"] = mean_speed(frame);
-    stats["max_speed"] = max_speed(frame);
+    stats["max_speed"] = measures.max_speed;
     stats["penetration"] = {{"max", penetration.max}, {"count", penetration.count}};
     stats["self_contacts"] = 0;  // cloth does not yet see itself
     stats["intersections"] = {{"triangles", intersections.triangles}, {"edges", intersections.edges}};
     stats["torn_edges"] = 0;  // nor does it tear
     stats["reports"] = report_names(reports_);
     stats["state_hash"] = world.state_hash();
-    stats["finite"] = all_finite(frame);
+    stats["finite"] = measures.finite;
     return stats;
 }
 
@@ -118,7 +117,9 @@ std::string solver_text(const WorldSettings& settings) {
         const auto names = choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
         return std::string(names[static_cast<std::size_t>(value)]);
     };
-    return name("method", settings.method) + ", " + name("projection", resolve(settings.projection, settings.method)) +
+    const Projection projection = resolve(settings.projection, settings.method);
+    return name("method", settings.method) + ", " + name("projection", projection) +
+           (projection == Projection::jacobi ? " by " + name("accumulate", settings.accumulate) : "") +
            (settings.hierarchy ? ", hierarchy" : "");
 }
 

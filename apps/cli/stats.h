@@ -38,7 +38,7 @@ class RunStatistics {
     std::uint32_t reports_ = report_none;
 };
 
-/// "xpbd, lines", "pbd, jacobi, hierarchy"
+/// "xpbd, lines", "pbd, jacobi by gather, hierarchy"
 std::string solver_text(const WorldSettings& settings);
 
 Result<Done> write_stats(const nlohmann::ordered_json& stats, const std::filesystem::path& file);
