@@ -183,7 +183,12 @@ TEST_F(CliBench, writes_and_compares_what_the_device_takes) {
     EXPECT_EQ(edges["triangles"], 2 * 32 * 32);
     for (const char* key : {"cpu_ms", "device_ms"}) EXPECT_GT(edges[key], 0) << key;
     EXPECT_LE(edges["device_work_ms"], edges["device_ms"]);
-    for (const Json& s : report["scenes"]) EXPECT_GT(s["device_bytes_per_particle"], 64) << "blocks of four floats";
+    for (const Json& s : report["scenes"]) {
+        EXPECT_GT(s["device_bytes_per_particle"], 64) << "blocks of four floats";
+        EXPECT_GT(s["constraints"]["stretch"]["bytes_per_row"], 20);
+        EXPECT_EQ(s["reference_ms"], 0) << "the processor's says nothing of a device";
+        EXPECT_FALSE(s.contains("ratio"));
+    }
 
     const auto compared = [&](const std::string& backend) {
         const Outcome outcome =

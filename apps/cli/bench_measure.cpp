@@ -189,18 +189,22 @@ void refer(const FrameTraffic& traffic, SceneFigures& figures) {
     ReferenceFigures& reference = figures.reference;
     reference.bytes_per_frame = traffic.all();
     reference.working_set = traffic.working_set;
-    reference.bandwidth =
-        copy_bandwidth(static_cast<unsigned>(figures.threads), static_cast<std::size_t>(traffic.working_set));
-    reference.ms = 1e3 * reference.bytes_per_frame / reference.bandwidth;
+    // What this processor copies says nothing of a device.
+    if (figures.backend == "cpu") {
+        reference.bandwidth =
+            copy_bandwidth(static_cast<unsigned>(figures.threads), static_cast<std::size_t>(traffic.working_set));
+    }
+    const auto seconds = [&](double bytes) { return reference.bandwidth > 0 ? bytes / reference.bandwidth : 0; };
+    reference.ms = 1e3 * seconds(reference.bytes_per_frame);
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
-        figures.stages[stage].reference_ms = 1e3 * traffic.bytes[stage] / reference.bandwidth;
+        figures.stages[stage].reference_ms = 1e3 * seconds(traffic.bytes[stage]);
     }
     const auto rounds = static_cast<double>(figures.substeps * figures.iterations);
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         ConstraintFigures& constraint = figures.constraints[kind];
         if (constraint.rows == 0) continue;
         constraint.bytes_per_row = traffic.bytes[kind] / (static_cast<double>(constraint.rows) * rounds);
-        constraint.reference_ns_per_row = 1e9 * constraint.bytes_per_row / reference.bandwidth;
+        constraint.reference_ns_per_row = 1e9 * seconds(constraint.bytes_per_row);
     }
 }
 

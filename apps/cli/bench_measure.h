@@ -65,8 +65,10 @@ struct ConstraintFigures {
 /// What the frame has to move and how long that takes (bench_reference.h).
 struct ReferenceFigures {
     double bytes_per_frame = 0, working_set = 0;
-    double bandwidth = 0;  ///< bytes a second: of copies within as much memory as the working set, on as many threads
-    double ms = 0;
+    /// Bytes a second: of copies within as much memory as the working set, on as many threads. 0 where a device runs
+    /// it.
+    double bandwidth = 0;
+    double ms = 0;  ///< 0 without that
 };
 
 struct SceneFigures {

@@ -94,7 +94,8 @@ std::string reference_table(const BenchReport& report) {
     for (const SceneFigures& scene : report.scenes) {
         const ReferenceFigures& reference = scene.reference;
         table.add({scene.name, fixed(reference.bytes_per_frame / 1e6, 2), fixed(reference.working_set / 1e6, 2),
-                   fixed(reference.bandwidth / 1e9, 1), fixed(reference.ms, 3), fixed(scene.ms.median, 3),
+                   reference.ms > 0 ? fixed(reference.bandwidth / 1e9, 1) : "-",
+                   reference.ms > 0 ? fixed(reference.ms, 3) : "-", fixed(scene.ms.median, 3),
                    ratio_text(scene.ratio())});
     }
     return table.text();
@@ -140,7 +141,7 @@ std::string rows_table(const BenchReport& report) {
         for (const std::string& name : names) {
             const ConstraintFigures* found = find_constraint(scene, name);
             cells.push_back(found ? fixed(found->ns_per_row, 2) : "-");
-            cells.push_back(found ? fixed(found->reference_ns_per_row, 2) : "-");
+            cells.push_back(found && found->ratio() ? fixed(found->reference_ns_per_row, 2) : "-");
             cells.push_back(found ? ratio_text(found->ratio()) : "-");
             cells.push_back(found ? std::to_string(found->rows) : "-");
         }
