@@ -8,6 +8,7 @@
 #include "physics/integrate/integrate.kernel.h"
 #include "physics/surface/normals.kernel.h"
 #include "physics/surface/tangents.kernel.h"
+#include "physics/surface/follow.kernel.h"
 
 #include "physics/air/noise.kernel.h"
 #include "physics/air/wind.kernel.h"

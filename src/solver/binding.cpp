@@ -2,59 +2,32 @@
 
 #include "collide/closest_point.h"
 #include "mesh/weld.h"
+#include "physics/scalar.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace weft {
 namespace {
 
-struct LocalFrame {
-    Vec3 origin, x, y, z;
+using scalar::FollowFrame;
 
-    Vec3 to_world(Vec3 v) const { return x * v.x + y * v.y + z * v.z; }
-    Vec3 to_local(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
-};
-
-// Of a vector that is known to have a length; one division instead of three, as this runs for every drawn vertex.
-Vec3 unit(Vec3 v) {
-    return v * (1 / std::sqrt(dot(v, v)));
+scalar::vec3 spread(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Vec3 gathered(scalar::vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Vec3 to_local(const FollowFrame& frame, Vec3 v) {
+    const scalar::vec3 all = spread(v);
+    return {scalar::dot(frame.x, all), scalar::dot(frame.y, all), scalar::dot(frame.z, all)};
 }
 
-// A unit vector across the unit vector `n`, toward `wish` as far as that goes.
-Vec3 across(Vec3 n, Vec3 wish) {
-    const Vec3 laid = wish - n * dot(wish, n);
-    if (dot(laid, laid) > 1e-6f * dot(wish, wish)) return unit(laid);
-    const Vec3 other = std::abs(n.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    return unit(other - n * dot(other, n));
-}
-
-// Phong tessellation: the point of the flat triangle, moved toward its projections onto the tangent planes of the
-// corners. Boubekeur and Alexa 2008. With half of the way a surface of constant curvature is met up to the second
-// order (an arc of half-angle φ over a chord 2L rises by Lφ/2, the projections by Lφ), and neighbors meet along their
-// common side, since there both depend on its two ends alone.
-constexpr float phong_share = 0.5f;
-
-LocalFrame frame_at(const BoundVertex& vertex, std::span<const Vec4> positions, std::span<const Vec4> normals) {
-    const auto [wb, wc] = vertex.weights;
-    const float weights[3] = {1 - wb - wc, wb, wc};
-    Vec3 flat, normal;
-    for (std::size_t i = 0; i < 3; ++i) {
-        flat += positions[vertex.particles[i]].xyz() * weights[i];
-        normal += normals[vertex.particles[i]].xyz() * weights[i];
-    }
-    LocalFrame frame;
-    frame.origin = flat;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 n = normals[vertex.particles[i]].xyz();
-        frame.origin -= n * (phong_share * weights[i] * dot(flat - positions[vertex.particles[i]].xyz(), n));
-    }
-    // Normals that cancel leave no direction; any will do, as long as it is one.
-    frame.z = dot(normal, normal) > 1e-12f ? unit(normal) : Vec3{0, 1, 0};
-    frame.x = across(frame.z, positions[vertex.particles[1]].xyz() - positions[vertex.particles[0]].xyz());
-    frame.y = cross(frame.z, frame.x);
-    return frame;
+FollowFrame frame_at(const BoundVertex& vertex, std::span<const Vec4> positions, std::span<const Vec4> normals) {
+    const auto corner = [&](std::size_t i) { return spread(positions[vertex.particles[i]].xyz()); };
+    const auto normal = [&](std::size_t i) { return spread(normals[vertex.particles[i]].xyz()); };
+    return scalar::follow_frame(corner(0), corner(1), corner(2), normal(0), normal(1), normal(2), vertex.weights[0],
+                                vertex.weights[1]);
 }
 
 // As surface/normals.md has them.
@@ -98,9 +71,9 @@ Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology) {
                            .weights = {static_cast<float>(point.weights[1]), static_cast<float>(point.weights[2])},
                            .offset = {},
                            .normal = {}};
-        const LocalFrame frame = frame_at(vertex, positions, normals);
-        vertex.offset = frame.to_local(drawn.positions[v] - frame.origin);
-        const Vec3 normal = frame.to_local(drawn_normals[v]);
+        const FollowFrame frame = frame_at(vertex, positions, normals);
+        vertex.offset = to_local(frame, drawn.positions[v] - gathered(frame.origin));
+        const Vec3 normal = to_local(frame, drawn_normals[v]);
         vertex.normal = dot(normal, normal) > 0.25f ? normalized(normal) : Vec3{0, 0, 1};
         binding.vertices.push_back(vertex);
         binding.farthest = std::max(binding.farthest, static_cast<float>(point.distance));
@@ -114,9 +87,9 @@ void follow(const Binding& binding, std::span<const Vec4> positions, std::span<c
     drawn_normals.resize(binding.vertices.size());
     for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
         const BoundVertex& vertex = binding.vertices[v];
-        const LocalFrame frame = frame_at(vertex, positions, normals);
-        drawn_positions[v] = frame.origin + frame.to_world(vertex.offset);
-        drawn_normals[v] = frame.to_world(vertex.normal);
+        const FollowFrame frame = frame_at(vertex, positions, normals);
+        drawn_positions[v] = gathered(frame.origin + scalar::out_of(frame, spread(vertex.offset)));
+        drawn_normals[v] = gathered(scalar::out_of(frame, spread(vertex.normal)));
     }
 }
 

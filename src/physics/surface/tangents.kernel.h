@@ -22,11 +22,13 @@ WEFT_FN TangentFrame face_tangents(vec3 a, vec3 b, vec3 c, real du1, real dv1, r
     return frame;
 }
 
-// Some unit vector across a unit normal.
+// Some unit vector across a unit normal: the x or y axis, less what of it lies along the normal. Written out, as not
+// every compiler of shaders keeps the sign of a difference from 0.
 WEFT_FN vec3 any_across(vec3 n)
 {
-    vec3 axis = select(abs(n.x) < real(0.7), vec3(real(1), real(0), real(0)), vec3(real(0), real(1), real(0)));
-    vec3 t = axis - n * dot(n, axis);
+    vec3 of_x = vec3(real(1) - n.x * n.x, -(n.y * n.x), -(n.z * n.x));
+    vec3 of_y = vec3(-(n.x * n.y), real(1) - n.y * n.y, -(n.z * n.y));
+    vec3 t = select(abs(n.x) < real(0.7), of_x, of_y);
     return t * inversesqrt(max(dot(t, t), real(1e-30)));
 }
 
