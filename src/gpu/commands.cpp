@@ -98,6 +98,12 @@ void Commands::barrier() {
     device_->vk().vkCmdPipelineBarrier(commands_, stages, stages, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
+void Commands::wait_for_all() {
+    device_->vk().vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                                       VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
+                                       nullptr, 0, nullptr, 0, nullptr);
+}
+
 void Commands::host_barrier() {
     VkMemoryBarrier memory{};
     memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
@@ -129,8 +135,8 @@ Result<Done> Commands::end() {
     return Done{};
 }
 
-Result<std::uint64_t> Commands::submit() {
-    auto value = device_->submit(commands_);
+Result<std::uint64_t> Commands::submit(Moment after) {
+    auto value = device_->submit(commands_, after);
     if (value) ran_ = true;
     return value;
 }

@@ -33,6 +33,9 @@ class Commands {
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
     /// What comes after sees what shaders and copies before it have written.
     void barrier();
+    /// What comes after begins when everything that was submitted before has ended, drawing and the like of a host's
+    /// among it: memory that such work reads may be written again.
+    void wait_for_all();
     /// And the host sees it when the work is done.
     void host_barrier();
     void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t from_offset = 0,
@@ -43,7 +46,7 @@ class Commands {
     void stamp();
     Result<Done> end();
 
-    Result<std::uint64_t> submit();
+    Result<std::uint64_t> submit(Moment after = {});
     std::uint32_t stamp_count() const { return stamped_; }
     /// Milliseconds between the marked moments, one fewer than those, of the last time it ran, which has been waited
     /// for; empty without a clock, before it ever ran, and when the device is lost.

@@ -43,6 +43,7 @@ bool has_extension(VkPhysicalDevice physical, const char* name) {
 Result<std::shared_ptr<Device>> Device::create(std::shared_ptr<const Instance> instance, const DeviceInfo& info,
                                                const DeviceOptions& options) {
     const auto lock = lock_loader();
+    instance->take_functions();
     auto self = std::shared_ptr<Device>(new Device);
     self->instance_ = std::move(instance);
     self->info_ = info;
@@ -55,6 +56,7 @@ Result<std::shared_ptr<Device>> Device::create(std::shared_ptr<const Instance> i
 Result<std::shared_ptr<Device>> Device::adopt(std::shared_ptr<const Instance> instance, const HostDevice& host,
                                               const DeviceOptions& options) {
     const auto lock = lock_loader();
+    instance->take_functions();
     const auto& known = instance->devices();
     const auto it =
         std::ranges::find_if(known, [&](const DeviceInfo& one) { return instance->physical(one) == host.physical; });
@@ -68,6 +70,8 @@ Result<std::shared_ptr<Device>> Device::adopt(std::shared_ptr<const Instance> in
     self->device_ = host.device;
     self->queue_ = host.queue;
     self->queue_family_ = host.queue_family;
+    self->lock_queue_ = host.lock_queue;
+    self->unlock_queue_ = host.unlock_queue;
     self->instance_ = std::move(instance);
     if (auto finished = self->finish(options); !finished) return finished.errors();
     return self;
@@ -144,21 +148,30 @@ Device::~Device() {
     if (owned_) vk_.vkDestroyDevice(device_, nullptr);
 }
 
-Result<std::uint64_t> Device::submit(VkCommandBuffer commands) {
+Result<std::uint64_t> Device::submit(VkCommandBuffer commands, Moment after) {
     const std::uint64_t value = submitted_ + 1;
+    const std::uint32_t waits = after.semaphore == VK_NULL_HANDLE ? 0 : 1;
+    constexpr VkPipelineStageFlags everything = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
     VkTimelineSemaphoreSubmitInfo timeline{};
     timeline.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+    timeline.waitSemaphoreValueCount = waits;
+    timeline.pWaitSemaphoreValues = &after.value;
     timeline.signalSemaphoreValueCount = 1;
     timeline.pSignalSemaphoreValues = &value;
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.pNext = &timeline;
+    info.waitSemaphoreCount = waits;
+    info.pWaitSemaphores = &after.semaphore;
+    info.pWaitDstStageMask = &everything;
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands;
     info.signalSemaphoreCount = 1;
     info.pSignalSemaphores = &timeline_;
-    if (const VkResult result = vk_.vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE); result != VK_SUCCESS)
-        return error("to submit work", result);
+    if (lock_queue_) lock_queue_();
+    const VkResult result = vk_.vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE);
+    if (unlock_queue_) unlock_queue_();
+    if (result != VK_SUCCESS) return error("to submit work", result);
     submitted_ = value;
     return value;
 }

@@ -17,6 +17,14 @@ struct HostDevice {
     VkDevice device = VK_NULL_HANDLE;  ///< made with bufferDeviceAddress, timelineSemaphore and hostQueryReset
     VkQueue queue = VK_NULL_HANDLE;    ///< runs compute, used from the thread that steps; without, the family's first
     std::uint32_t queue_family = 0;
+    /// Called around every use of the queue, where other threads use it too; both or none.
+    std::function<void()> lock_queue = {}, unlock_queue = {};
+};
+
+/// When a timeline semaphore has reached a value.
+struct Moment {
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    std::uint64_t value = 0;
 };
 
 struct DeviceOptions {
@@ -41,16 +49,20 @@ class Device {
     const DeviceInfo& info() const { return info_; }
     const DeviceLimits& limits() const { return info_.limits; }
     VkDevice handle() const { return device_; }
+    const Instance& instance() const { return *instance_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
+    /// Of a host's queue, if it has them.
+    const std::function<void()>& lock_queue() const { return lock_queue_; }
+    const std::function<void()>& unlock_queue() const { return unlock_queue_; }
     const VolkDeviceTable& vk() const { return vk_; }
     VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
     Memory& memory() { return *memory_; }
 
-    /// Runs the commands after all that was submitted before. Returns when they will be done: the value that
-    /// `timeline()` reaches.
-    Result<std::uint64_t> submit(VkCommandBuffer commands);
+    /// Runs the commands after all that was submitted before, and not before `after`. Returns when they will be done:
+    /// the value that `timeline()` reaches.
+    Result<std::uint64_t> submit(VkCommandBuffer commands, Moment after = {});
     Result<Done> wait(std::uint64_t value);
     VkSemaphore timeline() const { return timeline_; }
     std::uint64_t submitted() const { return submitted_; }
@@ -75,6 +87,7 @@ class Device {
     bool owned_ = true;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
+    std::function<void()> lock_queue_, unlock_queue_;
     VolkDeviceTable vk_{};
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     std::uint64_t submitted_ = 0;

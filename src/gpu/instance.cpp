@@ -52,8 +52,10 @@ bool has_layer(const char* name) {
     return std::ranges::any_of(list, [&](const auto& one) { return std::strcmp(one.layerName, name) == 0; });
 }
 
-Result<Done> load() {
-    if (volkInitialize() != VK_SUCCESS) {
+Result<Done> load(PFN_vkGetInstanceProcAddr functions = nullptr) {
+    if (functions != nullptr) {
+        volkInitializeCustom(functions);
+    } else if (volkInitialize() != VK_SUCCESS) {
         return Error::of_machine(
             "Vulkan",
             "there is no loader (libvulkan.so.1) on this system; install libvulkan1 and a driver, or "
@@ -158,6 +160,7 @@ Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options
                                  std::string("there is no layer ") + layer + "; install vulkan-validationlayers");
     }
     auto self = std::shared_ptr<Instance>(new Instance);
+    self->functions_ = vkGetInstanceProcAddr;
     self->options_ = std::move(options);
     const bool validation = self->options_.validation;
 
@@ -213,11 +216,12 @@ Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options
     return std::shared_ptr<const Instance>(std::move(self));
 }
 
-Result<std::shared_ptr<const Instance>> Instance::adopt(VkInstance instance) {
+Result<std::shared_ptr<const Instance>> Instance::adopt(VkInstance instance, PFN_vkGetInstanceProcAddr functions) {
     if (instance == VK_NULL_HANDLE) return Error{"Vulkan", "there is no instance to share"};
     const auto lock = lock_loader();
-    if (auto loaded = load(); !loaded) return loaded.errors();
+    if (auto loaded = load(functions); !loaded) return loaded.errors();
     auto self = std::shared_ptr<Instance>(new Instance);
+    self->functions_ = vkGetInstanceProcAddr;
     self->instance_ = instance;
     self->owned_ = false;
     volkLoadInstanceOnly(instance);
@@ -230,8 +234,14 @@ Result<std::shared_ptr<const Instance>> Instance::adopt(VkInstance instance) {
 Instance::~Instance() {
     if (!owned_ || instance_ == VK_NULL_HANDLE) return;
     const auto lock = lock_loader();
+    take_functions();
     if (messenger_ != VK_NULL_HANDLE) destroy_messenger_(instance_, messenger_, nullptr);
     vkDestroyInstance(instance_, nullptr);
+}
+
+void Instance::take_functions() const {
+    volkInitializeCustom(functions_);
+    volkLoadInstanceOnly(instance_);
 }
 
 Result<Done> Instance::find_devices() {

@@ -22,13 +22,18 @@ class Instance {
   public:
     /// Fails without a loader (the system has no Vulkan at all) and where it is older than 1.2.
     static Result<std::shared_ptr<const Instance>> create(InstanceOptions options = {});
-    /// A host's own, made for Vulkan 1.2 or later, which outlives this one.
-    static Result<std::shared_ptr<const Instance>> adopt(VkInstance instance);
+    /// A host's own, made for Vulkan 1.2 or later, which outlives this one. `functions` is where it came from; without,
+    /// the system's loader.
+    static Result<std::shared_ptr<const Instance>> adopt(VkInstance instance,
+                                                         PFN_vkGetInstanceProcAddr functions = nullptr);
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
 
     VkInstance handle() const { return instance_; }
+    PFN_vkGetInstanceProcAddr functions() const { return functions_; }
+    /// Makes volk's variables those of this instance, for whoever holds lock_loader().
+    void take_functions() const;
     /// Names objects for layers and tools; nullptr where nobody would read them.
     PFN_vkSetDebugUtilsObjectNameEXT set_name() const { return set_name_; }
     const std::vector<DeviceInfo>& devices() const { return infos_; }
@@ -40,6 +45,7 @@ class Instance {
 
     InstanceOptions options_;
     VkInstance instance_ = VK_NULL_HANDLE;
+    PFN_vkGetInstanceProcAddr functions_ = nullptr;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     bool owned_ = true;
     // Of this instance: volk's are those of the last one made, which may be without the extension.

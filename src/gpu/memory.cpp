@@ -113,14 +113,14 @@ Memory::~Memory() {
     }
 }
 
-Result<Buffer> Memory::buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name) {
+Result<Buffer> Memory::buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags usage) {
     // Sizes that no device has are not even asked for: some drivers make a buffer of them.
     if (bytes > device_.limits().largest_allocation) return too_large(device_, bytes, name);
     Buffer buffer;
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = rounded_up(std::max<std::uint64_t>(bytes, 1), 16);  // fill() goes by whole words
-    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+    info.usage = usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     const VkResult result = device_.vk().vkCreateBuffer(device_.handle(), &info, nullptr, &buffer.buffer_);
     if (result != VK_SUCCESS) return device_.error("to make the buffer '" + name + "' of " + mebibytes(bytes), result);

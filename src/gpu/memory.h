@@ -67,8 +67,9 @@ class Memory {
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
-    /// Its content is anything. Where the device has no room for it, all is as it was.
-    Result<Buffer> buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name);
+    /// Its content is anything. `usage`: beside storage, copies and an address. Where the device has no room for it,
+    /// all is as it was.
+    Result<Buffer> buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags usage = 0);
     /// Bytes asked of the device.
     std::uint64_t allocated() const;
     /// And of these in buffers.

@@ -39,8 +39,8 @@ Slot Arena::reserve(std::uint64_t bytes) {
     return slot;
 }
 
-Result<Done> Arena::build(gpu::Device& device, const std::string& name) {
-    auto buffer = device.memory().buffer(size_, gpu::MemoryKind::device, name);
+Result<Done> Arena::build(gpu::Device& device, const std::string& name, VkBufferUsageFlags usage) {
+    auto buffer = device.memory().buffer(size_, gpu::MemoryKind::device, name, usage);
     if (!buffer) return buffer.errors();
     buffer_ = std::move(*buffer);
     auto cleared = gpu::run_once(device, [&](gpu::Commands& commands) { commands.fill(buffer_, 0); });

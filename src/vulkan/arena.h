@@ -27,7 +27,8 @@ class Arena {
     /// Zeros.
     Slot reserve(std::uint64_t bytes);
 
-    Result<Done> build(gpu::Device& device, const std::string& name);
+    /// `usage`: beside what every buffer is for.
+    Result<Done> build(gpu::Device& device, const std::string& name, VkBufferUsageFlags usage = 0);
 
     std::uint64_t address(Slot slot) const { return slot.bytes == 0 ? 0 : buffer_.address() + slot.offset; }
     const gpu::Buffer& buffer() const { return buffer_; }
