@@ -71,6 +71,9 @@ class World {
     ColliderId collider_id(std::size_t place) const { return colliders_.id_of(place); }
     const StepPlan& plan(std::size_t cloth) const { return cloths_[cloth].plan; }
     const Backend& backend() const { return *backend_; }
+    Backend& backend() { return *backend_; }
+    /// What the backend calls it.
+    ClothHandle handle(ClothId id) const { return cloths_[cloths_.find(id)].handle; }
 
     Snapshot save() const;
     /// The same bits come after it as came after save(), as long as cloths, colliders and settings are what they were.

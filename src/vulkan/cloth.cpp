@@ -38,9 +38,24 @@ Result<Done> Cloth::make_readable() {
 Result<Done> Cloth::update_normals() {
     auto surface = compile_surface(programs_, *state_);
     if (!surface) return surface.errors();
-    return gpu::run_once(device_, [&](gpu::Commands& commands) {
+    auto done = gpu::run_once(device_, [&](gpu::Commands& commands) {
         for (const Command& command : *surface) record(commands, command, device_.limits());
     });
+    changed(done.ok());
+    return done;
+}
+
+Result<Done> Cloth::make_surface(std::shared_ptr<const DrawnMesh> mesh) {
+    auto made = DrawnSurface::create(device_, programs_, *state_, std::move(mesh));
+    if (!made) return made.errors();
+    surface_ = std::move(*made);
+    return Done{};
+}
+
+Result<gpu::SurfaceBuffers> Cloth::surface(gpu::Moment before) {
+    if (normals_stale_)
+        if (auto updated = update_normals(); !updated) return updated.errors();
+    return surface_->update(changes_, before);
 }
 
 Result<Done> Cloth::read() {

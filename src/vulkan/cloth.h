@@ -6,6 +6,7 @@
 #include "solver/measures.h"
 #include "vulkan/cloth_state.h"
 #include "vulkan/compiled_plan.h"
+#include "vulkan/surface/drawn_surface.h"
 
 #include <memory>
 #include <optional>
@@ -33,6 +34,18 @@ class Cloth {
     Result<Done> update_normals();
     /// On the device; on the host what is not finite there, or where the device has no room for it.
     void measure(MeasureSums& sums);
+
+    /// What is submitted from now on finds it changed.
+    void changed(bool with_normals) {
+        ++changes_;
+        normals_stale_ = !with_normals;
+    }
+
+    bool has_surface() const { return surface_ != nullptr; }
+    Result<Done> make_surface(std::shared_ptr<const DrawnMesh> mesh);
+    /// As it is now; there must be one.
+    Result<gpu::SurfaceBuffers> surface(gpu::Moment before);
+
     void hash(StateHash& hash) const;
 
   private:
@@ -45,6 +58,9 @@ class Cloth {
     std::unique_ptr<ClothState> state_;
     gpu::Buffer readback_;  ///< positions, velocities, normals
     std::optional<gpu::Commands> read_commands_;
+    std::uint64_t changes_ = 0;
+    bool normals_stale_ = false;
+    std::unique_ptr<DrawnSurface> surface_;  ///< reads the state
 };
 
 }  // namespace weft::vulkan

@@ -64,6 +64,9 @@ endforeach()
 weft_shader(measure_particles measures/measure.comp WEFT_TERM=particle_term WEFT_ARGS=MeasureParticlesArgs)
 weft_shader(measure_edges measures/measure.comp WEFT_TERM=edge_term WEFT_ARGS=MeasureEdgesArgs)
 weft_shader(measure_rows measures/measure.comp WEFT_TERM=row_term WEFT_ARGS=MeasureRowsArgs)
+foreach(pass welded bound tangents)
+    weft_shader(drawn_${pass} surface/${pass}.comp)
+endforeach()
 
 # One table of all, for shaders.cpp.
 weft_embed_shaders(${shader_output} vulkan_shaders ${shader_names})

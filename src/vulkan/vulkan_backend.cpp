@@ -2,6 +2,7 @@
 
 #include "gpu/device.h"
 #include "vulkan/frame_run.h"
+#include "vulkan/interop.h"
 
 #include <algorithm>
 #include <cassert>
@@ -12,6 +13,7 @@ namespace weft {
 namespace {
 
 using vulkan::Cloth;
+using vulkan::DrawnMesh;
 using vulkan::Execution;
 using vulkan::FrameRun;
 using vulkan::ModelBuffers;
@@ -33,7 +35,7 @@ std::filesystem::path pipeline_cache_file(const gpu::DeviceInfo& device) {
     return folder / "weft" / (name + ".pipelines");
 }
 
-class VulkanBackend final : public Backend {
+class VulkanBackend final : public Backend, public VulkanInterop {
   public:
     VulkanBackend(std::shared_ptr<gpu::Device> device, Execution execution, bool timings)
         : device_(std::move(device)), programs_(*device_), execution_(execution), timings_(timings) {}
@@ -114,6 +116,17 @@ class VulkanBackend final : public Backend {
     }
     void hash(ClothHandle handle, StateHash& hash) const override { cloth(handle).hash(hash); }
 
+    const std::shared_ptr<gpu::Device>& shared_device() const override { return device_; }
+    Result<gpu::SurfaceBuffers> surface(ClothHandle handle, gpu::Moment before) override {
+        Cloth& one = cloth(handle);
+        if (!one.has_surface()) {
+            auto mesh = drawn_mesh(one.state().buffers().model);
+            if (!mesh) return mesh.errors();
+            if (auto made = one.make_surface(std::move(*mesh)); !made) return made.errors();
+        }
+        return one.surface(before);
+    }
+
   private:
     Cloth& cloth(ClothHandle handle) const {
         assert(handle.value < cloths_.size() && cloths_[handle.value]);
@@ -131,6 +144,14 @@ class VulkanBackend final : public Backend {
             models_[model.get()] = buffers;
         }
         return Cloth::create(*device_, programs_, std::move(buffers));
+    }
+
+    Result<std::shared_ptr<const DrawnMesh>> drawn_mesh(const std::shared_ptr<const ClothModel>& model) {
+        if (auto there = drawn_[model.get()].lock()) return there;
+        std::erase_if(drawn_, [](const auto& one) { return one.second.expired(); });
+        auto made = DrawnMesh::create(*device_, model);
+        if (made) drawn_[model.get()] = *made;
+        return made;
     }
 
     // Of another set of anchors nobody can tell which is which; they start where the model has them.
@@ -187,6 +208,11 @@ class VulkanBackend final : public Backend {
         auto value = (*run)->submit(inputs_);
         if (value) {
             group.run = *run;
+            for (const ClothStep* step : group.steps) {
+                const auto& end = step->plan->frame_end;
+                const bool normals = std::ranges::find(end, PassKind::normals, &Pass::kind) != end.end();
+                cloth(step->cloth).changed(normals);
+            }
         } else {
             fail(group, value.error());
         }
@@ -232,6 +258,7 @@ class VulkanBackend final : public Backend {
     Execution execution_;
     bool timings_;
     std::map<const ClothModel*, std::weak_ptr<const ModelBuffers>> models_;
+    std::map<const ClothModel*, std::weak_ptr<const DrawnMesh>> drawn_;
     std::vector<std::unique_ptr<Cloth>> cloths_;
     std::vector<std::unique_ptr<FrameRun>> runs_;
     // Of a frame:
@@ -240,23 +267,48 @@ class VulkanBackend final : public Backend {
     std::vector<const StepInput*> inputs_;
 };
 
-}  // namespace
-
-Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
+Result<Execution> execution_of(const VulkanOptions& options) {
     const auto execution = std::ranges::find(execution_names, options.execution);
     if (execution == execution_names.end())
         return Error{"execution", "must be auto, streamed, grouped, patched or fused, got '" + options.execution + "'"};
+    return static_cast<Execution>(execution - execution_names.begin());
+}
+
+gpu::DeviceOptions device_options(const gpu::DeviceInfo& info, const VulkanOptions& options) {
+    return {.pipeline_cache = pipeline_cache_file(info),
+            .memory_limit = options.memory_limit,
+            .intercept = options.intercept};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<gpu::Device> device,
+                                                     const VulkanOptions& options) {
+    const auto execution = execution_of(options);
+    if (!execution) return execution.errors();
+    return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(std::move(device), *execution, options.timings));
+}
+
+Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<const gpu::Instance> instance,
+                                                     const gpu::HostDevice& host, const VulkanOptions& options) {
+    if (const auto execution = execution_of(options); !execution) return execution.errors();
+    gpu::DeviceInfo info;
+    for (const gpu::DeviceInfo& one : instance->devices())
+        if (instance->physical(one) == host.physical) info = one;
+    auto device = gpu::Device::adopt(std::move(instance), host, device_options(info, options));
+    if (!device) return device.errors();
+    return make_vulkan_backend(std::move(*device), options);
+}
+
+Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
+    if (const auto execution = execution_of(options); !execution) return execution.errors();
     auto instance = gpu::Instance::create({.validation = options.validation, .on_message = options.on_message});
     if (!instance) return instance.errors();
     auto info = gpu::choose_device((*instance)->devices(), options.device, options.software);
     if (!info) return info.errors();
-    auto device = gpu::Device::create(*instance, *info,
-                                      {.pipeline_cache = pipeline_cache_file(*info),
-                                       .memory_limit = options.memory_limit,
-                                       .intercept = options.intercept});
+    auto device = gpu::Device::create(*instance, *info, device_options(*info, options));
     if (!device) return device.errors();
-    return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(
-        std::move(*device), static_cast<Execution>(execution - execution_names.begin()), options.timings));
+    return make_vulkan_backend(std::move(*device), options);
 }
 
 std::vector<gpu::DeviceInfo> vulkan_devices() {

@@ -1,0 +1,40 @@
+// The drawn mesh of a model on the device: what of a drawn surface does not change while the cloth moves. Shared by all
+// cloths of that model.
+#pragma once
+
+#include "gpu/surface_buffers.h"
+#include "solver/cloth_model.h"
+#include "vulkan/arena.h"
+
+#include <memory>
+
+namespace weft::vulkan {
+
+/// Vertices, indices, and whatever shaders want.
+inline constexpr VkBufferUsageFlags drawn_usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+
+/// Where a slot lies; no buffer if it is empty.
+gpu::BufferRange range_of(const Arena& arena, Slot slot);
+
+class DrawnMesh {
+  public:
+    static Result<std::shared_ptr<const DrawnMesh>> create(gpu::Device& device,
+                                                           std::shared_ptr<const ClothModel> model);
+
+    const std::shared_ptr<const ClothModel> model;
+    Slot triangles, uvs;
+    Slot around_offsets, around_items;  ///< the triangles at each vertex, ascending; only with UVs
+    Slot particle;                      ///< of each vertex, or, with a binding,
+    Slot bound_particles, bound_shape;
+
+    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(model->mesh.positions.size()); }
+    const Arena& arena() const { return arena_; }
+    std::uint64_t address(Slot slot) const { return arena_.address(slot); }
+
+  private:
+    explicit DrawnMesh(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {}
+
+    Arena arena_;
+};
+
+}  // namespace weft::vulkan
