@@ -8,7 +8,10 @@ install(TARGETS weft_library EXPORT weft
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY include/weft DESTINATION include)
+install(DIRECTORY include/weft DESTINATION include PATTERN vulkan.h EXCLUDE)
+if(WEFT_VULKAN)   # the only one that needs Vulkan's headers, for those who include it
+    install(FILES include/weft/vulkan.h DESTINATION include/weft)
+endif()
 if(WEFT_APPS)
     install(TARGETS weft RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

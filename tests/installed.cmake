@@ -1,6 +1,6 @@
 # Installs weft, moves the folder elsewhere, and uses it from there as a stranger would.
 #
-#   cmake -D BUILD=… -D WORK=… -D VERSION=… -D GENERATOR=… -D CXX=… -D NM=… -P installed.cmake
+#   cmake -D BUILD=… -D WORK=… -D VERSION=… -D GENERATOR=… -D CXX=… -D NM=… -D VULKAN=… -P installed.cmake
 
 set(source ${CMAKE_CURRENT_LIST_DIR}/..)
 set(prefix "${WORK}/moved here")
@@ -30,6 +30,9 @@ file(RENAME ${WORK}/first "${prefix}")
 file(GLOB_RECURSE libraries "${prefix}/libweft*")
 file(GLOB_RECURSE headers RELATIVE "${prefix}/include" "${prefix}/include/*.h")
 file(GLOB own RELATIVE ${source}/include ${source}/include/weft/*.h)
+if(NOT VULKAN)
+    list(REMOVE_ITEM own weft/vulkan.h)
+endif()
 file(GLOB_RECURSE scenes "${prefix}/share/weft/scenes/*.json")
 if(NOT "${headers}" STREQUAL "${own}" OR NOT scenes)
     message(FATAL_ERROR "headers: ${headers}\nscenes: ${scenes}")
@@ -67,7 +70,11 @@ string(JSON hash GET "${stats}" state_hash)
 
 # A project of somebody else, which then computes what the program does.
 run(${CMAKE_COMMAND} -S ${source}/tests/outside -B ${WORK}/outside -G ${GENERATOR} -D CMAKE_BUILD_TYPE=Release
-    -D CMAKE_CXX_COMPILER=${CXX} "-DCMAKE_PREFIX_PATH=${prefix}")
+    -D CMAKE_CXX_COMPILER=${CXX} "-DCMAKE_PREFIX_PATH=${prefix}" -D VULKAN=${VULKAN})
 run(${CMAKE_COMMAND} --build ${WORK}/outside)
 run(${WORK}/outside/outside ${scene})
 expect("${out}" "^${VERSION}: 4096 vertices, state ${hash}\n$")
+if(VULKAN)
+    run(${WORK}/outside/outside_vulkan)
+    expect("${out}" "^backend: must be vulkan for buffers on a device, is cpu\n4 problems\n$")
+endif()

@@ -146,6 +146,7 @@ class WEFT_API Simulation {
     Result<Done> save(const std::filesystem::path& file) const;
 
   private:
+    friend struct VulkanAccess;  // <weft/vulkan.h>
     struct Impl;
     explicit Simulation(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;

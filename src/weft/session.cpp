@@ -148,10 +148,11 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
-Result<Session> Session::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder) {
+Result<Session> Session::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
+                                const MakeBackend& make) {
     Session session;
     if (Errors errors = apply(options, scene); !errors.empty()) return errors;
-    auto backend = make_backend(options);
+    auto backend = make ? make(options) : make_backend(options);
     if (!backend) return backend.errors();
     session.folder_ = folder;
     session.world_ = std::make_unique<World>(std::move(*backend), WorldSettings{.gravity = scene.gravity,
@@ -173,10 +174,11 @@ Result<Session> Session::create(SceneDesc scene, const Options& options, const s
     return session;
 }
 
-Result<Session> Session::open(const std::filesystem::path& scene_file, const Options& options) {
+Result<Session> Session::open(const std::filesystem::path& scene_file, const Options& options,
+                              const MakeBackend& make) {
     auto scene = load_scene(scene_file);
     if (!scene) return scene.errors();
-    auto session = create(std::move(*scene), options, scene_file.parent_path());
+    auto session = create(std::move(*scene), options, scene_file.parent_path(), make);
     if (session) return session;
     Errors errors;
     for (const Error& error : session.errors()) {

@@ -9,6 +9,7 @@
 #include <weft/simulation.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,11 +32,16 @@ class DrawnFrame {
 
 class Session {
   public:
-    /// Every problem found has its place in the scene file as `where`.
-    static Result<Session> open(const std::filesystem::path& scene_file, const Options& options);
+    /// Makes the backend that options ask for.
+    using MakeBackend = std::function<Result<std::unique_ptr<Backend>>(const Options&)>;
+
+    /// Every problem found has its place in the scene file as `where`. `make`: in place of make_backend().
+    static Result<Session> open(const std::filesystem::path& scene_file, const Options& options,
+                                const MakeBackend& make = {});
     /// A scene that has been checked (check.h), or one without cloths, to be filled. Files are looked for in `folder`.
     /// Problems have JSON pointers as `where`.
-    static Result<Session> create(SceneDesc scene, const Options& options, const std::filesystem::path& folder = {});
+    static Result<Session> create(SceneDesc scene, const Options& options, const std::filesystem::path& folder = {},
+                                  const MakeBackend& make = {});
 
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
@@ -56,6 +62,7 @@ class Session {
     const World& world() const { return *world_; }
     double frame_seconds() const { return 1.0 / static_cast<double>(scene_.frame_rate); }
     void advance() { world_->advance(frame_seconds()); }
+    void advance(double dt) { world_->advance(dt); }
     const Frame& step() { return world_->step(frame_seconds()); }
     const Frame& step(double dt) { return world_->step(dt); }
 

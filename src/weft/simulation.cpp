@@ -1,4 +1,4 @@
-#include "weft/session.h"
+#include "weft/simulation_impl.h"
 
 #include "scene/check.h"
 #include "scene/scene_keys.h"
@@ -11,16 +11,6 @@
 #include <cmath>
 
 namespace weft {
-
-struct Simulation::Impl {
-    Session session;
-    DrawnFrame drawn;
-    mutable std::vector<Vec4> tangents;
-
-    World& world() { return session.world(); }
-    const World& world() const { return session.world(); }
-    void draw() { drawn.update(world().frame()); }
-};
 
 namespace {
 
@@ -41,7 +31,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
 
 std::vector<std::string_view> names_of_cloths(const World& world) {
     std::vector<std::string_view> names;
-    for (const ClothFrame& cloth : world.frame().cloths) names.push_back(cloth.model->name);
+    for (const ClothFrame& cloth : world.summary().cloths) names.push_back(cloth.model->name);
     return names;
 }
 
@@ -76,7 +66,7 @@ Surface view(const ExportSurface& surface) {
 }
 
 std::size_t place_of(const World& world, ClothId id) {
-    const auto& cloths = world.frame().cloths;
+    const auto& cloths = world.summary().cloths;
     return static_cast<std::size_t>(std::ranges::find(cloths, id, &ClothFrame::id) - cloths.begin());
 }
 
@@ -91,15 +81,15 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Result<Simulation> Simulation::load(const std::filesystem::path& scene, const Options& options) {
-    auto session = Session::open(scene, options);
+Result<Simulation> Simulation::Impl::load(const std::filesystem::path& scene, const Options& options,
+                                          const Session::MakeBackend& make) {
+    auto session = Session::open(scene, options, make);
     if (!session) return session.errors();
-    auto impl = std::make_unique<Impl>(Impl{std::move(*session), {}, {}});
-    impl->draw();
-    return Simulation(std::move(impl));
+    return Simulation(std::make_unique<Impl>(Impl{std::move(*session)}));
 }
 
-Result<Simulation> Simulation::create(const WorldDesc& world, const Options& options) {
+Result<Simulation> Simulation::Impl::create(const WorldDesc& world, const Options& options,
+                                            const Session::MakeBackend& make) {
     SceneDesc scene{.name = {},
                     .gravity = world.gravity,
                     .frame_rate = world.frame_rate,
@@ -113,28 +103,36 @@ Result<Simulation> Simulation::create(const WorldDesc& world, const Options& opt
         if (scene.air) check_air(*scene.air, "/air", problems);
     });
     if (!sound) return sound.errors();
-    auto session = Session::create(std::move(scene), options);
+    auto session = Session::create(std::move(scene), options, {}, make);
     if (!session) return session.errors();
-    return Simulation(std::make_unique<Impl>(Impl{std::move(*session), {}, {}}));
+    return Simulation(std::make_unique<Impl>(Impl{std::move(*session)}));
+}
+
+Result<Simulation> Simulation::load(const std::filesystem::path& scene, const Options& options) {
+    return Impl::load(scene, options, {});
+}
+
+Result<Simulation> Simulation::create(const WorldDesc& world, const Options& options) {
+    return Impl::create(world, options, {});
 }
 
 void Simulation::step() {
-    impl_->session.step();
-    impl_->draw();
+    impl_->session.advance();
+    impl_->changed();
 }
 
 Result<Done> Simulation::step(double dt) {
     if (!(dt > 0 && dt <= 1000)) return Error{"dt", "must be > 0 s and ≤ 1000 s, got " + number_text(dt)};
-    impl_->session.step(dt);
-    impl_->draw();
+    impl_->session.advance(dt);
+    impl_->changed();
     return Done{};
 }
 
 std::uint64_t Simulation::frame() const {
-    return impl_->world().frame().index;
+    return impl_->world().summary().index;
 }
 double Simulation::time() const {
-    return impl_->world().frame().time;
+    return impl_->world().summary().time;
 }
 
 Result<ClothId> Simulation::add(const ClothDesc& desc) {
@@ -150,7 +148,7 @@ Result<ClothId> Simulation::add(const ClothDesc& desc) {
         for (const Error& error : fabric.errors()) problems.add(error.where, error.what);
     if (!problems.none()) return std::move(problems).take();
     auto id = impl_->session.add(cloth, "");
-    if (id) impl_->draw();
+    if (id) impl_->changed();
     return id;
 }
 
@@ -167,7 +165,7 @@ Result<ColliderId> Simulation::add(const ColliderDesc& desc) {
 Result<Done> Simulation::remove(ClothId id) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     impl_->session.remove(id);
-    impl_->draw();
+    impl_->changed();
     return Done{};
 }
 
@@ -179,7 +177,7 @@ Result<Done> Simulation::remove(ColliderId id) {
 
 std::vector<ClothId> Simulation::cloths() const {
     std::vector<ClothId> ids;
-    for (const ClothFrame& cloth : impl_->world().frame().cloths) ids.push_back(cloth.id);
+    for (const ClothFrame& cloth : impl_->world().summary().cloths) ids.push_back(cloth.id);
     return ids;
 }
 
@@ -191,7 +189,7 @@ std::vector<ColliderId> Simulation::colliders() const {
 }
 
 ClothId Simulation::find_cloth(std::string_view name) const {
-    for (const ClothFrame& cloth : impl_->world().frame().cloths)
+    for (const ClothFrame& cloth : impl_->world().summary().cloths)
         if (cloth.model->name == name) return cloth.id;
     return {};
 }
@@ -205,7 +203,7 @@ Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
     const auto fabric = make_fabric(desc);
     if (!fabric) return fabric.errors();
     auto done = impl_->session.set_fabric(id, *fabric);
-    impl_->draw();
+    impl_->changed();
     return done;
 }
 
@@ -217,7 +215,7 @@ Result<Done> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     });
     if (!sound) return sound;
     auto done = impl_->session.set_pins(id, std::move(pins));
-    impl_->draw();
+    impl_->changed();
     return done;
 }
 
@@ -262,7 +260,7 @@ Result<Done> Simulation::set_solver(const SolverDesc& solver) {
     settings.accumulate = solver.accumulate;
     settings.hierarchy = solver.hierarchy;
     auto done = impl_->session.configure(settings);
-    impl_->draw();
+    impl_->changed();
     return done;
 }
 
@@ -278,11 +276,11 @@ Result<Done> Simulation::set_air(const std::optional<AirDesc>& air) {
 }
 
 std::size_t Simulation::cloth_count() const {
-    return impl_->drawn.surfaces().size();
+    return impl_->world().summary().cloths.size();
 }
 
 Surface Simulation::cloth(std::size_t index) const {
-    return view(impl_->drawn.surfaces()[index]);
+    return view(impl_->surfaces()[index]);
 }
 
 Surface Simulation::surface(ClothId id) const {
@@ -293,7 +291,7 @@ Surface Simulation::surface(ClothId id) const {
 std::span<const Vec4> Simulation::tangents(ClothId id) const {
     const std::size_t place = place_of(impl_->world(), id);
     if (place >= cloth_count()) return {};
-    const ExportSurface& surface = impl_->drawn.surfaces()[place];
+    const ExportSurface& surface = impl_->surfaces()[place];
     compute_tangents(*surface.mesh, surface.positions, surface.normals, impl_->tangents);
     return impl_->tangents;
 }
@@ -316,7 +314,7 @@ Measures Simulation::measure() const {
 }
 
 std::vector<std::string_view> Simulation::reports() const {
-    return report_names(impl_->world().frame().reports);
+    return report_names(impl_->world().summary().reports);
 }
 std::string Simulation::state_hash() const {
     return impl_->world().state_hash();
@@ -330,7 +328,7 @@ Result<Done> Simulation::restore_state(std::span<const std::byte> state) {
     auto snapshot = snapshot_from_bytes(state);
     if (!snapshot) return snapshot.errors();
     auto done = impl_->world().restore(*snapshot);
-    if (done) impl_->draw();
+    if (done) impl_->changed();
     return done;
 }
 
@@ -339,7 +337,7 @@ Result<Done> Simulation::save(const std::filesystem::path& file) const {
     if (!exporter) return exporter.errors();
     const Session& session = impl_->session;
     if (auto begun = (*exporter)->begin({session.scene().name, session.scene().frame_rate, 1}); !begun) return begun;
-    if (auto written = (*exporter)->write({frame(), time(), impl_->drawn.surfaces()}); !written) return written;
+    if (auto written = (*exporter)->write({frame(), time(), impl_->surfaces()}); !written) return written;
     return (*exporter)->finish();
 }
 
