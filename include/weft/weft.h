@@ -1,4 +1,4 @@
-// Everything of weft. Standard library types only.
+// Everything of weft but <weft/vulkan.h>. Standard library types only.
 #pragma once
 
 #include <weft/bounds.h>
