@@ -78,8 +78,8 @@ struct VulkanSurface {
 };
 
 /// The surface of the cloth as it is after the last step or change, made on the device; equal to Simulation::surface()
-/// and tangents(), which bring theirs over the CPU. Returns without waiting for the device. Asked again before the
-/// cloth has changed, it gives the same and does nothing.
+/// and tangents(), which bring theirs over the CPU. Returns without waiting for the device, but for the first time,
+/// when the buffers are made. Asked again before the cloth has changed, it gives the same and does nothing.
 ///
 /// What the host must do:
 /// * Wait for `ready` in the submission that reads, or on the CPU with vkWaitSemaphores. No barrier is needed beside

@@ -330,6 +330,20 @@ TEST_F(VulkanSurfaces, have_normals_where_the_frame_has_none) {
     EXPECT_FALSE(std::ranges::all_of(normals, [](Vec4 n) { return n == Vec4{0, 1, 0, 0}; })) << "it is not flat";
 }
 
+TEST_F(VulkanSurfaces, for_which_there_is_no_room_are_an_error) {
+    open({.substeps = 4}, {.memory_limit = 3 << 20});
+    const ClothId small = add({.mesh = sheet()});
+    const ClothId large = add({.mesh = sheet(), .drawn = make_grid({1, 1}, {150, 150}, GridDiagonal::uniform)});
+    step();
+    const auto none_left = interop_->surface(world().handle(large));
+    ASSERT_FALSE(none_left.ok());
+    EXPECT_EQ(none_left.error().fault, Fault::machine);
+    EXPECT_NE(none_left.error().message().find("VK_ERROR_OUT_OF_DEVICE_MEMORY"), std::string::npos)
+        << none_left.error().message();
+    step();
+    expect_surface_of_cpu(small);
+}
+
 int submits_that_work = 0;
 PFN_vkQueueSubmit real_submit = nullptr;
 
