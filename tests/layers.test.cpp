@@ -37,7 +37,8 @@ const Floors floors = {
 };
 
 // Public headers that every floor may use; the rest of include/weft is for src/weft and the apps.
-const std::set<std::string> vocabulary = {"bounds.h", "ids.h", "mesh.h", "result.h", "scene.h", "vector.h"};
+const std::set<std::string> vocabulary = {"bounds.h", "feedback.h", "ids.h",   "mesh.h",
+                                          "result.h", "scene.h",    "vector.h"};
 
 // Of physics, the scene knows the parameter tables and the list of constraints, no maths.
 const std::regex scene_may_include(

@@ -46,6 +46,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     face_mass.clear();
     levels.clear();
     contact_sums.clear();
+    account = {};
     by_face.assign(std::size_t{model->face_stride} + 1, Vec4{});
     normals.assign(model->capacity(), Vec4{});
     update_normals();
@@ -189,7 +190,7 @@ void ClothState::begin_frame(const StepPlan& plan) {
     limits = {found.tension, found.allowed};
 }
 
-void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks) {
+void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks, bool feedback) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
@@ -220,6 +221,7 @@ void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned r
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
     if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
+    account.prepare(feedback ? colliders : 0, model->capacity(), ranks);
     if (plan.projection == Projection::jacobi && !gather) {
         gather = std::make_unique<const JacobiGather>(build_gather(*model));
         corrections.resize(gather->blocks);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/aligned.h"
+#include "cpu/contact_account.h"
 #include "cpu/passes.h"
 #include "solver/cloth_model.h"
 #include "solver/jacobi.h"
@@ -42,6 +43,7 @@ struct ClothState {
     /// Those of stretch outlive a frame, the others an iteration: without a second one they are empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
+    ContactAccount account;            ///< empty without feedback
     AlignedVector<Vec4> normals;
     /// What triangles hand to the particles around them: the air's impulse, and at the end of a frame their normals.
     /// One more stays zero.
@@ -79,7 +81,7 @@ struct ClothState {
     void remember();                                    ///< all
     void roll_back();
     /// Makes room for what the plan needs beyond the particles; only here memory is asked for.
-    void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks);
+    void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks, bool feedback = false);
     /// Lets tethers and coarse levels give way to the tension that the last frame left in the cloth.
     void begin_frame(const StepPlan& plan);
     void end_frame(const StepPlan& plan, double dt);

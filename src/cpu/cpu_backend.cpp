@@ -52,16 +52,18 @@ class CpuBackend final : public Backend {
         return Done{};
     }
 
-    void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) override {
+    void step(std::span<const ClothStep> cloths) override {
         jobs_.clear();
         for (const ClothStep& one : cloths) jobs_.push_back({&cloth(one.cloth), one.plan, &one.input});
-        executor_.run(jobs_, stage_ms);
+        executor_.run(jobs_, stage_ms_);
         for (std::size_t i = 0; i < cloths.size(); ++i) {
             cpu::ClothState& state = *jobs_[i].cloth;
             ClothFrame& frame = *cloths[i].frame;
             frame.reports = jobs_[i].reports;
             frame.detail.clear();
+            if (cloths[i].feedback && !state.account.empty()) state.account.collect(*cloths[i].feedback);
             if (frame.reports & report_non_finite) {
+                if (cloths[i].feedback) cloths[i].feedback->clear();
                 state.roll_back();
                 frame.detail = executor_.find_non_finite(state, *cloths[i].plan, cloths[i].input);
                 state.roll_back();
@@ -70,6 +72,11 @@ class CpuBackend final : public Backend {
                 state.update_normals();
             }
         }
+    }
+
+    void finish(std::array<double, stage_count>& stage_ms) override {
+        for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms[stage] += stage_ms_[stage];
+        stage_ms_.fill(0);
     }
 
     bool read(ClothHandle id, ClothFrame& frame) const override {
@@ -110,6 +117,7 @@ class CpuBackend final : public Backend {
     WorkerTeam team_;
     cpu::Executor executor_;
     std::vector<cpu::Executor::Job> jobs_;  // of a frame
+    std::array<double, stage_count> stage_ms_{};
     std::vector<std::unique_ptr<cpu::ClothState>> cloths_;
 };
 

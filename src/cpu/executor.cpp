@@ -90,7 +90,7 @@ void Executor::run(std::span<Job> jobs, std::array<double, stage_count>& stage_m
     for (const Job& job : jobs) {
         // All on this thread: nobody could catch what fails on another.
         const unsigned ranks = side_by_side && is_small(job) ? 1 : team_.ranks();
-        job.cloth->prepare(*job.plan, job.input->colliders.size(), ranks);
+        job.cloth->prepare(*job.plan, job.input->colliders.size(), ranks, job.input->feedback);
     }
     for (Job& job : jobs) {
         if (!side_by_side || !is_small(job)) run_together(job, stage_ms);
@@ -167,6 +167,7 @@ void Executor::run_rank(const Frame& frame, unsigned rank, std::array<double, st
     run_list(frame.plan.frame_end, frame.plan.substeps - 1);
     meet();
     check_finite(frame, rank);
+    count_contacts(frame, rank);
     clock.stop();
     if (rank == 0) {
         for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms[stage] += mine[stage];
@@ -374,7 +375,7 @@ void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t 
     for (std::size_t i = 0; i < count; ++i) {
         const Collider& collider = frame.input.colliders[i];
         const auto [static_friction, kinetic_friction] = friction_between(model, collider);
-        const ContactView view{
+        ContactView view{
             .numbers = collider.numbers,
             .now = frame.input.poses[(substep + 1) * count + i],
             .before = frame.input.poses[substep * count + i],
@@ -385,8 +386,24 @@ void Executor::run_contacts(const Frame& frame, const Pass& pass, std::uint32_t 
             .sums = frame.cloth.contact_sums.empty() ? nullptr : &frame.cloth.contact_sums[i * model.capacity()].x,
             .first_iteration = pass.first_iteration,
         };
-        passes_.contact[static_cast<std::uint32_t>(collider.shape)](frame.particles, view, {share.begin, share.end});
+        const auto shape = static_cast<std::uint32_t>(collider.shape);
+        if (frame.cloth.account.empty()) {
+            passes_.contact[shape](frame.particles, view, {share.begin, share.end});
+            continue;
+        }
+        view.moved = frame.cloth.account.moved(i);
+        view.turned = frame.cloth.account.turned(i);
+        view.first_of_frame = substep == 0 && pass.first_iteration;
+        passes_.contact_traced[shape](frame.particles, view, {share.begin, share.end});
     }
+}
+
+void Executor::count_contacts(const Frame& frame, unsigned rank) {
+    if (frame.cloth.account.empty()) return;
+    const ClothModel& model = *frame.cloth.model;
+    Share share = share_of(padded(model.point_count()), lane_padding, rank, frame.rank_count());
+    share.end = std::min(share.end, model.particle_count);
+    frame.cloth.account.count(rank, share, frame.cloth.now.position, 1.0f / frame.h);
 }
 
 void Executor::keep_last_good(const Frame& frame, unsigned rank) {

@@ -53,6 +53,7 @@ class Executor {
     void run_contacts(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
     void keep_last_good(const Frame& frame, unsigned rank);
     void check_finite(const Frame& frame, unsigned rank);
+    void count_contacts(const Frame& frame, unsigned rank);
     static LambdaUse lambda_use(const Frame& frame, const Pass& pass, std::uint32_t substep);
     static Frame make_frame(const Job& job, std::span<Rank> ranks);
 

@@ -58,6 +58,9 @@ struct ContactView {
     float half_thickness, depenetration;  ///< m
     float* sums;                          ///< a ContactSum per particle, or nullptr where one iteration is all there is
     bool first_iteration;
+    float* moved = nullptr;   ///< blocks of four: ContactTrace, of contact_traced only
+    float* turned = nullptr;  ///< likewise
+    bool first_of_frame = false;
 };
 
 /// Where rows side by side write what they want of their particles.
@@ -157,6 +160,8 @@ struct Passes {
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
+    /// And keeps account of what it does to particles, which the first one of a frame begins.
+    std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact_traced;
     /// Adds to the wind of each triangle, or sets it. One entry per kind of wind.
     std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;
     void (*air)(const AirView&, Range, float h);

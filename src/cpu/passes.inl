@@ -300,13 +300,28 @@ WEFT_FN ContactBody make_body(const ContactView& c) {
             real(c.kinetic_friction),    real(c.half_thickness),      real(c.depenetration)};
 }
 
-template <class Shape>
+// Adds what a contact did to the particles' account of the frame.
+WEFT_FN void trace_pass(const ContactView& c, std::size_t i, bool touched, vec3 before, vec3 x) {
+    if (!touched && !c.first_of_frame) return;
+    real unused;
+    ContactTrace trace = {vec3(real(0.0f)), vec3(real(0.0f))};
+    if (!c.first_of_frame) {
+        trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
+        trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
+    }
+    if (touched) trace_contact(trace, before, x, spread(c.now.position));
+    store_blocks_unordered(trace.moved, real(0.0f), c.moved + 4 * i);
+    store_blocks_unordered(trace.turned, real(0.0f), c.turned + 4 * i);
+}
+
+template <class Shape, bool traced>
 inline void contact_pass(const ParticleView& p, const ContactView& c, Range range) {
     const ContactBody body = make_body(c);
     const ShapeNumbers shape = {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3])};
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w, unused;
         vec3 x = load_blocks_unordered(p.position + 4 * i, w);
+        const vec3 before = x;
         ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
         if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * i, sum.push);
 
@@ -314,7 +329,8 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         vec3 normal;
         const real gap = Shape::distance(local, shape, normal) - body.half_thickness;
         // Most of a cloth touches nothing.
-        if (any(gap < real(0.0f) || sum.push > real(0.0f))) {
+        const bool touches = any(gap < real(0.0f) || sum.push > real(0.0f));
+        if (touches) {
             const vec3 start = load_blocks_unordered(p.start + 4 * i, unused);
             vec3 normal_at_start;
             const real gap_at_start =
@@ -324,6 +340,7 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
             store_blocks_unordered(x, w, p.position + 4 * i);
         }
         if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * i);
+        if constexpr (traced) trace_pass(c, i, touches, before, x);
     }
 }
 
@@ -443,8 +460,13 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/constraints.def"
         },
 #undef WEFT_CONSTRAINT
-#define WEFT_SHAPE(name, Name) contact_pass<Name##Shape>,
+#define WEFT_SHAPE(name, Name) contact_pass<Name##Shape, false>,
         .contact = {
+#include "physics/contact/shapes.def"
+        },
+#undef WEFT_SHAPE
+#define WEFT_SHAPE(name, Name) contact_pass<Name##Shape, true>,
+        .contact_traced = {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE

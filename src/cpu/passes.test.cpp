@@ -394,6 +394,55 @@ TEST_P(InstructionSet, touches_every_shape_alike) {
     }
 }
 
+TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else_by_it) {
+    const Range all{0, padded(particle_count)};
+    for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
+        for (unsigned seed = 0; seed < 10; ++seed) {
+            const Fixture state = random_state(seed, seed % 2);
+            AlignedVector<Vec4> sums(state.position.size());
+            ContactView view{.numbers = {0.6f, 0.8f, 0.3f, 0.1f},
+                             .now = {rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}},
+                             .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
+                             .static_friction = 0.4f,
+                             .kinetic_friction = 0.3f,
+                             .half_thickness = 0.001f,
+                             .depenetration = 0.0008f,
+                             .sums = &sums[0].x,
+                             .first_iteration = true};
+            const auto traced = [&](const Passes& passes, Fixture& f, AlignedVector<Vec4>& moved,
+                                    AlignedVector<Vec4>& turned) {
+                moved.assign(f.position.size(), {7, 7, 7, 7});  // of a frame before
+                turned = moved;
+                view.moved = &moved[0].x;
+                view.turned = &turned[0].x;
+                for (const bool first : {true, false}) {
+                    view.first_iteration = view.first_of_frame = first;
+                    passes.contact_traced[shape](f.view(), view, all);
+                }
+            };
+            Fixture plain = state, ours = state, theirs = state;
+            for (const bool first : {true, false}) {
+                view.first_iteration = first;
+                GetParam()->contact[shape](plain.view(), view, all);
+            }
+            AlignedVector<Vec4> moved, turned, scalar_moved, scalar_turned;
+            traced(*GetParam(), ours, moved, turned);
+            traced(scalar_passes(), theirs, scalar_moved, scalar_turned);
+            expect_same(ours.position, plain.position, "position");
+            expect_same(moved, scalar_moved, "moved");
+            expect_same(turned, scalar_turned, "turned");
+            if (seed % 2) continue;
+            std::uint32_t touched = 0;
+            for (std::uint32_t p = 0; p < particle_count; ++p) {
+                const Vec3 by = ours.position[p].xyz() - state.position[p].xyz();
+                EXPECT_LT(length(moved[p].xyz() - by), 1e-5f);
+                touched += by != Vec3();
+            }
+            EXPECT_GT(touched, 0u);
+        }
+    }
+}
+
 TEST_P(InstructionSet, notices_what_is_not_finite) {
     AlignedVector<float> data(64, 1.0f);
     EXPECT_TRUE(GetParam()->all_finite(data.data(), 0, 64));

@@ -24,6 +24,7 @@
 #include "physics/plate/plate.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
+#include "physics/contact/feedback.kernel.h"
 #define WEFT_SHAPE_KERNELS
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE_KERNELS

@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "solver/air.h"
 #include "solver/collider.h"
+#include "solver/feedback.h"
 #include "solver/frame.h"
 #include "solver/holds.h"
 #include "solver/measures.h"
@@ -35,6 +36,7 @@ struct StepInput {
     /// Likewise for what carries the held particles: [substep · movers + mover].
     std::span<const Pose> mover_poses = {};
     std::uint32_t movers = 0;
+    bool feedback = false;  ///< keep account of contacts
 };
 
 /// One cloth's part of a frame.
@@ -42,7 +44,8 @@ struct ClothStep {
     ClothHandle cloth;
     const StepPlan* plan = nullptr;
     StepInput input;
-    ClothFrame* frame = nullptr;  ///< what comes of it
+    ClothFrame* frame = nullptr;        ///< what comes of it
+    ClothFeedback* feedback = nullptr;  ///< likewise, where the input asks for it
 };
 
 class Backend {
@@ -62,8 +65,12 @@ class Backend {
     /// Where it fails, all is as it was.
     virtual Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
     /// Advances cloths by a frame, each once. They have nothing to do with one another, and may run side by side: times
-    /// are then shares of the time that passes. Leaves reports and details in their frames; the rest is for read().
-    virtual void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) = 0;
+    /// are then shares of the time that passes. A device may be at work still when this returns: the steps, and what
+    /// they point to, must stay until finish(), which comes before any other call.
+    virtual void step(std::span<const ClothStep> cloths) = 0;
+    /// Ends the frame that step() began, if there is one. Adds its times, and leaves reports, details and feedback with
+    /// its steps; the rest is for read().
+    virtual void finish(std::array<double, stage_count>& stage_ms) = 0;
     /// The cloth as it is, in arrays that stay until the next call of anything. False if the device cannot tell any
     /// more: then as it was when it was last read.
     virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;

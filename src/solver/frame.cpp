@@ -9,6 +9,7 @@ std::vector<std::string_view> report_names(std::uint32_t reports) {
     if (reports & report_speed_capped) names.push_back("SpeedCapped");
     if (reports & report_non_finite) names.push_back("NonFinite");
     if (reports & report_device_failed) names.push_back("DeviceFailed");
+    if (reports & report_contacts_full) names.push_back("ContactsFull");
     return names;
 }
 

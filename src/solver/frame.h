@@ -21,6 +21,8 @@ enum Report : std::uint32_t {
     report_speed_capped = 1u << 0,   ///< particles went faster than the cap and were slowed to it
     report_non_finite = 1u << 1,     ///< a NaN or infinity arose; the cloth is back where the frame began
     report_device_failed = 1u << 2,  ///< the device is lost or out of memory; the cloth is as it was last read
+    report_contacts_full =
+        1u << 3,  ///< more contacts than there was room for; sums are complete, the next frame has room
 };
 
 /// The names of the bits, in the order of the bits.
@@ -42,6 +44,8 @@ struct Frame {
     double time = 0;          ///< s
     std::vector<ClothFrame> cloths;
     std::array<double, stage_count> stage_ms{};  ///< time in each stage, all cloths; see stage_name()
+    /// Of the caller's time, what the frame took: to submit it, and to wait for it where a device runs it. What the
+    /// caller did in between does not count.
     double step_ms = 0;
     std::uint32_t reports = report_none;  ///< of all cloths
 };

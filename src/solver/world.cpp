@@ -8,6 +8,13 @@
 #include <stdexcept>
 
 namespace weft {
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
 
 World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
     : backend_(std::move(backend)), settings_(std::move(settings)) {
@@ -15,6 +22,7 @@ World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
 }
 
 Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
+    settle();
     const auto handle = backend_->add_cloth(model);
     if (!handle) return handle.errors();
     const ClothId id = cloths_.add({*handle, std::move(model), std::move(holds), {}, {}});
@@ -31,6 +39,7 @@ ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
 
 void World::remove(ClothId id) {
     assert(contains(id));
+    settle();
     backend_->remove_cloth(cloths_[cloths_.find(id)].handle);
     cloths_.remove(id);
     list_cloths();
@@ -38,6 +47,7 @@ void World::remove(ClothId id) {
 
 Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
     assert(contains(id));
+    settle();
     Cloth& cloth = cloths_[cloths_.find(id)];
     assert(model->particle_count == cloth.model->particle_count);
     if (auto set = backend_->set_model(cloth.handle, model); !set) return set;
@@ -49,6 +59,7 @@ Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> mode
 }
 
 ColliderId World::add(Collider collider) {
+    settle();
     const ColliderId id = colliders_.add(std::move(collider));
     replan();
     return id;
@@ -56,6 +67,7 @@ ColliderId World::add(Collider collider) {
 
 void World::remove(ColliderId id) {
     assert(contains(id));
+    settle();
     const Pose last = collider(id).pose;
     for (Cloth& cloth : cloths_) {
         for (std::uint32_t m = 0; m < cloth.holds.movers.size(); ++m) {
@@ -84,7 +96,12 @@ void World::move(ColliderId id, const Pose& to) {
 
 void World::configure(WorldSettings settings) {
     assert(settings.substeps > 0 && settings.iterations > 0);
+    settle();
     settings_ = std::move(settings);
+    if (!settings_.feedback) {
+        felt_ = {};
+        feedback_ = {};
+    }
     replan();
 }
 
@@ -98,6 +115,7 @@ void World::list_cloths() {
 }
 
 const Frame& World::frame() const {
+    complete();
     if (!unread_) return frame_;
     for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->read(cloths_[i].handle, frame_.cloths[i]);
     unread_ = false;
@@ -157,6 +175,7 @@ void World::place_movers(Cloth& cloth, double dt) const {
 
 void World::advance(double dt) {
     assert(dt > 0 && std::isfinite(dt));
+    complete();
     place_colliders(dt);
     for (Cloth& cloth : cloths_) place_movers(cloth, dt);
     for (std::size_t i = 0; i < winds_.size(); ++i) {
@@ -167,6 +186,7 @@ void World::advance(double dt) {
     frame_.time += dt;
     frame_.reports = report_none;
     frame_.stage_ms.fill(0);
+    FrameFeedback& felt = begin_feedback(dt);
     steps_.clear();
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         const Cloth& cloth = cloths_[i];
@@ -180,20 +200,62 @@ void World::advance(double dt) {
                                     .poses = poses_,
                                     .held = cloth.holds.particles,
                                     .mover_poses = cloth.mover_poses,
-                                    .movers = static_cast<std::uint32_t>(cloth.holds.movers.size())},
-                          .frame = &frame_.cloths[i]});
+                                    .movers = static_cast<std::uint32_t>(cloth.holds.movers.size()),
+                                    .feedback = settings_.feedback},
+                          .frame = &frame_.cloths[i],
+                          .feedback = settings_.feedback ? &felt.cloths[i].feedback : nullptr});
     }
-    backend_->step(steps_, frame_.stage_ms);
-    unread_ = true;
-    for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
+    backend_->step(steps_);
+    running_ = true;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];
         colliders_[i].next_pose.reset();
     }
-    frame_.step_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    frame_.step_ms = ms_since(begin);
+}
+
+void World::complete() const {
+    if (!running_) return;
+    running_ = false;
+    const auto begin = std::chrono::steady_clock::now();
+    backend_->finish(frame_.stage_ms);
+    unread_ = true;
+    for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
+    if (settings_.feedback) not_made_out_ = static_cast<std::uint32_t>(frame_.index % felt_.size());
+    frame_.step_ms += ms_since(begin);
+}
+
+// Who takes part in the frame that begins.
+FrameFeedback& World::begin_feedback(double dt) {
+    FrameFeedback& felt = felt_[frame_.index % felt_.size()];
+    if (!settings_.feedback) return felt;
+    felt.frame = frame_.index;
+    felt.dt = dt;
+    felt.colliders.clear();
+    for (std::size_t i = 0; i < colliders_.size(); ++i) felt.colliders.push_back(colliders_.id_of(i));
+    felt.cloths.resize(cloths_.size());
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        felt.cloths[i].id = cloths_.id_of(i);
+        felt.cloths[i].model = cloths_[i].model;
+        felt.cloths[i].feedback.contacts = {};
+        felt.cloths[i].feedback.sums.assign(colliders_.size(), {});
+    }
+    return felt;
+}
+
+const Feedback& World::feedback() const {
+    if (not_made_out_) make_out(felt_[*not_made_out_], feedback_, vertices_);
+    not_made_out_.reset();
+    return feedback_;
+}
+
+void World::settle() {
+    complete();
+    (void)feedback();
 }
 
 Snapshot World::save() const {
+    complete();
     Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
     for (const Cloth& cloth : cloths_) snapshot.cloths.push_back(backend_->save(cloth.handle));
     for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
@@ -205,6 +267,7 @@ Result<Done> World::restore(const Snapshot& snapshot) {
         return Error{"state",
                      "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
     };
+    complete();
     if (snapshot.cloths.size() != cloths_.size()) return differs("cloths", snapshot.cloths.size(), cloths_.size());
     if (snapshot.colliders.size() != colliders_.size())
         return differs("colliders", snapshot.colliders.size(), colliders_.size());
@@ -229,17 +292,21 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     frame_.index = snapshot.frame;
     frame_.time = snapshot.time;
     frame_.reports = report_none;
+    not_made_out_.reset();
+    feedback_ = {};
     list_cloths();
     return Done{};
 }
 
 ClothMeasures World::measure() const {
+    complete();
     MeasureSums sums;
     for (const Cloth& cloth : cloths_) backend_->measure(cloth.handle, sums);
     return sums.result();
 }
 
 std::string World::state_hash() const {
+    complete();
     StateHash hash;
     for (const Cloth& cloth : cloths_) backend_->hash(cloth.handle, hash);
     return hash.text();

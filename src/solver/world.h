@@ -20,6 +20,7 @@ struct WorldSettings {
     bool hierarchy = false;           ///< coarse levels first, for cloths whose model has them
     std::optional<AirDesc> air = {};  ///< without, a vacuum
     bool surface = true;              ///< keep normals up to date
+    bool feedback = false;            ///< keep account of what contacts do
 
     /// What the models of a world with these settings should have.
     ClothLayout layout() const {
@@ -54,7 +55,8 @@ class World {
 
     void configure(WorldSettings settings);
 
-    /// Advances by dt seconds, > 0 and finite. What becomes of the cloths may stay on a device until frame() is called.
+    /// Advances by dt seconds, > 0 and finite. A device may be at work still when this returns: whatever asks what came
+    /// of it waits, and so does the next step. What becomes of the cloths may stay there until frame() is called.
     void advance(double dt);
     /// And brings them here. The frame stays valid until the next step or change.
     const Frame& step(double dt) {
@@ -64,7 +66,16 @@ class World {
     /// The last frame; before the first step, the start.
     const Frame& frame() const;
     /// Of that frame, without the cloths' arrays.
-    const Frame& summary() const { return frame_; }
+    const Frame& summary() const {
+        complete();
+        return frame_;
+    }
+    std::uint64_t index() const { return frame_.index; }  ///< of the last frame, without waiting
+    double time() const { return frame_.time; }
+    /// What contacts did, with `settings().feedback`; never waits. After advance() it is that of the frame before, and
+    /// of the last one as soon as anything has waited for that: summary(), frame(), a change. Likewise on the CPU,
+    /// where nothing waits. None in a world that is fresh or restored.
+    const Feedback& feedback() const;
 
     const WorldSettings& settings() const { return settings_; }
     const std::vector<Collider>& colliders() const { return colliders_.values(); }
@@ -97,6 +108,9 @@ class World {
 
     void replan();
     void list_cloths();
+    void complete() const;  ///< waits for the frame that a device is at work on
+    void settle();          ///< and makes out its feedback, before what that lies in goes
+    FrameFeedback& begin_feedback(double dt);
     void place_colliders(double dt);
     void place_movers(Cloth& cloth, double dt) const;
 
@@ -108,7 +122,13 @@ class World {
     std::vector<WindNow> winds_;
     std::vector<ClothStep> steps_;  // of a frame
     mutable Frame frame_;
-    mutable bool unread_ = false;  ///< its arrays are still those of a frame before
+    mutable bool unread_ = false;   ///< its arrays are still those of a frame before
+    mutable bool running_ = false;  ///< the backend has not finished it
+    /// In turn: one is read while the next frame writes the other.
+    std::array<FrameFeedback, 2> felt_;
+    mutable std::optional<std::uint32_t> not_made_out_;  ///< of these, the one of the last finished frame
+    mutable Feedback feedback_;
+    mutable std::vector<std::uint32_t> vertices_;
 };
 
 }  // namespace weft

@@ -221,6 +221,8 @@ struct ContactArgs {
     Vec4s start;
     Vec4s sums;       // [collider · capacity + particle]; 0 with one iteration
     Uints particles;  // where they start; 0: all of them, in order
+    Vec4s felt;       // [collider · felt_capacity + particle] of the cloth: moved of ContactTrace, and then turned; 0
+                      // without feedback
     FrameRef frame;
     ColliderRef colliders;
     PoseRef poses;  // [substep · colliders + collider]
@@ -228,6 +230,8 @@ struct ContactArgs {
     uint capacity;
     uint substep;
     uint first_iteration;
+    uint felt_capacity;
+    uint owned;  // so many, the first ones, are nobody else's to keep account of
 };
 
 // Triangles.

@@ -48,6 +48,7 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     }
     if (plan.iterations > 1)
         work.contact_sums = work.arena.reserve(std::uint64_t{shape.colliders} * model.capacity() * block);
+    if (shape.feedback) work.felt = work.arena.reserve(2 * std::uint64_t{shape.colliders} * model.capacity() * block);
     const ConstraintTable& stretch = model.table(ConstraintKind::stretch);
     if (plan.projection == Projection::lines && !stretch.blocks.empty())
         work.line_scratch = work.arena.reserve(2 * std::uint64_t{stretch.stride} * block);

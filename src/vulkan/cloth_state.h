@@ -24,6 +24,7 @@ struct WorkBuffers {
     std::vector<Level> levels;
     std::array<Slot, constraint_kind_count> lambda;  ///< of constraints other than stretch, with several iterations
     Slot contact_sums;
+    Slot felt;         ///< what contacts do in the frame: moved, then turned (ContactArgs)
     Slot corrections;  ///< in floats, or
     Slot sums;         ///< in fixed point
     Slot gather_offsets, gather_items;

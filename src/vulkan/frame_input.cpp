@@ -67,9 +67,12 @@ FrameIn frame_in(const ClothModel& model, const StepPlan& plan, const StepInput&
 }  // namespace
 
 InputShape shape_of(const StepPlan& plan, const StepInput& input) {
-    return {plan.substeps, static_cast<std::uint32_t>(input.colliders.size()),
-            static_cast<std::uint32_t>(input.winds.size()), input.movers,
-            static_cast<std::uint32_t>(input.held.size())};
+    return {plan.substeps,
+            static_cast<std::uint32_t>(input.colliders.size()),
+            static_cast<std::uint32_t>(input.winds.size()),
+            input.movers,
+            static_cast<std::uint32_t>(input.held.size()),
+            input.feedback && !input.colliders.empty()};
 }
 
 FrameInput::FrameInput(const InputShape& shape) {

@@ -16,6 +16,7 @@ namespace weft::vulkan {
 /// How many of each there are: as long as that stays, the places in the buffer do.
 struct InputShape {
     std::uint32_t substeps = 0, colliders = 0, winds = 0, movers = 0, held = 0;
+    bool feedback = false;  ///< account is kept of contacts
     friend bool operator==(const InputShape&, const InputShape&) = default;
 };
 

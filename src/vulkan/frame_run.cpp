@@ -60,7 +60,35 @@ Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs
     if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_streamed(timings);
     if (!recorded) return recorded.errors();
+    if (auto prepared = self->prepare_feedback(); !prepared) return prepared.errors();
     return self;
+}
+
+// Those of a frame have the colliders of the world, all of them or none.
+Result<Done> FrameRun::prepare_feedback() {
+    if (!members_.front().shape.feedback) return Done{};
+    std::vector<ContactReadback::Member> members;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const ClothState& cloth = members_[i].cloth->state();
+        const std::uint64_t felt = work_[i].arena.address(work_[i].felt);
+        members.push_back({.account = {.position = cloth.address(cloth.position),
+                                       .moved = felt,
+                                       .turned = felt + work_[i].felt.bytes / 2,
+                                       .report = buffers_.input(i).report(),
+                                       .frame = buffers_.input(i).frame(),
+                                       .sums = 0,
+                                       .capacity = cloth.model().capacity(),
+                                       .particles = cloth.model().particle_count},
+                           .colliders = members_[i].shape.colliders});
+    }
+    auto contacts = ContactReadback::create(device_, programs_, members, members_.front().cloth->model().name);
+    if (!contacts) return contacts.errors();
+    contacts_ = std::move(*contacts);
+    return Done{};
+}
+
+std::uint32_t FrameRun::read_feedback(std::size_t member, ClothFeedback& to) {
+    return contacts_ ? contacts_->read(member, to) : std::uint32_t{report_none};
 }
 
 Result<Done> FrameRun::compile_members() {
@@ -172,13 +200,17 @@ Result<Done> FrameRun::record_streamed(bool timings) {
 }
 
 Result<std::uint64_t> FrameRun::submit(std::span<const StepInput* const> inputs) {
+    if (contacts_) {
+        if (auto prepared = contacts_->prepare(); !prepared) return prepared.errors();
+    }
     seconds_.clear();
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
         buffers_.input(i).write(member.cloth->model(), *member.plan, *inputs[i], member.cloth->state().substep_seconds);
         seconds_.push_back(lambda_seconds(*member.plan, inputs[i]->dt));
     }
-    return commands_->submit();
+    auto value = commands_->submit();
+    return value && contacts_ ? contacts_->submit() : value;
 }
 
 void FrameRun::finish(std::array<double, stage_count>& stage_ms) {

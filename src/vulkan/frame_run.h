@@ -4,6 +4,7 @@
 #include "gpu/commands.h"
 #include "vulkan/cloth.h"
 #include "vulkan/command_lists.h"
+#include "vulkan/feedback/contact_readback.h"
 #include "vulkan/frame_input.h"
 #include "vulkan/patched_iterations.h"
 
@@ -54,6 +55,8 @@ class FrameRun {
     /// When the device is done with it.
     void finish(std::array<double, stage_count>& stage_ms);
     std::uint32_t report(std::size_t member) const { return buffers_.report(member); }
+    /// What contacts did to colliders, if its shape asks for it: see ContactReadback::read.
+    std::uint32_t read_feedback(std::size_t member, ClothFeedback& to);
     /// After a frame in which the cloth was not finite: what did it. The state is that before the frame, before and
     /// after.
     Result<std::string> find_non_finite(std::size_t member, const StepInput& input);
@@ -66,6 +69,7 @@ class FrameRun {
     FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution);
     Result<Done> compile_members();
     Result<Done> patch_members();
+    Result<Done> prepare_feedback();
     Result<Done> record_fused(bool timings);
     Result<Done> record_streamed(bool timings);
     Result<Done> begin_recording(bool timings, std::size_t stages);
@@ -84,8 +88,9 @@ class FrameRun {
     CommandLists lists_;
     std::vector<std::optional<PatchedIterations>> patched_;  ///< by member
     std::optional<gpu::Commands> commands_;
-    std::vector<std::uint32_t> stages_;  ///< between one stamp and the next
-    std::vector<double> seconds_;        ///< lambda_seconds of the frame that runs, by member
+    std::vector<std::uint32_t> stages_;          ///< between one stamp and the next
+    std::unique_ptr<ContactReadback> contacts_;  ///< none without feedback
+    std::vector<double> seconds_;                ///< lambda_seconds of the frame that runs, by member
 };
 
 }  // namespace weft::vulkan

@@ -295,13 +295,16 @@ class PatchBuilder {
                                .start = cloth_.address(cloth_.start),
                                .sums = at.contact_sums,
                                .particles = at.points,
+                               .felt = work_.arena.address(work_.felt),
                                .frame = input_.frame(),
                                .colliders = input_.colliders(),
                                .poses = input_.poses(),
                                .count = patch.within[ring],
                                .capacity = static_cast<std::uint32_t>(patch.points.size()),
                                .substep = 0,
-                               .first_iteration = first ? 1u : 0u};
+                               .first_iteration = first ? 1u : 0u,
+                               .felt_capacity = model_.capacity(),
+                               .owned = patch.within[0]};
         add(list, "contact", args, args.count);
     }
 

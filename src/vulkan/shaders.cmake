@@ -67,6 +67,9 @@ weft_shader(measure_rows measures/measure.comp WEFT_TERM=row_term WEFT_ARGS=Meas
 foreach(pass welded bound tangents)
     weft_shader(drawn_${pass} surface/${pass}.comp)
 endforeach()
+foreach(pass count_contacts list_contacts)
+    weft_shader(${pass} feedback/${pass}.comp)
+endforeach()
 
 # One table of all, for shaders.cpp.
 weft_embed_shaders(${shader_output} vulkan_shaders ${shader_names})

@@ -39,6 +39,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
   public:
     VulkanBackend(std::shared_ptr<gpu::Device> device, Execution execution, bool timings)
         : device_(std::move(device)), programs_(*device_), execution_(execution), timings_(timings) {}
+    // Nobody asks any more what came of a frame, but what it works on must stay until it ends.
+    ~VulkanBackend() override { (void)device_->wait(device_->submitted()); }
 
     std::string_view name() const override { return "vulkan"; }
     std::string device() const override { return device_->info().name + ", " + device_->info().driver; }
@@ -78,14 +80,15 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return Done{};
     }
 
-    void step(std::span<const ClothStep> cloths, std::array<double, stage_count>& stage_ms) override {
+    void step(std::span<const ClothStep> cloths) override {
+        assert(groups_.empty());
         group(cloths);
-        std::uint64_t last = 0;
-        for (Group& group : groups_) {
-            auto value = submit(group);
-            if (value) last = *value;
-        }
-        const auto done = device_->wait(last);
+        for (Group& group : groups_) submit(group);
+    }
+
+    void finish(std::array<double, stage_count>& stage_ms) override {
+        if (groups_.empty()) return;
+        const auto done = device_->wait(device_->submitted());
         for (Group& group : groups_) {
             if (!group.run) continue;
             if (done) {
@@ -94,6 +97,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
                 fail(group, done.error());
             }
         }
+        groups_.clear();
     }
 
     bool read(ClothHandle handle, ClothFrame& frame) const override {
@@ -178,7 +182,6 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     // Small cloths go into one dispatch; each of the others has its own.
     void group(std::span<const ClothStep> cloths) {
-        groups_.clear();
         Group small{.execution = Execution::fused, .steps = {}};
         for (const ClothStep& step : cloths) {
             const Execution execution = execution_for(cloth(step.cloth));
@@ -191,7 +194,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         if (!small.steps.empty()) groups_.push_back(std::move(small));
     }
 
-    Result<std::uint64_t> submit(Group& group) {
+    void submit(Group& group) {
         members_.clear();
         inputs_.clear();
         for (const ClothStep* step : group.steps) {
@@ -201,22 +204,15 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             inputs_.push_back(&step->input);
         }
         auto run = find_run(members_, group.execution);
-        if (!run) {
-            fail(group, run.error());
-            return run.errors();
+        if (!run) return fail(group, run.error());
+        const auto value = (*run)->submit(inputs_);
+        if (!value) return fail(group, value.error());
+        group.run = *run;
+        for (const ClothStep* step : group.steps) {
+            const auto& end = step->plan->frame_end;
+            const bool normals = std::ranges::find(end, PassKind::normals, &Pass::kind) != end.end();
+            cloth(step->cloth).changed(normals);
         }
-        auto value = (*run)->submit(inputs_);
-        if (value) {
-            group.run = *run;
-            for (const ClothStep* step : group.steps) {
-                const auto& end = step->plan->frame_end;
-                const bool normals = std::ranges::find(end, PassKind::normals, &Pass::kind) != end.end();
-                cloth(step->cloth).changed(normals);
-            }
-        } else {
-            fail(group, value.error());
-        }
-        return value;
     }
 
     // The one that was recorded for a frame like this, or a new one in place of those with other plans.
@@ -240,6 +236,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (std::size_t i = 0; i < group.steps.size(); ++i) {
             ClothFrame& frame = *group.steps[i]->frame;
             frame.reports = group.run->report(i);
+            if (ClothFeedback* feedback = group.steps[i]->feedback)
+                frame.reports |= group.run->read_feedback(i, *feedback);
             if (!(frame.reports & report_non_finite)) continue;
             auto culprit = group.run->find_non_finite(i, group.steps[i]->input);
             frame.detail = culprit ? *culprit : culprit.error().message();
@@ -261,7 +259,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::map<const ClothModel*, std::weak_ptr<const DrawnMesh>> drawn_;
     std::vector<std::unique_ptr<Cloth>> cloths_;
     std::vector<std::unique_ptr<FrameRun>> runs_;
-    // Of a frame:
+    // Of a frame, until it is finished:
     std::vector<Group> groups_;
     std::vector<FrameRun::Member> members_;
     std::vector<const StepInput*> inputs_;

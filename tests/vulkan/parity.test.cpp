@@ -109,7 +109,8 @@ class Parity : public testing::TestWithParam<const char*> {
         StepInput input;
         input.dt = 1e-3;
         const ClothStep step{*cloth, &plan, input, &frame};
-        backend.step(std::span(&step, 1), stages);
+        backend.step(std::span(&step, 1));
+        backend.finish(stages);
         Outcome outcome{backend.save(*cloth), frame.reports, frame.detail};
         backend.remove_cloth(*cloth);
         return outcome;

@@ -87,6 +87,19 @@ void run_average(AverageArgs a, uint p)
     store_point(a.position, p, vec4(x.xyz + sum, x.w));
 }
 
+// Adds what a contact did to the particle's account of the frame, which the first contacts of the frame begin.
+void trace(ContactArgs a, uint collider, uint p, bool touches, vec3 before, vec3 x, vec3 position)
+{
+    bool begins = a.substep == 0u && a.first_iteration == 1u;
+    if (!touches && !begins) return;
+    uint at = collider * a.felt_capacity + p, turned = a.frame.at.colliders * a.felt_capacity + at;
+    ContactTrace sum = ContactTrace(vec3(0.0), vec3(0.0));
+    if (!begins) sum = ContactTrace(a.felt.at[at].xyz, a.felt.at[turned].xyz);
+    if (touches) trace_contact(sum, before, x, position);
+    a.felt.at[at] = vec4(sum.moved, 0.0);
+    a.felt.at[turned] = vec4(sum.turned, 0.0);
+}
+
 void run_contact(ContactArgs a, uint p)
 {
     vec4 x = load_point(a.position, p);
@@ -94,7 +107,7 @@ void run_contact(ContactArgs a, uint p)
     if (!is_none(uvec2(a.particles))) whole = a.particles.at[p];
     vec3 start = a.start.at[whole].xyz;
     uint colliders = a.frame.at.colliders;
-    bool keeps = !is_none(uvec2(a.sums));
+    bool keeps = !is_none(uvec2(a.sums)), traces = !is_none(uvec2(a.felt)) && p < a.owned;
     for (uint c = 0u; c < colliders; ++c) {
         ColliderIn collider = a.colliders.at[c];
         PoseIn now = a.poses.at[(a.substep + 1u) * colliders + c];
@@ -117,7 +130,9 @@ void run_contact(ContactArgs a, uint p)
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
         gap = gap - body.half_thickness;
-        if (gap < 0.0 || sum.push > 0.0) {
+        vec3 x_before = x.xyz;
+        bool touches = gap < 0.0 || sum.push > 0.0;
+        if (touches) {
             vec3 local_at_start = to_body_at_start(body, start);
             kind = 0u;
 #define WEFT_SHAPE(name, Name) \
@@ -129,6 +144,7 @@ void run_contact(ContactArgs a, uint p)
                             carried_by(body, local), body);
         }
         if (keeps) a.sums.at[at] = vec4(sum.friction, sum.push);
+        if (traces) trace(a, c, whole, touches, x_before, x.xyz, body.position);
     }
     store_point(a.position, p, x);
 }

@@ -1,0 +1,76 @@
+#include "cpu/contact_account.h"
+
+#include "physics/scalar.h"
+
+namespace weft::cpu {
+namespace {
+
+using Quanta = std::array<float, 3>;
+
+Quanta quanta_of(const Vec4& v, float factor) {
+    return {scalar::to_impulse_quanta(v.x * factor), scalar::to_impulse_quanta(v.y * factor),
+            scalar::to_impulse_quanta(v.z * factor)};
+}
+
+// Whole numbers below 2^63 (WEFT_LARGEST_IMPULSE).
+void add(std::array<std::uint64_t, 3>& sum, const Quanta& quanta) {
+    for (int axis = 0; axis < 3; ++axis)
+        sum[axis] += static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta[axis]));
+}
+
+}  // namespace
+
+void ContactAccount::prepare(std::size_t colliders, std::size_t capacity, unsigned ranks) {
+    if (colliders * capacity != moved_.size()) {
+        moved_ = AlignedVector<Vec4>(colliders * capacity);
+        turned_ = AlignedVector<Vec4>(colliders * capacity);
+        if (moved_.empty()) parts_ = {}, lists_ = {};
+    }
+    capacity_ = capacity;
+    if (moved_.empty()) return;
+    parts_.resize(ranks);
+    for (Part& part : parts_) {
+        part.begin.resize(colliders + 1);
+        part.sums.resize(colliders);
+    }
+}
+
+void ContactAccount::count(unsigned rank, Share mine, const AlignedVector<Vec4>& position, float inv_h) {
+    Part& part = parts_[rank];
+    part.contacts.clear();
+    for (std::uint32_t c = 0; c < part.sums.size(); ++c) {
+        part.begin[c] = part.contacts.size();
+        part.sums[c] = {};
+        for (std::uint32_t p = mine.begin; p < mine.end; ++p) {
+            const Vec4& moved = moved_[c * capacity_ + p];
+            if (moved.x == 0 && moved.y == 0 && moved.z == 0) continue;  // most of a cloth touches nothing
+            const float momentum = scalar::contact_momentum(position[p].w, inv_h);
+            const Quanta linear = quanta_of(moved, momentum);
+            if (linear == Quanta{}) continue;
+            add(part.sums[c].linear, linear);
+            add(part.sums[c].angular, quanta_of(turned_[c * capacity_ + p], momentum));
+            part.sums[c].contacts += 1;
+            const auto axis = [&](int k) { return scalar::from_impulse_quanta(linear[k]); };
+            part.contacts.push_back({position[p].xyz(), p, {axis(0), axis(1), axis(2)}, c});
+        }
+    }
+    part.begin[part.sums.size()] = part.contacts.size();
+}
+
+void ContactAccount::collect(ClothFeedback& to) {
+    turn_ ^= 1;
+    std::vector<ContactRecord>& list = lists_[turn_];
+    list.clear();
+    to.clear();
+    for (std::size_t c = 0; c < to.sums.size(); ++c) {
+        for (const Part& part : parts_) {
+            const auto first = part.contacts.begin();
+            list.insert(list.end(), first + static_cast<std::ptrdiff_t>(part.begin[c]),
+                        first + static_cast<std::ptrdiff_t>(part.begin[c + 1]));
+            to.sums[c].add(part.sums[c]);
+        }
+    }
+    to.contacts = list;
+}
+
+}  // namespace weft::cpu

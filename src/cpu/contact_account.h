@@ -1,0 +1,43 @@
+// The account that a cloth on the CPU keeps of its contacts in a frame, and what is read from it.
+#pragma once
+
+#include "base/aligned.h"
+#include "base/workers.h"
+#include "solver/feedback.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace weft::cpu {
+
+class ContactAccount {
+  public:
+    /// Makes room; none where there is nothing to keep. Only here memory is asked for, and in lists that grow.
+    void prepare(std::size_t colliders, std::size_t capacity, unsigned ranks);
+
+    bool empty() const { return moved_.empty(); }
+    /// Blocks of four per particle (ContactTrace).
+    float* moved(std::size_t collider) { return &moved_[collider * capacity_].x; }
+    float* turned(std::size_t collider) { return &turned_[collider * capacity_].x; }
+
+    /// What the rank's own particles did. `mine` has no anchors.
+    void count(unsigned rank, Share mine, const AlignedVector<Vec4>& position, float inv_h);
+    /// Of all ranks. What `to` shows stays until the call after the next.
+    void collect(ClothFeedback& to);
+
+  private:
+    struct Part {
+        std::vector<ContactRecord> contacts;
+        std::vector<std::size_t> begin;  ///< of each collider's, and the end
+        std::vector<ImpulseSum> sums;    ///< per collider
+    };
+
+    std::size_t capacity_ = 0;
+    AlignedVector<Vec4> moved_, turned_;  ///< [collider · capacity + particle]
+    std::vector<Part> parts_;             ///< per rank
+    std::array<std::vector<ContactRecord>, 2> lists_;
+    std::uint32_t turn_ = 0;
+};
+
+}  // namespace weft::cpu

@@ -1,0 +1,21 @@
+// What an invocation finds of a contact.
+#ifndef WEFT_ACCOUNT_GLSL
+#define WEFT_ACCOUNT_GLSL
+
+#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/feedback/args.data.h"
+
+#include "physics/lanes.glsl"
+
+#include "physics/contact/feedback.kernel.h"
+
+layout(push_constant) uniform Push { ContactListArgs args; };
+
+#define WEFT_REPORT_NON_FINITE 2u
+
+vec3 quanta_of(vec3 v, float momentum)
+{
+    return vec3(to_impulse_quanta(v.x * momentum), to_impulse_quanta(v.y * momentum), to_impulse_quanta(v.z * momentum));
+}
+
+#endif
