@@ -58,6 +58,30 @@ TEST_F(Cli, stats_have_every_figure) {
     EXPECT_TRUE(s.contains("device"));
 }
 
+TEST_F(Cli, feedback_is_the_force_on_each_collider) {
+    write("sheet.json", R"({ "weft": 1, "cloths": [{ "fabric": { "density": 0.5 },
+                                 "mesh": { "grid": { "size": [1, 1], "resolution": [8, 8] } },
+                                 "transform": { "position": [0, 0.01, 0] } }],
+                             "colliders": [{ "name": "scale", "plane": {} },
+                                           { "name": "far away", "sphere": {}, "transform": { "position": [9, 9, 9] } }] })");
+    const Json without = stats("--frames 60"), with = stats("--frames 60 --feedback");
+    EXPECT_FALSE(without.contains("colliders"));
+    EXPECT_EQ(without["state_hash"], with["state_hash"]);
+    ASSERT_EQ(with["colliders"].size(), 2u);
+    const Json &scale = with["colliders"][0], &other = with["colliders"][1];
+    EXPECT_EQ(scale["name"], "scale");
+    EXPECT_NEAR(scale["force"][1], -0.5 * 9.81, 0.01);
+    EXPECT_NEAR(scale["force"][0], 0, 0.01);
+    EXPECT_NEAR(scale["torque"][2], 0, 0.01);
+    EXPECT_EQ(scale["contacts"], 64);
+    EXPECT_EQ(other["name"], "far away");
+    EXPECT_EQ(other["force"], Json::array({0.0, 0.0, 0.0}));
+    EXPECT_EQ(other["contacts"], 0);
+    const Outcome said = weft("run sheet.json --frames 60 --feedback");
+    EXPECT_NE(said.out.find("on scale"), std::string::npos) << said.out;
+    EXPECT_NE(said.out.find("64 contacts"), std::string::npos) << said.out;
+}
+
 TEST_F(Cli, the_state_does_not_depend_on_threads_or_instruction_set_but_on_substeps) {
     const Json one = stats("--frames 30"), four = stats("--frames 30 --threads 4"),
                scalar = stats("--frames 30 --isa scalar");

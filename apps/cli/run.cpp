@@ -143,6 +143,8 @@ Command add_run(CLI::App& program) {
                      ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
         ->allow_extra_args(false);
     command->add_option("--stats", options->stats, "write the run's figures to this JSON file");
+    command->add_flag("--feedback", options->common.feedback,
+                      "force and torque of the cloths on each collider, in the last frame");
     command->add_flag("--quiet", options->quiet, "no progress, no summary");
     add_common_options(*command, options->common);
     command->footer(

@@ -18,6 +18,24 @@ Json mean_max(MeanMax value) {
     return {{"mean", value.mean}, {"max", value.max}};
 }
 
+Json axes(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+// Of the last frame.
+Json loads(const World& world) {
+    Json list = Json::array();
+    const Feedback& feedback = world.feedback();
+    for (std::size_t i = 0; i < feedback.colliders.size(); ++i) {
+        const ColliderLoad& load = feedback.colliders[i];
+        list.push_back({{"name", world.collider(load.collider).name},
+                        {"force", axes(load.force)},
+                        {"torque", axes(load.torque)},
+                        {"contacts", load.contacts}});
+    }
+    return list;
+}
+
 }  // namespace
 
 double percentile(const std::vector<double>& sorted, double fraction) {
@@ -103,6 +121,7 @@ Json RunStatistics::gather(const Session& session, const std::string& scene_file
     stats["mean_speed"] = mean_speed(frame);
     stats["max_speed"] = measures.max_speed;
     stats["penetration"] = {{"max", penetration.max}, {"count", penetration.count}};
+    if (world.settings().feedback) stats["colliders"] = loads(world);
     stats["self_contacts"] = 0;  // cloth does not yet see itself
     stats["intersections"] = {{"triangles", intersections.triangles}, {"edges", intersections.edges}};
     stats["torn_edges"] = 0;  // nor does it tear
@@ -146,6 +165,14 @@ void print_summary(const Json& s) {
                 100 * number("residual", "max"));
     std::printf("  penetration   max %.3g mm\n", 1000 * number("penetration", "max"));
     std::printf("  mean speed    %.3g m/s\n", s["mean_speed"].get<double>());
+    if (s.contains("colliders")) {
+        for (const Json& load : s["colliders"]) {
+            const auto axis = [&](const char* of, std::size_t k) { return load[of][k].get<double>(); };
+            std::printf("  on %-10s force %.3g, %.3g, %.3g N, torque %.3g, %.3g, %.3g N m, %u contacts\n",
+                        load["name"].get<std::string>().c_str(), axis("force", 0), axis("force", 1), axis("force", 2),
+                        axis("torque", 0), axis("torque", 1), axis("torque", 2), load["contacts"].get<unsigned>());
+        }
+    }
     std::string reports;
     for (const Json& report : s["reports"]) reports += (reports.empty() ? "" : ", ") + report.get<std::string>();
     if (!reports.empty()) std::printf("  reports       %s\n", reports.c_str());

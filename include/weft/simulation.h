@@ -2,6 +2,7 @@
 #pragma once
 
 #include <weft/export.h>
+#include <weft/feedback.h>
 #include <weft/ids.h>
 #include <weft/result.h>
 #include <weft/scene.h>
@@ -40,6 +41,8 @@ struct Options {
     std::optional<bool> hierarchy = {};  ///< coarse levels first, instead of what the scene says
     /// Instruction set: "avx512", "avx2", "sse4", "neon", "scalar"; empty takes the widest. Same bits for all of them.
     std::string isa = {};
+    /// Keep account of what cloth does to colliders: Simulation::feedback().
+    bool feedback = false;
     /// Vulkan: time each stage of a frame, which costs a little.
     bool stage_timings = false;
 };
@@ -84,7 +87,9 @@ class WEFT_API Simulation {
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Advances by one frame of the world's frame rate.
+    /// Advances by one frame of the world's frame rate. On a device the frame may be under way still when this returns:
+    /// what asks for something that came of it waits, as do changes and the next step; feedback(), frame(), time() and
+    /// move() do not.
     void step();
     /// Advances by one frame of dt seconds; fails, and does nothing, unless 0 < dt ≤ 1000.
     Result<Done> step(double dt);
@@ -131,7 +136,13 @@ class WEFT_API Simulation {
     std::span<const Vec4> tangents(ClothId id) const;
 
     Measures measure() const;
-    /// What the last step held back or caught, by name ("SpeedCapped", "NonFinite"); empty if all went well.
+    /// With Options::feedback, what the cloths did to the colliders in a frame, which it names: of the last step if
+    /// anything has waited for that one since, as surface() and measure() do; of the step before if not. Never waits.
+    /// The same on every backend, whichever frame it is. Empty before, and after restore_state(). A cloth that was not
+    /// finite in the frame did nothing. Valid until it is called again, or a step or change.
+    const Feedback& feedback() const;
+    /// What the last step held back or caught, by name ("SpeedCapped", "NonFinite", "ContactsFull"); empty if all went
+    /// well.
     std::vector<std::string_view> reports() const;
     /// 16 hexadecimal digits that differ as soon as one bit of the state does.
     std::string state_hash() const;

@@ -3,6 +3,7 @@
 
 #include <weft/bounds.h>
 #include <weft/export.h>
+#include <weft/feedback.h>
 #include <weft/ids.h>
 #include <weft/mesh.h>
 #include <weft/result.h>

@@ -162,7 +162,8 @@ Result<Session> Session::create(SceneDesc scene, const Options& options, const s
                                                                                 .projection = scene.solver.projection,
                                                                                 .accumulate = scene.solver.accumulate,
                                                                                 .hierarchy = scene.solver.hierarchy,
-                                                                                .air = scene.air});
+                                                                                .air = scene.air,
+                                                                                .feedback = options.feedback});
     for (const ColliderDesc& collider : scene.colliders) session.world_->add(make_collider(collider));
     Errors errors;
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {

@@ -129,10 +129,10 @@ Result<Done> Simulation::step(double dt) {
 }
 
 std::uint64_t Simulation::frame() const {
-    return impl_->world().summary().index;
+    return impl_->world().index();
 }
 double Simulation::time() const {
-    return impl_->world().summary().time;
+    return impl_->world().time();
 }
 
 Result<ClothId> Simulation::add(const ClothDesc& desc) {
@@ -311,6 +311,10 @@ Measures Simulation::measure() const {
             .kinetic_energy = measures.kinetic_energy,
             .max_speed = measures.max_speed,
             .max_penetration = penetration};
+}
+
+const Feedback& Simulation::feedback() const {
+    return impl_->world().feedback();
 }
 
 std::vector<std::string_view> Simulation::reports() const {

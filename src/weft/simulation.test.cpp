@@ -54,6 +54,60 @@ TEST(Simulation, is_filled_and_runs) {
     EXPECT_THAT(simulation.reports(), testing::IsEmpty());
 }
 
+TEST(Simulation, tells_what_cloth_does_to_colliders) {
+    auto made = Simulation::create({}, {.feedback = true});
+    ASSERT_TRUE(made.ok());
+    Simulation& simulation = *made;
+    EXPECT_EQ(simulation.feedback().frame, 0u);
+    const auto table =
+        simulation.add(ColliderDesc{.shape = BoxDesc{{0.5f, 0.5f, 0.5f}}, .transform = {.position = {0, -0.501f, 0}}});
+    // A drawn mesh with a seam: the first of a place's vertices stands for it.
+    TriangleMesh mesh{.positions = {{0, 0, 0}, {0, 0, 0.2f}, {0.2f, 0, 0}, {0.2f, 0, 0}, {0, 0, 0.2f}, {0.2f, 0, 0.2f}},
+                      .triangles = {{0, 1, 2}, {3, 4, 5}}};
+    const auto cloth = simulation.add({.mesh = mesh, .fabric = FabricDesc("cotton").set("density", 0.5)});
+    ASSERT_TRUE(table.ok() && cloth.ok());
+    for (int i = 0; i < 20; ++i) simulation.step();
+    EXPECT_EQ(simulation.feedback().frame, 19u) << "nobody has waited for the last one";
+    (void)simulation.surface(*cloth);
+    const Feedback& feedback = simulation.feedback();
+    EXPECT_EQ(feedback.frame, 20u);
+    ASSERT_EQ(feedback.colliders.size(), 1u);
+    EXPECT_EQ(feedback.colliders[0].collider, *table);
+    EXPECT_NEAR(feedback.colliders[0].force.y, -0.5 * 0.04 * 9.81, 1e-4);
+    ASSERT_EQ(feedback.contacts.size(), 4u);
+    std::vector<std::uint32_t> vertices;
+    for (const Contact& contact : feedback.contacts) {
+        EXPECT_EQ(contact.cloth, *cloth);
+        EXPECT_EQ(contact.collider, *table);
+        EXPECT_EQ(contact.point, simulation.surface(*cloth).positions[contact.vertex]);
+        vertices.push_back(contact.vertex);
+    }
+    EXPECT_THAT(vertices, testing::UnorderedElementsAre(0, 1, 2, 5));
+
+    const std::vector<std::byte> state = simulation.save_state();
+    ASSERT_TRUE(simulation.restore_state(state).ok());
+    EXPECT_EQ(simulation.feedback().frame, 0u);
+    Simulation without = make_simulation();
+    without.step();
+    EXPECT_EQ(without.feedback().frame, 0u);
+}
+
+TEST(Simulation, shows_the_last_step_though_it_does_not_wait_for_it) {
+    Simulation simulation = make_simulation();
+    const auto sheet = simulation.add(small_sheet());
+    ASSERT_TRUE(sheet.ok());
+    for (std::uint64_t i = 1; i <= 5; ++i) {
+        simulation.step();
+        EXPECT_EQ(simulation.frame(), i);
+        EXPECT_NEAR(simulation.time(), static_cast<double>(i) / 60, 1e-9);
+    }
+    const float y = simulation.surface(*sheet).positions[0].y;
+    EXPECT_NEAR(y, -0.5 * 9.81 * 25 / 3600, 2e-3);
+    EXPECT_EQ(simulation.cloth(0).positions[0].y, y);
+    simulation.step();
+    EXPECT_LT(simulation.cloth(0).positions[0].y, y);
+}
+
 TEST(Simulation, takes_meshes_from_memory) {
     TriangleMesh mesh{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 0, 1}}, .triangles = {{0, 1, 2}, {2, 1, 3}}};
     Simulation simulation = make_simulation();
