@@ -88,8 +88,8 @@ class WEFT_API Simulation {
     ~Simulation();
 
     /// Advances by one frame of the world's frame rate. On a device the frame may be under way still when this returns:
-    /// what asks for something that came of it waits, as do changes and the next step; feedback(), frame(), time() and
-    /// move() do not.
+    /// what asks for something that came of it waits, as do changes and the next step; feedback(), frame(), time(),
+    /// set_friction(), move(), and what says what is in the world do not.
     void step();
     /// Advances by one frame of dt seconds; fails, and does nothing, unless 0 < dt ≤ 1000.
     Result<Done> step(double dt);

@@ -80,6 +80,8 @@ class World {
     const WorldSettings& settings() const { return settings_; }
     const std::vector<Collider>& colliders() const { return colliders_.values(); }
     ColliderId collider_id(std::size_t place) const { return colliders_.id_of(place); }
+    std::size_t cloth_count() const { return cloths_.size(); }
+    ClothId cloth_id(std::size_t place) const { return cloths_.id_of(place); }  ///< in the order of frames
     const StepPlan& plan(std::size_t cloth) const { return cloths_[cloth].plan; }
     const Backend& backend() const { return *backend_; }
     Backend& backend() { return *backend_; }

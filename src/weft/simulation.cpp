@@ -31,7 +31,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
 
 std::vector<std::string_view> names_of_cloths(const World& world) {
     std::vector<std::string_view> names;
-    for (const ClothFrame& cloth : world.summary().cloths) names.push_back(cloth.model->name);
+    for (std::size_t i = 0; i < world.cloth_count(); ++i) names.push_back(world.model(world.cloth_id(i))->name);
     return names;
 }
 
@@ -66,8 +66,9 @@ Surface view(const ExportSurface& surface) {
 }
 
 std::size_t place_of(const World& world, ClothId id) {
-    const auto& cloths = world.summary().cloths;
-    return static_cast<std::size_t>(std::ranges::find(cloths, id, &ClothFrame::id) - cloths.begin());
+    std::size_t place = 0;
+    while (place < world.cloth_count() && world.cloth_id(place) != id) ++place;
+    return place;
 }
 
 }  // namespace
@@ -177,7 +178,8 @@ Result<Done> Simulation::remove(ColliderId id) {
 
 std::vector<ClothId> Simulation::cloths() const {
     std::vector<ClothId> ids;
-    for (const ClothFrame& cloth : impl_->world().summary().cloths) ids.push_back(cloth.id);
+    const World& world = impl_->world();
+    for (std::size_t i = 0; i < world.cloth_count(); ++i) ids.push_back(world.cloth_id(i));
     return ids;
 }
 
@@ -189,8 +191,9 @@ std::vector<ColliderId> Simulation::colliders() const {
 }
 
 ClothId Simulation::find_cloth(std::string_view name) const {
-    for (const ClothFrame& cloth : impl_->world().summary().cloths)
-        if (cloth.model->name == name) return cloth.id;
+    const World& world = impl_->world();
+    for (std::size_t i = 0; i < world.cloth_count(); ++i)
+        if (const ClothId id = world.cloth_id(i); world.model(id)->name == name) return id;
     return {};
 }
 
@@ -276,7 +279,7 @@ Result<Done> Simulation::set_air(const std::optional<AirDesc>& air) {
 }
 
 std::size_t Simulation::cloth_count() const {
-    return impl_->world().summary().cloths.size();
+    return impl_->world().cloth_count();
 }
 
 Surface Simulation::cloth(std::size_t index) const {

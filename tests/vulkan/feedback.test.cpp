@@ -98,25 +98,27 @@ Felt play(std::unique_ptr<Backend> backend, const WorldSettings& settings, bool&
     return felt;
 }
 
-TEST(VulkanFeedback, has_the_bits_of_the_cpu_however_a_frame_is_executed) {
-    const WorldSettings ways[] = {
-        {.substeps = 4, .feedback = true},
-        {.substeps = 3, .iterations = 3, .hierarchy = true, .air = AirDesc{.density = 1.2f}, .feedback = true},
-        {.substeps = 3, .iterations = 2, .projection = Projection::jacobi, .feedback = true}};
-    for (const WorldSettings& settings : ways) {
-        bool exact = false, unused = false;
-        const Felt expected = play(cpu_backend(), settings, unused);
-        for (const std::uint32_t contacts : expected.contacts) EXPECT_GT(contacts, 0u) << "all are touched";
-        WorldSettings without = settings;
-        without.feedback = false;
-        EXPECT_EQ(play(cpu_backend(), without, unused).hash, expected.hash) << "nothing moves otherwise for it";
-        for (const char* execution : {"streamed", "grouped", "fused"}) {
-            const Felt felt = play(checked_vulkan_backend({.execution = execution}), settings, exact);
-            if (!exact) continue;
-            EXPECT_EQ(felt.bits, expected.bits) << execution << ", " << settings.iterations << " iterations";
-            EXPECT_EQ(felt.hash, expected.hash);
-        }
+void expect_same(const WorldSettings& settings, const std::vector<const char*>& executions) {
+    bool exact = false, unused = false;
+    const Felt expected = play(cpu_backend(), settings, unused);
+    for (const std::uint32_t contacts : expected.contacts) EXPECT_GT(contacts, 0u) << "all are touched";
+    WorldSettings without = settings;
+    without.feedback = false;
+    EXPECT_EQ(play(cpu_backend(), without, unused).hash, expected.hash) << "nothing moves otherwise for it";
+    for (const char* execution : executions) {
+        const Felt felt = play(checked_vulkan_backend({.execution = execution}), settings, exact);
+        if (!exact) continue;
+        EXPECT_EQ(felt.bits, expected.bits) << execution << ", " << settings.iterations << " iterations";
+        EXPECT_EQ(felt.hash, expected.hash);
     }
+}
+
+TEST(VulkanFeedback, has_the_bits_of_the_cpu_however_a_frame_is_executed) {
+    expect_same({.substeps = 4, .feedback = true}, {"streamed"});
+    expect_same({.substeps = 3, .iterations = 3, .hierarchy = true, .air = AirDesc{}, .feedback = true},
+                {"streamed", "grouped", "fused"});
+    expect_same({.substeps = 3, .iterations = 2, .projection = Projection::jacobi, .feedback = true},
+                {"streamed", "fused"});
 }
 
 // More particles than a workgroup has, so that sums of several come together.
@@ -135,6 +137,37 @@ TEST(VulkanFeedback, adds_up_what_many_workgroups_find) {
     const auto cpu = force(cpu_backend()), vulkan = force(checked_vulkan_backend());
     if (vulkan.first) {
         EXPECT_EQ(vulkan.second, cpu.second);
+    }
+}
+
+// Particles around a patch are computed there too, but only their owner keeps account.
+TEST(VulkanFeedback, has_the_same_bits_in_patches) {
+    for (const Accumulate accumulate : {Accumulate::gather, Accumulate::fixed_point}) {
+        const auto felt = [&](std::unique_ptr<Backend> backend) {
+            World world(std::move(backend), {.substeps = 2,
+                                             .iterations = 5,
+                                             .projection = Projection::jacobi,
+                                             .accumulate = accumulate,
+                                             .feedback = true});
+            world.add(ground(0));
+            world.add(make_collider({.shape = SphereDesc{0.1f}}));
+            world.add(sheet(64, {0, 0.001f, 0}));
+            std::vector<std::uint32_t> bits;
+            for (int i = 0; i < 2; ++i) {
+                world.step(frame_seconds);
+                const auto more = bits_of(world.feedback());
+                bits.insert(bits.end(), more.begin(), more.end());
+                for (const ColliderLoad& load : world.feedback().colliders) EXPECT_GT(load.contacts, 100u);
+            }
+            return std::tuple(is_exact(world), bits, world.summary().stage_ms[stage_patched]);
+        };
+        const auto [unused, expected, unpatched] = felt(cpu_backend());
+        const auto [exact, bits, patched] = felt(checked_vulkan_backend({.execution = "patched", .timings = true}));
+        EXPECT_GT(patched, 0) << "it was cut";
+        EXPECT_EQ(unpatched, 0);
+        if (exact) {
+            EXPECT_EQ(bits, expected);
+        }
     }
 }
 

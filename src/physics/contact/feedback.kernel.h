@@ -1,4 +1,4 @@
-// What contacts do to a particle and to a collider in a frame (contact.md has the meaning).
+// What contacts do to a particle and to a collider in a frame (docs/feedback.md has the meaning).
 
 // Sums over the substeps and iterations of a frame. They become momentum by the particle's mass over the substep, which
 // stay what they are meanwhile.
