@@ -294,7 +294,7 @@ TEST_F(Cli, runs_on_vulkan_and_says_so) {
               std::string::npos);
 }
 
-TEST_F(Cli, stats_say_the_same_of_both_backends) {
+TEST_F(Cli, stats_say_the_same_on_vulkan) {
     const Json on_cpu = stats("--frames 3 --backend cpu"), on_vulkan = stats("--frames 3 --backend vulkan");
     const auto keys = [](const Json& object) {
         std::vector<std::string> names;

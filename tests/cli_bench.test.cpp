@@ -163,7 +163,7 @@ TEST_F(CliBench, builds_sheets_with_tethers_and_coarse_levels) {
 }
 
 #ifdef WEFT_VULKAN
-TEST_F(CliBench, finds_edges_on_the_device_too) {
+TEST_F(CliBench, finds_edges_on_vulkan_too) {
     const Outcome outcome = weft("bench --backend vulkan --build 20 33 --frames 1 --warmup 0 --repeat 1 --substeps 1");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     const std::size_t table = outcome.out.find("\nms for edges and hinges ");
@@ -174,7 +174,7 @@ TEST_F(CliBench, finds_edges_on_the_device_too) {
               std::string::npos);
 }
 
-TEST_F(CliBench, writes_and_compares_what_the_device_takes) {
+TEST_F(CliBench, writes_and_compares_what_vulkan_takes) {
     const std::string build = " --build 20 33 --substeps 1 --backend ";
     const Json report = bench(build + "vulkan");
     ASSERT_EQ(report["edges_and_hinges"].size(), 2u);
