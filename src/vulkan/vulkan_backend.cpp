@@ -84,11 +84,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         assert(groups_.empty());
         group(cloths);
         for (Group& group : groups_) submit(group);
+        last_ = device_->submitted();
     }
 
     void finish(std::array<double, stage_count>& stage_ms) override {
         if (groups_.empty()) return;
-        const auto done = device_->wait(device_->submitted());
+        const auto done = device_->wait(last_);
         for (Group& group : groups_) {
             if (!group.run) continue;
             if (done) {
@@ -259,6 +260,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::map<const ClothModel*, std::weak_ptr<const DrawnMesh>> drawn_;
     std::vector<std::unique_ptr<Cloth>> cloths_;
     std::vector<std::unique_ptr<FrameRun>> runs_;
+    // What is submitted after a frame may wait for a host, which the next step must not.
+    std::uint64_t last_ = 0;  ///< when the device is done with the last frame
     // Of a frame, until it is finished:
     std::vector<Group> groups_;
     std::vector<FrameRun::Member> members_;

@@ -280,6 +280,37 @@ TEST_F(VulkanSurfaces, wait_for_the_moment_that_a_host_names) {
     vk.vkDestroySemaphore(device().handle(), semaphore, nullptr);
 }
 
+// The frame is done before the surface is begun: who asks what came of it need not wait for the host.
+TEST_F(VulkanSurfaces, that_wait_for_a_host_hold_up_nobody_else) {
+    const ClothId id = add({.mesh = sheet()});
+    step();
+    (void)surface(id);
+    VkSemaphoreTypeCreateInfo type{};
+    type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    info.pNext = &type;
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    const VolkDeviceTable& vk = reader_->vk();
+    ASSERT_EQ(vk.vkCreateSemaphore(device().handle(), &info, nullptr, &semaphore), VK_SUCCESS);
+
+    world().advance(1.0 / 60);
+    const gpu::SurfaceBuffers buffers = surface(id, {semaphore, 1});
+    EXPECT_EQ(world().summary().reports, report_none) << "without a signal";
+    EXPECT_EQ(world().summary().index, 2u);
+    std::uint64_t reached = 0;
+    ASSERT_EQ(vk.vkGetSemaphoreCounterValue(device().handle(), buffers.ready.semaphore, &reached), VK_SUCCESS);
+    EXPECT_LT(reached, buffers.ready.value);
+    VkSemaphoreSignalInfo signal{};
+    signal.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO;
+    signal.semaphore = semaphore;
+    signal.value = 1;
+    ASSERT_EQ(vk.vkSignalSemaphore(device().handle(), &signal), VK_SUCCESS);
+    expect_surface_of_cpu(id);
+    vk.vkDestroySemaphore(device().handle(), semaphore, nullptr);
+}
+
 TEST_F(VulkanSurfaces, follow_changes_between_frames) {
     const ClothId id = add({.mesh = sheet()}), other = add({.mesh = tube()});
     step(2);
