@@ -2,7 +2,7 @@
 #ifndef WEFT_VULKAN_FEEDBACK_ARGS_H
 #define WEFT_VULKAN_FEEDBACK_ARGS_H
 
-#include "vulkan/topology/args.data.h"
+#include "vulkan/primitives/args.data.h"
 
 // Of a cloth and a collider: low and high word of each axis of momentum, then of angular momentum; then how many
 // contacts there are.

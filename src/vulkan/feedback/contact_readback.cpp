@@ -1,7 +1,7 @@
 #include "vulkan/feedback/contact_readback.h"
 
 #include "solver/frame.h"
-#include "vulkan/topology/scan.h"
+#include "vulkan/primitives/scan.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #ifndef WEFT_VULKAN_MEASURES_ARGS_H
 #define WEFT_VULKAN_MEASURES_ARGS_H
 
-#include "vulkan/topology/args.data.h"
+#include "vulkan/primitives/args.data.h"
 
 #ifdef __cplusplus
 namespace weft::vulkan {

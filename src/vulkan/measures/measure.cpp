@@ -2,7 +2,7 @@
 
 #include "vulkan/cloth_state.h"
 #include "vulkan/measures/args.data.h"
-#include "vulkan/topology/recorder.h"
+#include "vulkan/primitives/recorder.h"
 
 #include <bit>
 #include <cmath>

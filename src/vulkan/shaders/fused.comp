@@ -1,7 +1,7 @@
 #version 450
 // Lists of commands, one list to a workgroup, from the first to the last in one dispatch: whole frames of small cloths,
-// the passes of coarse levels that are too small to be worth a dispatch each, or some iterations of patches. A command is what would be pushed with a
-// dispatch, behind the number of its shader.
+// the passes of coarse levels that are too small to be worth a dispatch each, or some iterations of patches. A command
+// is what would be pushed with a dispatch, behind the number of its shader.
 #extension GL_GOOGLE_include_directive : require
 #define WEFT_POINTS_AT_HAND
 #define WEFT_LINE_ROWS_ID 5

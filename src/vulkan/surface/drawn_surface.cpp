@@ -1,7 +1,7 @@
 #include "vulkan/surface/drawn_surface.h"
 
+#include "vulkan/primitives/recorder.h"
 #include "vulkan/surface/args.data.h"
-#include "vulkan/topology/recorder.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,8 +1,9 @@
 #include "vulkan/topology/find_edges.h"
 
 #include "vulkan/arena.h"
-#include "vulkan/topology/radix_sort.h"
-#include "vulkan/topology/scan.h"
+#include "vulkan/primitives/radix_sort.h"
+#include "vulkan/primitives/scan.h"
+#include "vulkan/topology/args.data.h"
 
 #include <array>
 #include <chrono>

@@ -2,7 +2,7 @@
 
 #include "mesh/procedural.h"
 #include "mesh/testing.h"
-#include "vulkan/topology/device.test.h"
+#include "vulkan/primitives/device.test.h"
 
 #include <algorithm>
 #include <limits>

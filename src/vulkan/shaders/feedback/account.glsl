@@ -2,7 +2,7 @@
 #ifndef WEFT_ACCOUNT_GLSL
 #define WEFT_ACCOUNT_GLSL
 
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
 #include "vulkan/feedback/args.data.h"
 
 #include "physics/lanes.glsl"

@@ -2,7 +2,7 @@
 // The sum and the largest of each tile, always in the same order: 16 terms by each invocation, then by halves.
 // WEFT_TERM is what is summed, WEFT_ARGS what that is told.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
 #include "vulkan/measures/args.data.h"
 #include "vulkan/shaders/measures/terms.glsl"
 

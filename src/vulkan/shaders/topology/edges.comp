@@ -1,7 +1,8 @@
 #version 450
 // Writes the edges, the hinges and the list of edges with three triangles or more, as mesh/edges.h has them.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
+#include "vulkan/topology/args.data.h"
 
 layout(push_constant) uniform Push { EdgeArgs args; };
 

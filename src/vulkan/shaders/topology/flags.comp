@@ -2,7 +2,8 @@
 // Marks, among sorted sides, the first side of each edge, of each edge with two triangles (a hinge), and of each with
 // more. A zero follows each list, so that its scan ends with the sum.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
+#include "vulkan/topology/args.data.h"
 
 layout(push_constant) uniform Push { EdgeArgs args; };
 

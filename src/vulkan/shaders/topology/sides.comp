@@ -1,7 +1,8 @@
 #version 450
 // The three sides of each triangle: its ends, the lower one first, and the triangle.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
+#include "vulkan/topology/args.data.h"
 
 layout(push_constant) uniform Push { SideArgs args; };
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "gpu/commands.h"
+#include "vulkan/primitives/args.data.h"
 #include "vulkan/programs.h"
-#include "vulkan/topology/args.data.h"
 
 #include <algorithm>
 #include <cstdint>

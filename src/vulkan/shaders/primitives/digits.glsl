@@ -2,7 +2,7 @@
 #ifndef WEFT_DIGITS_GLSL
 #define WEFT_DIGITS_GLSL
 
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
 
 layout(push_constant) uniform Push { SortArgs args; };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/device.h"
-#include "vulkan/topology/recorder.h"
+#include "vulkan/primitives/recorder.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #version 450
 // Sorts each tile by a digit and carries it to where the digits of all tiles belong. Equal digits keep their order.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/digits.glsl"
+#include "vulkan/shaders/primitives/digits.glsl"
 
 // Counters of 16 bits, two in a word: [digit % 16 · group + invocation], digits from 16 on in the upper halves.
 #define WEFT_HALF (WEFT_DIGITS / 2u)

@@ -1,6 +1,6 @@
-#include "vulkan/topology/radix_sort.h"
+#include "vulkan/primitives/radix_sort.h"
 
-#include "vulkan/topology/device.test.h"
+#include "vulkan/primitives/device.test.h"
 
 #include <algorithm>
 #include <random>

@@ -1,4 +1,4 @@
-#include "vulkan/topology/scan.h"
+#include "vulkan/primitives/scan.h"
 
 #include "vulkan/arena.h"
 

@@ -4,7 +4,7 @@
 #define WEFT_TILES_GLSL
 
 #define WEFT_ACCESS
-#include "vulkan/topology/args.data.h"
+#include "vulkan/primitives/args.data.h"
 
 layout(local_size_x = WEFT_GROUP) in;
 

@@ -1,7 +1,7 @@
-#include "vulkan/topology/radix_sort.h"
+#include "vulkan/primitives/radix_sort.h"
 
 #include "vulkan/arena.h"
-#include "vulkan/topology/scan.h"
+#include "vulkan/primitives/scan.h"
 
 #include <bit>
 #include <utility>

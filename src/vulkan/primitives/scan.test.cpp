@@ -1,6 +1,6 @@
-#include "vulkan/topology/scan.h"
+#include "vulkan/primitives/scan.h"
 
-#include "vulkan/topology/device.test.h"
+#include "vulkan/primitives/device.test.h"
 
 #include <numeric>
 #include <random>

@@ -1,7 +1,7 @@
 #version 450
 // The sum of each tile.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/tiles.glsl"
+#include "vulkan/shaders/primitives/tiles.glsl"
 
 layout(push_constant) uniform Push { ScanArgs args; };
 

@@ -1,7 +1,7 @@
 #version 450
 // How often each digit stands in each tile.
 #extension GL_GOOGLE_include_directive : require
-#include "vulkan/shaders/topology/digits.glsl"
+#include "vulkan/shaders/primitives/digits.glsl"
 
 #define WEFT_COPIES 8u  // neighbors often have the same digit, and must not queue for its counter
 
