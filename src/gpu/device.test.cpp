@@ -1,5 +1,6 @@
 #include "gpu/device.h"
 
+#include "gpu/host_device.test.h"
 #include "gpu/test_device.h"
 
 #include <gmock/gmock.h>
@@ -43,20 +44,7 @@ class DeviceTest : public OnDevice {
     // As a host would have made it.
     HostDevice host_device() {
         HostDevice host{.physical = instance->physical(info)};
-        const float priority = 1;
-        VkDeviceQueueCreateInfo queue{};
-        queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-        queue.queueCount = 1;
-        queue.pQueuePriorities = &priority;
-        VkPhysicalDeviceVulkan12Features features{};
-        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-        features.bufferDeviceAddress = features.timelineSemaphore = features.hostQueryReset = VK_TRUE;
-        VkDeviceCreateInfo create{};
-        create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-        create.pNext = &features;
-        create.queueCreateInfoCount = 1;
-        create.pQueueCreateInfos = &queue;
-        EXPECT_EQ(vkCreateDevice(host.physical, &create, nullptr, &host.device), VK_SUCCESS);
+        host.device = make_host_device(host.physical);
         return host;
     }
 };

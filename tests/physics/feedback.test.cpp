@@ -1,9 +1,9 @@
 // What cloth does to colliders: forces against weights, momentum against momentum, and when it is known.
 
+#include "solver/feedback.test.h"
 #include "sheet.h"
 
 #include <array>
-#include <bit>
 #include <limits>
 
 namespace weft::physical {
@@ -48,23 +48,6 @@ void expect_near(Vec3 value, Vec3 expected, double tolerance, const char* what) 
     EXPECT_NEAR(value.x, expected.x, tolerance) << what;
     EXPECT_NEAR(value.y, expected.y, tolerance) << what;
     EXPECT_NEAR(value.z, expected.z, tolerance) << what;
-}
-
-// Every bit of it.
-std::vector<std::uint32_t> bits_of(const Feedback& feedback) {
-    std::vector<std::uint32_t> bits{static_cast<std::uint32_t>(feedback.frame)};
-    const auto add = [&](Vec3 v) {
-        for (const float f : {v.x, v.y, v.z}) bits.push_back(std::bit_cast<std::uint32_t>(f));
-    };
-    for (const ColliderLoad& load : feedback.colliders) {
-        bits.insert(bits.end(), {load.collider.index, load.collider.generation, load.contacts});
-        add(load.impulse), add(load.angular_impulse), add(load.force), add(load.torque);
-    }
-    for (const Contact& contact : feedback.contacts) {
-        bits.insert(bits.end(), {contact.cloth.index, contact.collider.index, contact.vertex});
-        add(contact.point), add(contact.impulse);
-    }
-    return bits;
 }
 
 TEST(Feedback, of_a_sheet_at_rest_is_its_weight) {

@@ -5,9 +5,9 @@
 
 #include "cpu/cpu_backend.h"
 #include "mesh/procedural.h"
+#include "solver/feedback.test.h"
 #include "solver/world.h"
 
-#include <bit>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -41,23 +41,6 @@ std::unique_ptr<Backend> cpu_backend() {
 
 bool is_exact(const World& world) {
     return world.backend().name() == "cpu" || world.backend().device().find("llvmpipe") != std::string::npos;
-}
-
-// Every bit of it.
-std::vector<std::uint32_t> bits_of(const Feedback& feedback) {
-    std::vector<std::uint32_t> bits{static_cast<std::uint32_t>(feedback.frame)};
-    const auto add = [&](Vec3 v) {
-        for (const float f : {v.x, v.y, v.z}) bits.push_back(std::bit_cast<std::uint32_t>(f));
-    };
-    for (const ColliderLoad& load : feedback.colliders) {
-        bits.insert(bits.end(), {load.collider.index, load.collider.generation, load.contacts});
-        add(load.impulse), add(load.angular_impulse), add(load.force), add(load.torque);
-    }
-    for (const Contact& contact : feedback.contacts) {
-        bits.insert(bits.end(), {contact.cloth.index, contact.collider.index, contact.vertex});
-        add(contact.point), add(contact.impulse);
-    }
-    return bits;
 }
 
 Collider ground(float height) {

@@ -1,6 +1,7 @@
 // <weft/vulkan.h>, as a host uses it: with an instance, device and queue of its own, under the validation layers.
 
 #include "gpu/device.h"
+#include "gpu/host_device.test.h"
 #include "read_back.h"
 
 #include <weft/vulkan.h>
@@ -30,20 +31,8 @@ class VulkanHosts : public testing::Test {
         ASSERT_TRUE(info.ok()) << info.error().message();
         host.instance = instance_->handle();
         host.physical_device = instance_->physical(*info);
-        const float priority = 1;
-        VkDeviceQueueCreateInfo queue{};
-        queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-        queue.queueCount = 1;
-        queue.pQueuePriorities = &priority;
-        VkPhysicalDeviceVulkan12Features features{};
-        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-        features.bufferDeviceAddress = features.timelineSemaphore = features.hostQueryReset = VK_TRUE;
-        VkDeviceCreateInfo create{};
-        create.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-        create.pNext = &features;
-        create.queueCreateInfoCount = 1;
-        create.pQueueCreateInfos = &queue;
-        ASSERT_EQ(vkCreateDevice(host.physical_device, &create, nullptr, &host.device), VK_SUCCESS);
+        host.device = gpu::make_host_device(host.physical_device);
+        ASSERT_NE(host.device, nullptr);
         volkLoadDeviceTable(&vk_, host.device);
         vk_.vkGetDeviceQueue(host.device, 0, 0, &host.queue);
     }

@@ -104,6 +104,18 @@ class VulkanSurfaces : public testing::Test {
         EXPECT_TRUE(surface.ok()) << surface.error().message();
         return surface.ok() ? *surface : gpu::SurfaceBuffers{};
     }
+    /// A semaphore as a host has one. The test destroys it.
+    VkSemaphore make_timeline() {
+        VkSemaphoreTypeCreateInfo type{};
+        type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+        type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+        VkSemaphoreCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+        info.pNext = &type;
+        VkSemaphore semaphore = VK_NULL_HANDLE;
+        EXPECT_EQ(reader_->vk().vkCreateSemaphore(device().handle(), &info, nullptr, &semaphore), VK_SUCCESS);
+        return semaphore;
+    }
     template <class T>
     std::vector<T> read(const gpu::BufferRange& range, gpu::Moment ready) {
         return reader_->read<T>(range.buffer, range.offset, range.size / sizeof(T), ready.semaphore, ready.value);
@@ -253,15 +265,8 @@ TEST_F(VulkanSurfaces, take_turns) {
 TEST_F(VulkanSurfaces, wait_for_the_moment_that_a_host_names) {
     const ClothId id = add({.mesh = sheet()});
     step();
-    VkSemaphoreTypeCreateInfo type{};
-    type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    VkSemaphoreCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    info.pNext = &type;
-    VkSemaphore semaphore = VK_NULL_HANDLE;
     const VolkDeviceTable& vk = reader_->vk();
-    ASSERT_EQ(vk.vkCreateSemaphore(device().handle(), &info, nullptr, &semaphore), VK_SUCCESS);
+    VkSemaphore semaphore = make_timeline();
 
     const gpu::SurfaceBuffers buffers = surface(id, {semaphore, 3});
     VkSemaphoreWaitInfo wait{};
@@ -285,15 +290,8 @@ TEST_F(VulkanSurfaces, that_wait_for_a_host_hold_up_nobody_else) {
     const ClothId id = add({.mesh = sheet()});
     step();
     (void)surface(id);
-    VkSemaphoreTypeCreateInfo type{};
-    type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    VkSemaphoreCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    info.pNext = &type;
-    VkSemaphore semaphore = VK_NULL_HANDLE;
     const VolkDeviceTable& vk = reader_->vk();
-    ASSERT_EQ(vk.vkCreateSemaphore(device().handle(), &info, nullptr, &semaphore), VK_SUCCESS);
+    VkSemaphore semaphore = make_timeline();
 
     world().advance(1.0 / 60);
     const gpu::SurfaceBuffers buffers = surface(id, {semaphore, 1});
