@@ -88,6 +88,16 @@ void run_all_lines(LineArgs a)
         }                                                                   \
         break;
 
+// What goes by the number of its substep.
+#define WEFT_EACH_OF_SUBSTEP(name, Args)                                    \
+    case WEFT_ID_##name:                                                    \
+        if (uses(WEFT_ID_##name)) {                                         \
+            Args a = Args##Command(at).args;                                \
+            a.substep += substep;                                           \
+            for (uint i = me; i < invocations; i += all) run_##name(a, i);  \
+        }                                                                   \
+        break;
+
 #define WEFT_EACH_ROW(id, pass)                                                                 \
     case id:                                                                                    \
         if (uses(id)) {                                                                         \
@@ -107,21 +117,9 @@ void run_command(uvec2 at, uint substep, uint me, uint all)
     WEFT_EACH(predict, ParticleArgs)
     WEFT_EACH(velocities, ParticleArgs)
     WEFT_EACH(advance, ParticleArgs)
-    case WEFT_ID_hold:
-        if (uses(WEFT_ID_hold)) {
-            HoldArgs a = HoldArgsCommand(at).args;
-            a.substep += substep;
-            for (uint i = me; i < invocations; i += all) run_hold(a, i);
-        }
-        break;
+    WEFT_EACH_OF_SUBSTEP(hold, HoldArgs)
     WEFT_EACH(average, AverageArgs)
-    case WEFT_ID_contact:
-        if (uses(WEFT_ID_contact)) {
-            ContactArgs a = ContactArgsCommand(at).args;
-            a.substep += substep;
-            for (uint i = me; i < invocations; i += all) run_contact(a, i);
-        }
-        break;
+    WEFT_EACH_OF_SUBSTEP(contact, ContactArgs)
     WEFT_EACH(copy, CopyArgs)
     WEFT_EACH(keep, KeepArgs)
     WEFT_EACH(check, KeepArgs)
