@@ -1,5 +1,6 @@
 // What a device can do to a cloth: too little memory, a device that is lost in mid-run.
 
+#include "losing_device.h"
 #include "vulkan_fixture.h"
 
 #include "mesh/procedural.h"
@@ -40,28 +41,14 @@ TEST(VulkanFailures, of_memory_are_errors_and_leave_what_there_was) {
     EXPECT_TRUE(refused.ok()) << "room for one more of these";
 }
 
-int calls_that_work = 0;
-PFN_vkQueueSubmit real_submit = nullptr;
-
-VkResult VKAPI_CALL submit_until_lost(VkQueue queue, std::uint32_t count, const VkSubmitInfo* info, VkFence fence) {
-    if (calls_that_work-- <= 0) return VK_ERROR_DEVICE_LOST;
-    return real_submit(queue, count, info, fence);
-}
-
 TEST(VulkanFailures, of_the_device_in_mid_run_keep_the_last_frame) {
-    calls_that_work = 1 << 30;
-    World world(checked_vulkan_backend({.intercept =
-                                            [](VolkDeviceTable& table) {
-                                                real_submit = table.vkQueueSubmit;
-                                                table.vkQueueSubmit = submit_until_lost;
-                                            }}),
-                {});
+    World world(checked_vulkan_backend({.intercept = losing_device::intercept}), {});
     ASSERT_TRUE(world.try_add(sheet(16)).ok());
     for (int i = 0; i < 3; ++i) EXPECT_EQ(world.step(1.0 / 60).reports, report_none);
     const auto& positions = world.frame().cloths[0].positions;
     const std::vector<Vec4> last(positions.begin(), positions.end());
 
-    calls_that_work = 0;
+    losing_device::submits_left = 0;
     for (int i = 0; i < 2; ++i) {
         EXPECT_EQ(world.step(1.0 / 60).reports, report_device_failed);
         EXPECT_NE(world.frame().cloths[0].detail.find("VK_ERROR_DEVICE_LOST"), std::string::npos)

@@ -1,6 +1,7 @@
 // What is read back of contacts: the CPU's bits, however a frame is executed; lists that are too short; frames that are
 // still under way.
 
+#include "losing_device.h"
 #include "vulkan_fixture.h"
 
 #include "cpu/cpu_backend.h"
@@ -295,27 +296,14 @@ TEST(VulkanFeedback, of_a_frame_that_is_not_finite_is_none_and_the_next_has_its_
     }
 }
 
-int submits_left = 0;
-PFN_vkQueueSubmit real_submit = nullptr;
-VkResult VKAPI_CALL submit_until_lost(VkQueue queue, std::uint32_t count, const VkSubmitInfo* info, VkFence fence) {
-    if (submits_left-- <= 0) return VK_ERROR_DEVICE_LOST;
-    return real_submit(queue, count, info, fence);
-}
-
 TEST(VulkanFeedback, of_a_device_that_fails_is_none) {
     for (const int lost_after : {0, 1}) {  // of a frame's two submits
-        submits_left = 1 << 30;
-        World world(checked_vulkan_backend({.intercept =
-                                                [](VolkDeviceTable& table) {
-                                                    real_submit = table.vkQueueSubmit;
-                                                    table.vkQueueSubmit = submit_until_lost;
-                                                }}),
-                    {.substeps = 2, .feedback = true});
+        World world(checked_vulkan_backend({.intercept = losing_device::intercept}), {.substeps = 2, .feedback = true});
         world.add(ground(0));
         world.add(sheet(7, {0, 0.001f, 0}));
         for (int i = 0; i < 3; ++i) EXPECT_EQ(world.step(frame_seconds).reports, report_none);
         EXPECT_EQ(world.feedback().contacts.size(), 49u);
-        submits_left = lost_after;
+        losing_device::submits_left = lost_after;
         world.advance(frame_seconds);
         EXPECT_EQ(world.feedback().frame, 3u);
         EXPECT_EQ(world.feedback().contacts.size(), 49u) << "the last that is known";

@@ -1,6 +1,7 @@
 // The surface that the device makes against draw_surface() and compute_tangents(): to the bit where the device rounds
 // as IEEE 754 says.
 
+#include "losing_device.h"
 #include "read_back.h"
 #include "vulkan_fixture.h"
 
@@ -373,30 +374,18 @@ TEST_F(VulkanSurfaces, for_which_there_is_no_room_are_an_error) {
     expect_surface_of_cpu(small);
 }
 
-int submits_that_work = 0;
-PFN_vkQueueSubmit real_submit = nullptr;
-
-VkResult VKAPI_CALL submit_until_lost(VkQueue queue, std::uint32_t count, const VkSubmitInfo* info, VkFence fence) {
-    if (submits_that_work-- <= 0) return VK_ERROR_DEVICE_LOST;
-    return real_submit(queue, count, info, fence);
-}
-
 TEST_F(VulkanSurfaces, of_a_lost_device_are_an_error) {
-    submits_that_work = 1 << 30;
-    open({.substeps = 4}, {.intercept = [](VolkDeviceTable& table) {
-             real_submit = table.vkQueueSubmit;
-             table.vkQueueSubmit = submit_until_lost;
-         }});
+    open({.substeps = 4}, {.intercept = losing_device::intercept});
     const ClothId id = add({.mesh = sheet()});
     step();
-    submits_that_work = 0;
+    losing_device::submits_left = 0;
     for (int i = 0; i < 2; ++i) {
         const auto lost = interop_->surface(world().handle(id));
         ASSERT_FALSE(lost.ok());
         EXPECT_EQ(lost.error().fault, Fault::machine);
         EXPECT_NE(lost.error().message().find("VK_ERROR_DEVICE_LOST"), std::string::npos) << lost.error().message();
     }
-    submits_that_work = 1 << 30;
+    losing_device::submits_left = losing_device::never;
     expect_surface_of_cpu(id);
 }
 
