@@ -2,7 +2,7 @@
 // instead of stopping at the first.
 #pragma once
 
-#include "physics/parameter.h"
+#include "base/parameter.h"
 #include "scene/problems.h"
 
 #include <cstdint>

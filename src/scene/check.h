@@ -2,7 +2,7 @@
 // tables; what concerns more than one value is here.
 #pragma once
 
-#include "physics/parameter.h"
+#include "base/parameter.h"
 #include "scene/problems.h"
 #include "scene/scene_desc.h"
 

@@ -1,11 +1,11 @@
 // A fabric: every material value of a cloth, and the fabrics known by name.
 #pragma once
 
+#include "base/parameter.h"
 #include "physics/air/air.data.h"
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
-#include "physics/parameter.h"
 #include "physics/plate/plate.data.h"
 #include "physics/reach/reach.data.h"
 #include "physics/stretch/stretch.data.h"

@@ -3,6 +3,9 @@
 #pragma once
 
 #include "base/transform.h"
+#include "look/camera.h"
+#include "look/light.h"
+#include "look/material.h"
 #include "mesh/procedural.h"
 #include "scene/fabric.h"
 
@@ -36,6 +39,13 @@ struct SceneCloth {
     float tether_slack = 0;  ///< of the way over the cloth
 };
 
+/// How something in the scene looks.
+struct SceneLook {
+    std::string object = {};  ///< name of a cloth or a collider
+    std::string preset = {};  ///< name of the material whose values stand where none is given
+    Material material = {};
+};
+
 struct SceneDesc {
     std::string name = {};
     Vec3 gravity{0, -9.81f, 0};  ///< m/s²
@@ -44,6 +54,9 @@ struct SceneDesc {
     std::optional<AirDesc> air = {};      ///< without, a vacuum
     std::vector<SceneCloth> cloths = {};  ///< at least one
     std::vector<ColliderDesc> colliders = {};
+    std::optional<Camera> camera = {};  ///< without, one from which everything is seen
+    Lighting light = {};
+    std::vector<SceneLook> looks = {};  ///< of those that have one
 };
 
 }  // namespace weft

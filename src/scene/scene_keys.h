@@ -3,8 +3,8 @@
 // line here.
 #pragma once
 
+#include "base/parameter.h"
 #include "physics/contact/shapes.def"
-#include "physics/parameter.h"
 #include "scene/scene_desc.h"
 
 #include <cstddef>

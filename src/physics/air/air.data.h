@@ -1,7 +1,7 @@
 // Air: what a fabric does to the air that flows past it.
 #pragma once
 
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 namespace weft {
 

@@ -7,7 +7,7 @@
 #define WEFT_ROW_attachment(FIELD) FIELD(compliance)
 
 #ifdef __cplusplus
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 #include <array>
 

@@ -8,7 +8,7 @@
 #define WEFT_ROW_bend(FIELD) FIELD(rest) FIELD(compliance)
 
 #ifdef __cplusplus
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 #include <limits>
 

@@ -3,7 +3,7 @@
 #define WEFT_CONTACT_DATA_H
 
 #ifdef __cplusplus
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 namespace weft {
 

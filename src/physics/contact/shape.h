@@ -1,7 +1,7 @@
 // What a shape's *.data.h is written with.
 #pragma once
 
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 #include <weft/scene.h>
 

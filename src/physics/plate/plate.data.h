@@ -10,7 +10,7 @@
 
 #ifdef __cplusplus
 #include "physics/bend/bend.data.h"
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 #include <array>
 

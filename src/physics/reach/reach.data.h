@@ -8,7 +8,7 @@
 #define WEFT_ROW_reach(FIELD) FIELD(limit) FIELD(give)
 
 #ifdef __cplusplus
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 #include <array>
 

@@ -9,7 +9,7 @@
 #define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression)
 
 #ifdef __cplusplus
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 namespace weft {
 

@@ -8,7 +8,7 @@
 #define WEFT_ROW_tether(FIELD) FIELD(radius) FIELD(give)
 
 #ifdef __cplusplus
-#include "physics/parameter.h"
+#include "base/parameter.h"
 
 #include <weft/scene.h>
 

@@ -1,0 +1,68 @@
+// A scene as a picture: what a simulation holds becomes what a Renderer draws.
+#pragma once
+
+#include "base/image.h"
+#include "gpu/device.h"
+#include "gpu/surface_buffers.h"
+#include "look/camera.h"
+#include "scene/scene_desc.h"
+#include "solver/world.h"
+
+#include <weft/result.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+struct ViewOptions {
+    std::uint32_t width = 1280, height = 720;  ///< pixels, 1…16384
+    std::uint32_t samples = 4;                 ///< a pixel: 1, 2, 4, and up to 256; more than 4 take that much longer
+    bool transparent = false;                  ///< no background; the ground is there by its shadows alone
+    bool two_passes = false;                   ///< render/drawing.h
+    std::vector<std::string> overlays;         ///< names of view/overlays.h
+};
+
+/// The drawn surface of a cloth on the device, where the simulation has it there; otherwise the view brings it there.
+using SurfaceOnDevice = std::function<Result<gpu::SurfaceBuffers>(ClothId cloth)>;
+
+/// A picture that maps of materials are read from: `where` is the place in the scene, for errors.
+using ReadPicture = std::function<Result<Image8>(const std::string& file)>;
+using ReadLight = std::function<Result<ImageF>(const std::string& file)>;
+
+struct ViewSources {
+    SurfaceOnDevice surface = {};
+    ReadPicture read_picture = {};
+    ReadLight read_light = {};
+};
+
+class SceneView {
+  public:
+    /// On the simulation's device, or one of its own. The scene is only read here. A map that cannot be read is a
+    /// checkered one, and a note says so.
+    static Result<SceneView> create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene, World& world,
+                                    const ViewOptions& options, const ViewSources& sources = {});
+    SceneView(SceneView&&) noexcept;
+    SceneView& operator=(SceneView&&) noexcept;
+    ~SceneView();
+
+    /// The scene's camera; where it has none, one from which everything at the start is seen.
+    const Camera& camera() const;
+    /// The world as it is now.
+    Result<Image8> picture(World& world, const Camera& camera);
+    /// What was put right, a line each: maps that cannot be read.
+    const std::vector<std::string>& notes() const;
+
+  private:
+    struct Impl;
+    explicit SceneView(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The camera turned about the vertical axis through its target.
+Camera orbited(const Camera& camera, float degrees);
+
+}  // namespace weft
