@@ -56,6 +56,7 @@ void Commands::swap(Commands& other) {
     std::swap(stamped_, other.stamped_);
     std::swap(ran_, other.ran_);
     std::swap(layout_, other.layout_);
+    std::swap(stages_, other.stages_);
 }
 
 Result<Done> Commands::begin() {
@@ -77,11 +78,12 @@ Result<Done> Commands::begin() {
 void Commands::bind(const Pipeline& pipeline) {
     device_->vk().vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
     layout_ = pipeline.layout();
+    stages_ = VK_SHADER_STAGE_COMPUTE_BIT;
 }
 
 void Commands::push(std::span<const std::byte> constants) {
-    device_->vk().vkCmdPushConstants(commands_, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                     static_cast<std::uint32_t>(constants.size()), constants.data());
+    device_->vk().vkCmdPushConstants(commands_, layout_, stages_, 0, static_cast<std::uint32_t>(constants.size()),
+                                     constants.data());
 }
 
 void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {

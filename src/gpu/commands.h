@@ -2,7 +2,9 @@
 #pragma once
 
 #include "gpu/device.h"
+#include "gpu/graphics_pipeline.h"
 #include "gpu/pipeline.h"
+#include "gpu/surface_buffers.h"
 
 #include <cstdint>
 #include <span>
@@ -42,6 +44,27 @@ class Commands {
               std::uint64_t to_offset = 0);
     /// Multiples of four bytes.
     void fill(const Buffer& buffer, std::uint32_t value, std::uint64_t bytes = VK_WHOLE_SIZE, std::uint64_t offset = 0);
+
+    // Drawing.
+
+    /// What comes after draws from what shaders and copies before it have written, and may write again what was drawn
+    /// from before.
+    void drawing_barrier();
+    /// Until end_pass(), over the whole of it. Clear values in the order of the attachments.
+    void begin_pass(const RenderPass& pass, const Framebuffer& into, std::span<const VkClearValue> clear);
+    void end_pass();
+    void bind(const GraphicsPipeline& pipeline);
+    void bind(std::uint32_t set, const DescriptorSet& images);
+    void draw(std::uint32_t vertices, std::uint32_t instances = 1);
+    /// Vertices by 32-bit numbers.
+    void draw_indexed(const BufferRange& indices, std::uint32_t count);
+    void transition(const Image& image, VkImageLayout from, VkImageLayout to);
+    /// One level of a picture in VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL; rows lie one after another.
+    void copy_to_image(const Buffer& from, std::uint64_t offset, const Image& to, std::uint32_t level = 0);
+    /// In VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL.
+    void copy_from_image(const Image& from, const Buffer& to);
+    VkCommandBuffer handle() const { return commands_; }
+
     /// Marks the moment at which all before it is done; there must be room for it.
     void stamp();
     Result<Done> end();
@@ -63,6 +86,7 @@ class Commands {
     std::uint32_t stamps_ = 0, stamped_ = 0;
     bool ran_ = false;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;  // of the pipeline that is bound
+    VkShaderStageFlags stages_ = 0;             // that get its constants
 };
 
 /// Records `work`, runs it and waits for it.

@@ -96,6 +96,12 @@ Result<Done> Device::open() {
     std::vector<const char*> extensions;
     constexpr const char* subset = "VK_KHR_portability_subset";  // must be named where there is one
     if (has_extension(physical_, subset)) extensions.push_back(subset);
+    // Windows, where the instance has them and the device can.
+    presents_ = instance_->has_surfaces() && has_extension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (presents_) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    VkPhysicalDeviceFeatures can{}, wanted{};
+    vkGetPhysicalDeviceFeatures(physical_, &can);
+    wanted.samplerAnisotropy = can.samplerAnisotropy;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = &features;
@@ -103,6 +109,12 @@ Result<Done> Device::open() {
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
+    info.pEnabledFeatures = &wanted;
+    if (can.samplerAnisotropy) {
+        VkPhysicalDeviceProperties properties{};
+        vkGetPhysicalDeviceProperties(physical_, &properties);
+        anisotropy_ = properties.limits.maxSamplerAnisotropy;
+    }
     if (const VkResult result = vkCreateDevice(physical_, &info, nullptr, &device_); result != VK_SUCCESS) {
         device_ = VK_NULL_HANDLE;
         return error("to open the device", result);
@@ -135,6 +147,7 @@ Result<Done> Device::look_at_queue() {
     if (queue_family_ >= families.size() || !(families[queue_family_].queueFlags & VK_QUEUE_COMPUTE_BIT))
         return Error{info_.name, "queue family " + std::to_string(queue_family_) + " does not compute"};
     info_.limits.timestamp_bits = families[queue_family_].timestampValidBits;
+    draws_ = (families[queue_family_].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
     return Done{};
 }
 

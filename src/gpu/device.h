@@ -59,6 +59,9 @@ class Device {
     const VolkDeviceTable& vk() const { return vk_; }
     VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
     Memory& memory() { return *memory_; }
+    bool draws() const { return draws_; }                  ///< its queue draws too, not only computes
+    bool presents() const { return presents_; }            ///< it can have a swapchain
+    float most_anisotropy() const { return anisotropy_; }  ///< of samplers; 1: none
 
     /// Runs the commands after all that was submitted before, and not before `after`. Returns when they will be done:
     /// the value that `timeline()` reaches.
@@ -91,6 +94,8 @@ class Device {
     VolkDeviceTable vk_{};
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     std::uint64_t submitted_ = 0;
+    bool draws_ = false, presents_ = false;
+    float anisotropy_ = 1;
     std::filesystem::path cache_file_;
     VkPipelineCache pipeline_cache_ = VK_NULL_HANDLE;
     std::unique_ptr<Memory> memory_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 
 namespace weft::gpu {
 namespace {
@@ -180,6 +181,11 @@ Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options
         flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
     }
     if (validation) layers.push_back(layer);
+    const auto& surface = self->options_.surface_extensions;
+    self->surfaces_ = !surface.empty() && std::ranges::all_of(surface, [](const std::string& name) {
+        return has_extension(nullptr, name.c_str());
+    });
+    if (self->surfaces_) std::ranges::transform(surface, std::back_inserter(extensions), &std::string::c_str);
 
     VkDebugUtilsMessengerCreateInfoEXT messages = messenger_info(self->options_);
     VkValidationFeaturesEXT features{};

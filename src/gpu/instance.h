@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,8 @@ namespace weft::gpu {
 struct InstanceOptions {
     /// Validation layers, checks of synchronization among them: slow, for tests. Fails if they are not installed.
     bool validation = false;
+    /// Extensions for windows, where there are all of them (has_surfaces()); those that a window library asks for.
+    std::vector<std::string> surface_extensions = {};
     /// What layers and drivers complain about, from any thread. Without it, on stderr.
     std::function<void(std::string_view)> on_message = {};
 };
@@ -36,6 +39,7 @@ class Instance {
     void take_functions() const;
     /// Names objects for layers and tools; nullptr where nobody would read them.
     PFN_vkSetDebugUtilsObjectNameEXT set_name() const { return set_name_; }
+    bool has_surfaces() const { return surfaces_; }
     const std::vector<DeviceInfo>& devices() const { return infos_; }
     VkPhysicalDevice physical(const DeviceInfo& info) const { return physical_[info.index]; }
 
@@ -47,7 +51,7 @@ class Instance {
     VkInstance instance_ = VK_NULL_HANDLE;
     PFN_vkGetInstanceProcAddr functions_ = nullptr;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-    bool owned_ = true;
+    bool owned_ = true, surfaces_ = false;
     // Of this instance: volk's are those of the last one made, which may be without the extension.
     PFN_vkDestroyDebugUtilsMessengerEXT destroy_messenger_ = nullptr;
     PFN_vkSetDebugUtilsObjectNameEXT set_name_ = nullptr;

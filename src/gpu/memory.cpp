@@ -219,6 +219,28 @@ VkResult Memory::allocate(Block& block) const {
     return device_.vk().vkAllocateMemory(device_.handle(), &info, nullptr, &block.memory);
 }
 
+Result<VkDeviceMemory> Memory::allocate_alone(const VkMemoryRequirements& needs, const std::string& what) {
+    if (needs.size > device_.limits().largest_allocation) return too_large(device_, needs.size, what);
+    auto type = memory_type(MemoryKind::device, needs.memoryTypeBits);
+    if (!type) return type.errors();
+    Block block;
+    block.type = *type;
+    block.size = needs.size;
+    VkResult result = allocate(block);
+    if (is_out_of_memory(result)) {
+        free_unused();
+        result = allocate(block);
+    }
+    if (result != VK_SUCCESS) return device_.error("to allocate " + mebibytes(block.size) + " for " + what, result);
+    alone_ += needs.size;
+    return block.memory;
+}
+
+void Memory::free_alone(VkDeviceMemory memory, std::uint64_t bytes) {
+    device_.vk().vkFreeMemory(device_.handle(), memory, nullptr);
+    alone_ -= bytes;
+}
+
 // What is kept for the next cloth goes before there is no room for this one.
 void Memory::free_unused() {
     for (const auto& pool : pools_) {
@@ -263,7 +285,7 @@ void Memory::give_back(const Piece& piece) {
 }
 
 std::uint64_t Memory::allocated() const {
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = alone_;
     for (const auto& pool : pools_)
         for (const Block& block : pool->blocks) bytes += block.size;
     return bytes;

@@ -70,9 +70,12 @@ class Memory {
     /// Its content is anything. `usage`: beside storage, copies and an address. Where the device has no room for it,
     /// all is as it was.
     Result<Buffer> buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags usage = 0);
+    /// For one picture, on the device, to be given back by free_alone().
+    Result<VkDeviceMemory> allocate_alone(const VkMemoryRequirements& needs, const std::string& what);
+    void free_alone(VkDeviceMemory memory, std::uint64_t bytes);
     /// Bytes asked of the device.
     std::uint64_t allocated() const;
-    /// And of these in buffers.
+    /// And of these in buffers and pictures.
     std::uint64_t used() const;
 
   private:
@@ -91,6 +94,7 @@ class Memory {
     std::uint64_t limit_ = 0;
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<std::unique_ptr<Pool>> pools_;  // by kind
+    std::uint64_t alone_ = 0;                   // bytes
 };
 
 }  // namespace weft::gpu

@@ -1,6 +1,7 @@
 // A compute shader, ready to run. What it is given, and in which layout, is read from the shader itself.
 #pragma once
 
+#include "gpu/pipeline_layout.h"
 #include "gpu/spirv.h"
 #include "gpu/vulkan.h"
 
@@ -25,7 +26,7 @@ class Pipeline {
     ~Pipeline();
 
     VkPipeline handle() const { return pipeline_; }
-    VkPipelineLayout layout() const { return layout_; }
+    VkPipelineLayout layout() const { return layout_.handle(); }
     std::uint32_t push_constants() const { return interface_.push_constants; }
     std::uint32_t workgroup() const { return interface_.workgroup[0]; }  ///< invocations along x
 
@@ -35,8 +36,7 @@ class Pipeline {
 
     const Device* device_ = nullptr;
     ShaderInterface interface_;
-    std::vector<VkDescriptorSetLayout> sets_;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    PipelineLayout layout_;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 

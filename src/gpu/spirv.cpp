@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t header_words = 5, magic = 0x07230203, largest_bound = 0x3fffff;
 constexpr std::uint32_t op_decorate = 71, decoration_no_contraction = 42;
 constexpr std::uint32_t op_ext_inst_import = 11, op_ext_inst = 12;
-constexpr std::uint32_t op_entry_point = 15, compute_model = 5, op_function = 54, op_function_end = 56;
+constexpr std::uint32_t op_entry_point = 15, op_function = 54, op_function_end = 56;
 
 // Whether an instruction stands behind all annotations: types come next, and before one of them a line of the source.
 constexpr bool ends_annotations(std::uint32_t op) {
@@ -58,17 +58,25 @@ bool for_each_instruction(std::span<const std::uint32_t> words, Visit&& visit) {
     return true;
 }
 
-// Why the words cannot be a compute shader; empty if they may be.
-std::string find_fault(std::span<const std::uint32_t> words) {
-    bool computes = false;
+// The execution model of a stage, and what to call it.
+constexpr std::uint32_t model_of(ShaderStage stage) {
+    return stage == ShaderStage::compute ? 5 : stage == ShaderStage::fragment ? 4 : 0;
+}
+constexpr const char* name_of(ShaderStage stage) {
+    return stage == ShaderStage::compute ? "compute" : stage == ShaderStage::fragment ? "fragment" : "vertex";
+}
+
+// Why the words cannot be a shader of the stage; empty if they may be.
+std::string find_fault(std::span<const std::uint32_t> words, ShaderStage stage) {
+    bool found = false;
     int functions = 0, ended = 0;
     const bool sound = for_each_instruction(words, [&](std::uint32_t op, std::span<const std::uint32_t> instruction) {
-        computes |= op == op_entry_point && instruction.size() > 1 && instruction[1] == compute_model;
+        found |= op == op_entry_point && instruction.size() > 1 && instruction[1] == model_of(stage);
         functions += op == op_function;
         ended += op == op_function_end;
     });
     if (!sound || functions == 0 || functions != ended) return "cut off, or none at all";
-    return computes ? "" : "it has no compute shader";
+    return found ? "" : std::string("it has no ") + name_of(stage) + " shader";
 }
 
 // Instructions of GLSL.std.450 that are sums of products in disguise: Determinant, MatrixInverse, FMix, SmoothStep,
@@ -104,14 +112,16 @@ void read_workgroup(spvc_compiler compiler, ShaderInterface& out) {
 }
 
 void read_bindings(spvc_compiler compiler, spvc_resources resources, ShaderInterface& out) {
-    for (const auto& [type, uniform] :
-         {std::pair{SPVC_RESOURCE_TYPE_STORAGE_BUFFER, false}, std::pair{SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, true}}) {
+    for (const spvc_resource_type type :
+         {SPVC_RESOURCE_TYPE_STORAGE_BUFFER, SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, SPVC_RESOURCE_TYPE_SAMPLED_IMAGE}) {
         const spvc_reflected_resource* list = nullptr;
         std::size_t count = 0;
         spvc_resources_get_resource_list_for_type(resources, type, &list, &count);
         for (std::size_t i = 0; i < count; ++i) {
             out.bindings.push_back({spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationDescriptorSet),
-                                    spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding), uniform});
+                                    spvc_compiler_get_decoration(compiler, list[i].id, SpvDecorationBinding),
+                                    type == SPVC_RESOURCE_TYPE_UNIFORM_BUFFER,
+                                    type == SPVC_RESOURCE_TYPE_SAMPLED_IMAGE});
         }
     }
     std::ranges::sort(out.bindings, {}, [](const ShaderBinding& b) { return std::tuple(b.set, b.binding); });
@@ -137,8 +147,8 @@ void read_specialization(spvc_compiler compiler, ShaderInterface& out) {
 
 }  // namespace
 
-Result<ShaderInterface> reflect(const Shader& shader) {
-    if (const std::string fault = find_fault(shader.words); !fault.empty())
+Result<ShaderInterface> reflect(const Shader& shader, ShaderStage stage) {
+    if (const std::string fault = find_fault(shader.words, stage); !fault.empty())
         return Error::of_machine(std::string(shader.name), "no sound SPIR-V: " + fault);
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS) return Error::of_machine(std::string(shader.name), "out of memory");

@@ -18,9 +18,12 @@ struct Shader {
     std::span<const std::uint32_t> words;
 };
 
+enum class ShaderStage { compute, vertex, fragment };
+
 struct ShaderBinding {
     std::uint32_t set = 0, binding = 0;
-    bool uniform = false;  ///< a uniform buffer; otherwise a storage buffer
+    bool uniform = false;  ///< a uniform buffer
+    bool image = false;    ///< an image with its sampler; neither: a storage buffer
 };
 
 struct ShaderInterface {
@@ -32,9 +35,9 @@ struct ShaderInterface {
     std::vector<std::uint32_t> specialization;  ///< ids of the constants that may be set, ascending
 };
 
-/// Fails where the words are no compute shader. Nothing but the module's frame is checked beforehand: it must come from
-/// a compiler.
-Result<ShaderInterface> reflect(const Shader& shader);
+/// Fails where the words are no shader of that stage. Nothing but the module's frame is checked beforehand: it must
+/// come from a compiler.
+Result<ShaderInterface> reflect(const Shader& shader, ShaderStage stage = ShaderStage::compute);
 
 /// The same shader with every sum and product decorated as NoContraction: a driver may neither fuse a product with a
 /// sum nor simplify (a + b) - a, so that what the compensated sums of the physics keep is not lost, and a device gives

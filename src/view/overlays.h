@@ -1,4 +1,5 @@
-// What is shown on top of a scene for those who tune it. Each overlay is a file in overlays/ and a line in overlays.def.
+// What is shown on top of a scene for those who tune it. Each overlay is a file in overlays/ and a line in
+// overlays.def.
 #pragma once
 
 #include "render/drawing.h"

@@ -1,0 +1,39 @@
+// What a pipeline is given: descriptor sets and push constants, as its shaders declare them.
+#pragma once
+
+#include "gpu/spirv.h"
+#include "gpu/vulkan.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace weft::gpu {
+
+class Device;
+
+class PipelineLayout {
+  public:
+    /// Fails where the device has no room for so many push constants or sets.
+    static Result<PipelineLayout> create(const Device& device, const ShaderInterface& interface,
+                                         VkShaderStageFlags stages, const std::string& name);
+    PipelineLayout() = default;
+    PipelineLayout(PipelineLayout&& other) noexcept { swap(other); }
+    PipelineLayout& operator=(PipelineLayout&& other) noexcept {
+        PipelineLayout(std::move(other)).swap(*this);
+        return *this;
+    }
+    ~PipelineLayout();
+
+    VkPipelineLayout handle() const { return layout_; }
+    const std::vector<VkDescriptorSetLayout>& sets() const { return sets_; }
+
+  private:
+    void swap(PipelineLayout& other);
+
+    const Device* device_ = nullptr;
+    std::vector<VkDescriptorSetLayout> sets_;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+};
+
+}  // namespace weft::gpu
