@@ -1,0 +1,21 @@
+# Shaders write vectors as glm does, and one text of shading is both.
+find_package(glm REQUIRED)
+target_link_libraries(weft_render PUBLIC glm::glm)
+
+# Shaders of this folder, compiled and embedded, each by the name of its file.
+include(weft_shaders)
+set(render_shaders ${CMAKE_CURRENT_BINARY_DIR}/render_shaders)
+file(MAKE_DIRECTORY ${render_shaders})
+file(GLOB render_sources CONFIGURE_DEPENDS ${folder}/shaders/*.vert ${folder}/shaders/*.frag ${folder}/shaders/*.comp)
+set(render_names)
+foreach(source ${render_sources})
+    get_filename_component(name ${source} NAME)
+    string(REPLACE "." "_" name ${name})
+    weft_compile_shader(${render_shaders} ${name} ${source})
+    list(APPEND render_names ${name})
+endforeach()
+weft_compile_shader(${render_shaders} resolve_multisampled_frag ${folder}/shaders/resolve.frag -DWEFT_MULTISAMPLED)
+list(APPEND render_names resolve_multisampled_frag)
+weft_embed_shaders(${render_shaders} render_shader_table ${render_names})
+set_source_files_properties(${folder}/shaders.cpp PROPERTIES OBJECT_DEPENDS "${render_shader_table_depends}")
+target_include_directories(weft_render PRIVATE ${render_shaders})

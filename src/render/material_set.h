@@ -1,0 +1,61 @@
+// Materials on the device: their numbers and the pictures of their threads.
+#pragma once
+
+#include "gpu/graphics_pipeline.h"
+#include "look/material.h"
+#include "look/weave.h"
+#include "render/shading/frame.data.h"
+#include "render/texture.h"
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace weft::render {
+
+/// Pictures that a material names, read by whoever can.
+struct MaterialMaps {
+    const Image8* color = nullptr;
+    const Image8* normal = nullptr;
+};
+
+class MaterialSet {
+  public:
+    explicit MaterialSet(gpu::Device& device) : device_(device) {}
+
+    /// `layout`: of the set with the material's pictures.
+    Result<std::uint32_t> add(const Material& material, const MaterialMaps& maps, VkDescriptorSetLayout layout);
+    std::uint64_t address(std::uint32_t id) const { return entries_[id].data.address(); }
+    const gpu::DescriptorSet& images(std::uint32_t id) const { return entries_[id].images; }
+    bool sheer(std::uint32_t id) const { return entries_[id].sheer; }
+    std::size_t size() const { return entries_.size(); }
+
+  private:
+    struct ReliefImages {
+        gpu::Image first, second;
+    };
+    struct Entry {
+        gpu::Buffer data;
+        gpu::Image color;
+        ReliefImages own;  // of a normal map
+        gpu::DescriptorSet images;
+        bool sheer = false;
+    };
+    struct Tile {
+        ReliefImages images;
+        float threads[2] = {1, 1}, warp = 1;
+    };
+
+    Result<Done> prepare();
+    Result<ReliefImages> upload(const Relief& relief, const std::string& name);
+    Result<const Tile*> tile_of(Weave weave);
+
+    gpu::Device& device_;
+    gpu::Sampler sampler_;
+    gpu::Image white_;
+    std::array<std::optional<Tile>, 8> tiles_;  // by weave
+    std::deque<Entry> entries_;
+};
+
+}  // namespace weft::render

@@ -1,0 +1,13 @@
+// The shaders that the build has embedded.
+#pragma once
+
+#include "gpu/spirv.h"
+
+#include <string_view>
+
+namespace weft::render {
+
+/// By the name of its file: `lit_frag` of lit.frag.
+const gpu::Shader& shader(std::string_view name);
+
+}  // namespace weft::render

@@ -1,0 +1,35 @@
+// Every shader that draws begins with this.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "../shading/frame.data.h"
+#include "../shading/tone.h"
+#define frame push.frame.data
+
+vec3 around_at(vec3 n) {  // irradiance / pi
+    vec4 sh[9] = frame.around;
+    vec3 light = sh[0].rgb + sh[1].rgb * n.y + sh[2].rgb * n.z + sh[3].rgb * n.x + sh[4].rgb * (n.x * n.y) +
+                 sh[5].rgb * (n.y * n.z) + sh[6].rgb * (3.0 * n.z * n.z - 1.0) + sh[7].rgb * (n.x * n.z) +
+                 sh[8].rgb * (n.x * n.x - n.y * n.y);
+    return max(light, vec3(0.0));
+}
+
+// Interleaved gradient noise (Jimenez 2014): 0…1, even over any 3 by 3 pixels. Differs from sample to sample.
+float pixel_noise(vec2 pixel, float number) {
+    pixel += 5.588238 * number;
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
+// Where an equirectangular picture, its middle toward -z, shows a direction.
+vec2 environment_place(vec3 d) {
+    return vec2(atan(d.x, -d.z) / (2.0 * pi) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / pi);
+}
+vec3 picture_direction(vec3 d) {  // as the environment is turned
+    return vec3(frame.environment.y * d.x - frame.environment.z * d.z, d.y,
+                frame.environment.z * d.x + frame.environment.y * d.z);
+}
+
+vec3 sky_at(vec3 d) {
+    if (d.y >= 0.0) return mix(frame.sky[1].rgb, frame.sky[0].rgb, sqrt(d.y));
+    return mix(frame.sky[1].rgb, frame.sky[2].rgb, smoothstep(0.0, 0.35, -d.y));
+}

@@ -1,0 +1,30 @@
+#version 460
+#include "common.glsl"
+#define object push.object.data
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) in vec3 rest;
+layout(location = 5) in float scalar;
+layout(location = 0) out vec4 color;
+#include "surface.glsl"
+
+void main() {
+    Place place = find_place(normal, tangent, uv, rest, gl_FrontFacing, gl_FragCoord.xy);
+    float fading = smoothstep(frame.background.z, frame.background.w, length(position - frame.target.xyz));
+    float occlusion = occlusion_at(gl_FragCoord.xy, position);
+    if (frame.background.x > 0.5) {  // only its shadows
+        float sun = dot(frame.sun_color.rgb, vec3(1.0)) / pi * max(0.0, dot(place.normal, frame.sun.xyz));
+        float around = dot(around_at(place.normal), vec3(1.0));
+        float reached = sun > 0.0 ? sun_reaching(position, place.normal, gl_FragCoord.xy) : 1.0;
+        float shadow = 1.0 - (sun * reached + around * occlusion) / max(sun + around, 1e-6);
+        color = vec4(0.0, 0.0, 0.0, shadow * (1.0 - fading));
+        return;
+    }
+    vec3 behind = frame.background.y > 0.5
+                      ? textureLod(background_map, environment_place(picture_direction(-place.to_eye)), 0.0).rgb * frame.environment.x
+                      : sky_at(-place.to_eye);
+    color = vec4(mix(light_of(place), behind * frame.light.x, fading), 1.0);
+}

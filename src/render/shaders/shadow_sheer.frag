@@ -1,0 +1,9 @@
+#version 460
+// Of a sheer cloth, as many points cast a shadow as its threads cover.
+#include "common.glsl"
+#define object push.object.data
+
+void main() {
+    float covered = object.material.data.velvet.z;
+    if (pixel_noise(gl_FragCoord.xy, frame.light.w) >= covered) discard;
+}

@@ -1,0 +1,26 @@
+#version 460
+// Cloth that one sees through, in any order: weighted sums of color, and optical depth (McGuire and Bavoil 2013; sums
+// of logarithms in place of products, so that both pictures blend alike).
+#include "common.glsl"
+#define object push.object.data
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) in vec3 rest;
+layout(location = 5) in float scalar;
+layout(location = 0) out vec4 sum;
+layout(location = 1) out vec4 depth;
+#include "surface.glsl"
+
+layout(constant_id = 0) const uint sides = 0u;
+
+void main() {
+    bool front = sides == 0u ? gl_FrontFacing : sides == 1u;
+    Place place = find_place(normal, tangent, uv, rest, front, gl_FragCoord.xy);
+    float covered = clamp(coverage_at(abs(dot(place.normal, place.to_eye))), 0.0, 0.999);
+    float weight = covered * exp(-4.0 * length(frame.eye.xyz - position) / frame.target.w);
+    sum = vec4(light_of(place) * weight, weight);
+    depth = vec4(-log(1.0 - covered));
+}

@@ -1,0 +1,169 @@
+// The light that a place of a surface sends to the eye.
+#include "shadows.glsl"
+layout(set = 0, binding = 2) uniform sampler2D occlusion_map;    // what is left of the light around, and the depth
+layout(set = 0, binding = 3) uniform sampler2D environment_map;  // as rough materials mirror it, rougher by level
+layout(set = 0, binding = 4) uniform sampler2D background_map;
+layout(set = 1, binding = 0) uniform sampler2D color_map;
+layout(set = 1, binding = 1) uniform sampler2D relief_map;
+layout(set = 1, binding = 2) uniform sampler2D relief_squares;
+
+#define material object.material.data
+
+struct Place {
+    vec3 position, normal;  // turned to the eye
+    vec3 u, v;              // along warp and weft
+    vec3 to_eye;
+    vec2 pixel;
+    float cavity;
+    bool back;
+    Fiber fiber;
+};
+
+vec4 albedos(float cosine) {
+    float at = clamp(cosine, 0.0, 1.0) * float(table_size) - 0.5;
+    int below = int(clamp(floor(at), 0.0, float(table_size) - 2.0));
+    return mix(material.table[below], material.table[below + 1], clamp(at - float(below), 0.0, 1.0));
+}
+
+// As much as threads cover, more where one looks along the cloth.
+float coverage_at(float cosine) { return 1.0 - pow(1.0 - material.velvet.z, 1.0 / max(cosine, 0.15)); }
+
+// At half the size, of pixels that are as far away.
+float occlusion_at(vec2 pixel, vec3 position) {
+    if (frame.light.y <= 0.0) return 1.0;
+    float depth = dot(position - frame.eye.xyz, -vec3(frame.to_view[0].z, frame.to_view[1].z, frame.to_view[2].z));
+    vec2 at = pixel * 0.5 - 0.5;
+    ivec2 corner = ivec2(floor(at)), most = textureSize(occlusion_map, 0) - 1;
+    vec2 part = at - vec2(corner);
+    float sum = 0.0, weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 tap = ivec2(i & 1, i >> 1);
+        vec2 found = texelFetch(occlusion_map, clamp(corner + tap, ivec2(0), most), 0).rg;
+        vec2 share = mix(1.0 - part, part, vec2(tap));
+        float weight = (share.x * share.y + 1e-3) / (1e-3 + abs(found.g - depth) / depth);
+        sum += weight * found.r;
+        weights += weight;
+    }
+    return mix(1.0, sum / weights, frame.light.y);
+}
+
+// The frame of threads: from the tangents, or from how the rest shape lies on the picture.
+void find_threads(vec3 smooth_normal, vec4 tangent, inout vec2 uv, vec3 rest, out vec3 u, out vec3 v) {
+    float sign_v = tangent.w < 0.0 ? -1.0 : 1.0;
+    vec3 along = tangent.xyz;
+    if ((object.flags & object_has_tangents) == 0u) {
+        if ((object.flags & object_has_uvs) == 0u) {  // laid on the side that faces most of it
+            vec3 facing = abs(cross(dFdx(rest), dFdy(rest)));
+            uv = facing.y >= facing.x && facing.y >= facing.z ? rest.xz : facing.x >= facing.z ? rest.zy : rest.xy;
+        }
+        vec3 px = dFdx(position), py = dFdy(position);
+        vec2 ux = dFdx(uv), uy = dFdy(uv);
+        float area = ux.x * uy.y - uy.x * ux.y;
+        along = (px * uy.y - py * ux.y) * sign(area);
+        vec3 other = (py * ux.x - px * uy.x) * sign(area);
+        sign_v = dot(cross(smooth_normal, along), other) < 0.0 ? -1.0 : 1.0;
+    }
+    along -= smooth_normal * dot(smooth_normal, along);
+    float size = dot(along, along);
+    if (!(size > 1e-20)) {
+        along = abs(smooth_normal.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0);
+        along -= smooth_normal * dot(smooth_normal, along);
+    }
+    u = normalize(along);
+    v = sign_v * cross(smooth_normal, u);
+}
+
+Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2 pixel) {
+    Place place;
+    place.position = position;
+    place.pixel = pixel;
+    place.back = !front;
+    place.to_eye = normalize(frame.eye.xyz - position);
+    float size = dot(normal, normal);
+    vec3 outward = size > 1e-12 ? normal * inversesqrt(size) : normalize(cross(dFdx(position), dFdy(position)));
+    find_threads(outward, tangent, uv, rest, place.u, place.v);
+
+    vec2 tiles = uv * (material.tile.z > 0.5 ? vec2(1.0) : object.scale.xy) * material.tile.xy;
+    float relief = material.roughness.z;
+    vec4 first = texture(relief_map, tiles);
+    vec3 squares = texture(relief_squares, tiles).xyz * relief * relief;
+    vec2 slope = first.xy * relief;
+    // The eye cannot look at the far side of a thread: slopes that turn away from it are pressed flat.
+    place.normal = normalize(outward - slope.x * place.u - slope.y * place.v);
+    if (!front) place.normal = -place.normal;
+    float toward = dot(place.normal, place.to_eye);
+    if (toward < 0.02) place.normal = normalize(place.normal + (0.02 - toward) * place.to_eye);
+    place.u = normalize(place.u - place.normal * dot(place.normal, place.u));
+    place.v = cross(place.normal, place.u) * (dot(cross(place.normal, place.u), place.v) < 0.0 ? -1.0 : 1.0);
+    place.cavity = mix(1.0, first.z, min(relief, 1.0));
+
+    float warp = material.velvet.w > 0.5 && !front ? 1.0 - first.w : first.w;
+    vec3 color = mix(material.weft_color.rgb, material.color.rgb, warp);
+    if (material.map.z > 0.5) color *= texture(color_map, uv * material.map.xy).rgb;
+    vec2 lost = max(squares.xy - slope * slope, vec2(0.0));  // by filtering: roughness that is left (LEAN)
+    vec2 alpha = material.roughness.xy;
+    Fiber fiber;
+    fiber.color = color;
+    fiber.sheen_color = material.sheen.rgb;
+    fiber.sheen_alpha = material.sheen.w;
+    fiber.roughness_matte = material.color.w;
+    fiber.specular = material.weft_color.w;
+    fiber.alpha_warp = min(sqrt(alpha * alpha + 2.0 * lost), vec2(1.0));
+    fiber.alpha_weft = min(sqrt(alpha.yx * alpha.yx + 2.0 * lost), vec2(1.0));
+    fiber.warp = warp;
+    fiber.velvet = material.velvet.x;
+    fiber.velvet_alpha = material.velvet.y;
+    place.fiber = fiber;
+    return place;
+}
+
+vec3 mirrored_around(vec3 direction, float alpha) {
+    float level = sqrt(clamp(alpha, 0.0, 1.0)) * frame.environment.w;
+    return textureLod(environment_map, environment_place(direction), level).rgb;
+}
+
+vec3 sunlight(Place place, vec4 to_viewer) {
+    if (frame.sun_color.w < 0.5) return vec3(0.0);
+    vec3 sun = frame.sun.xyz;
+    float nl = dot(place.normal, sun), through = material.roughness.w;
+    if (nl <= 0.0 && through <= 0.0) return vec3(0.0);
+    float reached = sun_reaching(place.position, place.normal, place.pixel);
+    if (reached <= 0.0) return vec3(0.0);
+    Fiber fiber = place.fiber;
+    if (nl <= 0.0) return reached * frame.sun_color.rgb * fiber.color * (through * -nl / pi);
+    vec3 l = vec3(dot(sun, place.u), dot(sun, place.v), nl);
+    vec3 v = vec3(dot(place.to_eye, place.u), dot(place.to_eye, place.v), dot(place.to_eye, place.normal));
+    Lobes lobes = layered(fiber, lobes_alone(fiber, l, v), to_viewer.xy, albedos(nl).xy);
+    // Threads hide one another's depths: where light is low, less reaches between them.
+    float shaded = place.cavity;
+    vec3 sent = lobes.matte * fiber.color * (1.0 - through) * shaded + lobes.sheen + vec3(lobes.gloss * shaded);
+    return reached * frame.sun_color.rgb * sent * nl;
+}
+
+vec3 light_around(Place place, vec4 to_viewer, float occlusion) {
+    Fiber fiber = place.fiber;
+    float open = occlusion * place.cavity, through = material.roughness.w;
+    // What folds reflect into one another keeps bright cloth from going gray in them (Jimenez and others 2016).
+    vec3 a = 2.0404 * fiber.color - 0.3324, b = -4.7951 * fiber.color + 0.6417, c = 2.7552 * fiber.color + 0.6903;
+    vec3 bright = max(vec3(open), ((open * a + b) * open + c) * open);
+    vec3 matte = fiber.color * to_viewer.w *
+                 (around_at(place.normal) * (1.0 - through) * bright + around_at(-place.normal) * through * occlusion);
+    vec3 mirrored = reflect(-place.to_eye, place.normal);
+    vec3 wide = normalize(mirrored + place.normal);
+    vec3 sheen = fiber.sheen_color * to_viewer.y * mirrored_around(wide, 1.0);
+    // Anisotropic lobes see more of what lies across the smooth direction (as Filament bends the reflection).
+    vec2 alpha = mix(fiber.alpha_weft, fiber.alpha_warp, fiber.warp);
+    float stretched = (alpha.y - alpha.x) / max(alpha.x + alpha.y, 1e-3);
+    vec3 axis = stretched >= 0.0 ? place.v : place.u;
+    vec3 bent = cross(cross(axis, place.to_eye), axis);
+    vec3 around = reflect(-place.to_eye, normalize(mix(place.normal, bent, 0.5 * abs(stretched))));
+    vec3 gloss_from = fiber.velvet > 0.0 ? mirrored_around(wide, 1.0) : mirrored_around(around, sqrt(alpha.x * alpha.y));
+    float gloss_open = clamp(pow(dot(place.normal, place.to_eye) + open, exp2(-16.0 * alpha.x - 1.0)) - 1.0 + open, 0.0, 1.0);
+    return matte + sheen * open + gloss_from * to_viewer.z * gloss_open;
+}
+
+vec3 light_of(Place place) {
+    vec4 to_viewer = albedos(dot(place.normal, place.to_eye));
+    float occlusion = occlusion_at(place.pixel, place.position);
+    return (sunlight(place, to_viewer) + light_around(place, to_viewer, occlusion)) * frame.light.x;
+}

@@ -1,0 +1,117 @@
+// What shaders read of a frame, in buffers: the same layout (std430) in C++ and GLSL.
+#ifndef WEFT_SHADING_FRAME_H
+#define WEFT_SHADING_FRAME_H
+
+#include "brdf.h"
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace weft::shading {
+using Vec4s = std::uint64_t;
+using Vec2s = std::uint64_t;
+using Floats = std::uint64_t;
+using LightRef = std::uint64_t;
+using MaterialRef = std::uint64_t;
+using FrameRef = std::uint64_t;
+using ObjectRef = std::uint64_t;
+using LineRef = std::uint64_t;
+using PointRef = std::uint64_t;
+using FlatRef = std::uint64_t;
+#else
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Vec4s { vec4 at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Vec2s { vec2 at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Floats { float at[]; };
+#endif
+
+/// Where the sun's shadows fall: made on the device, from where everything is.
+struct LightData {
+    mat4 to_shadow;  ///< from the world to the shadow map: 0…1 across, depth in z
+    vec4 scale;      ///< m a texel; m of depth from 0 to 1; texels across; 0
+};
+
+struct MaterialData {
+    vec4 color;       ///< and roughness_matte
+    vec4 weft_color;  ///< and specular
+    vec4 sheen;       ///< color and alpha
+    vec4 roughness;   ///< along threads and across, relief, transmission
+    vec4 velvet;      ///< k_amp, alpha, coverage, whether threads cross (the back shows the other ones)
+    vec4 tile;        ///< tiles per meter along u and v, or per unit of u and v; 1 where it is the latter; 0
+    vec4 map;         ///< repeats of the color map; 1 where there is one; whether light passes (sheer)
+    vec4 table[table_size];  ///< by cosine to the viewer: albedo of gloss, of sheen of color 1, both alone; gloss and
+                             ///< matte as they are layered
+};
+
+#ifndef __cplusplus
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRef { LightData data; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer MaterialRef { MaterialData data; };
+#endif
+
+struct FrameData {
+    mat4 to_clip;
+    mat4 from_clip;
+    mat4 to_view;
+    vec4 eye;          ///< and distance of the near plane
+    vec4 target;       ///< and distance of the eye from it
+    vec4 sun;          ///< direction toward it; tangent of half its width
+    vec4 sun_color;    ///< irradiance on a surface that faces it; 1 where there is one
+    vec4 around[9];    ///< irradiance from around, divided by pi: spherical harmonics
+    vec4 size;         ///< pixels across and down, and 1 over these
+    vec4 light;        ///< exposure, strength of occlusion, its radius in m, number of the sample
+    vec4 environment;  ///< strength, cosine and sine of the rotation, highest level
+    vec4 background;   ///< 1: transparent; 1: the environment is one; fading of grounds: begin and end, m from the target
+    vec4 sky[3];       ///< background colors: zenith, horizon, ground
+    LightRef shadow;
+    Vec4s unused;
+};
+
+const uint object_has_uvs = 1u, object_has_tangents = 2u, object_has_rest = 4u, object_has_scalars = 8u,
+           object_turned = 16u;
+
+struct ObjectData {
+    Vec4s positions, normals, tangents;
+    Vec2s uvs;
+    Floats rest, scalars;
+    MaterialRef material;
+    uint flags, unused;
+    vec4 transform[4];  ///< columns
+    vec4 scale;         ///< m a unit of u and of v; least of the scalars, 1 over their range
+};
+
+struct LineData {
+    vec4 from;  ///< and width in pixels
+    vec4 to;
+    vec4 color;
+};
+
+struct PointData {
+    vec4 position;  ///< and size in pixels
+    vec4 color;
+};
+
+struct FlatData {
+    vec4 position;  ///< pixels
+    vec4 color;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(FrameData) == 4 * 16 * 3 + 16 * (4 + 9 + 4 + 3) + 16);
+static_assert(sizeof(ObjectData) == 64 + 64 + 16);
+static_assert(sizeof(MaterialData) == 16 * (7 + table_size));
+}  // namespace weft::shading
+#else
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer FrameRef { FrameData data; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ObjectRef { ObjectData data; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LineRef { LineData at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PointRef { PointData at[]; };
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer FlatRef { FlatData at[]; };
+
+#ifndef WEFT_OWN_PUSH
+layout(push_constant, std430) uniform Push {
+    FrameRef frame;
+    ObjectRef object;  ///< or what else is drawn, by address
+    vec4 numbers;
+} push;
+#endif
+#endif
+
+#endif
