@@ -3,6 +3,7 @@
 #include "io/mesh_checks.h"
 #include "io/mesh_join.h"
 #include "io/obj_source.h"
+#include "io/whole_file.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -11,13 +12,10 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <exception>
-#include <fstream>
 #include <new>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace weft {
@@ -39,31 +37,12 @@ std::string first_line(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
-/// What keeps a path from being opened, or an empty string.
-std::string problem_of_path(const std::filesystem::path& path) {
-    std::error_code code;
-    const std::filesystem::file_status status = std::filesystem::status(path, code);
-    if (!std::filesystem::exists(status)) return "does not exist";
-    if (std::filesystem::is_directory(status)) return "is a folder, not a file";
-    if (!std::filesystem::is_regular_file(status)) return "is not a regular file";
+/// Empty if the ending of a file is one that is read.
+std::string problem_of_ending(const std::filesystem::path& path) {
     if (std::ranges::find(formats, lower_case_ending(path)) != formats.end()) return {};
     std::string what = "has an ending that is none of";
     for (std::string_view format : formats) what.append(" ").append(format);
     return what;
-}
-
-Result<std::string> read_file(const std::filesystem::path& path) {
-    const std::string file = path.string();
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary | std::ios::ate);
-    if (!stream) return Error{file, "cannot be opened: " + std::generic_category().message(errno)};
-    std::string content(static_cast<std::size_t>(std::max<std::streamoff>(stream.tellg(), 0)), '\0');
-    if (content.empty()) return Error{file, "is empty"};
-    stream.seekg(0);
-    if (!stream.read(content.data(), static_cast<std::streamsize>(content.size()))) {
-        return Error{file, "cannot be read: " + std::generic_category().message(errno)};
-    }
-    return content;
 }
 
 /// Every attribute that any part of the file has, one entry per vertex; parts without it get a neutral one.
@@ -257,8 +236,9 @@ Result<TriangleMesh> load_mesh(const std::filesystem::path& path) {
     const std::string file = path.string();
     try {
         std::string problem = problem_of_path(path);
+        if (problem.empty()) problem = problem_of_ending(path);
         if (!problem.empty()) return Error{file, std::move(problem)};
-        Result<std::string> content = read_file(path);
+        Result<std::string> content = read_whole_file(path);
         if (!content) return content.errors();
         if (lower_case_ending(path) == ".obj") return load_obj(std::move(*content), file);
         return load_other(path, *content);
