@@ -101,6 +101,8 @@ Result<Done> Device::open() {
     if (presents_) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkPhysicalDeviceFeatures can{}, wanted{};
     vkGetPhysicalDeviceFeatures(physical_, &can);
+    // Software walks over all texels of a footprint, and of a pattern that repeats far away those are millions.
+    if (info_.type == DeviceType::cpu) can.samplerAnisotropy = VK_FALSE;
     wanted.samplerAnisotropy = can.samplerAnisotropy;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;

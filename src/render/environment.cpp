@@ -8,9 +8,9 @@ namespace weft::render {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr std::uint32_t side = 128;        // pixels of the sharpest level, across
-constexpr std::uint32_t levels = 6;        // down to 4 by 2
-constexpr std::uint32_t facets = 96;       // of a mirror, for each pixel
+constexpr std::uint32_t side = 128;   // pixels of the sharpest level, across
+constexpr std::uint32_t levels = 6;   // down to 4 by 2
+constexpr std::uint32_t facets = 96;  // of a mirror, for each pixel
 constexpr std::uint32_t harmonics_side = 64;
 
 ImageF made(std::uint32_t width, std::uint32_t height) {
@@ -61,7 +61,8 @@ Vec3 sampled(const ImageF& image, Vec3 d) {
         return static_cast<std::uint32_t>(std::clamp(static_cast<int>(y), 0, static_cast<int>(image.height) - 1));
     };
     const auto at = [&](float x, float y) { return rgb(image.at(column(x), row(y))); };
-    return (at(fu, fv) * (1 - s) + at(fu + 1, fv) * s) * (1 - t) + (at(fu, fv + 1) * (1 - s) + at(fu + 1, fv + 1) * s) * t;
+    return (at(fu, fv) * (1 - s) + at(fu + 1, fv) * s) * (1 - t) +
+           (at(fu, fv + 1) * (1 - s) + at(fu + 1, fv + 1) * s) * t;
 }
 
 /// A picture of the size of the sharpest level, each pixel the mean of what it covers.
@@ -107,8 +108,8 @@ std::array<glm::vec4, 9> harmonics_of(const ImageF& image) {
         const float share = std::sin((static_cast<float>(y) + 0.5f) / static_cast<float>(image.height) * pi);
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const Vec3 d = direction_of_pixel(image, x, y), light = rgb(image.at(x, y));
-            const float basis[9] = {1,         d.y,       d.z,      d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1,
-                                    d.x * d.z, d.x * d.x - d.y * d.y};
+            const float basis[9] = {
+                1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
             for (int i = 0; i < 9; ++i)
                 sums[static_cast<std::size_t>(i)] += glm::vec4(light.x, light.y, light.z, 0) * (basis[i] * share);
             area += share;

@@ -8,8 +8,8 @@ layout(set = 0, binding = 0) uniform sampler2D background_map;
 void main() {
     vec4 far = frame.from_clip * vec4(place * 2.0 - 1.0, 1.0, 1.0);
     vec3 direction = normalize(far.xyz / far.w - frame.eye.xyz);
-    vec3 light = frame.background.y > 0.5
-                     ? textureLod(background_map, environment_place(picture_direction(direction)), 0.0).rgb * frame.environment.x
+    vec3 light = whole(frame.background).y > 0.5
+                     ? textureLod(background_map, environment_place(picture_direction(direction)), 0.0).rgb * whole(frame.environment).x
                      : sky_at(direction);
-    color = vec4(light * frame.light.x, 1.0);
+    color = vec4(light * whole(frame.light).x, 1.0);
 }

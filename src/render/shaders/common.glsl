@@ -6,6 +6,10 @@
 #include "../shading/tone.h"
 #define frame push.frame.data
 
+// Reads a vector from a buffer as one. Lavapipe (Mesa 22.3) reads the first component where a shader asks for the last
+// alone.
+vec4 whole(vec4 v) { return v; }
+
 vec3 around_at(vec3 n) {  // irradiance / pi
     vec4 sh[9] = frame.around;
     vec3 light = sh[0].rgb + sh[1].rgb * n.y + sh[2].rgb * n.z + sh[3].rgb * n.x + sh[4].rgb * (n.x * n.y) +
@@ -25,11 +29,11 @@ vec2 environment_place(vec3 d) {
     return vec2(atan(d.x, -d.z) / (2.0 * pi) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / pi);
 }
 vec3 picture_direction(vec3 d) {  // as the environment is turned
-    return vec3(frame.environment.y * d.x - frame.environment.z * d.z, d.y,
-                frame.environment.z * d.x + frame.environment.y * d.z);
+    return vec3(whole(frame.environment).y * d.x - whole(frame.environment).z * d.z, d.y,
+                whole(frame.environment).z * d.x + whole(frame.environment).y * d.z);
 }
 
 vec3 sky_at(vec3 d) {
-    if (d.y >= 0.0) return mix(frame.sky[1].rgb, frame.sky[0].rgb, sqrt(d.y));
-    return mix(frame.sky[1].rgb, frame.sky[2].rgb, smoothstep(0.0, 0.35, -d.y));
+    vec3 above = mix(frame.sky[1].rgb, frame.sky[0].rgb, sqrt(max(d.y, 0.0)));
+    return mix(above, frame.sky[2].rgb, smoothstep(0.0, 0.35, -d.y));
 }

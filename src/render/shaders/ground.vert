@@ -13,7 +13,7 @@ layout(location = 5) out float scalar;
 
 void main() {
     const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
-    vec2 corner = corners[gl_VertexIndex] * frame.background.w;
+    vec2 corner = corners[gl_VertexIndex] * whole(frame.background).w;
     position = object.transform[3].xyz + object.transform[0].xyz * corner.x + object.transform[1].xyz * corner.y;
     normal = object.transform[2].xyz;
     tangent = vec4(object.transform[0].xyz, 1.0);

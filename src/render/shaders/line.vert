@@ -13,7 +13,7 @@ void main() {
     vec2 corner = corners[gl_VertexIndex % 6];
     vec4 a = frame.to_clip * vec4(line.from.xyz, 1.0), b = frame.to_clip * vec4(line.to.xyz, 1.0);
     // Cut off what is behind the eye.
-    float near = frame.eye.w;
+    float near = whole(frame.eye).w;
     if (a.w < near && b.w < near) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;

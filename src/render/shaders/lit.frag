@@ -17,9 +17,9 @@ layout(constant_id = 0) const uint sides = 0u;
 
 // As colors of the scale, shaded a little so that the shape is seen. Neither light nor exposure changes them.
 vec3 scalar_color(Place place) {
-    float t = clamp((scalar - object.scale.z) * object.scale.w, 0.0, 1.0);
+    float t = clamp((scalar - whole(object.scale).z) * whole(object.scale).w, 0.0, 1.0);
     float shade = 0.72 + 0.28 * dot(place.normal, place.to_eye);
-    return srgb_decoded(color_scale(t)) * shade;
+    return srgb_decoded(color_scale(t, int(object.scale_kind))) * shade;
 }
 
 void main() {

@@ -24,20 +24,17 @@ vec3 slope(ivec2 pixel, ivec2 step, vec3 here) {
 
 void main() {
     ivec2 pixel = min(ivec2(gl_FragCoord.xy) * 2, textureSize(depths, 0) - 1);
-    if (texelFetch(depths, pixel, 0).r >= 1.0) {
-        left = vec2(1.0, 1e4);
-        return;
-    }
+    bool nothing = texelFetch(depths, pixel, 0).r >= 1.0;
     vec3 here = view_position(pixel);
     vec3 normal = normalize(cross(slope(pixel, ivec2(0, 1), here), slope(pixel, ivec2(1, 0), here)));
     vec3 to_eye = normalize(-here);
     if (dot(normal, to_eye) < 0.0) normal = -normal;
-    float radius = frame.light.z;
+    float radius = whole(frame.light).z;
     // Pixels that the radius covers here.
-    float scale = radius / -here.z * 0.5 * frame.size.y * length(vec3(frame.to_clip[0].y, frame.to_clip[1].y, frame.to_clip[2].y));
-    scale = min(scale, 0.2 * frame.size.y);
-    float noise = pixel_noise(gl_FragCoord.xy, frame.light.w);
-    float jitter = pixel_noise(gl_FragCoord.yx + 17.0, frame.light.w);
+    float scale = radius / -here.z * 0.5 * whole(frame.size).y * length(vec3(whole(frame.to_clip[0]).y, whole(frame.to_clip[1]).y, whole(frame.to_clip[2]).y));
+    scale = min(scale, 0.2 * whole(frame.size).y);
+    float noise = pixel_noise(gl_FragCoord.xy, whole(frame.light).w);
+    float jitter = pixel_noise(gl_FragCoord.yx + 17.0, whole(frame.light).w);
     float hidden = 0.0;
     for (int i = 0; i < directions; ++i) {
         float angle = (float(i) + noise) * pi / float(directions);
@@ -57,5 +54,5 @@ void main() {
             hidden += highest * highest;  // of the cosine-weighted half circle below that horizon
         }
     }
-    left = vec2(clamp(1.0 - hidden / float(2 * directions), 0.0, 1.0), -here.z);
+    left = nothing ? vec2(1.0, 1e4) : vec2(clamp(1.0 - hidden / float(2 * directions), 0.0, 1.0), -here.z);
 }

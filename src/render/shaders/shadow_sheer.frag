@@ -4,6 +4,6 @@
 #define object push.object.data
 
 void main() {
-    float covered = object.material.data.velvet.z;
-    if (pixel_noise(gl_FragCoord.xy, frame.light.w) >= covered) discard;
+    float covered = whole(object.material.data.velvet).z;
+    if (pixel_noise(gl_FragCoord.xy, whole(frame.light).w) >= covered) discard;
 }

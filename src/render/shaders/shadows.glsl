@@ -19,14 +19,12 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
     float grazing = sqrt(max(0.0, 1.0 - facing * facing));
     vec3 lifted = position + side * (scale.x * (0.7 + 1.3 * grazing));
     vec3 p = (frame.shadow.data.to_shadow * vec4(lifted, 1.0)).xyz;
-    if (any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0))) || p.z > 1.0) return 1.0;
+    bool outside = any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0)));
+    p = clamp(p, vec3(0.0), vec3(1.0));
 
-    // Meters to parts of the map; a plane's own slope moves the depth that a tap is compared with.
     float across = 1.0 / (scale.x * scale.z);
-    vec3 light_normal = mat3(frame.shadow.data.to_shadow) * side;
-    vec3 n = normalize(vec3(light_normal.xy * across * across, light_normal.z / (scale.y * scale.y)) + 1e-9);
-    float turn = pixel_noise(pixel, frame.light.w) * 2.0 * pi;
-    float least = 1.5 * scale.x, most = max(least, 0.25 * scale.y * frame.sun.w);
+    float turn = pixel_noise(pixel, whole(frame.light).w) * 2.0 * pi;
+    float least = 1.5 * scale.x, most = max(least, 0.25 * scale.y * whole(frame.sun).w);
     most = min(most, 60.0 * scale.x);
     float depth_per_meter = 1.0 / scale.y;
     float margin = 1.0 * scale.x * depth_per_meter;
@@ -42,12 +40,12 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
         }
     }
     float radius = least;
-    if (blockers > 0.0) radius = clamp((p.z - depths / blockers) * scale.y * frame.sun.w, least, most);
+    if (blockers > 0.0) radius = clamp((p.z - depths / blockers) * scale.y * whole(frame.sun).w, least, most);
     float reached = 0.0;
     for (int i = 0; i < shadow_taps; ++i) {
         vec2 offset = disc(i, shadow_taps, turn) * radius;
         float bias = margin + min(length(offset) * grazing / max(abs(facing), 0.25), 8.0 * scale.x) * depth_per_meter;
         reached += textureLod(shadow_map, vec3(p.xy + offset * across, p.z - bias), 0.0);
     }
-    return reached / float(shadow_taps);
+    return outside ? 1.0 : reached / float(shadow_taps);
 }

@@ -20,7 +20,7 @@ void main() {
     bool front = sides == 0u ? gl_FrontFacing : sides == 1u;
     Place place = find_place(normal, tangent, uv, rest, front, gl_FragCoord.xy);
     float covered = clamp(coverage_at(abs(dot(place.normal, place.to_eye))), 0.0, 0.999);
-    float weight = covered * exp(-4.0 * length(frame.eye.xyz - position) / frame.target.w);
+    float weight = covered * exp(-4.0 * length(frame.eye.xyz - position) / whole(frame.target).w);
     sum = vec4(light_of(place) * weight, weight);
     depth = vec4(-log(1.0 - covered));
 }

@@ -26,12 +26,11 @@ vec4 albedos(float cosine) {
 }
 
 // As much as threads cover, more where one looks along the cloth.
-float coverage_at(float cosine) { return 1.0 - pow(1.0 - material.velvet.z, 1.0 / max(cosine, 0.15)); }
+float coverage_at(float cosine) { return 1.0 - pow(1.0 - whole(material.velvet).z, 1.0 / max(cosine, 0.15)); }
 
 // At half the size, of pixels that are as far away.
 float occlusion_at(vec2 pixel, vec3 position) {
-    if (frame.light.y <= 0.0) return 1.0;
-    float depth = dot(position - frame.eye.xyz, -vec3(frame.to_view[0].z, frame.to_view[1].z, frame.to_view[2].z));
+    float depth = dot(position - frame.eye.xyz, -vec3(whole(frame.to_view[0]).z, whole(frame.to_view[1]).z, whole(frame.to_view[2]).z));
     vec2 at = pixel * 0.5 - 0.5;
     ivec2 corner = ivec2(floor(at)), most = textureSize(occlusion_map, 0) - 1;
     vec2 part = at - vec2(corner);
@@ -44,7 +43,7 @@ float occlusion_at(vec2 pixel, vec3 position) {
         sum += weight * found.r;
         weights += weight;
     }
-    return mix(1.0, sum / weights, frame.light.y);
+    return whole(frame.light).y > 0.0 ? mix(1.0, sum / weights, whole(frame.light).y) : 1.0;
 }
 
 // The frame of threads: from the tangents, or from how the rest shape lies on the picture.
@@ -83,8 +82,8 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
     vec3 outward = size > 1e-12 ? normal * inversesqrt(size) : normalize(cross(dFdx(position), dFdy(position)));
     find_threads(outward, tangent, uv, rest, place.u, place.v);
 
-    vec2 tiles = uv * (material.tile.z > 0.5 ? vec2(1.0) : object.scale.xy) * material.tile.xy;
-    float relief = material.roughness.z;
+    vec2 tiles = uv * (whole(material.tile).z > 0.5 ? vec2(1.0) : object.scale.xy) * material.tile.xy;
+    float relief = whole(material.roughness).z;
     vec4 first = texture(relief_map, tiles);
     vec3 squares = texture(relief_squares, tiles).xyz * relief * relief;
     vec2 slope = first.xy * relief;
@@ -97,52 +96,50 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
     place.v = cross(place.normal, place.u) * (dot(cross(place.normal, place.u), place.v) < 0.0 ? -1.0 : 1.0);
     place.cavity = mix(1.0, first.z, min(relief, 1.0));
 
-    float warp = material.velvet.w > 0.5 && !front ? 1.0 - first.w : first.w;
+    float warp = whole(material.velvet).w > 0.5 && !front ? 1.0 - first.w : first.w;
     vec3 color = mix(material.weft_color.rgb, material.color.rgb, warp);
-    if (material.map.z > 0.5) color *= texture(color_map, uv * material.map.xy).rgb;
+    if (whole(material.map).z > 0.5) color *= texture(color_map, uv * material.map.xy).rgb;
     vec2 lost = max(squares.xy - slope * slope, vec2(0.0));  // by filtering: roughness that is left (LEAN)
     vec2 alpha = material.roughness.xy;
     Fiber fiber;
     fiber.color = color;
     fiber.sheen_color = material.sheen.rgb;
-    fiber.sheen_alpha = material.sheen.w;
-    fiber.roughness_matte = material.color.w;
-    fiber.specular = material.weft_color.w;
+    fiber.sheen_alpha = whole(material.sheen).w;
+    fiber.roughness_matte = whole(material.color).w;
+    fiber.specular = whole(material.weft_color).w;
     fiber.alpha_warp = min(sqrt(alpha * alpha + 2.0 * lost), vec2(1.0));
     fiber.alpha_weft = min(sqrt(alpha.yx * alpha.yx + 2.0 * lost), vec2(1.0));
     fiber.warp = warp;
-    fiber.velvet = material.velvet.x;
-    fiber.velvet_alpha = material.velvet.y;
+    fiber.velvet = whole(material.velvet).x;
+    fiber.velvet_alpha = whole(material.velvet).y;
     place.fiber = fiber;
     return place;
 }
 
 vec3 mirrored_around(vec3 direction, float alpha) {
-    float level = sqrt(clamp(alpha, 0.0, 1.0)) * frame.environment.w;
+    float level = sqrt(clamp(alpha, 0.0, 1.0)) * whole(frame.environment).w;
     return textureLod(environment_map, environment_place(direction), level).rgb;
 }
 
 vec3 sunlight(Place place, vec4 to_viewer) {
-    if (frame.sun_color.w < 0.5) return vec3(0.0);
-    vec3 sun = frame.sun.xyz;
-    float nl = dot(place.normal, sun), through = material.roughness.w;
-    if (nl <= 0.0 && through <= 0.0) return vec3(0.0);
-    float reached = sun_reaching(place.position, place.normal, place.pixel);
-    if (reached <= 0.0) return vec3(0.0);
-    Fiber fiber = place.fiber;
-    if (nl <= 0.0) return reached * frame.sun_color.rgb * fiber.color * (through * -nl / pi);
-    vec3 l = vec3(dot(sun, place.u), dot(sun, place.v), nl);
-    vec3 v = vec3(dot(place.to_eye, place.u), dot(place.to_eye, place.v), dot(place.to_eye, place.normal));
-    Lobes lobes = layered(fiber, lobes_alone(fiber, l, v), to_viewer.xy, albedos(nl).xy);
-    // Threads hide one another's depths: where light is low, less reaches between them.
-    float shaded = place.cavity;
-    vec3 sent = lobes.matte * fiber.color * (1.0 - through) * shaded + lobes.sheen + vec3(lobes.gloss * shaded);
-    return reached * frame.sun_color.rgb * sent * nl;
+    vec3 sun = frame.sun.xyz, light = vec3(0.0);
+    float nl = dot(place.normal, sun), through = whole(material.roughness).w;
+    if (whole(frame.sun_color).w > 0.5 && (nl > 0.0 || through > 0.0)) {
+        Fiber fiber = place.fiber;
+        vec3 l = vec3(dot(sun, place.u), dot(sun, place.v), nl);
+        vec3 v = vec3(dot(place.to_eye, place.u), dot(place.to_eye, place.v), dot(place.to_eye, place.normal));
+        Lobes lobes = layered(fiber, lobes_alone(fiber, l, v), to_viewer.xy, albedos(nl).xy);
+        // Threads hide one another's depths: where they are deep, less reaches between them.
+        vec3 back = lobes.matte * fiber.color * (1.0 - through) * place.cavity + lobes.sheen + vec3(lobes.gloss * place.cavity);
+        vec3 sent = nl > 0.0 ? back * nl : fiber.color * (through * -nl / pi);
+        light = sun_reaching(place.position, place.normal, place.pixel) * frame.sun_color.rgb * sent;
+    }
+    return light;
 }
 
 vec3 light_around(Place place, vec4 to_viewer, float occlusion) {
     Fiber fiber = place.fiber;
-    float open = occlusion * place.cavity, through = material.roughness.w;
+    float open = occlusion * place.cavity, through = whole(material.roughness).w;
     // What folds reflect into one another keeps bright cloth from going gray in them (Jimenez and others 2016).
     vec3 a = 2.0404 * fiber.color - 0.3324, b = -4.7951 * fiber.color + 0.6417, c = 2.7552 * fiber.color + 0.6903;
     vec3 bright = max(vec3(open), ((open * a + b) * open + c) * open);
@@ -165,5 +162,5 @@ vec3 light_around(Place place, vec4 to_viewer, float occlusion) {
 vec3 light_of(Place place) {
     vec4 to_viewer = albedos(dot(place.normal, place.to_eye));
     float occlusion = occlusion_at(place.pixel, place.position);
-    return (sunlight(place, to_viewer) + light_around(place, to_viewer, occlusion)) * frame.light.x;
+    return (sunlight(place, to_viewer) + light_around(place, to_viewer, occlusion)) * whole(frame.light).x;
 }

@@ -29,8 +29,8 @@ struct Fiber {
 
 /// Light of a direction in the frame of the surface: x along u, y along v, z along the normal.
 struct Lobes {
-    vec3 matte;   ///< per unit of color
-    vec3 sheen;   ///< with its color
+    vec3 matte;  ///< per unit of color
+    vec3 sheen;  ///< with its color
     float gloss;
 };
 
@@ -89,8 +89,8 @@ WEFT_SHADE float ggx(vec3 l, vec3 v, vec3 h, vec2 alpha) {
     vec3 d = vec3(h.x / alpha.x, h.y / alpha.y, h.z);
     float d2 = dot(d, d);
     float distribution = 1.0f / (pi * alpha.x * alpha.y * d2 * d2);
-    float masked = l.z * length(vec3(alpha.x * v.x, alpha.y * v.y, v.z)) +
-                   v.z * length(vec3(alpha.x * l.x, alpha.y * l.y, l.z));
+    float masked =
+        l.z * length(vec3(alpha.x * v.x, alpha.y * v.y, v.z)) + v.z * length(vec3(alpha.x * l.x, alpha.y * l.y, l.z));
     return distribution * 0.5f / max(masked, 1e-5f);
 }
 
@@ -111,8 +111,7 @@ WEFT_SHADE Lobes lobes_alone(Fiber fiber, vec3 l, vec3 v) {
     float nh = clamp(h.z, 0.0f, 1.0f), lh = clamp(dot(l, h), 0.0f, 1.0f);
     float mirrored = fresnel(fiber.specular, lh);
     if (fiber.velvet > 0.0f) {
-        lobes.gloss =
-            mirrored * velvet_distribution(nh, fiber.velvet, fiber.velvet_alpha) / smooth_denominator(nl, nv);
+        lobes.gloss = mirrored * velvet_distribution(nh, fiber.velvet, fiber.velvet_alpha) / smooth_denominator(nl, nv);
         lobes.matte = vec3((1.0f - mirrored) / pi);
         lobes.sheen = vec3(0.0f);
         return lobes;
@@ -121,8 +120,8 @@ WEFT_SHADE Lobes lobes_alone(Fiber fiber, vec3 l, vec3 v) {
     lobes.gloss = mirrored * (fiber.warp * ggx(from, to, h, fiber.alpha_warp) +
                               (1.0f - fiber.warp) * ggx(from, to, h, fiber.alpha_weft));
     lobes.matte = vec3(rough_matte(nl, nv, dot(l, v), fiber.roughness_matte));
-    lobes.sheen =
-        fiber.sheen_color * (charlie_distribution(nh, fiber.sheen_alpha) * charlie_visibility(nl, nv, fiber.sheen_alpha));
+    lobes.sheen = fiber.sheen_color *
+                  (charlie_distribution(nh, fiber.sheen_alpha) * charlie_visibility(nl, nv, fiber.sheen_alpha));
     return lobes;
 }
 

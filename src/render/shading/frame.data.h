@@ -72,7 +72,7 @@ struct ObjectData {
     Vec2s uvs;
     Floats rest, scalars;
     MaterialRef material;
-    uint flags, unused;
+    uint flags, scale_kind;
     vec4 transform[4];  ///< columns
     vec4 scale;         ///< m a unit of u and of v; least of the scalars, 1 over their range
 };

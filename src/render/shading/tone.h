@@ -13,12 +13,11 @@ WEFT_SHADE vec3 tone_map(vec3 color) {
     float least = min(color.x, min(color.y, color.z));
     color -= vec3(least < 0.08f ? least - 6.25f * least * least : 0.04f);
     float peak = max(color.x, max(color.y, color.z));
-    if (peak < begin) return color;
     const float room = 1.0f - begin;
-    float pressed = 1.0f - room * room / (peak + room - begin);
-    color *= pressed / peak;
-    float gray = 1.0f - 1.0f / (desaturation * (peak - pressed) + 1.0f);
-    return mix(color, vec3(pressed), gray);
+    float pressed = 1.0f - room * room / (max(peak, begin) + room - begin);
+    float gray = 1.0f - 1.0f / (desaturation * (max(peak, begin) - pressed) + 1.0f);
+    vec3 bright = mix(color * (pressed / max(peak, begin)), vec3(pressed), gray);
+    return peak < begin ? color : bright;
 }
 
 /// IEC 61966-2-1.

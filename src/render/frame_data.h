@@ -1,0 +1,25 @@
+// A Drawing as the numbers that shaders read.
+#pragma once
+
+#include "render/drawing.h"
+#include "render/environment.h"
+#include "render/shading/frame.data.h"
+
+namespace weft::render {
+
+struct FrameShape {
+    std::uint32_t width = 1, height = 1;
+    glm::vec2 jitter{0, 0};    ///< pixels by which the picture is shifted
+    std::uint32_t number = 0;  ///< of the sample; noise differs by it
+    bool has_environment = false;
+};
+
+shading::FrameData frame_data(const Drawing& drawing, const Surroundings& around, const FrameShape& shape);
+shading::ObjectData object_data(const Object& object, std::uint64_t material);
+/// A square of a plane under what the camera looks at.
+shading::ObjectData ground_data(const Ground& ground, const Camera& camera, std::uint64_t material);
+
+/// Offsets in -0.5…0.5 that fill a pixel evenly.
+glm::vec2 jitter_of(std::uint32_t number, std::uint32_t count);
+
+}  // namespace weft::render

@@ -1,0 +1,54 @@
+// What one frame in flight has for itself: its commands, and what it brings to the device.
+#pragma once
+
+#include "gpu/commands.h"
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+
+namespace weft::render {
+
+class FrameSlot {
+  public:
+    /// Begins anew; the device is done with the last time. There is room for `bytes`, all alignment included.
+    Result<Done> begin(gpu::Device& device, std::uint64_t bytes) {
+        if (!commands) {
+            auto made = gpu::Commands::create(device);
+            if (!made) return made.errors();
+            commands.emplace(std::move(*made));
+        }
+        if (!upload_ || upload_.size() < bytes) {
+            auto made = device.memory().buffer(bytes + bytes / 2, gpu::MemoryKind::upload, "frame");
+            if (!made) return made.errors();
+            upload_ = std::move(*made);
+        }
+        used_ = 0;
+        return commands->begin();
+    }
+
+    /// Copies it, and returns where the device finds it.
+    template <class Value>
+    std::uint64_t put(std::span<const Value> values) {
+        const std::uint64_t at = used_;
+        if (!values.empty()) std::memcpy(upload_.mapped().data() + at, values.data(), values.size_bytes());
+        used_ = at + room_for(values.size_bytes());
+        return upload_.address() + at;
+    }
+    template <class Value>
+    std::uint64_t put(const Value& value) {
+        return put(std::span<const Value>(&value, 1));
+    }
+    static constexpr std::uint64_t room_for(std::uint64_t bytes) { return (bytes + 15) / 16 * 16; }
+
+    std::optional<gpu::Commands> commands;
+    gpu::Framebuffer target;      ///< of the picture that it draws into
+    std::uint64_t submitted = 0;  ///< value of the device's timeline when it is done; 0: never
+
+  private:
+    gpu::Buffer upload_;
+    std::uint64_t used_ = 0;
+};
+
+}  // namespace weft::render
