@@ -2,6 +2,7 @@
 
 #include "io/json_reader.h"
 #include "io/json_text.h"
+#include "io/scene_look.h"
 #include "scene/check.h"
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
@@ -56,9 +57,10 @@ void read_mesh(ObjectReader& mesh, MeshDesc& result) {
     if (kind == "box") read_made<BoxMeshDesc>(mesh, kind, box_mesh_keys, result);
 }
 
-void use_preset(const std::string& name, const std::string& place, Fabric& fabric, Problems& problems) {
+void use_preset(const std::string& name, const std::string& place, SceneCloth& cloth, Problems& problems) {
     if (const FabricPreset* preset = find_fabric(name)) {
-        fabric = preset->fabric;
+        cloth.fabric = preset->fabric;
+        cloth.fabric_name = name;
         return;
     }
     std::vector<std::string_view> names;
@@ -66,26 +68,27 @@ void use_preset(const std::string& name, const std::string& place, Fabric& fabri
     problems.add(place, "unknown fabric " + in_quotes(name) + suggestion(name, names));
 }
 
-void read_fabric_object(ObjectReader& o, Fabric& fabric) {
+void read_fabric_object(ObjectReader& o, SceneCloth& cloth) {
     FabricHead head;
     o.values(fabric_keys, &head);
-    use_preset(head.preset, at(o.pointer(), "preset"), fabric, o.problems());
+    use_preset(head.preset, at(o.pointer(), "preset"), cloth, o.problems());
+    Fabric& fabric = cloth.fabric;
     for (const FabricTable& table : fabric_tables())
         o.values(table.parameters, reinterpret_cast<std::byte*>(&fabric) + table.offset);
 
     follow_stretch(fabric, o.find("stretch") != nullptr, o.find("compression") != nullptr);
 }
 
-void read_fabric(ObjectReader& cloth, Fabric& fabric) {
-    const json* found = cloth.find("fabric");
-    const std::string place = at(cloth.pointer(), "fabric");
+void read_fabric(ObjectReader& o, SceneCloth& cloth) {
+    const json* found = o.find("fabric");
+    const std::string place = at(o.pointer(), "fabric");
     if (!found) return;
     if (found->is_string())
-        use_preset(found->get<std::string>(), place, fabric, cloth.problems());
+        use_preset(found->get<std::string>(), place, cloth, o.problems());
     else if (found->is_object())
-        cloth.object("fabric", [&](ObjectReader& o) { read_fabric_object(o, fabric); });
+        o.object("fabric", [&](ObjectReader& fabric) { read_fabric_object(fabric, cloth); });
     else
-        cloth.problems().add(place, "must be the name of a fabric or an object, got " + json_text(*found));
+        o.problems().add(place, "must be the name of a fabric or an object, got " + json_text(*found));
 }
 
 void read_pin(ObjectReader& pin, PinDesc& result) {
@@ -110,7 +113,7 @@ void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
     o.object("drawn", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.drawn.emplace()); });
     o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
-    read_fabric(o, cloth.fabric);
+    read_fabric(o, cloth);
     o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
 }
 
@@ -162,6 +165,7 @@ SceneDesc read_scene(const json& value, Problems& problems) {
     o.object("air", [&](ObjectReader& air) { read_air(air, scene.air.emplace()); });
     o.objects("cloths", [&](ObjectReader& cloth) { read_cloth(cloth, scene.cloths.emplace_back()); });
     o.objects("colliders", [&](ObjectReader& collider) { read_collider(collider, scene.colliders.emplace_back()); });
+    read_pictures(o, scene);
     o.finish();
     return scene;
 }

@@ -23,7 +23,12 @@ constexpr std::string_view seed_scene = R"({
         { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "hinges": "source", "bend_model": "plate" },
           "drawn": { "box": { "size": [1, 1, 1], "resolution": [3, 4, 5] } } },
         { "mesh": { "file": "bunny.obj", "up": "z" }, "fabric": "silk", "pins": [ { "color": [1, 0, 0.5] } ] } ],
-    "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7 }, { "sphere": { "radius": 0.1 } } ]
+    "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7 }, { "sphere": { "radius": 0.1 } } ],
+    "camera": { "position": [1, 2, 3], "target": [0, 1, 0], "fov": 30 },
+    "light": { "sun": { "azimuth": 10, "color": [1, 1, 0.5] }, "sky": { "strength": 0.5, "zenith": [0, 0, 1] },
+               "environment": { "file": "hall.hdr", "rotation": 90, "visible": false }, "exposure": -1, "occlusion": 0.5 },
+    "look": { "sheet": "velvet", "collider 0": { "color": [0.5, 0.5, 0.5], "roughness": 0.4, "weave": "twill" },
+              "cloth 1": { "material": "silk", "weft_color": [1, 0, 0], "map_repeat": [2, 3], "color_map": "a.png" } }
 })";
 
 constexpr std::array<std::string_view, 24> pieces = {

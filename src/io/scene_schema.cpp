@@ -126,14 +126,26 @@ Json fabric_names() {
     return names;
 }
 
+Json material_names() {
+    Json names = Json::array();
+    for (const MaterialPreset& preset : material_presets()) names.push_back(preset.name);
+    return names;
+}
+
 /// What may stand in place of an object: a word for it. null if nothing.
 Json word_for(std::string_view place) {
     if (place == "/cloths/*/fabric") return {{"enum", fabric_names()}};
+    if (place == "/look/*") return {{"enum", material_names()}};
     if (place == "/colliders/*/motion") return {{"const", "static"}};
     return nullptr;
 }
 
 Json object_schema(const std::string& place);
+
+Json object_or_word(const std::string& place) {
+    const Json word = word_for(place);
+    return word.is_null() ? object_schema(place) : Json{{"anyOf", {word, object_schema(place)}}};
+}
 
 Json type_json(const Parameter& p, const std::string& place) {
     const std::string key = '/' + std::string(p.key);
@@ -154,11 +166,13 @@ Json type_json(const Parameter& p, const std::string& place) {
             return {{"enum", choice_names(p)}};
         case ParameterKind::text:
             if (place + key == "/cloths/*/fabric/preset") return {{"enum", fabric_names()}};
+            if (place + key == "/look/*/material") return {{"enum", material_names()}};
             return {{"type", "string"}};
         case ParameterKind::object: {
-            const std::string below = place_below(place, key);
-            const Json word = word_for(below);
-            return word.is_null() ? object_schema(below) : Json{{"anyOf", {word, object_schema(below)}}};
+            // An object whose keys are names.
+            if (const std::string each = place + key + "/*"; !tables_at(each).empty())
+                return {{"type", "object"}, {"additionalProperties", object_or_word(each)}};
+            return object_or_word(place_below(place, key));
         }
         case ParameterKind::list: {
             const std::string below = place_below(place, key + "/*");

@@ -81,9 +81,10 @@ class Validator {
             return true;
         }
         for (const auto& [key, under] : value.items()) {
-            const bool listed = schema["properties"].contains(key);
+            const bool listed = schema.contains("properties") && schema["properties"].contains(key);
             if (keyword == "properties" && listed && !valid(argument[key], under)) return false;
-            if (keyword == "additionalProperties" && !listed) return argument.get<bool>();
+            if (keyword != "additionalProperties" || listed) continue;
+            if (argument.is_boolean() ? !argument.get<bool>() : !valid(argument, under)) return false;
         }
         return true;
     }
@@ -103,6 +104,9 @@ std::string with_cloth(const std::string& keys) {
 }
 std::string with_collider(const std::string& keys) {
     return R"({ "weft": 1, "cloths": [ {} ], "colliders": [ { )" + keys + " } ] }";
+}
+std::string with_pictures(const std::string& keys) {
+    return R"({ "weft": 1, "cloths": [ {} ], )" + keys + " }";
 }
 
 TEST(SceneSchema, TheOneInTheDocumentationIsThis) {
@@ -133,6 +137,14 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
              with_collider(
                  R"("sphere": { "radius": 1e-9 }, "friction": [1, 1], "transform": { "position": [1, 2, 3] })"),
              with_collider(R"("sphere": {}, "name": "ball")"),
+             with_pictures(R"("camera": {}, "light": {}, "look": {})"),
+             with_pictures(R"("camera": { "position": [1, 2, 3], "target": [0, 0, 0], "fov": 30 })"),
+             with_pictures(
+                 R"("light": { "sun": { "azimuth": -360, "color": [1, 0, 0.5] }, "sky": { "strength": 0 } })"),
+             with_pictures(R"("light": { "environment": { "file": "a.hdr", "visible": false }, "exposure": -2 })"),
+             with_pictures(R"("look": { "cloth 0": "velvet" })"),
+             with_pictures(R"("look": { "cloth 0": { "material": "silk", "color": [0, 0, 0], "roughness": 0.5 } })"),
+             with_pictures(R"("look": { "cloth 0": { "weave": "knit", "map_repeat": [2, 3], "color_map": "a.png" } })"),
          }) {
         const auto read = parse_scene(scene, "a");
         EXPECT_TRUE(read.ok()) << scene << (read ? "" : read.error().message());
@@ -173,6 +185,18 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_collider(R"("plane": {}, "sphere": {})"),
              with_collider(R"("sphere": { "radius": 0 })"),
              with_collider(R"("sphere": {}, "transform": { "scale": 2 })"),
+             with_pictures(R"("camera": [1, 2, 3])"),
+             with_pictures(R"("camera": { "position": 1 })"),
+             with_pictures(R"("camera": { "fov": 151 })"),
+             with_pictures(R"("light": { "sun": "bright" })"),
+             with_pictures(R"("light": { "sky": { "zenith": [0, 0, 2] } })"),
+             with_pictures(R"("light": { "environment": { "visible": 1 } })"),
+             with_pictures(R"("look": "velvet")"),
+             with_pictures(R"("look": { "cloth 0": "velvt" })"),
+             with_pictures(R"("look": { "cloth 0": { "material": "velvt" } })"),
+             with_pictures(R"("look": { "cloth 0": { "colr": [0, 0, 0] } })"),
+             with_pictures(R"("look": { "cloth 0": { "coverage": 0 } })"),
+             with_pictures(R"("look": { "cloth 0": 3 })"),
          }) {
         EXPECT_FALSE(parse_scene(scene, "a").ok()) << scene;
         EXPECT_FALSE(valid(scene)) << scene;
@@ -185,7 +209,8 @@ Json schema_at(const std::string& place) {
     std::istringstream keys(place.substr(std::min<std::size_t>(place.size(), 1)));
     for (std::string key; std::getline(keys, key, '/');) {
         if (schema.contains("anyOf")) schema = Json(schema["anyOf"].back());
-        schema = key == "*" ? Json(schema.at("items")) : Json(schema.at("properties").at(key));
+        const char* of_all = schema.contains("items") ? "items" : "additionalProperties";
+        schema = key == "*" ? Json(schema.at(of_all)) : Json(schema.at("properties").at(key));
     }
     return schema.contains("anyOf") ? Json(schema["anyOf"].back()) : schema;
 }
@@ -199,7 +224,7 @@ TEST(SceneSchema, HasEveryKeyWithItsMeaningUnitAndDefault) {
             EXPECT_EQ(description.find(p.what), 0u) << table.place << '/' << p.key;
             EXPECT_NE(description.find(p.unit), description.npos) << table.place << '/' << p.key;
             const bool has_value = p.kind != ParameterKind::object && p.kind != ParameterKind::list &&
-                                   p.kind != ParameterKind::text && !p.required;
+                                   p.kind != ParameterKind::text && !p.required && table.defaults != nullptr;
             if (has_value) {
                 ASSERT_TRUE(key.contains("default")) << table.place << '/' << p.key;
                 EXPECT_TRUE(Validator().valid(key, key["default"])) << table.place << '/' << p.key;
@@ -209,6 +234,8 @@ TEST(SceneSchema, HasEveryKeyWithItsMeaningUnitAndDefault) {
     EXPECT_EQ(schema_at("/cloths/*/fabric/density").at("default").dump(), "0.14");
     EXPECT_EQ(schema_at("/cloths/*/fabric/preset").at("default"), "cotton");
     EXPECT_EQ(schema_at("/cloths/*/fabric/preset").at("enum").size(), fabric_presets().size());
+    EXPECT_EQ(schema_at("/look/*/material").at("enum").size(), material_presets().size());
+    EXPECT_EQ(schema_at("/light/sun/strength").at("default").dump(), "0.9");
     EXPECT_EQ(schema_at("/gravity").at("default").dump(), "[0,-9.81,0]");
 }
 

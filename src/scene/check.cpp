@@ -190,13 +190,15 @@ void check_total(const SceneDesc& scene, Problems& problems) {
 }
 
 template <class Named>
-void name_unnamed(std::vector<Named>& all, const std::string& kind) {
+std::vector<std::string> names_of(const std::vector<Named>& all, const std::string& kind) {
     std::set<std::string> taken;
-    for (const Named& one : all) taken.insert(one.name);
+    std::vector<std::string> names;
+    for (const Named& one : all) names.push_back(one.name), taken.insert(one.name);
     for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t number = i; all[i].name.empty(); ++number)
+        for (std::size_t number = i; names[i].empty(); ++number)
             if (const std::string name = kind + ' ' + std::to_string(number); taken.insert(name).second)
-                all[i].name = name;
+                names[i] = name;
+    return names;
 }
 
 }  // namespace
@@ -328,6 +330,9 @@ void check_scene(const SceneDesc& scene, Problems& problems) {
     for (std::size_t i = 0; i < scene.cloths.size(); ++i)
         check_attachments(scene.cloths[i].pins, names, at(at("/cloths", i), "pins"), problems);
     check_total(scene, problems);
+    if (scene.camera) check_camera(*scene.camera, "/camera", problems);
+    check_light(scene.light, "/light", problems);
+    check_looks(scene, "/look", problems);
 }
 
 Errors check_scene(const SceneDesc& scene) {
@@ -336,9 +341,18 @@ Errors check_scene(const SceneDesc& scene) {
     return std::move(problems).take();
 }
 
+std::vector<std::string> cloth_names(const SceneDesc& scene) {
+    return names_of(scene.cloths, "cloth");
+}
+
+std::vector<std::string> collider_names(const SceneDesc& scene) {
+    return names_of(scene.colliders, "collider");
+}
+
 void name_unnamed(SceneDesc& scene) {
-    name_unnamed(scene.cloths, "cloth");
-    name_unnamed(scene.colliders, "collider");
+    const std::vector<std::string> cloths = cloth_names(scene), colliders = collider_names(scene);
+    for (std::size_t i = 0; i < cloths.size(); ++i) scene.cloths[i].name = cloths[i];
+    for (std::size_t i = 0; i < colliders.size(); ++i) scene.colliders[i].name = colliders[i];
 }
 
 }  // namespace weft

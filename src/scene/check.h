@@ -40,6 +40,14 @@ void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::st
                        const std::string& pointer, Problems& problems);
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems);
 
+/// In check_look.cpp. The names in `look` must be those of cloths or colliders.
+void check_camera(const Camera& camera, const std::string& pointer, Problems& problems);
+void check_light(const Lighting& light, const std::string& pointer, Problems& problems);
+void check_looks(const SceneDesc& scene, const std::string& pointer, Problems& problems);
+
+/// What cloths and colliders are called, each in their order, once those without a name have one.
+std::vector<std::string> cloth_names(const SceneDesc& scene);
+std::vector<std::string> collider_names(const SceneDesc& scene);
 /// Gives cloths and colliders without a name one that is free: `cloth 0`, `collider 0`, …
 void name_unnamed(SceneDesc& scene);
 

@@ -34,8 +34,10 @@ constexpr Fabric fabric_from(const Row& row) {
 #define WEFT_TENSILE_CHOSEN "stretch and shear are chosen, not measured"
 
 constexpr FabricPreset presets[] = {
-#define WEFT_FABRIC(name, density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft, kind, source) \
-    {#name, source, fabric_from({density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft}), kind},
+#define WEFT_FABRIC(name, density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft, material, kind, \
+                    source)                                                                                            \
+    {#name, source, fabric_from({density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft}), kind,  \
+     #material},
 #include "scene/fabrics.def"
 #undef WEFT_FABRIC
 };

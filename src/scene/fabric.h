@@ -64,6 +64,7 @@ struct FabricPreset {
     std::string_view source;  ///< where the values come from, and which of them are chosen rather than measured
     Fabric fabric;
     bool woven_or_knitted = true;
+    std::string_view material = "cotton";  ///< what it looks like where a scene does not say
 };
 
 /// The fabric that a program describes. Every problem with it has its place below `pointer`.

@@ -34,6 +34,7 @@ struct SceneCloth {
     std::optional<MeshDesc> drawn = {};  ///< what is drawn and follows it; without, the same
     TransformDesc transform = {};
     Fabric fabric = {};
+    std::string fabric_name = "cotton";  ///< of the preset that the fabric began as
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< of the way over the cloth

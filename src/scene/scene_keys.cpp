@@ -23,6 +23,8 @@ const ColliderDesc collider;
 const PinDesc pin;
 const OffsetKey offset_key;
 const PoseKey pose_key;
+const Camera camera;
+const LookHead look_head;
 
 std::vector<SceneTable> all_tables() {
     std::vector<SceneTable> tables = {
@@ -61,6 +63,13 @@ std::vector<SceneTable> all_tables() {
 #undef WEFT_SHAPE
         {"/colliders/*/motion", motion_keys, nullptr},
         {"/colliders/*/motion/keys/*", pose_key_keys, &pose_key},
+        {"/camera", camera_parameters, &camera},
+        {"/light", lighting_parameters, &scene.light},
+        {"/light/sun", sun_parameters, &scene.light.sun},
+        {"/light/sky", sky_parameters, &scene.light.sky},
+        {"/light/environment", environment_parameters, &scene.light.environment},
+        {"/look/*", look_keys, &look_head},
+        {"/look/*", material_parameters, nullptr},
     };
     tables.insert(tables.end(), std::begin(rest), std::end(rest));
     return tables;

@@ -30,6 +30,9 @@ struct SceneHead {
 struct FabricHead {
     std::string preset = "cotton";
 };
+struct LookHead {
+    std::string material = {};
+};
 
 // One entry is one key.
 // clang-format off
@@ -49,6 +52,11 @@ inline constexpr Parameter scene_keys[] = {
     {.key = "air", .kind = ParameterKind::object, .what = "the air around, still or windy; without it, a vacuum"},
     {.key = "cloths", .kind = ParameterKind::list, .what = "the cloths, at least one", .required = true},
     {.key = "colliders", .kind = ParameterKind::list, .what = "what the cloths fall on"},
+    {.key = "camera", .kind = ParameterKind::object,
+     .what = "where pictures are taken from; without it, a place from which everything is seen"},
+    {.key = "light", .kind = ParameterKind::object, .what = "what lights pictures"},
+    {.key = "look", .kind = ParameterKind::object,
+     .what = "how cloths and colliders look in pictures: its keys are their names"},
 };
 
 inline constexpr Parameter solver_keys[] = {
@@ -250,6 +258,12 @@ inline constexpr Parameter pose_key_keys[] = {
      .min = -far_away, .max = far_away, .unit = "m", .what = "in place of the transform's"},
     {.key = "rotation", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PoseKey, rotation_degrees),
      .min = -any_float, .unit = "°", .what = "in place of the transform's; 360 more is one turn more"},
+};
+
+inline constexpr Parameter look_keys[] = {
+    {.key = "material", .kind = ParameterKind::text, .offset = offsetof(LookHead, material),
+     .what = "the material whose values stand where none is given here; without, that of the fabric, and of a collider "
+             "`matte`, of a plane `floor`"},
 };
 
 // clang-format on

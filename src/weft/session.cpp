@@ -271,10 +271,11 @@ Result<Done> Session::configure(const WorldSettings& settings) {
     return Done{};
 }
 
-Result<Done> Session::set_fabric(ClothId id, const Fabric& fabric) {
+Result<Done> Session::set_fabric(ClothId id, const Fabric& fabric, const std::string& name) {
     Entry& one = entry(id);
     SceneCloth desc = one.desc;
     desc.fabric = fabric;
+    desc.fabric_name = name;
     return rebuild(one, desc, ClothPins(one.pins), Holds(one.holds));
 }
 

@@ -52,8 +52,8 @@ class Session {
     void remove(ClothId id);
     /// Makes coarse levels where they are wanted now and were not before.
     Result<Done> configure(const WorldSettings& settings);
-    /// Cloth goes on moving as it was.
-    Result<Done> set_fabric(ClothId id, const Fabric& fabric);
+    /// Cloth goes on moving as it was. `name`: of the preset that the fabric began as.
+    Result<Done> set_fabric(ClothId id, const Fabric& fabric, const std::string& name);
     /// Particles are held where they are now; boxes are where particles are now.
     Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
 

@@ -24,6 +24,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .drawn = desc.drawn,
             .transform = desc.transform,
             .fabric = fabric,
+            .fabric_name = desc.fabric.preset,
             .pins = desc.pins,
             .tethers = desc.tethers,
             .tether_slack = desc.tether_slack};
@@ -205,7 +206,7 @@ Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     const auto fabric = make_fabric(desc);
     if (!fabric) return fabric.errors();
-    auto done = impl_->session.set_fabric(id, *fabric);
+    auto done = impl_->session.set_fabric(id, *fabric, desc.preset);
     impl_->changed();
     return done;
 }
