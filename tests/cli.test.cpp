@@ -143,6 +143,22 @@ TEST_F(Cli, check_reports_every_problem_with_its_place) {
     EXPECT_EQ(weft("check sheet.json").status, 0);
 }
 
+TEST_F(Cli, check_warns_of_pictures_that_are_not_found) {
+    write("here.png", "");
+    write("looks.json", R"({ "weft": 1, "cloths": [{}], "light": { "environment": { "file": "hall.hdr" } },
+        "look": { "cloth 0": { "color_map": "here.png", "normal_map": "gone.png" } } })");
+    const Outcome outcome = weft("check looks.json");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(
+        outcome.err.find("weft: warning: looks.json: /light/environment/file: hall.hdr: not found; tried hall.hdr, "),
+        std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("weft: warning: looks.json: /look/cloth 0/normal_map: gone.png: not found"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(outcome.err.find("here.png"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Cli, pins_and_meshes_are_checked_against_the_mesh) {
     write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 5 5 5\nf 1 3 2\n");
     const auto scene = [&](const std::string& pins) {
@@ -272,6 +288,18 @@ TEST_F(Cli, info_lists_what_there_is) {
     for (const Json& fabric : info["fabrics"]) {
         if (fabric["name"] == "cotton") {
             EXPECT_EQ(fabric["density"], 0.14);
+        }
+    }
+    EXPECT_EQ(info["fabric_units"]["density"], "kg/m²");
+    EXPECT_EQ(info["material_units"]["thread"], "mm");
+    ASSERT_FALSE(info["materials"].empty());
+    for (const Json& material : info["materials"]) {
+        EXPECT_NE(text.out.find("\n  " + material["name"].get<std::string>() + ' '), std::string::npos) << material;
+        EXPECT_NE(text.out.find(material["what"].get<std::string>()), std::string::npos) << material;
+        EXPECT_EQ(material["color"].size(), 3u);
+        EXPECT_TRUE(material["weave"].is_string() && material["color_map"].is_string()) << material;
+        if (material["name"] == "velvet") {
+            EXPECT_GT(material["velvet"], 0);
         }
     }
     EXPECT_EQ(Json::parse(weft("info --schema").out)["title"], "weft scene");

@@ -1,10 +1,24 @@
 #include "cli/command.h"
 
+#include "io/mesh_file.h"
+#include "scene/looks.h"
 #include "weft/session.h"
 
+#include <filesystem>
 #include <iostream>
 
 namespace weft::cli {
+namespace {
+
+// Nothing moves by a picture, and what is drawn without one is marked: no error.
+void warn_of_missing_pictures(const SceneDesc& scene, const std::string& scene_file) {
+    for (const PictureFile& picture : picture_files(scene)) {
+        const auto found = find_asset(picture.file, std::filesystem::path(scene_file).parent_path());
+        if (!found) print_warning(scene_file + ": " + picture.place + ": " + found.error().message());
+    }
+}
+
+}  // namespace
 
 Command add_check(CLI::App& program) {
     CLI::App* command = program.add_subcommand("check", "every problem of a scene, each with its place");
@@ -18,6 +32,7 @@ Command add_check(CLI::App& program) {
             return exit_usage;
         }
         for (const std::string& note : session->notes()) print_warning(note);
+        warn_of_missing_pictures(session->scene(), *scene);
         for (const ClothFrame& cloth : session->world().frame().cloths) {
             const ClothModel& model = *cloth.model;
             std::cout << *scene << ": cloth '" << model.name << "': " << model.particle_count << " particles ("

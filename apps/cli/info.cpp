@@ -4,6 +4,7 @@
 #include "io/exporter.h"
 #include "io/mesh_file.h"
 #include "io/scene_schema.h"
+#include "look/material.h"
 #include "scene/check.h"
 #include "scene/fabric.h"
 
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <span>
 #include <thread>
 
 namespace weft::cli {
@@ -30,6 +32,7 @@ Json value_json(const Parameter& parameter, const void* base) {
     if (parameter.kind == ParameterKind::flag) return *reinterpret_cast<const bool*>(at);
     if (parameter.kind == ParameterKind::choice)
         return choice_names(parameter).at(static_cast<std::size_t>(*reinterpret_cast<const int*>(at)));
+    if (parameter.kind == ParameterKind::text) return *reinterpret_cast<const std::string*>(at);
     const auto* numbers = reinterpret_cast<const float*>(at);
     if (parameter.kind == ParameterKind::angle_or_mesh && std::isnan(*numbers)) return "mesh";
     // Through text, so that 0.14f reads 0.14 and not 0.14000000059604645.
@@ -45,7 +48,7 @@ Json value_json(const Parameter& parameter, const void* base) {
 }
 
 Json fabric_json(const FabricPreset& preset) {
-    Json fabric = {{"name", preset.name}, {"source", preset.source}};
+    Json fabric = {{"name", preset.name}, {"source", preset.source}, {"material", preset.material}};
     for (const FabricTable& table : fabric_tables()) {
         for (const Parameter& parameter : table.parameters) {
             fabric[std::string(parameter.key)] =
@@ -53,6 +56,14 @@ Json fabric_json(const FabricPreset& preset) {
         }
     }
     return fabric;
+}
+
+Json material_json(const MaterialPreset& preset) {
+    Json material = {{"name", preset.name}, {"what", preset.what}};
+    for (const Parameter& parameter : material_parameters) {
+        material[std::string(parameter.key)] = value_json(parameter, &preset.material);
+    }
+    return material;
 }
 
 // What of a device matters here.
@@ -93,14 +104,15 @@ Json gather() {
     for (const ExportFormat& format : export_formats()) {
         info["export_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
     }
-    Json units;
-    for (const FabricTable& table : fabric_tables()) {
-        for (const Parameter& parameter : table.parameters) {
-            if (!parameter.unit.empty()) units[std::string(parameter.key)] = parameter.unit;
+    const auto add_units = [&](const char* to, std::span<const Parameter> table) {
+        for (const Parameter& parameter : table) {
+            if (!parameter.unit.empty()) info[to][std::string(parameter.key)] = parameter.unit;
         }
-    }
-    info["fabric_units"] = units;
+    };
+    for (const FabricTable& table : fabric_tables()) add_units("fabric_units", table.parameters);
+    add_units("material_units", material_parameters);
     for (const FabricPreset& preset : fabric_presets()) info["fabrics"].push_back(fabric_json(preset));
+    for (const MaterialPreset& preset : material_presets()) info["materials"].push_back(material_json(preset));
     return info;
 }
 
@@ -118,6 +130,32 @@ std::string triple(const Json& values, double scale, const char* format) {
         text += (text.empty() ? "" : "/") + std::string(number);
     }
     return text;
+}
+
+void print_fabrics(const Json& fabrics) {
+    std::printf("fabrics\n  %-12s %8s  %-11s %8s  %-15s  %s\n", "name", "kg/m²", " stretch N/m", "shear N/m",
+                "bend µN·m", "source");
+    std::printf("  %-12s %7s  %-11s %9s  %-15s\n", "", "", "warp/weft", "", "warp/bias/weft");
+    for (const Json& fabric : fabrics) {
+        std::printf("  %-12s %7.4f  %-11s %9.0f  %-15s  %s\n", fabric["name"].get<std::string>().c_str(),
+                    fabric["density"].get<double>(), triple(fabric["stretch"], 1, "%.0f").c_str(),
+                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(),
+                    fabric["source"].get<std::string>().c_str());
+    }
+}
+
+void print_materials(const Json& materials) {
+    std::printf("materials\n  %-12s %-7s %9s  %-9s %-14s  %s\n", "name", "weave", "thread mm", "roughness", "sheen RGB",
+                "what");
+    for (const Json& material : materials) {
+        const bool threads = material["weave"] != "smooth", sheen = material["sheen_color"] != Json({0, 0, 0});
+        std::printf("  %-12s %-7s %9s  %-9s %-14s  %s\n", material["name"].get<std::string>().c_str(),
+                    material["weave"].get<std::string>().c_str(),
+                    threads ? triple(material["thread"], 1, "%.3g").c_str() : "",
+                    triple(material["roughness"], 1, "%.2g").c_str(),
+                    sheen ? triple(material["sheen_color"], 1, "%.2g").c_str() : "",
+                    material["what"].get<std::string>().c_str());
+    }
 }
 
 void print_text(const Json& info) {
@@ -144,22 +182,17 @@ void print_text(const Json& info) {
         std::printf("  %-6s %s\n", format["ending"].get<std::string>().c_str(),
                     format["what"].get<std::string>().c_str());
     }
-    std::printf("fabrics\n  %-12s %8s  %-11s %8s  %-15s  %s\n", "name", "kg/m²", " stretch N/m", "shear N/m",
-                "bend µN·m", "source");
-    std::printf("  %-12s %7s  %-11s %9s  %-15s\n", "", "", "warp/weft", "", "warp/bias/weft");
-    for (const Json& fabric : info["fabrics"]) {
-        std::printf("  %-12s %7.4f  %-11s %9.0f  %-15s  %s\n", fabric["name"].get<std::string>().c_str(),
-                    fabric["density"].get<double>(), triple(fabric["stretch"], 1, "%.0f").c_str(),
-                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(),
-                    fabric["source"].get<std::string>().c_str());
-    }
+    print_fabrics(info["fabrics"]);
+    print_materials(info["materials"]);
 }
 
 }  // namespace
 
 Command add_info(CLI::App& program) {
     CLI::App* command =
-        program.add_subcommand("info", "instruction sets, threads, Vulkan devices, formats, fabrics with their values");
+        program.add_subcommand("info",
+                               "instruction sets, threads, Vulkan devices, formats, fabrics and materials with their "
+                               "values");
     auto json = std::make_shared<bool>(false);
     auto schema = std::make_shared<bool>(false);
     auto* as_json = command->add_flag("--json", *json, "as JSON");
