@@ -1,5 +1,6 @@
 #include "io/image_file.h"
 
+#include "io/image_checks.h"
 #include "io/whole_file.h"
 
 #include <algorithm>
@@ -80,17 +81,23 @@ class Source {
     bool cut_off_ = false;
 };
 
+/// stb_image's, which may hold bytes of the file.
 std::string reason() {
     const char* text = stbi_failure_reason();
-    return text ? text : "unknown";
+    std::string printable = text ? text : "unknown";
+    for (char& c : printable)
+        if (c < ' ' || c > '~') c = '?';
+    return printable;
 }
 
 bool starts_with(std::span<const std::byte> bytes, std::string_view text) {
     return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
 }
 
+constexpr std::string_view jpeg_signature = "\xff\xd8";
+
 bool has_known_signature(std::span<const std::byte> bytes) {
-    return starts_with(bytes, "\x89PNG\r\n\x1a\n") || starts_with(bytes, "\xff\xd8\xff") || starts_with(bytes, "BM");
+    return starts_with(bytes, "\x89PNG\r\n\x1a\n") || starts_with(bytes, jpeg_signature) || starts_with(bytes, "BM");
 }
 
 template <class Picture, class Decode>
@@ -121,6 +128,9 @@ Result<Image8> decode_image(std::span<const std::byte> bytes, std::string_view n
     const auto error = [&](std::string what) { return Error{std::string(name), std::move(what)}; };
     if (bytes.empty()) return error("is empty");
     if (starts_with(bytes, "#?")) return error("is a Radiance picture of light, not PNG, JPEG, TGA or BMP");
+    std::string problem;
+    if (starts_with(bytes, jpeg_signature) || starts_with(bytes, "\xff\xff")) problem = problem_of_jpeg(bytes);
+    if (!problem.empty()) return error("is damaged: " + problem);
     int width = 0, height = 0, channels = 0;
     // The header stands in front, however much is behind it.
     const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), INT_MAX));
@@ -128,8 +138,8 @@ Result<Image8> decode_image(std::span<const std::byte> bytes, std::string_view n
         return error(has_known_signature(bytes) ? "is damaged: its header cannot be read (" + reason() + ')'
                                                 : "is not PNG, JPEG, TGA or BMP");
     }
-    std::string problem = problem_of_size(static_cast<std::uint64_t>(std::max(width, 0)),
-                                          static_cast<std::uint64_t>(std::max(height, 0)), limits);
+    problem = problem_of_size(static_cast<std::uint64_t>(std::max(width, 0)),
+                              static_cast<std::uint64_t>(std::max(height, 0)), limits);
     if (!problem.empty()) return error(std::move(problem));
     Source source(bytes);
     const Pixels pixels = source.decode(width, height);

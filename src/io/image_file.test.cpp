@@ -144,6 +144,18 @@ TEST(ImageFile, WhatIsNoPictureIsRefused) {
     EXPECT_THAT(problem(png), StartsWith("it: is damaged"));
 }
 
+TEST(ImageFile, CodeTablesOfAJpegHaveRoomForTheirCodes) {
+    std::string jpeg = seed("jpeg");
+    const std::size_t table = jpeg.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    jpeg[table + 5] = '\xff';
+    jpeg[table + 6] = '\xff';
+    EXPECT_THAT(problem(jpeg), HasSubstr("at most 256 are possible"));
+    std::string between = seed("jpeg");
+    between.insert(2, "x");
+    EXPECT_THAT(problem(between), StartsWith("it: is damaged"));
+}
+
 TEST(ImageFile, TheHeaderAloneTellsWhatIsTooLarge) {
     EXPECT_EQ(problem(png_header(16385, 2)), "it: is 16385 by 2 pixels, at most 16384 a side are read");
     EXPECT_EQ(problem(png_header(3, 4000000)), "it: is 3 by 4000000 pixels, at most 16384 a side are read");
