@@ -1,0 +1,33 @@
+#include "mesh/uv_scale.h"
+
+#include <cmath>
+
+namespace weft {
+
+std::array<float, 2> uv_meters(const TriangleMesh& mesh) {
+    if (mesh.uvs.empty()) return {1, 1};
+    // In UVs a triangle whose height is less than this part of its side is a line, and says nothing of the other way.
+    constexpr double flattest = 1e-6;
+    double along_u = 0, along_v = 0, area = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec2 d1 = mesh.uvs[b] - mesh.uvs[a], d2 = mesh.uvs[c] - mesh.uvs[a];
+        const Vec3 e1 = mesh.positions[b] - mesh.positions[a], e2 = mesh.positions[c] - mesh.positions[a];
+        const double determinant = double{d1.x} * d2.y - double{d1.y} * d2.x;
+        const double largest = double{d1.x} * d1.x + double{d1.y} * d1.y + double{d2.x} * d2.x + double{d2.y} * d2.y;
+        if (!(std::abs(determinant) > flattest * largest)) continue;
+        // Solved for the tangents; times the determinant, which is divided out of their lengths.
+        const auto length_of = [&](double f1, double f2) {
+            const double x = e1.x * f1 + e2.x * f2, y = e1.y * f1 + e2.y * f2, z = e1.z * f1 + e2.z * f2;
+            return std::sqrt(x * x + y * y + z * z) / std::abs(determinant);
+        };
+        const double weight = length(cross(e1, e2));
+        along_u += weight * length_of(d2.y, -d1.y);
+        along_v += weight * length_of(-d2.x, d1.x);
+        area += weight;
+    }
+    const auto u = static_cast<float>(along_u / area), v = static_cast<float>(along_v / area);
+    if (!(area > 0) || !(u > 0) || !(v > 0) || !std::isfinite(u) || !std::isfinite(v)) return {1, 1};
+    return {u, v};
+}
+
+}  // namespace weft

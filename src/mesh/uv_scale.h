@@ -1,0 +1,14 @@
+// How large a mesh's UVs are on its surface.
+#pragma once
+
+#include "mesh/triangle_mesh.h"
+
+#include <array>
+
+namespace weft {
+
+/// m of cloth that a unit of u and of v is long: |∂P/∂u| and |∂P/∂v|, means over the area. {1, 1} where there are no
+/// UVs, or none that span an area.
+std::array<float, 2> uv_meters(const TriangleMesh& mesh);
+
+}  // namespace weft
