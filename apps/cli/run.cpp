@@ -38,12 +38,13 @@ Result<Exporters> open_exporters(const RunOptions& options) {
 }
 
 ExportInfo export_info(const Session& session, std::uint64_t frames) {
-    return {session.scene().name, session.scene().frame_rate, frames + 1};  // the start is a frame too
+    // The start is a frame too.
+    return {session.scene().name, session.scene().frame_rate, frames + 1, session.folder()};
 }
 
 Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const Session& session, std::uint64_t frames) {
     DrawnFrame drawn;
-    if (!exporters.empty()) drawn.update(session.world().frame());
+    if (!exporters.empty()) drawn.update(session.world().frame(), session.scene().looks);
     return plan_exports(exporters, export_info(session, frames), drawn.surfaces());
 }
 
@@ -56,7 +57,7 @@ Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporte
     const auto write = [&]() -> Result<Done> {
         if (exporters.empty()) return Done{};
         const Frame& frame = session.world().frame();
-        drawn.update(frame);
+        drawn.update(frame, session.scene().looks);
         for (auto& exporter : exporters) {
             if (auto written = exporter->write({frame.index, frame.time, drawn.surfaces()}); !written) return written;
         }

@@ -1,6 +1,7 @@
 // Writing what was simulated: one interface for every format, chosen by a file name's ending.
 #pragma once
 
+#include "look/material.h"
 #include "mesh/triangle_mesh.h"
 
 #include <weft/result.h>
@@ -15,12 +16,13 @@
 namespace weft {
 
 /// One cloth as it is drawn: topology, UVs and colors from `mesh`, everything that moves from the spans (one entry per
-/// vertex of `mesh`). The mesh must stay as it is until finish; name and spans are read during write alone.
+/// vertex of `mesh`). The mesh must stay as it is until finish; all else is read during write alone.
 struct ExportSurface {
     std::string_view name;
     const TriangleMesh* mesh = nullptr;
-    std::span<const Vec3> positions;  ///< m
-    std::span<const Vec3> normals;    ///< unit
+    std::span<const Vec3> positions;     ///< m
+    std::span<const Vec3> normals;       ///< unit
+    const Material* material = nullptr;  ///< where a format has materials; without one, light gray and matte
 };
 
 /// Everything at one instant. The same cloths in the same order in every frame of a run.
@@ -33,7 +35,8 @@ struct ExportFrame {
 struct ExportInfo {
     std::string scene_name;
     double frame_rate = 60;
-    std::uint64_t frame_count = 0;  ///< frames that will be written, the start included
+    std::uint64_t frame_count = 0;      ///< frames that will be written, the start included
+    std::filesystem::path folder = {};  ///< where pictures that materials name are looked for, as in find_asset
 };
 
 /// What an export will leave on the disk.

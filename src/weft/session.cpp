@@ -122,15 +122,22 @@ Errors apply(const Options& options, SceneDesc& scene) {
     return errors;
 }
 
+const Material* material_of(const ClothModel& cloth, std::span<const SceneLook> looks) {
+    const auto look = std::ranges::find(looks, cloth.name, &SceneLook::object);
+    if (look != looks.end()) return &look->material;
+    return cloth.mesh.colors.empty() ? &find_material("cotton")->material : nullptr;
+}
+
 }  // namespace
 
-void DrawnFrame::update(const Frame& frame) {
+void DrawnFrame::update(const Frame& frame, std::span<const SceneLook> looks) {
     buffers_.resize(frame.cloths.size());
     surfaces_.resize(frame.cloths.size());
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         const ClothFrame& cloth = frame.cloths[i];
         draw_surface(cloth, buffers_[i].positions, buffers_[i].normals);
-        surfaces_[i] = {cloth.model->name, &cloth.model->mesh, buffers_[i].positions, buffers_[i].normals};
+        surfaces_[i] = {cloth.model->name, &cloth.model->mesh, buffers_[i].positions, buffers_[i].normals,
+                        material_of(*cloth.model, looks)};
     }
 }
 

@@ -19,7 +19,8 @@ namespace weft {
 /// Drawn positions and normals of every cloth in a frame, in buffers that are kept from frame to frame.
 class DrawnFrame {
   public:
-    void update(const Frame& frame);
+    /// `looks` must stay while surfaces are in use. A cloth without one is of cotton, or of the colors of its mesh.
+    void update(const Frame& frame, std::span<const SceneLook> looks = {});
     std::span<const ExportSurface> surfaces() const { return surfaces_; }
 
   private:
@@ -58,6 +59,8 @@ class Session {
     Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
 
     const SceneDesc& scene() const { return scene_; }
+    /// Where files are looked for.
+    const std::filesystem::path& folder() const { return folder_; }
     World& world() { return *world_; }
     const World& world() const { return *world_; }
     double frame_seconds() const { return 1.0 / static_cast<double>(scene_.frame_rate); }

@@ -344,7 +344,9 @@ Result<Done> Simulation::save(const std::filesystem::path& file) const {
     auto exporter = make_exporter(file);
     if (!exporter) return exporter.errors();
     const Session& session = impl_->session;
-    if (auto begun = (*exporter)->begin({session.scene().name, session.scene().frame_rate, 1}); !begun) return begun;
+    if (auto begun = (*exporter)->begin({session.scene().name, session.scene().frame_rate, 1, session.folder()});
+        !begun)
+        return begun;
     if (auto written = (*exporter)->write({frame(), time(), impl_->surfaces()}); !written) return written;
     return (*exporter)->finish();
 }

@@ -19,7 +19,7 @@ struct Simulation::Impl {
     const World& world() const { return session.world(); }
     /// Of the frame as it is; they come from the device when somebody asks for them.
     std::span<const ExportSurface> surfaces() const {
-        if (drawn_is_old) drawn.update(world().frame());
+        if (drawn_is_old) drawn.update(world().frame(), session.scene().looks);
         drawn_is_old = false;
         return drawn.surfaces();
     }

@@ -5,6 +5,7 @@
 // frame that fills it. tinygltf writes the JSON; the container is written here, because tinygltf's own writer would
 // hold the whole film in memory twice.
 #include "io/export_format.h"
+#include "io/exports/glb_material.h"
 
 #include <tiny_gltf.h>
 
@@ -59,8 +60,9 @@ struct FilmSize {
     double of(double frames) const { return base + (frames - 1) * target + frames * frames * sizeof(float); }
 };
 
-FilmSize film_size(std::span<const ExportSurface> surfaces) {
+FilmSize film_size(std::span<const ExportSurface> surfaces, const std::filesystem::path& folder) {
     FilmSize size;
+    size.base += static_cast<double>(GltfMaterials::most_picture_bytes(surfaces, folder));
     for (const ExportSurface& surface : surfaces) {
         const TriangleMesh& mesh = *surface.mesh;
         const auto vertices = static_cast<double>(surface.positions.size());
@@ -128,12 +130,15 @@ class GlbExporter : public Exporter {
     tinygltf::Accessor& open_accessor(int component, int type, std::size_t count, int target);
     Result<Done> append(std::span<const std::byte> bytes) { return spool_.write(bytes); }
     Result<int> add_vectors(std::span<const Vec3> values, bool bounds);
+    /// Of bytes that no accessor describes: a picture.
+    Result<int> add_picture(std::span<const std::byte> bytes);
     int newest_accessor() const { return as_int(model_.accessors.size()) - 1; }
 
     std::filesystem::path path_;
     ExportInfo info_;
     tinygltf::Model model_;
     BufferedFile spool_;
+    GltfMaterials materials_{model_, [this](std::span<const std::byte> bytes) { return add_picture(bytes); }};
     std::vector<float> times_;
     std::vector<FirstFrame> first_;
     FilmSize size_;
@@ -141,7 +146,7 @@ class GlbExporter : public Exporter {
 };
 
 Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
-    const FilmSize size = film_size(surfaces);
+    const FilmSize size = film_size(surfaces, info.folder);
     if (Result<Done> checked = check_size(size, info.frame_count); !checked) return checked.errors();
     return ExportEstimate{{path_}, static_cast<std::uint64_t>(size.of(static_cast<double>(info.frame_count)))};
 }
@@ -152,6 +157,7 @@ Result<Done> GlbExporter::begin(const ExportInfo& info) {
     Result<BufferedFile> spool = BufferedFile::open_nameless(folder_of(path_), path_.string());
     if (!spool) return spool.errors();
     spool_ = *std::move(spool);
+    materials_.look_in(info.folder);
     return Done{};
 }
 
@@ -214,7 +220,7 @@ Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
         for (const Vec3& normal : surface.normals) first.normals.push_back(unit_normal(normal));
         first.triangles = surface.mesh->triangles.size();
     }
-    size_ = film_size(frame.surfaces);
+    size_ = film_size(frame.surfaces, info_.folder);
     if (Result<Done> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
         return checked;
     }
@@ -263,7 +269,11 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
     node.name = name;
     node.mesh = as_int(model_.meshes.size());
     model_.scenes.front().nodes.push_back(as_int(model_.nodes.size()) - 1);
-    model_.materials.push_back(fabric_material(name, !mesh.colors.empty()));
+    if (surface.material) {
+        if (Result<Done> r = materials_.add(name, *surface.material, mesh); !r) return r;
+    } else {
+        model_.materials.push_back(fabric_material(name, !mesh.colors.empty()));
+    }
     tinygltf::Mesh& gltf_mesh = model_.meshes.emplace_back();
     gltf_mesh.name = name;
     gltf_mesh.primitives.push_back(std::move(primitive));
@@ -392,6 +402,17 @@ tinygltf::Accessor& GlbExporter::open_accessor(int component, int type, std::siz
     accessor.type = type;
     accessor.count = count;
     return accessor;
+}
+
+Result<int> GlbExporter::add_picture(std::span<const std::byte> bytes) {
+    tinygltf::BufferView& view = model_.bufferViews.emplace_back();
+    view.buffer = 0;
+    view.byteOffset = spool_.size();
+    view.byteLength = bytes.size();
+    if (Result<Done> r = append(bytes); !r) return r.errors();
+    constexpr std::byte zeros[3] = {};  // what follows is aligned to four bytes (3.6.2.4)
+    if (Result<Done> r = append(std::span(zeros).first((4 - bytes.size() % 4) % 4)); !r) return r.errors();
+    return as_int(model_.bufferViews.size()) - 1;
 }
 
 Result<int> GlbExporter::add_vectors(std::span<const Vec3> values, bool bounds) {
