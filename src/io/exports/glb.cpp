@@ -6,6 +6,7 @@
 // hold the whole film in memory twice.
 #include "io/export_format.h"
 #include "io/exports/glb_material.h"
+#include "solver/frame.h"
 
 #include <tiny_gltf.h>
 
@@ -66,8 +67,8 @@ FilmSize film_size(std::span<const ExportSurface> surfaces, const std::filesyste
     for (const ExportSurface& surface : surfaces) {
         const TriangleMesh& mesh = *surface.mesh;
         const auto vertices = static_cast<double>(surface.positions.size());
-        const double vertex =
-            2 * sizeof(Vec3) + (mesh.uvs.empty() ? 0 : sizeof(Vec2)) + (mesh.colors.empty() ? 0 : sizeof(Vec4));
+        const double vertex = 2 * sizeof(Vec3) + (mesh.uvs.empty() ? 0 : sizeof(Vec2) + sizeof(Vec4)) +
+                              (mesh.colors.empty() ? 0 : sizeof(Vec4));
         const double index = has_short_indices(surface.positions.size()) ? 2 : 4;
         // The names stand in JSON, where a character may take six; the rest of the JSON of a cloth is a few lines.
         size.base += vertices * vertex + static_cast<double>(mesh.triangles.size()) * 3 * index + 4096 +
@@ -116,6 +117,8 @@ class GlbExporter : public Exporter {
   private:
     Result<Done> add_first_frame(const ExportFrame& frame);
     Result<Done> add_base(const ExportSurface& surface);
+    Result<Done> add_colors(const TriangleMesh& mesh, tinygltf::Primitive& primitive);
+    Result<Done> add_material(const ExportSurface& surface, tinygltf::Primitive& primitive);
     Result<Done> add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive);
     Result<Done> add_target(std::size_t cloth, const ExportSurface& surface);
     Result<Done> add_animation();
@@ -238,7 +241,6 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
 
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = as_int(model_.materials.size());
     if (Result<Done> r = add_indices(mesh, count, primitive); !r) return r;
     const Result<int> positions = add_vectors(first.positions, true);
     if (!positions) return positions.errors();
@@ -255,29 +257,49 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
         primitive.attributes["TEXCOORD_0"] = newest_accessor();
         if (Result<Done> r = append(std::as_bytes(std::span(uvs))); !r) return r;
     }
-    if (!mesh.colors.empty()) {
-        const auto clamped = [](float c) { return std::isnan(c) ? 0.0f : std::clamp(c, 0.0f, 1.0f); };
-        std::vector<Vec4> colors;
-        colors.reserve(count);
-        for (const Vec4& c : mesh.colors) colors.push_back({clamped(c.x), clamped(c.y), clamped(c.z), clamped(c.w)});
-        open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, count, TINYGLTF_TARGET_ARRAY_BUFFER);
-        primitive.attributes["COLOR_0"] = newest_accessor();
-        if (Result<Done> r = append(std::as_bytes(std::span(colors))); !r) return r;
-    }
+    if (Result<Done> r = add_colors(mesh, primitive); !r) return r;
+    if (Result<Done> r = add_material(surface, primitive); !r) return r;
 
     tinygltf::Node& node = model_.nodes.emplace_back();
     node.name = name;
     node.mesh = as_int(model_.meshes.size());
     model_.scenes.front().nodes.push_back(as_int(model_.nodes.size()) - 1);
-    if (surface.material) {
-        if (Result<Done> r = materials_.add(name, *surface.material, mesh); !r) return r;
-    } else {
-        model_.materials.push_back(fabric_material(name, !mesh.colors.empty()));
-    }
     tinygltf::Mesh& gltf_mesh = model_.meshes.emplace_back();
     gltf_mesh.name = name;
     gltf_mesh.primitives.push_back(std::move(primitive));
     return Done{};
+}
+
+Result<Done> GlbExporter::add_colors(const TriangleMesh& mesh, tinygltf::Primitive& primitive) {
+    if (mesh.colors.empty()) return Done{};
+    const auto clamped = [](float c) { return std::isnan(c) ? 0.0f : std::clamp(c, 0.0f, 1.0f); };
+    std::vector<Vec4> colors;
+    colors.reserve(mesh.colors.size());
+    for (const Vec4& c : mesh.colors) colors.push_back({clamped(c.x), clamped(c.y), clamped(c.z), clamped(c.w)});
+    open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, colors.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["COLOR_0"] = newest_accessor();
+    return append(std::as_bytes(std::span(colors)));
+}
+
+/// Of a single frame the tangents are written too, where a normal map needs them. A film has none: as morph targets
+/// they would be half as much again, and some readers that know tangents do not morph them; without, all of them find
+/// the tangents of each frame from its UVs.
+Result<Done> GlbExporter::add_material(const ExportSurface& surface, tinygltf::Primitive& primitive) {
+    const TriangleMesh& mesh = *surface.mesh;
+    const std::string name(surface.name);
+    primitive.material = as_int(model_.materials.size());
+    if (!surface.material) {
+        model_.materials.push_back(fabric_material(name, !mesh.colors.empty()));
+        return Done{};
+    }
+    if (Result<Done> r = materials_.add(name, *surface.material, mesh); !r) return r;
+    if (info_.frame_count != 1 || model_.materials.back().normalTexture.index < 0) return Done{};
+    const FirstFrame& first = first_[model_.meshes.size()];
+    std::vector<Vec4> tangents;
+    compute_tangents(mesh, first.positions, first.normals, tangents);
+    open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, tangents.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["TANGENT"] = newest_accessor();
+    return append(std::as_bytes(std::span(tangents)));
 }
 
 Result<Done> GlbExporter::add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive) {

@@ -7,6 +7,7 @@
 #include <tiny_gltf.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace weft {
 namespace {
@@ -90,6 +91,26 @@ TEST_F(GlbMaterial, ThreadsAreAsFarApartAsTheyAre) {
     ASSERT_TRUE(image.ok());
     EXPECT_EQ(image->rgba, normal_map_of(make_weave(Weave::plain), 1).rgba);
     EXPECT_EQ(material.pbrMetallicRoughness.baseColorTexture.index, -1);
+}
+
+TEST_F(GlbMaterial, OneFrameHasTheTangentsThatNormalMapsNeed) {
+    const Cloth cloth = make_cloth("c", 4, 0.3f);
+    const tinygltf::Model model = export_of({cloth}, {&preset("cotton")});
+    const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
+    const auto& accessor = model.accessors.at(static_cast<std::size_t>(primitive.attributes.at("TANGENT")));
+    ASSERT_EQ(accessor.count, cloth.mesh.positions.size());
+    const auto& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+    std::vector<Vec4> tangents(accessor.count);
+    std::memcpy(tangents.data(), model.buffers.at(0).data.data() + view.byteOffset, view.byteLength);
+    const auto normals = cloth.at(0).second;
+    for (std::size_t i = 0; i < tangents.size(); ++i) {
+        EXPECT_NEAR(length(tangents[i].xyz()), 1, 1e-5);
+        EXPECT_NEAR(dot(tangents[i].xyz(), normals[i]), 0, 1e-5);
+        EXPECT_GT(tangents[i].x, 0.3f) << "u runs along x";
+        // v runs along z, upward in the picture as the green of a normal map does.
+        EXPECT_GT((tangents[i].w * cross(normals[i], tangents[i].xyz())).z, 0.3f);
+    }
+    EXPECT_FALSE(export_of(preset("velvet")).meshes[0].primitives[0].attributes.contains("TANGENT"));
 }
 
 TEST_F(GlbMaterial, FromAfarSlopesAreRoughness) {
