@@ -210,5 +210,33 @@ TEST_F(SessionOfACloth, pins_the_simulated_mesh_and_not_the_drawn_one) {
         ElementsAre("s.json: /cloths/0/pins/0/vertices/1: must be less than 16, the number of particles, got 16"));
 }
 
+TEST_F(SessionOfACloth, DrawsEachClothInItsMaterial) {
+    const auto session = open(R"("mesh": {"grid": {"size": [1, 1], "resolution": [3, 3]}})");
+    ASSERT_TRUE(session.ok());
+    const auto material_in = [&](std::span<const SceneLook> looks) {
+        DrawnFrame drawn;
+        drawn.update(session->world().frame(), looks);
+        return drawn.surfaces().front().material;
+    };
+    const std::vector<SceneLook> looks{{"another", "matte", find_material("matte")->material},
+                                       {"it", "velvet", find_material("velvet")->material}};
+    EXPECT_EQ(material_in(looks), &looks[1].material);
+    EXPECT_EQ(material_in({}), &find_material("cotton")->material);
+    EXPECT_EQ(session->folder(), folder.path());
+}
+
+TEST_F(SessionOfACloth, ShowsTheColorsOfAMeshThatHasNoLook) {
+    folder.write("a.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+                 "property list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 255 0 0\n1 0 0 0 255 0\n0 0 1 0 0 255\n3 0 1 2\n");
+    const auto session = open(R"("mesh": {"file": "a.ply"})");
+    ASSERT_TRUE(session.ok());
+    DrawnFrame drawn;
+    drawn.update(session->world().frame());
+    EXPECT_EQ(drawn.surfaces().front().material, nullptr);
+}
+
 }  // namespace
 }  // namespace weft
