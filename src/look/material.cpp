@@ -6,22 +6,23 @@ namespace weft {
 namespace {
 
 const MaterialPreset presets[] = {
-// One file each. clang-format off: in the order in which they are listed
-#include "look/materials/chiffon.inl"
+// One file each, in the order in which they are listed.
+// clang-format off
 #include "look/materials/cotton.inl"
-#include "look/materials/denim.inl"
-#include "look/materials/felt.inl"
-#include "look/materials/floor.inl"
-#include "look/materials/jersey.inl"
-#include "look/materials/leather.inl"
 #include "look/materials/linen.inl"
-#include "look/materials/matte.inl"
-#include "look/materials/ribknit.inl"
-#include "look/materials/rubber.inl"
-#include "look/materials/satin.inl"
-#include "look/materials/silk.inl"
-#include "look/materials/velvet.inl"
 #include "look/materials/wool.inl"
+#include "look/materials/silk.inl"
+#include "look/materials/satin.inl"
+#include "look/materials/velvet.inl"
+#include "look/materials/denim.inl"
+#include "look/materials/leather.inl"
+#include "look/materials/chiffon.inl"
+#include "look/materials/jersey.inl"
+#include "look/materials/ribknit.inl"
+#include "look/materials/felt.inl"
+#include "look/materials/rubber.inl"
+#include "look/materials/matte.inl"
+#include "look/materials/floor.inl"
     // clang-format on
 };
 

@@ -72,9 +72,9 @@ Heights grain(std::uint32_t side) {
         for (std::uint32_t x = 0; x < side; ++x) {
             const float u = (static_cast<float>(x) + 0.5f) * step;
             const Nearest grain = grains.near(u + bent_u[y], v + bent_v[x]);
-            const float base = cushion(grain, 0.6f);
+            const float base = cushion(grain, 0.5f);
             const float pebble = cushion(pebbles.near(u * finer, v * finer), 0.8f);
-            out.height[std::size_t{y} * side + x] = 0.22f * base - 0.14f * grain.first + 0.025f * base * pebble;
+            out.height[std::size_t{y} * side + x] = 0.2f * base - 0.1f * grain.first + 0.025f * base * pebble;
         }
     }
     return out;

@@ -47,9 +47,9 @@ constexpr float lean_u = 0.894f, lean_v = 0.448f;
 constexpr Limb face[] = {{0, -0.25f, lean_u, -lean_v, 1 / 0.58f, 1 / 0.27f, 0.3f, -0.15f},
                          {0, 0.25f, lean_u, lean_v, 1 / 0.58f, 1 / 0.27f, 0.3f, -0.15f}};
 // On the back the bows between the legs show, upward and downward in turns.
-constexpr Limb back[] = {{0, 0, 0, 1, 1 / 0.6f, 1 / 0.27f, 0.26f, 0},
-                         {0.5f * pitch, -0.5f, 0, 1, 1 / 0.42f, 1 / 0.22f, 0.2f, 0},
-                         {0.5f * pitch, 0.5f, 0, 1, 1 / 0.42f, 1 / 0.22f, 0.2f, 0}};
+constexpr Limb back[] = {{0, 0, 0, 1, 1 / 0.52f, 1 / 0.3f, 0.26f, 0},
+                         {0.5f * pitch, -0.5f, 0, 1, 1 / 0.46f, 1 / 0.27f, 0.22f, 0},
+                         {0.5f * pitch, 0.5f, 0, 1, 1 / 0.46f, 1 / 0.27f, 0.22f, 0}};
 constexpr float floor_height = -0.3f;
 
 /// `drawn`: those of one wale.
@@ -98,7 +98,7 @@ Heights knit(std::uint32_t side) {
 Heights rib(std::uint32_t side) {
     // Wales 0 and 1 of four show their face; the wave is highest between them.
     return knitted(
-        side, [](std::uint32_t wale) { return wale % 4 >= 2; }, [](float v) { return 0.35f * wave((v + 3) * 0.25f); });
+        side, [](std::uint32_t wale) { return wale % 4 >= 2; }, [](float v) { return 0.2f * wave((v + 3) * 0.25f); });
 }
 
 }  // namespace weft::weaves
