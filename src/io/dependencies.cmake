@@ -9,3 +9,7 @@ target_link_libraries(weft_io PRIVATE nlohmann_json::nlohmann_json)
 # Mesh import.
 find_package(assimp REQUIRED)
 target_link_libraries(weft_io PRIVATE assimp::assimp)
+
+# Pictures: headers alone.
+find_path(STB_INCLUDE_DIR stb/stb_image.h REQUIRED)
+target_include_directories(weft_io SYSTEM PRIVATE ${STB_INCLUDE_DIR})
