@@ -18,10 +18,17 @@ namespace weft::render {
 /// A number of materials' places in a Renderer.
 using MaterialId = std::uint32_t;
 
+/// The kinds of shading/color_scale.h.
+enum class ColorScale : std::int32_t {
+    balance,  ///< about a middle: less … none … more
+    amount,   ///< none … much
+};
+
 /// A value per vertex shown as color, in place of the material's.
 struct ScalarField {
     gpu::BufferRange values;    ///< a float a vertex; no buffer: none
     float least = 0, most = 1;  ///< what the ends of the scale stand for; beyond them, the color of the end
+    ColorScale scale = ColorScale::balance;
 };
 
 /// Triangles on the device. Columns of `transform` take them to the world: rotation and scale, then position.
