@@ -58,19 +58,28 @@ Collider make_collider(const ColliderDesc& desc) {
 }
 
 double signed_distance(const Collider& collider, Vec3 world) {
+    Vec3 normal;
+    return signed_distance(collider, world, normal);
+}
+
+double signed_distance(const Collider& collider, Vec3 world, Vec3& out) {
     const Vec3 local = to_local(collider.pose, world);
     const reference::vec3 p(local.x, local.y, local.z);
     const reference::ShapeNumbers numbers{collider.numbers[0], collider.numbers[1], collider.numbers[2],
                                           collider.numbers[3]};
-    reference::vec3 normal;
+    reference::vec3 normal{0, 0, 0};
+    double distance = 0;
     switch (collider.shape) {
-#define WEFT_SHAPE(name, Name) \
-    case ShapeKind::name:      \
-        return reference::distance_##name(p, numbers, normal);
+#define WEFT_SHAPE(name, Name)                                     \
+    case ShapeKind::name:                                          \
+        distance = reference::distance_##name(p, numbers, normal); \
+        break;
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
     }
-    return 0;
+    out = collider.pose.rotation *
+          Vec3{static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)};
+    return distance;
 }
 
 }  // namespace weft

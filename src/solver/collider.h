@@ -43,5 +43,7 @@ Vec3 offset_at(std::span<const OffsetKey> keys, double time);
 
 /// m: distance of a world point to the collider's true surface, negative inside.
 double signed_distance(const Collider& collider, Vec3 world);
+/// And which way is out, unit, in the world.
+double signed_distance(const Collider& collider, Vec3 world, Vec3& normal);
 
 }  // namespace weft

@@ -42,6 +42,7 @@ class World {
     Result<Done> set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
     bool contains(ClothId id) const { return cloths_.contains(id); }
     const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
+    const Holds& holds(ClothId id) const { return cloths_[cloths_.find(id)].holds; }
 
     ColliderId add(Collider collider);
     /// Pins that it carried stay where they are.
