@@ -5,12 +5,12 @@
 #include "render/drawing.h"
 #include "scene/scene_desc.h"
 #include "solver/world.h"
+#include "view/legend.h"
 
 #include <weft/result.h>
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +31,7 @@ struct OverlayInput {
 struct Scalars {
     std::vector<float> values;
     float least = 0, most = 1;
+    render::ColorScale scale = render::ColorScale::balance;
 };
 
 /// What they add to a picture. At most one overlay gives scalars, the last one that is asked for.
@@ -39,18 +40,21 @@ struct OverlayOutput {
     std::vector<render::Point> points;
     std::vector<render::FlatVertex> flat;
     std::vector<Scalars> scalars;  ///< a cloth each, or none
-    std::vector<std::string> legends;
+    std::vector<Legend> legends;   ///< draw_overlays() draws them
 };
 
 struct Overlay {
     std::string_view name, what;
-    void (*draw)(const OverlayInput& input, OverlayOutput& output);
-    bool needs_feedback = false;  ///< World must keep account of contacts
+    void (*draw)(const OverlayInput& input, OverlayOutput& output);  ///< adds to the output
+    bool needs_feedback = false;                                     ///< World must keep account of contacts
 };
 
 /// In the order of overlays.def.
 std::span<const Overlay> overlays();
 /// Fails with the nearest name there is.
 Result<const Overlay*> find_overlay(std::string_view name);
+
+/// All of these one after another, and their legends in the lower left corner.
+OverlayOutput draw_overlays(std::span<const Overlay* const> chosen, const OverlayInput& input);
 
 }  // namespace weft

@@ -1,0 +1,25 @@
+// Text as triangles.
+#pragma once
+
+#include "render/drawing.h"
+
+#include <string_view>
+#include <vector>
+
+namespace weft {
+
+/// Of printable ASCII at a size of 1: a capital letter is 7 high, a line 12.
+float text_width(std::string_view text);
+
+/// `x`, `y`: the upper left corner, in pixels. `size` in pixels per unit; whole numbers keep letters sharp. Characters
+/// beyond ASCII become '?'.
+void draw_text(std::string_view text, float x, float y, float size, Vec4 color, std::vector<render::FlatVertex>& flat);
+
+/// Corners from upper left to lower right.
+void draw_rectangle(float left, float top, float right, float bottom, Vec4 color,
+                    std::vector<render::FlatVertex>& flat);
+/// From `first` at its left side to `last` at its right.
+void draw_gradient(float left, float top, float right, float bottom, Vec4 first, Vec4 last,
+                   std::vector<render::FlatVertex>& flat);
+
+}  // namespace weft

@@ -1,0 +1,41 @@
+// What the colors and lines of an overlay mean, written into the lower left corner of the picture.
+#pragma once
+
+#include "render/drawing.h"
+
+#include <weft/vector.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+struct Legend {
+    /// A bar of colors with numbers.
+    struct Bar {
+        float least = 0, most = 1;
+        render::ColorScale scale = render::ColorScale::amount;
+    };
+    /// A line of text, with a patch of color before it.
+    struct Entry {
+        std::optional<Vec4> color;  ///< sRGB and opacity
+        std::string text;
+    };
+
+    std::string title;  ///< ASCII, like all text here; other characters become '?'
+    std::optional<Bar> bar = {};
+    std::vector<Entry> entries = {};
+    bool of_scalars = false;  ///< goes with OverlayOutput::scalars
+};
+
+/// What stands under a bar, from its left end to its right: five numbers, three where five have no room.
+std::vector<std::string> tick_texts(const Legend::Bar& bar, std::size_t count = 5);
+
+/// One below the other on a dark backdrop. What has no room in a picture of that size is left out: the last first.
+void draw_legends(std::span<const Legend> legends, std::uint32_t width, std::uint32_t height,
+                  std::vector<render::FlatVertex>& flat);
+
+}  // namespace weft

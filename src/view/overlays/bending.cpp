@@ -1,0 +1,126 @@
+// Curvature beyond the one at rest. From the angles across the edges of a triangle, as plate.md has it,
+//
+//     K = sum over its edges of (angle - angle at rest) · length / (2 · area) · n⊗n
+//
+// with n across the edge, all lengths at rest: whatever the mesh and its constraints, a sheet rolled to a radius R has
+// one of 1/R across the roll. A triangle shows the larger of its two principal ones, a vertex the mean of its
+// triangles.
+
+#include "mesh/edges.h"
+#include "physics/scalar.h"
+#include "view/nice_numbers.h"
+#include "view/overlay_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace weft::overlay {
+namespace {
+
+// 1/m: a radius of half a meter fills the scale.
+constexpr double least_scale = 2;
+
+double angle_across(const Hinge& hinge, std::span<const Vec4> positions) {
+    const auto at = [&](std::uint32_t p) { return reference::vec3(positions[p].x, positions[p].y, positions[p].z); };
+    return reference::hinge_angle(at(hinge.a), at(hinge.b), at(hinge.c), at(hinge.d)).theta;
+}
+
+// rad, toward the side that the first triangle's normal points to.
+double angle_at_rest(const Hinge& hinge, const ClothModel& model) {
+    const float given = model.fabric.bend.rest_angle;
+    return std::isnan(given) ? angle_across(hinge, model.start) : given * std::numbers::pi / 180;
+}
+
+bool winds(const Triangle& triangle, std::uint32_t a, std::uint32_t b) {
+    for (int side = 0; side < 3; ++side)
+        if (triangle[side] == a && triangle[(side + 1) % 3] == b) return true;
+    return false;
+}
+
+// Symmetric, in a plane of the triangle's own: x along its first side.
+struct Curvature {
+    double xx = 0, xy = 0, yy = 0;
+    int sides = 0;
+
+    double larger_principal() const {
+        const double mean = (xx + yy) / 2, half = (xx - yy) / 2;
+        return std::abs(mean) + std::sqrt(half * half + xy * xy);
+    }
+};
+
+// Adds what the angle across the side from a to b brings.
+void add_side(Curvature& sum, const Triangle& triangle, std::uint32_t a, std::uint32_t b, double angle,
+              const ClothModel& model) {
+    const Vec3 origin = model.rest_position(triangle[0]);
+    const Vec3 first = model.rest_position(triangle[1]) - origin, second = model.rest_position(triangle[2]) - origin;
+    const double twice_area = length(cross(first, second));
+    const Vec3 x = normalized(first), y = normalized(cross(cross(first, second), first));
+    const Vec3 edge = model.rest_position(b) - model.rest_position(a);
+    // n·edge = 0, and |edge| of each n is in here: length · n⊗n = (turned edge)⊗(turned edge) / length.
+    const double ex = dot(edge, x), ey = dot(edge, y), scale = angle / (twice_area * length(edge));
+    if (!std::isfinite(scale)) return;
+    sum.xx += scale * ey * ey;
+    sum.xy -= scale * ex * ey;
+    sum.yy += scale * ex * ex;
+    sum.sides += 1;
+}
+
+std::vector<Curvature> curvature_of(const ClothFrame& cloth, const std::vector<Triangle>& triangles) {
+    const ClothModel& model = *cloth.model;
+    const EdgeList edges = build_edges(triangles, model.particle_count);
+    std::vector<Curvature> curvatures(triangles.size());
+    for (const Hinge& hinge : build_hinges(edges, triangles).hinges) {
+        const double angle = static_cast<double>(
+            reference::wrap_angle(angle_across(hinge, cloth.positions) - angle_at_rest(hinge, model)));
+        if (!std::isfinite(angle)) continue;
+        // Each triangle sees it from its own front; one that is turned over sees the other sign.
+        const std::uint32_t left = hinge.triangle0, right = hinge.triangle1;
+        const double to_left = winds(triangles[left], hinge.a, hinge.b) ? angle : -angle;
+        const double to_right = winds(triangles[right], hinge.a, hinge.b) ? -angle : angle;
+        add_side(curvatures[left], triangles[left], hinge.a, hinge.b, to_left, model);
+        add_side(curvatures[right], triangles[right], hinge.a, hinge.b, to_right, model);
+    }
+    return curvatures;
+}
+
+// 1/m, of each particle. At a border there is an angle missing; triangles that have all three tell more.
+std::vector<float> bending_of(const ClothFrame& cloth) {
+    const ClothModel& model = *cloth.model;
+    std::vector<Triangle> triangles(model.triangle_count);
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) triangles[t] = model.triangle(t);
+    const std::vector<Curvature> curvatures = curvature_of(cloth, triangles);
+    std::vector<std::uint8_t> inside(model.particle_count);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (const std::uint32_t p : triangles[t]) inside[p] |= curvatures[t].sides == 3;
+    ParticleMeans means(model.particle_count);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const auto& [a, b, c] = triangles[t];
+        const double area = area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
+        for (const std::uint32_t p : {a, b, c})
+            if (curvatures[t].sides == 3 || !inside[p]) means.add(p, curvatures[t].larger_principal(), area);
+    }
+    return means.result();
+}
+
+}  // namespace
+
+void bending(const OverlayInput& input, OverlayOutput& output) {
+    std::vector<float> all;
+    for (const ClothFrame& cloth : input.frame.cloths) {
+        const std::vector<float> values = bending_of(cloth);
+        all.insert(all.end(), values.begin(), values.end());
+        output.scalars.push_back({.values = at_vertices(*cloth.model, values)});
+    }
+    if (output.scalars.empty()) return;
+    const auto most = static_cast<float>(std::max(least_scale, nice_above(percentile(all, 0.98))));
+    for (Scalars& scalars : output.scalars) {
+        scalars.most = most;
+        scalars.scale = render::ColorScale::amount;
+    }
+    output.legends.push_back({.title = "curvature beyond rest, 1/m",
+                              .bar = Legend::Bar{0, most, render::ColorScale::amount},
+                              .of_scalars = true});
+}
+
+}  // namespace weft::overlay

@@ -1,0 +1,92 @@
+#include "render/shading/color_scale.h"
+#include "solver/air.h"
+#include "view/nice_numbers.h"
+#include "view/overlay_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace weft::overlay {
+namespace {
+
+// Arrows from one side of the box to the other, at most; and how much of the way to the next the longest one fills.
+constexpr int most_arrows = 9;
+constexpr float fills = 0.9f;
+
+// m/s: no gust is faster.
+double fastest(const std::vector<WindDesc>& winds) {
+    double sum = 0;
+    for (const WindDesc& wind : winds)
+        sum += length(wind.velocity) * (1.0 + std::abs(wind.gust.amplitude) + std::abs(wind.turbulence.strength));
+    return sum;
+}
+
+// Points at whole multiples of a spacing, which stay in place while the cloth moves.
+struct Grid {
+    float spacing = 1;  ///< m
+    std::array<int, 3> first{}, count{};
+};
+
+Grid grid_around(const Bounds& bounds, float radius) {
+    const Vec3 size = bounds.size(), center = bounds.center();
+    const float half = std::max({size.x, size.y, size.z, 0.5f * radius, 1e-3f}) / 2 * 1.3f;
+    Grid grid{.spacing = static_cast<float>(nice_above(2 * half / (most_arrows - 1)))};
+    const float middles[] = {center.x, center.y, center.z}, sizes[] = {size.x, size.y, size.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        // A flat cloth has one layer above and one below it.
+        const float reach = std::max(0.65f * sizes[axis], grid.spacing);
+        grid.first[axis] = static_cast<int>(std::ceil((middles[axis] - reach) / grid.spacing));
+        const int last = static_cast<int>(std::floor((middles[axis] + reach) / grid.spacing));
+        grid.count[axis] = std::clamp(last - grid.first[axis] + 1, 1, most_arrows);
+    }
+    return grid;
+}
+
+void add_arrow(std::vector<render::Line>& lines, Vec3 from, Vec3 along, Vec4 color, float width) {
+    const float reach = length(along);
+    if (!(reach > 0)) return;
+    const Vec3 to = from + along, unit = along / reach;
+    add_line(lines, from, to, color, width);
+    // Four barbs, of which two are seen from anywhere.
+    const Vec3 across = normalized(cross(unit, std::abs(unit.y) < 0.7f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
+    const Vec3 other = cross(unit, across);
+    for (const Vec3 side : {across, -across, other, -other})
+        add_line(lines, to, to - along * 0.25f + side * (0.12f * reach), color, width);
+}
+
+}  // namespace
+
+void wind(const OverlayInput& input, OverlayOutput& output) {
+    const auto& air = input.world.settings().air;
+    const Bounds bounds = bounds_of_cloths(input);
+    const double most = air ? nice_above(fastest(air->wind)) : 0;  // m/s
+    if (!air || air->wind.empty() || bounds.empty() || !(fastest(air->wind) > 0)) {
+        output.legends.push_back({.title = "wind: none"});
+        return;
+    }
+    std::vector<WindNow> winds;
+    for (const WindDesc& desc : air->wind) winds.push_back(wind_at(desc, input.frame.time));
+    const Grid grid = grid_around(bounds, input.size);
+    const float scale = fills * grid.spacing / static_cast<float>(most);  // s
+    std::uint32_t number = 0;  // scattered gusts differ from arrow to arrow as they do from triangle to triangle
+    for (int x = 0; x < grid.count[0]; ++x) {
+        for (int y = 0; y < grid.count[1]; ++y) {
+            for (int z = 0; z < grid.count[2]; ++z) {
+                const Vec3 at = Vec3{static_cast<float>(grid.first[0] + x), static_cast<float>(grid.first[1] + y),
+                                     static_cast<float>(grid.first[2] + z)} *
+                                grid.spacing;
+                const Vec3 velocity = wind_velocity(winds, at, number++);
+                const auto color =
+                    render::shading::color_scale(length(velocity) / static_cast<float>(most), WEFT_SCALE_AMOUNT);
+                add_arrow(output.lines, at, velocity * scale, {color.x, color.y, color.z, 1}, pixels(input, 1.6f));
+            }
+        }
+    }
+    output.legends.push_back(
+        {.title = "wind, m/s",
+         .bar = Legend::Bar{0, static_cast<float>(most), render::ColorScale::amount},
+         .entries = {{{}, "an arrow of " + short_number(100 * fills * grid.spacing) + " cm: " + short_number(most)}}});
+}
+
+}  // namespace weft::overlay

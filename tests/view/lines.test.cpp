@@ -1,0 +1,300 @@
+// Overlays of lines and points, against counts that are known.
+
+#include "shown.h"
+
+#include "solver/air.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace weft::physical {
+namespace {
+
+constexpr double frame_seconds = 1.0 / 60;
+
+float norm(Vec3 v) {
+    return length(v);
+}
+
+TEST(WireframeOverlay, has_every_edge_once_on_either_side) {
+    World world = make_world({}, SheetDesc{});
+    Shown shown(world);
+    // 8 · 9 each way and 64 diagonals.
+    const OverlayOutput output = shown.draw("wireframe");
+    ASSERT_EQ(output.lines.size(), 2 * (2 * 72 + 64u));
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    for (const render::Line& line : output.lines) {
+        const auto vertex = [&](Vec3 p) {
+            const auto& all = shown.positions();
+            const auto nearest = std::ranges::min_element(all, {}, [&](Vec3 q) { return norm(p - q); });
+            EXPECT_LT(norm(p - *nearest), 0.01f);
+            return static_cast<std::size_t>(nearest - all.begin());
+        };
+        edges.insert(std::minmax(vertex(line.from), vertex(line.to)));
+        EXPECT_GT(std::abs(line.from.y), 0) << "off the surface";
+    }
+    EXPECT_EQ(edges.size(), 208u);
+}
+
+TEST(WireframeOverlay, is_that_of_the_mesh_that_is_drawn) {
+    World world = make_world({});
+    world.add(make_bound_sheet({9, 9}, make_grid({1, 1}, {5, 5}, GridDiagonal::uniform)));
+    EXPECT_EQ(Shown(world).draw("wireframe").lines.size(), 2 * (2 * 20 + 16u));
+
+    // Along seams, where every triangle has corners of its own, too.
+    TriangleMesh torn;
+    const TriangleMesh whole = make_grid({1, 1}, {5, 5}, GridDiagonal::uniform);
+    for (const Triangle& triangle : whole.triangles) {
+        const auto first = static_cast<std::uint32_t>(torn.positions.size());
+        for (const std::uint32_t v : triangle) torn.positions.push_back(whole.positions[v]);
+        torn.triangles.push_back({first, first + 1, first + 2});
+    }
+    World bound = make_world({});
+    bound.add(make_bound_sheet({9, 9}, torn));
+    EXPECT_EQ(Shown(bound).draw("wireframe").lines.size(), 2 * (2 * 20 + 16u));
+    auto topology = build_topology(torn);
+    World welded = make_world({});
+    welded.add(*build_cloth_model({.name = "torn", .mesh = torn}, std::move(*topology)));
+    EXPECT_EQ(Shown(welded).draw("wireframe").lines.size(), 2 * (2 * 20 + 16u));
+}
+
+TEST(NormalsOverlay, has_one_for_each_vertex_and_fewer_on_fine_meshes) {
+    World coarse = make_world({}, SheetDesc{.rotation_degrees = {30, 0, 0}});
+    Shown shown(coarse);
+    const OverlayOutput output = shown.draw("normals");
+    ASSERT_EQ(output.lines.size(), 81u);
+    for (std::size_t v = 0; v < 81; ++v) {
+        EXPECT_EQ(output.lines[v].from, shown.positions()[v]);
+        const Vec3 along = output.lines[v].to - output.lines[v].from;
+        EXPECT_NEAR(dot(normalized(along), shown.normals()[v]), 1, 1e-5);
+    }
+    World fine = make_world({}, SheetDesc{.resolution = {201, 201}});
+    const std::size_t thinned = Shown(fine).draw("normals").lines.size();
+    EXPECT_GT(thinned, 1000u);
+    EXPECT_LT(thinned, 2500u);
+}
+
+TEST(PinsOverlay, marks_what_is_pinned) {
+    World world = make_world({}, SheetDesc{.pinned = [](Vec3 p) { return p.z < -0.49f; }});
+    Shown shown(world);
+    const OverlayOutput output = shown.draw("pins");
+    ASSERT_EQ(output.points.size(), 9u);
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(output.points[i].position, shown.positions()[i]);
+    EXPECT_EQ(entry(output, 0), "pinned: 9");
+
+    World free = make_world({}, SheetDesc{});
+    const OverlayOutput none_pinned = Shown(free).draw("pins");
+    EXPECT_TRUE(none_pinned.points.empty());
+    EXPECT_EQ(entry(none_pinned, 0), "pinned: 0");
+}
+
+TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
+    World world = make_world({.substeps = 2});
+    const ColliderId bar = world.add(make_collider({.shape = SphereDesc{0.1f}, .transform = {.position = {0, 3, 0}}}));
+    const auto model = make_sheet(
+        {.pinned = [](Vec3 p) { return p.z < -0.49f; }, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }});
+    // Particles 0 and 1, and the first anchor.
+    Holds holds{.movers = {{.collider = bar}}, .particles = {}};
+    for (const std::uint32_t p : {0u, 1u}) holds.particles.push_back({p, 0, model->rest_position(p) - Vec3{0, 3, 0}});
+    holds.particles.push_back({model->particle_count, 0, model->rest_position(model->particle_count) - Vec3{0, 3, 0}});
+    const ClothId id = world.add(model, holds);
+    world.move(bar, {{}, {0, 3.5f, 0}});
+    world.step(frame_seconds);
+    Shown shown(world);
+    const OverlayOutput output = shown.draw("pins");
+    EXPECT_EQ(entry(output, 0), "pinned: 7");
+    EXPECT_EQ(entry(output, 1), "pinned to colliders: 2");
+    EXPECT_EQ(entry(output, 2), "held by springs: 9");
+    ASSERT_EQ(output.points.size(), 9 + 2 * 9u);
+    EXPECT_EQ(output.points[0].color, output.points[1].color);
+    EXPECT_NE(output.points[1].color, output.points[2].color);
+    ASSERT_EQ(output.lines_on_top.size(), 9u);
+    // The anchor that the collider carries has gone up with it, the others are where they were.
+    std::size_t up = 0;
+    for (const render::Line& line : output.lines_on_top) {
+        up += std::abs(line.to.y - 0.5f) < 1e-5f;
+        EXPECT_TRUE(std::abs(line.to.y - 0.5f) < 1e-5f || line.to.y == 0) << line.to.y;
+    }
+    EXPECT_EQ(up, 1u);
+    EXPECT_EQ(world.holds(id).particles.size(), 3u);
+}
+
+TEST(ConstraintsOverlay, has_a_line_for_each_row_in_the_color_of_its_batch) {
+    World world = make_world({}, SheetDesc{.pinned = [](Vec3 p) { return p.z < -0.49f; }});
+    Shown shown(world);
+    const OverlayOutput output = shown.draw("constraints");
+    const ClothModel& model = *shown.frame().cloths[0].model;
+    const ConstraintTable& stretch = model.table(ConstraintKind::stretch);
+    ASSERT_EQ(stretch.rows, 208u);
+    std::size_t rows = 0;
+    for (const ConstraintTable& table : model.constraints) rows += table.rows;
+    EXPECT_EQ(output.lines.size(), 2 * rows);
+    EXPECT_EQ(entry(output, 0), "stretch: 208, " + std::to_string(stretch.batches.size()) + " batches");
+    // Stretch comes first. Lines of one color do not meet.
+    std::set<std::array<float, 3>> colors;
+    for (std::size_t i = 0; i < 2 * 208; i += 2) {
+        const Vec4 color = output.lines[i].color;
+        colors.insert({color.x, color.y, color.z});
+        for (std::size_t k = 0; k < i; k += 2) {
+            if (!(output.lines[k].color == color)) continue;
+            for (const Vec3 end : {output.lines[k].from, output.lines[k].to}) {
+                ASSERT_GT(norm(end - output.lines[i].from), 0.01f);
+                ASSERT_GT(norm(end - output.lines[i].to), 0.01f);
+            }
+        }
+    }
+    EXPECT_EQ(colors.size(), stretch.batches.size());
+}
+
+TEST(ConstraintsOverlay, shows_plates_springs_and_rows_along_lines) {
+    SheetDesc desc{.layout = {.lines = true}, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }};
+    desc.fabric.bend.model = BendModel::plate;
+    World world = make_world({.projection = Projection::lines}, desc);
+    Shown shown(world);
+    const ClothModel& model = *shown.frame().cloths[0].model;
+    ASSERT_FALSE(model.table(ConstraintKind::stretch).blocks.empty());
+    const std::uint32_t plates = model.table(ConstraintKind::plate).rows;
+    ASSERT_GE(plates, 128u);
+    // Three sides of a plate; a spring that is at ease has no length, but is there.
+    EXPECT_EQ(shown.draw("constraints").lines.size(), 2 * (208u + 9 + 3 * plates));
+}
+
+TEST(ContactsOverlay, of_a_sheet_at_rest_are_all_its_particles) {
+    World world = make_world({.substeps = 10, .feedback = true});
+    world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
+    world.add(make_sheet({.size = {0.4f, 0.4f}, .position = {0, 0.001f, 0}}));
+    run(world, 0.2);
+    Shown shown(world);
+    const OverlayOutput output = shown.draw("contacts");
+    ASSERT_EQ(output.points.size(), 81u);
+    ASSERT_EQ(output.lines_on_top.size(), 81u);
+    for (std::size_t i = 0; i < 81; ++i) {
+        EXPECT_EQ(output.points[i].position, shown.positions()[i]);
+        EXPECT_EQ(output.lines_on_top[i].from, shown.positions()[i]);
+        const Vec3 along = output.lines_on_top[i].to - output.lines_on_top[i].from;
+        EXPECT_GT(along.y, 0) << "the ground pushes up";
+        EXPECT_LT(std::hypot(along.x, along.z), 0.02f * along.y);
+    }
+    EXPECT_EQ(entry(output, 0), "contacts: 81");
+    EXPECT_EQ(entry(output, 2), "beyond a surface: 0");
+}
+
+TEST(ContactsOverlay, finds_a_particle_three_millimeters_deep) {
+    World world = make_world({});
+    world.add(make_collider({.shape = SphereDesc{0.2f}, .transform = {.position = {0, -0.2f, 0}}}));
+    world.add(make_sheet({.position = {0, -0.003f, 0}}));
+    const OverlayOutput output = Shown(world).draw("contacts");
+    ASSERT_EQ(output.points.size(), 1u) << "the one in the middle";
+    EXPECT_LT(norm(output.points[0].position - Vec3{0, -0.003f, 0}), 1e-6f);
+    ASSERT_EQ(output.lines_on_top.size(), 1u);
+    EXPECT_LT(norm(output.lines_on_top[0].to), 1e-6f) << "on the surface";
+    EXPECT_EQ(entry(output, 0), "contacts: not known");
+    EXPECT_EQ(entry(output, 1), "beyond a surface: 1, deepest 3 mm");
+}
+
+TEST(ContactsOverlay, leaves_out_what_is_pinned_inside) {
+    World world = make_world({});
+    world.add(make_collider({.shape = BoxDesc{{2, 2, 2}}}));
+    world.add(make_sheet({.pinned = [](Vec3) { return true; }}));
+    EXPECT_EQ(entry(Shown(world).draw("contacts"), 1), "beyond a surface: 0");
+}
+
+TEST(WindOverlay, shows_the_wind_as_it_is) {
+    AirDesc air;
+    air.wind.push_back({.velocity = {3, 0, 1}, .gust = {.amplitude = 0.4f}, .turbulence = {.strength = 0.5f}});
+    air.wind.push_back({.velocity = {0, 0.5f, 0}});
+    World world = make_world({.substeps = 1, .air = air}, SheetDesc{.pinned = [](Vec3) { return true; }});
+    run(world, 0.5);
+    Shown shown(world);
+    const OverlayOutput output = shown.draw("wind");
+    std::vector<WindNow> winds;
+    for (const WindDesc& desc : air.wind) winds.push_back(wind_at(desc, shown.frame().time));
+    const float most = output.legends[0].bar->most;
+    EXPECT_EQ(most, 10) << "above 3.2 · 1.9 + 0.5 m/s";
+    ASSERT_EQ(output.lines.size() % 5, 0u) << "shaft and four barbs";
+    ASSERT_GT(output.lines.size() / 5, 50u);
+    ASSERT_LE(output.lines.size() / 5, 9u * 9 * 9);
+    float scale = 0;
+    for (std::size_t i = 0; i < output.lines.size(); i += 5) {
+        const auto& [from, to, color, width] = output.lines[i];
+        const Vec3 velocity = wind_velocity(winds, from, static_cast<std::uint32_t>(i / 5));
+        if (i == 0) scale = norm(to - from) / norm(velocity);
+        EXPECT_LT(norm(to - from - velocity * scale), 1e-5f);
+    }
+    EXPECT_EQ(entry(output, 0),
+              "an arrow of " + std::to_string(static_cast<int>(std::lround(scale * 1000))) + " cm: 10");
+}
+
+TEST(WindOverlay, is_none_in_a_vacuum_and_in_still_air) {
+    World vacuum = make_world({}, SheetDesc{});
+    EXPECT_TRUE(Shown(vacuum).draw("wind").lines.empty());
+    AirDesc still;
+    still.wind.push_back({});
+    World air = make_world({.air = still}, SheetDesc{});
+    const OverlayOutput output = Shown(air).draw("wind");
+    EXPECT_TRUE(output.lines.empty());
+    EXPECT_EQ(output.legends[0].title, "wind: none");
+}
+
+std::size_t beyond_numbers(const OverlayOutput& output) {
+    std::size_t count = 0;
+    for (const auto* lines : {&output.lines, &output.lines_on_top})
+        for (const render::Line& line : *lines) count += !finite(line.from) || !finite(line.to);
+    for (const render::Point& point : output.points) count += !finite(point.position);
+    for (const render::FlatVertex& corner : output.flat) count += !std::isfinite(corner.x) || !std::isfinite(corner.y);
+    for (const Scalars& scalars : output.scalars) {
+        for (const float value : scalars.values) count += !std::isfinite(value);
+        count += !std::isfinite(scalars.most) || !(scalars.least < scalars.most);
+    }
+    return count;
+}
+
+TEST(Overlays, survive_positions_that_are_none) {
+    AirDesc air;
+    air.wind.push_back({.velocity = {3, 0, 1}});
+    World world = make_world({.air = air, .feedback = true});
+    world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
+    world.add(make_sheet(
+        {.pinned = [](Vec3 p) { return p.z < -0.49f; }, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }}));
+    world.step(frame_seconds);
+    Shown shown(world);
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    for (const float wrong : {nan, infinite, 1e30f, 0.0f}) {
+        for (const bool all : {false, true}) {
+            shown.place([&](Vec3 p) { return all || p.x > 0.3f ? Vec3{wrong, wrong, wrong} : p; });
+            for (const Overlay& overlay : overlays())
+                EXPECT_EQ(beyond_numbers(shown.draw(overlay.name)), 0u) << overlay.name << ' ' << wrong;
+        }
+    }
+}
+
+TEST(Overlays, of_nothing_are_nothing) {
+    World world = make_world({.feedback = true});
+    world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
+    for (int cloths = 0; cloths < 2; ++cloths) {
+        // Then a cloth without a triangle or a particle.
+        if (cloths == 1) {
+            auto empty = std::make_shared<ClothModel>();
+            empty->start.resize(empty->capacity());
+            empty->around = lay_out_around({}, 0);
+            world.add(std::move(empty));
+        }
+        for (const Overlay& overlay : overlays()) {
+            const OverlayOutput output = Shown(world).draw(overlay.name);
+            EXPECT_EQ(output.lines.size() + output.lines_on_top.size() + output.points.size(), 0u) << overlay.name;
+            for (const Scalars& scalars : output.scalars) EXPECT_TRUE(scalars.values.empty());
+        }
+    }
+}
+
+TEST(Overlays, are_found_by_name) {
+    ASSERT_EQ(overlays().size(), 8u);
+    for (const Overlay& overlay : overlays()) EXPECT_EQ(*find_overlay(overlay.name), &overlay);
+    EXPECT_TRUE((*find_overlay("contacts"))->needs_feedback);
+    EXPECT_FALSE((*find_overlay("strain"))->needs_feedback);
+    EXPECT_EQ(find_overlay("strian").error().message(), "overlay: unknown name \"strian\"; did you mean \"strain\"?");
+}
+
+}  // namespace
+}  // namespace weft::physical
