@@ -11,7 +11,7 @@ namespace weft {
 namespace {
 
 // Lengths in units of the text.
-constexpr float margin = 8, padding = 7, line = 12, capital = 7, between = 6;
+constexpr float margin = 8, padding = 7, line = 12, capital = 7, between = 11;
 constexpr float bar_length = 132, bar_height = 8, tick = 3, patch = 7;
 
 constexpr Vec4 ink{0.96f, 0.96f, 0.96f, 1};

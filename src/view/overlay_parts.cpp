@@ -61,10 +61,12 @@ void add_point(std::vector<render::Point>& points, Vec3 at, Vec4 color, float si
     if (finite(at)) points.push_back({at, color, size});
 }
 
+float pixel_size(const OverlayInput& input) {
+    return 2 * input.size / static_cast<float>(std::max(1u, input.height));
+}
+
 float lift(const OverlayInput& input, const ClothModel& model) {
-    // A picture shows about twice the scene's radius from top to bottom.
-    const float pixel = 2 * input.size / static_cast<float>(std::max(1u, input.height));
-    return std::min(0.4f * pixel, 0.05f * model.mean_edge);
+    return std::min(0.4f * pixel_size(input), 0.05f * model.mean_edge);
 }
 
 void add_line_on_surface(std::vector<render::Line>& lines, Vec3 from, Vec3 to, Vec3 from_normal, Vec3 to_normal,

@@ -40,6 +40,9 @@ float pixels(const OverlayInput& input, float size);
 void add_line(std::vector<render::Line>& lines, Vec3 from, Vec3 to, Vec4 color, float width);
 void add_point(std::vector<render::Point>& points, Vec3 at, Vec4 color, float size);
 
+/// m: of a picture that shows the scene from top to bottom.
+float pixel_size(const OverlayInput& input);
+
 /// m: how far lines that lie on a cloth are lifted off it, to either side: less than half a pixel, and little beside
 /// its triangles.
 float lift(const OverlayInput& input, const ClothModel& model);

@@ -3,6 +3,7 @@
 #include "shown.h"
 
 #include "solver/air.h"
+#include "view/nice_numbers.h"
 
 #include <cmath>
 #include <limits>
@@ -222,8 +223,7 @@ TEST(WindOverlay, shows_the_wind_as_it_is) {
         if (i == 0) scale = norm(to - from) / norm(velocity);
         EXPECT_LT(norm(to - from - velocity * scale), 1e-5f);
     }
-    EXPECT_EQ(entry(output, 0),
-              "an arrow of " + std::to_string(static_cast<int>(std::lround(scale * 1000))) + " cm: 10");
+    EXPECT_EQ(entry(output, 0), "an arrow of " + short_number(1000 * scale) + " cm: 10 m/s");
 }
 
 TEST(WindOverlay, is_none_in_a_vacuum_and_in_still_air) {

@@ -10,8 +10,10 @@
 namespace weft::overlay {
 namespace {
 
-// Arrows from one side of the box to the other, at most; and how much of the way to the next the longest one fills.
-constexpr int most_arrows = 9;
+// Arrows per radius of the scene; how many more there are to either side of the middle; and how much of the way to the
+// next one the longest fills.
+constexpr float per_radius = 4;
+constexpr float to_either_side = 4;
 constexpr float fills = 0.9f;
 
 // m/s: no gust is faster.
@@ -25,20 +27,27 @@ double fastest(const std::vector<WindDesc>& winds) {
 // Points at whole multiples of a spacing, which stay in place while the cloth moves.
 struct Grid {
     float spacing = 1;  ///< m
-    std::array<int, 3> first{}, count{};
+    std::array<float, 3> first{};
+    std::array<int, 3> count{};
+
+    Vec3 at(int x, int y, int z) const {
+        return Vec3{first[0] + static_cast<float>(x), first[1] + static_cast<float>(y),
+                    first[2] + static_cast<float>(z)} *
+               spacing;
+    }
 };
 
 Grid grid_around(const Bounds& bounds, float radius) {
-    const Vec3 size = bounds.size(), center = bounds.center();
-    const float half = std::max({size.x, size.y, size.z, 0.5f * radius, 1e-3f}) / 2 * 1.3f;
-    Grid grid{.spacing = static_cast<float>(nice_above(2 * half / (most_arrows - 1)))};
+    Grid grid{.spacing = std::max(radius, 1e-3f) / per_radius};
+    const Vec3 size = bounds.size() * 0.65f, center = bounds.center();
     const float middles[] = {center.x, center.y, center.z}, sizes[] = {size.x, size.y, size.z};
     for (int axis = 0; axis < 3; ++axis) {
         // A flat cloth has one layer above and one below it.
-        const float reach = std::max(0.65f * sizes[axis], grid.spacing);
-        grid.first[axis] = static_cast<int>(std::ceil((middles[axis] - reach) / grid.spacing));
-        const int last = static_cast<int>(std::floor((middles[axis] + reach) / grid.spacing));
-        grid.count[axis] = std::clamp(last - grid.first[axis] + 1, 1, most_arrows);
+        const float reach = std::clamp(sizes[axis] / grid.spacing, 1.0f, to_either_side);
+        const float middle = middles[axis] / grid.spacing;
+        grid.first[axis] = std::ceil(middle - reach);
+        const float last = std::floor(middle + reach);
+        grid.count[axis] = static_cast<int>(std::clamp(last - grid.first[axis] + 1, 1.0f, 2 * to_either_side + 1));
     }
     return grid;
 }
@@ -73,9 +82,7 @@ void wind(const OverlayInput& input, OverlayOutput& output) {
     for (int x = 0; x < grid.count[0]; ++x) {
         for (int y = 0; y < grid.count[1]; ++y) {
             for (int z = 0; z < grid.count[2]; ++z) {
-                const Vec3 at = Vec3{static_cast<float>(grid.first[0] + x), static_cast<float>(grid.first[1] + y),
-                                     static_cast<float>(grid.first[2] + z)} *
-                                grid.spacing;
+                const Vec3 at = grid.at(x, y, z);
                 const Vec3 velocity = wind_velocity(winds, at, number++);
                 const auto color =
                     render::shading::color_scale(length(velocity) / static_cast<float>(most), WEFT_SCALE_AMOUNT);
@@ -86,7 +93,8 @@ void wind(const OverlayInput& input, OverlayOutput& output) {
     output.legends.push_back(
         {.title = "wind, m/s",
          .bar = Legend::Bar{0, static_cast<float>(most), render::ColorScale::amount},
-         .entries = {{{}, "an arrow of " + short_number(100 * fills * grid.spacing) + " cm: " + short_number(most)}}});
+         .entries = {
+             {{}, "an arrow of " + short_number(100 * fills * grid.spacing) + " cm: " + short_number(most) + " m/s"}}});
 }
 
 }  // namespace weft::overlay

@@ -9,6 +9,15 @@ namespace {
 
 constexpr Vec4 color{0.05f, 0.06f, 0.08f, 0.6f};
 
+// Edges that are shorter than so many pixels are fainter: what they lie on must be seen.
+constexpr float full_pixels = 9;
+
+Vec4 color_on(const ClothModel& model, float pixel) {
+    Vec4 faded = color;
+    faded.w *= std::clamp(model.mean_edge / (pixel * full_pixels), 0.2f, 1.0f);
+    return faded;
+}
+
 using Ends = std::array<std::uint32_t, 2>;
 
 // The edges of a drawn mesh, as vertices, each once: of those that several triangles have, and of those along seams.
@@ -48,8 +57,9 @@ void wireframe(const OverlayInput& input, OverlayOutput& output) {
         const auto& positions = input.positions[i];
         const auto& normals = input.normals[i];
         const float lifted = lift(input, model);
+        const Vec4 faded = color_on(model, pixel_size(input));
         for (const auto& [a, b] : drawn_edges(model))
-            add_line_on_surface(output.lines, positions[a], positions[b], normals[a], normals[b], lifted, color, width);
+            add_line_on_surface(output.lines, positions[a], positions[b], normals[a], normals[b], lifted, faded, width);
     }
 }
 
