@@ -194,6 +194,29 @@ TEST(ContactsOverlay, finds_a_particle_three_millimeters_deep) {
     EXPECT_EQ(entry(output, 1), "beyond a surface: 1, deepest 3 mm");
 }
 
+TEST(ContactsOverlay, leads_from_every_penetration_to_the_surface) {
+    for (const auto& shape : {ColliderDesc{.shape = BoxDesc{{0.3f, 0.2f, 0.25f}}},
+                              {.shape = CapsuleDesc{0.15f, 0.2f}},
+                              {.shape = SphereDesc{0.3f}},
+                              {.shape = PlaneDesc{{0, 1, 0}, 0.05f}}}) {
+        ColliderDesc desc = shape;
+        desc.transform = {.position = {0.1f, 0.02f, -0.1f}, .rotation_degrees = {20, 35, 50}};
+        World world = make_world({});
+        const ColliderId id = world.add(make_collider(desc));
+        world.add(make_sheet({.resolution = {17, 17}}));
+        const OverlayOutput output = Shown(world).draw("contacts");
+        ASSERT_GT(output.lines_on_top.size(), 10u);
+        ASSERT_LT(output.lines_on_top.size(), 289u);
+        double deepest = 0;
+        for (const render::Line& line : output.lines_on_top) {
+            EXPECT_NEAR(signed_distance(world.collider(id), line.to), 0, 1e-6);
+            deepest = std::max(deepest, -signed_distance(world.collider(id), line.from));
+        }
+        EXPECT_EQ(entry(output, 1), "beyond a surface: " + std::to_string(output.points.size()) + ", deepest " +
+                                        short_number(1000 * deepest) + " mm");
+    }
+}
+
 TEST(ContactsOverlay, leaves_out_what_is_pinned_inside) {
     World world = make_world({});
     world.add(make_collider({.shape = BoxDesc{{2, 2, 2}}}));

@@ -10,11 +10,11 @@
 namespace weft::overlay {
 namespace {
 
-// Arrows per radius of the scene; how many more there are to either side of the middle; and how much of the way to the
-// next one the longest fills.
+// Arrows per radius of the scene; how many more there are to either side of the middle; and how long the longest
+// is, of the way to the next one: gusts that reach it are rare.
 constexpr float per_radius = 4;
 constexpr float to_either_side = 4;
-constexpr float fills = 0.9f;
+constexpr float longest = 1.5f;
 
 // m/s: no gust is faster.
 double fastest(const std::vector<WindDesc>& winds) {
@@ -77,7 +77,7 @@ void wind(const OverlayInput& input, OverlayOutput& output) {
     std::vector<WindNow> winds;
     for (const WindDesc& desc : air->wind) winds.push_back(wind_at(desc, input.frame.time));
     const Grid grid = grid_around(bounds, input.size);
-    const float scale = fills * grid.spacing / static_cast<float>(most);  // s
+    const float scale = longest * grid.spacing / static_cast<float>(most);  // s
     std::uint32_t number = 0;  // scattered gusts differ from arrow to arrow as they do from triangle to triangle
     for (int x = 0; x < grid.count[0]; ++x) {
         for (int y = 0; y < grid.count[1]; ++y) {
@@ -90,11 +90,11 @@ void wind(const OverlayInput& input, OverlayOutput& output) {
             }
         }
     }
-    output.legends.push_back(
-        {.title = "wind, m/s",
-         .bar = Legend::Bar{0, static_cast<float>(most), render::ColorScale::amount},
-         .entries = {
-             {{}, "an arrow of " + short_number(100 * fills * grid.spacing) + " cm: " + short_number(most) + " m/s"}}});
+    output.legends.push_back({.title = "wind, m/s",
+                              .bar = Legend::Bar{0, static_cast<float>(most), render::ColorScale::amount},
+                              .entries = {{{},
+                                           "an arrow of " + short_number(100 * longest * grid.spacing) +
+                                               " cm: " + short_number(most) + " m/s"}}});
 }
 
 }  // namespace weft::overlay
