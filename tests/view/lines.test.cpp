@@ -121,6 +121,20 @@ TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
     EXPECT_EQ(world.holds(id).particles.size(), 3u);
 }
 
+TEST(PinsOverlay, shows_springs_where_keys_have_moved_them) {
+    World world = make_world({.substeps = 2});
+    const auto model = make_sheet({.spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }});
+    const std::uint32_t anchor = model->particle_count + 4;
+    world.add(model, {.movers = {{.offsets = {{0, {}}, {2, {0, 1, 0}}}}},
+                      .particles = {{anchor, 0, model->rest_position(anchor)}}});
+    run(world, 0.5);
+    const OverlayOutput output = Shown(world).draw("pins");
+    std::size_t up = 0;
+    for (const render::Line& line : output.lines_on_top) up += std::abs(line.to.y - 0.25f) < 1e-5f;
+    EXPECT_EQ(up, 1u);
+    EXPECT_EQ(output.lines_on_top.size(), 9u);
+}
+
 TEST(ConstraintsOverlay, has_a_line_for_each_row_in_the_color_of_its_batch) {
     World world = make_world({}, SheetDesc{.pinned = [](Vec3 p) { return p.z < -0.49f; }});
     Shown shown(world);
