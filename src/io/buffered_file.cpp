@@ -1,6 +1,7 @@
 #include "io/buffered_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -90,8 +91,11 @@ Result<Done> BufferedFile::sync_and_close() {
 
 Result<Done> BufferedFile::move_to(BufferedFile& target) {
     if (Result<Done> flushed = flush(); !flushed) return flushed;
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) return failure("read back", errno);
+    const auto size = static_cast<std::uint64_t>(status.st_size);
     std::vector<std::byte> block(buffer_size);
-    for (std::uint64_t offset = 0; offset < size_;) {
+    for (std::uint64_t offset = 0; offset < size;) {
         const ssize_t count = ::pread(descriptor_, block.data(), block.size(), static_cast<off_t>(offset));
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return failure("read back", errno);

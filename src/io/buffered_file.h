@@ -28,7 +28,9 @@ class BufferedFile {
     Result<Done> flush();
     /// On return the bytes are on the disk, not only in the system's cache.
     Result<Done> sync_and_close();
-    /// Appends all that was written here to `target`, and frees each block here once it is there: where the file system
+    /// For another process to write to in its stead, before anything is written here.
+    int descriptor() const { return descriptor_; }
+    /// Appends all that the file holds to `target`, and frees each block here once it is there: where the file system
     /// can do that, the two together never take much more space than one. Good for nothing afterwards.
     Result<Done> move_to(BufferedFile& target);
 

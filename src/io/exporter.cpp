@@ -1,10 +1,10 @@
 #include "io/exporter.h"
 
 #include "io/export_format.h"
+#include "io/file_pattern.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <utility>
@@ -44,11 +44,6 @@ constexpr std::array<Writers, formats.size()> writers = {{
 #undef WEFT_STILL
 #undef WEFT_FILM
 }};
-
-std::string lower_case(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 Result<Done> write_still(StillWriter writer, const ExportFrame& frame, const fs::path& path) {
     if (Result<Done> checked = check_frame(frame, path.string()); !checked) return checked;
@@ -105,40 +100,9 @@ class LastFrameExporter : public Exporter {
     std::vector<Surface> surfaces_;
 };
 
-/// A file name with a place for the frame's number, zero-padded to `width` digits.
-struct Pattern {
-    std::string before, after;
-    std::size_t width = 0;
-
-    std::string name(std::uint64_t number) const {
-        std::string digits = std::to_string(number);
-        if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
-        return before + digits + after;
-    }
-};
-
-/// Reads the user's text as data: it never reaches a printf.
-std::optional<Pattern> parse_pattern(const std::string& file_name) {
-    const std::size_t percent = file_name.find('%');
-    if (percent == std::string::npos || file_name.find('%', percent + 1) != std::string::npos) return std::nullopt;
-    std::size_t at = percent + 1;
-    Pattern pattern{.before = file_name.substr(0, percent), .after = {}, .width = 0};
-    if (at < file_name.size() && file_name[at] == '0') {
-        const std::size_t first = ++at;
-        while (at < file_name.size() && std::isdigit(static_cast<unsigned char>(file_name[at]))) ++at;
-        const std::string width = file_name.substr(first, at - first);
-        // One digit: nine places hold a billion frames, so more of them are a typing error.
-        if (width.size() != 1 || width == "0") return std::nullopt;
-        pattern.width = static_cast<std::size_t>(width.front() - '0');
-    }
-    if (at >= file_name.size() || file_name[at] != 'd') return std::nullopt;
-    pattern.after = file_name.substr(at + 1);
-    return pattern;
-}
-
 class SequenceExporter : public Exporter {
   public:
-    SequenceExporter(const Writers& format, const fs::path& path, Pattern pattern)
+    SequenceExporter(const Writers& format, const fs::path& path, FilePattern pattern)
         : writer_(format.still),
           size_(format.still_size),
           path_(path),
@@ -161,7 +125,7 @@ class SequenceExporter : public Exporter {
     StillWriter writer_;
     StillSize size_;
     fs::path path_, folder_;
-    Pattern pattern_;
+    FilePattern pattern_;
 };
 
 /// ".glb, .obj, .ply": all endings, or those of formats that make sequences.
@@ -180,10 +144,8 @@ Error unknown_ending(const fs::path& path, const std::string& ending) {
 }
 
 Result<std::unique_ptr<Exporter>> make_sequence(const fs::path& path, const Writers& writer) {
-    std::optional<Pattern> pattern = parse_pattern(path.filename().string());
-    if (!pattern) {
-        return Error{path.string(), "a '%' stands for the frame's number, once, as %d or %04d, and for nothing else"};
-    }
+    std::optional<FilePattern> pattern = parse_pattern(path.filename().string());
+    if (!pattern) return Error{path.string(), pattern_rule};
     if (writer.still == nullptr) {
         return Error{path.string(), "a " + path.extension().string() +
                                         " holds the whole animation in one file; sequences are made of " +
@@ -199,13 +161,13 @@ std::span<const ExportFormat> export_formats() {
 }
 
 Result<std::unique_ptr<Exporter>> make_exporter(const fs::path& path) {
-    const std::string ending = lower_case(path.extension().string());
+    const std::string ending = ending_of(path);
     const auto format = std::ranges::find(formats, ending, &ExportFormat::ending);
     if (format == formats.end()) return unknown_ending(path, ending);
     const Writers& writer = writers[static_cast<std::size_t>(format - formats.begin())];
 
     std::unique_ptr<Exporter> exporter;
-    if (path.filename().string().find('%') != std::string::npos) {
+    if (has_pattern(path)) {
         Result<std::unique_ptr<Exporter>> sequence = make_sequence(path, writer);
         if (!sequence) return sequence;
         exporter = *std::move(sequence);
