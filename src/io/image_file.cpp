@@ -113,6 +113,21 @@ Result<Picture> read(const std::filesystem::path& path, const Decode& decode) {
     }
 }
 
+bool is_opaque(const Image8& image) {
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+        if (image.rgba[i] != 255) return false;
+    return true;
+}
+
+std::vector<std::uint8_t> without_alpha(const Image8& image) {
+    std::vector<std::uint8_t> colors;
+    colors.reserve(image.rgba.size() / 4 * 3);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+        colors.insert(colors.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(i),
+                      image.rgba.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    return colors;
+}
+
 }  // namespace
 
 std::string problem_of_size(std::uint64_t width, std::uint64_t height, const PictureLimits& limits) {
@@ -167,9 +182,11 @@ Result<std::vector<std::byte>> png_bytes(const Image8& image) {
         return Error{"", "a picture cannot be written as PNG: it has " + std::to_string(image.rgba.size()) +
                              " bytes instead of " + std::to_string(row * image.height)};
     }
+    const std::vector<std::uint8_t> colors = is_opaque(image) ? without_alpha(image) : std::vector<std::uint8_t>{};
+    const int channels = colors.empty() ? 4 : 3, width = static_cast<int>(image.width);
     int size = 0;
-    const Pixels bytes(stbi_write_png_to_mem(image.rgba.data(), static_cast<int>(row), static_cast<int>(image.width),
-                                             static_cast<int>(image.height), 4, &size));
+    const Pixels bytes(stbi_write_png_to_mem(colors.empty() ? image.rgba.data() : colors.data(), width * channels,
+                                             width, static_cast<int>(image.height), channels, &size));
     if (!bytes || size <= 0) return Error::of_machine("", "a picture cannot be written as PNG: not enough memory");
     const auto* first = reinterpret_cast<const std::byte*>(bytes.get());
     return std::vector<std::byte>(first, first + size);

@@ -35,7 +35,8 @@ inline constexpr PictureLimits hdr_limits{.pixels = std::uint64_t{1} << 26};
 Result<ImageF> decode_hdr(std::span<const std::byte> bytes, std::string_view name,
                           const PictureLimits& limits = hdr_limits);
 
-/// As a PNG, the same bytes for the same picture. Fails on a picture without pixels and on one beyond PictureLimits.
+/// As a PNG, the same bytes for the same picture; without an alpha where all of it is opaque. Fails on a picture
+/// without pixels and on one beyond PictureLimits.
 Result<std::vector<std::byte>> png_bytes(const Image8& image);
 
 /// Empty if a picture of that size may be read.
