@@ -20,6 +20,8 @@ class VulkanInterop {
     virtual Result<gpu::SurfaceBuffers> surface(ClothHandle cloth, gpu::Moment before = {}) = 0;
 };
 
+/// A device as make_vulkan_backend() makes one for itself; of the options, those that choose one count.
+Result<std::shared_ptr<gpu::Device>> make_vulkan_device(const VulkanOptions& options);
 /// On a device that is there already. Of the options, those that choose one do not count.
 Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<gpu::Device> device, const VulkanOptions& options);
 /// On a host's.

@@ -301,13 +301,17 @@ Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<const gpu::
     return make_vulkan_backend(std::move(*device), options);
 }
 
-Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
-    if (const auto execution = execution_of(options); !execution) return execution.errors();
+Result<std::shared_ptr<gpu::Device>> make_vulkan_device(const VulkanOptions& options) {
     auto instance = gpu::Instance::create({.validation = options.validation, .on_message = options.on_message});
     if (!instance) return instance.errors();
     auto info = gpu::choose_device((*instance)->devices(), options.device, options.software);
     if (!info) return info.errors();
-    auto device = gpu::Device::create(*instance, *info, device_options(*info, options));
+    return gpu::Device::create(*instance, *info, device_options(*info, options));
+}
+
+Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
+    if (const auto execution = execution_of(options); !execution) return execution.errors();
+    auto device = make_vulkan_device(options);
     if (!device) return device.errors();
     return make_vulkan_backend(std::move(*device), options);
 }
