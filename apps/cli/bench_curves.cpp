@@ -1,6 +1,7 @@
 #include "cli/bench_curves.h"
 
 #include "cli/bench_report.h"
+#include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/table.h"
 #include "mesh/procedural.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <random>
 #include <span>
 
@@ -149,31 +149,6 @@ std::string why_not(std::span<const Candidate> next, const std::vector<CurvePoin
     return why;
 }
 
-// SIGINT and SIGTERM ask for an end after this frame.
-volatile std::sig_atomic_t asked_to_end = 0;
-
-extern "C" void ask_to_end(int) {
-    asked_to_end = 1;
-}
-
-class EndOnSignal {
-  public:
-    EndOnSignal() {
-        asked_to_end = 0;
-        for (std::size_t i = 0; i < std::size(signals); ++i) {
-            before_[i] = std::signal(signals[i], ask_to_end);
-            if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // in the background
-        }
-    }
-    ~EndOnSignal() {
-        for (std::size_t i = 0; i < std::size(signals); ++i) std::signal(signals[i], before_[i]);
-    }
-
-  private:
-    static constexpr int signals[] = {SIGINT, SIGTERM};
-    void (*before_[std::size(signals)])(int) = {};
-};
-
 }  // namespace
 
 std::vector<BenchSubject> curve_meshes(const std::vector<std::uint32_t>& sides) {
@@ -210,7 +185,7 @@ Result<Curves> measure_curves(const CurveSettings& settings) {
         progress.set_what(next.subject.name);
         const auto go_on = [&](std::uint64_t frame) {
             progress.update(done + frame * next.work);
-            return !asked_to_end;
+            return !end_on_signal.asked();
         };
         auto figures = sample_scene(next.subject, settings.bench, go_on);
         if (!figures) return figures.errors();

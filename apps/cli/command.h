@@ -11,6 +11,10 @@
 #include <optional>
 #include <string>
 
+namespace weft {
+struct Frame;
+}
+
 namespace weft::cli {
 
 enum ExitCode : int { exit_done = 0, exit_failed = 1, exit_usage = 2 };
@@ -30,11 +34,15 @@ struct Length {
 };
 /// --frames and --seconds; `verb` is what happens to them.
 void add_length_options(CLI::App& command, Length& length, const std::string& verb);
-Result<std::uint64_t> frame_count(const Length& length, double frame_seconds);
+Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, unsigned least = 1);
+
+/// Fails where the device was lost in the step, and warns, once, of cloth that was held.
+Result<Done> check_step(const Frame& frame, bool& warned);
 
 /// A subcommand: adds itself to the program and returns what to run if it is the one chosen.
 using Command = std::function<int()>;
 Command add_run(CLI::App& program);
+Command add_render(CLI::App& program);
 Command add_check(CLI::App& program);
 Command add_bench(CLI::App& program);
 Command add_info(CLI::App& program);

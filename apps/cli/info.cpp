@@ -3,6 +3,7 @@
 #include "cpu/cpu_backend.h"
 #include "io/exporter.h"
 #include "io/mesh_file.h"
+#include "io/picture_writer.h"
 #include "io/scene_schema.h"
 #include "look/material.h"
 #include "scene/check.h"
@@ -104,6 +105,9 @@ Json gather() {
     for (const ExportFormat& format : export_formats()) {
         info["export_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
     }
+    for (const PictureFormat& format : picture_formats()) {
+        info["picture_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
+    }
     const auto add_units = [&](const char* to, std::span<const Parameter> table) {
         for (const Parameter& parameter : table) {
             if (!parameter.unit.empty()) info[to][std::string(parameter.key)] = parameter.unit;
@@ -178,9 +182,11 @@ void print_text(const Json& info) {
     }
     if (info["vulkan_devices"].empty()) std::printf("  none: no loader, no driver, or a build without Vulkan\n");
     std::cout << "reads meshes      " << joined(info["mesh_formats"]) << '\n' << "writes\n";
-    for (const Json& format : info["export_formats"]) {
-        std::printf("  %-6s %s\n", format["ending"].get<std::string>().c_str(),
-                    format["what"].get<std::string>().c_str());
+    for (const char* kind : {"export_formats", "picture_formats"}) {
+        for (const Json& format : info[kind]) {
+            std::printf("  %-6s %s\n", format["ending"].get<std::string>().c_str(),
+                        format["what"].get<std::string>().c_str());
+        }
     }
     print_fabrics(info["fabrics"]);
     print_materials(info["materials"]);

@@ -58,7 +58,7 @@ void add_length_options(CLI::App& command, Length& length, const std::string& ve
     command.add_option("--seconds", length.seconds, "how many seconds instead (default 2)")->excludes(frames);
 }
 
-Result<std::uint64_t> frame_count(const Length& length, double frame_seconds) {
+Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, unsigned least) {
     constexpr double default_seconds = 2, max_frames = 1e6;
     double frames = std::round(length.seconds.value_or(default_seconds) / frame_seconds);
     if (length.frames) {
@@ -66,9 +66,9 @@ Result<std::uint64_t> frame_count(const Length& length, double frame_seconds) {
         if (frames != std::floor(frames)) return Error{"--frames", "must be a whole number"};
     }
     const std::string name = length.frames ? "--frames" : "--seconds";
-    if (!(frames >= 1 && frames <= max_frames)) {
+    if (!(frames >= least && frames <= max_frames)) {
         char text[96];
-        std::snprintf(text, sizeof text, "must come to 1 to %.0f frames, got %g", max_frames, frames);
+        std::snprintf(text, sizeof text, "must come to %u to %.0f frames, got %g", least, max_frames, frames);
         return Error{name, text};
     }
     return static_cast<std::uint64_t>(frames);
@@ -96,6 +96,7 @@ int run_program(int argc, char** argv) {
         "Examples:\n"
         "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb\n"
         "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.obj --stats stats.json\n"
+        "  weft render scenes/hanging_bunny.json --out bunny.mp4\n"
         "  weft bench --json before.json\n"
         "  weft check scenes/hanging_bunny.json\n"
         "  weft info\n"
@@ -103,6 +104,7 @@ int run_program(int argc, char** argv) {
 
     std::map<std::string, Command> commands;
     commands["run"] = add_run(program);
+    commands["render"] = add_render(program);
     commands["bench"] = add_bench(program);
     commands["check"] = add_check(program);
     commands["info"] = add_info(program);

@@ -71,14 +71,7 @@ Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporte
         session.advance();
         const Frame& frame = session.world().summary();
         statistics.add(session.world());
-        for (const ClothFrame& cloth : frame.cloths) {
-            if (cloth.reports & report_device_failed)
-                return Error::of_machine("frame " + std::to_string(i), cloth.detail);
-            if (warned || !(cloth.reports & report_non_finite)) continue;
-            print_warning("frame " + std::to_string(i) + ": cloth '" + cloth.model->name +
-                          "' is held where the frame began: " + cloth.detail);
-            warned = true;
-        }
+        if (auto went = check_step(frame, warned); !went) return went;
         if (auto written = write(); !written) return written;
         progress.update(i);
     }
@@ -133,6 +126,17 @@ int run(const RunOptions& options) {
 }
 
 }  // namespace
+
+Result<Done> check_step(const Frame& frame, bool& warned) {
+    const std::string where = "frame " + std::to_string(frame.index);
+    for (const ClothFrame& cloth : frame.cloths) {
+        if (cloth.reports & report_device_failed) return Error::of_machine(where, cloth.detail);
+        if (warned || !(cloth.reports & report_non_finite)) continue;
+        print_warning(where + ": cloth '" + cloth.model->name + "' is held where the frame began: " + cloth.detail);
+        warned = true;
+    }
+    return Done{};
+}
 
 Command add_run(CLI::App& program) {
     CLI::App* command = program.add_subcommand("run", "simulates a scene, exports it, measures it");
