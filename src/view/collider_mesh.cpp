@@ -1,0 +1,100 @@
+#include "view/collider_mesh.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace weft {
+namespace {
+
+using Numbers = std::array<float, 4>;  // of the shape, as its kernel file states
+
+constexpr std::uint32_t slices = 96, rings = 24;  // of what is round: around, and from a pole to the equator
+
+/// Turned about y: points (radius, height) with their normals, from the top down.
+struct Outline {
+    std::vector<Vec2> points, normals;
+};
+
+void add_quarter(Outline& outline, float radius, float height, bool upper) {
+    for (std::uint32_t i = 0; i <= rings; ++i) {
+        const float part = static_cast<float>(i) / rings;
+        const float angle = std::numbers::pi_v<float> / 2 * (upper ? part : 1 + part);
+        const Vec2 normal{std::sin(angle), std::cos(angle)};
+        outline.points.push_back({radius * normal.x, height + radius * normal.y});
+        outline.normals.push_back(normal);
+    }
+}
+
+TriangleMesh turned(const Outline& outline) {
+    TriangleMesh mesh;
+    for (std::size_t row = 0; row < outline.points.size(); ++row) {
+        for (std::uint32_t slice = 0; slice <= slices; ++slice) {
+            const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(slice % slices) / slices;
+            const float c = std::cos(angle), s = std::sin(angle);
+            mesh.positions.push_back({outline.points[row].x * c, outline.points[row].y, outline.points[row].x * s});
+            mesh.normals.push_back({outline.normals[row].x * c, outline.normals[row].y, outline.normals[row].x * s});
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < outline.points.size(); ++row) {
+        for (std::uint32_t slice = 0; slice < slices; ++slice) {
+            const std::uint32_t a = row * (slices + 1) + slice, b = a + slices + 1;
+            mesh.triangles.push_back({a, a + 1, b});
+            mesh.triangles.push_back({b, a + 1, b + 1});
+        }
+    }
+    return mesh;
+}
+
+// A function `mesh_of_<name>` for every shape of shapes.def.
+
+TriangleMesh mesh_of_plane(const Numbers&) {
+    return {};
+}
+
+TriangleMesh mesh_of_capsule(const Numbers& numbers) {
+    Outline outline;
+    add_quarter(outline, numbers[0], numbers[1], true);
+    add_quarter(outline, numbers[0], -numbers[1], false);
+    return turned(outline);
+}
+
+TriangleMesh mesh_of_sphere(const Numbers& numbers) {
+    return mesh_of_capsule({numbers[0], 0, 0, 0});
+}
+
+TriangleMesh mesh_of_box(const Numbers& numbers) {
+    TriangleMesh mesh;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
+            for (const auto& [a, b] : {std::pair{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}}) {
+                std::array<float, 3> p{}, n{};
+                p[static_cast<std::size_t>(axis)] = side * numbers[static_cast<std::size_t>(axis)];
+                p[u] = side * a * numbers[u];  // counterclockwise from outside, on both sides
+                p[v] = b * numbers[v];
+                n[static_cast<std::size_t>(axis)] = side;
+                mesh.positions.push_back({p[0], p[1], p[2]});
+                mesh.normals.push_back({n[0], n[1], n[2]});
+            }
+            mesh.triangles.push_back({first, first + 1, first + 2});
+            mesh.triangles.push_back({first, first + 2, first + 3});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+TriangleMesh mesh_of(const Collider& collider) {
+    switch (collider.shape) {
+#define WEFT_SHAPE(name, Name) \
+    case ShapeKind::name:      \
+        return mesh_of_##name(collider.numbers);
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+    }
+    return {};
+}
+
+}  // namespace weft

@@ -1,0 +1,13 @@
+// What a collider looks like.
+#pragma once
+
+#include "solver/collider.h"
+
+#include <weft/mesh.h>
+
+namespace weft {
+
+/// In the collider's own frame, with normals; empty for a plane, which has no end.
+TriangleMesh mesh_of(const Collider& collider);
+
+}  // namespace weft

@@ -1,0 +1,329 @@
+#include "view/scene_view.h"
+
+#include "mesh/uv_scale.h"
+#include "render/host_mesh.h"
+#include "render/renderer.h"
+#include "scene/looks.h"
+#include "view/collider_mesh.h"
+#include "view/overlays.h"
+#include "view/scene_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace weft {
+namespace {
+
+constexpr float framing_fov = 32;  // degrees: a short telephoto lens, as for portraits
+
+struct ClothOnDevice {
+    ClothId id;
+    const ClothModel* model = nullptr;
+    render::MaterialId material = 0;
+    std::array<float, 2> uv_meters{1, 1};
+    std::optional<render::HostMesh> mesh;  // where the simulation has none there, or its overlays want it here
+    gpu::Buffer rest;
+    std::array<gpu::Buffer, 2> scalars;  // in turn
+    std::vector<Vec3> positions, normals;
+    std::vector<Vec4> tangents;
+};
+
+struct ColliderOnDevice {
+    ColliderId id;
+    render::MaterialId material = 0;
+    std::optional<render::HostMesh> mesh;  // none of a plane
+};
+
+/// Everything but planes, as it is at the start.
+Bounds bounds_of(const World& world) {
+    Bounds bounds;
+    for (std::size_t i = 0; i < world.cloth_count(); ++i)
+        bounds.include(weft::bounds_of(world.model(world.cloth_id(i))->mesh.positions));
+    for (const Collider& collider : world.colliders())
+        for (const Vec3 p : mesh_of(collider).positions) bounds.include(to_world(collider.pose, p));
+    if (bounds.empty()) bounds.include(Bounds{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}});
+    return bounds;
+}
+
+/// From the front, a little from the right and above, so far away that all is in the picture.
+Camera framing(const Bounds& bounds, float aspect) {
+    const float radius = std::max(0.5f * length(bounds.size()), 1e-3f);
+    const float half = framing_fov / 360 * std::numbers::pi_v<float>;
+    const float narrow = std::atan(std::tan(half) * std::min(1.0f, aspect));
+    const Vec3 from = normalized(Vec3{0.45f, 0.35f, 1});
+    return {bounds.center() + from * (radius / std::sin(narrow)), bounds.center(), framing_fov};
+}
+
+}  // namespace
+
+struct SceneView::Impl {
+    const SceneDesc& scene;
+    ViewOptions options;
+    ViewSources sources;
+    render::Renderer renderer;
+    SceneMaterials materials;
+    Camera camera;
+    float size = 1;  // m
+    std::vector<const Overlay*> overlays;
+    std::vector<std::string> notes;
+    std::vector<ClothOnDevice> cloths;
+    std::vector<ColliderOnDevice> colliders;
+    std::uint32_t turn = 0;
+
+    // Of one picture.
+    std::vector<render::Object> objects;
+    std::vector<render::Ground> grounds;
+    OverlayOutput shown;
+
+    Impl(const SceneDesc& s, ViewOptions o, ViewSources from, render::Renderer r)
+        : scene(s),
+          options(std::move(o)),
+          sources(std::move(from)),
+          renderer(std::move(r)),
+          materials(sources.read_picture) {}
+
+    Result<Done> open(World& world);
+    Result<Done> surround();
+    Result<ClothOnDevice*> cloth(World& world, ClothId id);
+    Result<ColliderOnDevice*> collider(const Collider& collider, ColliderId id);
+    Result<Done> bring(World& world);
+    Result<Done> add_cloth(World& world, std::size_t place, const Frame* frame);
+    Result<Done> add_collider(const Collider& collider, ColliderId id);
+    Result<Done> draw_overlays(World& world, const Frame& frame);
+    Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth);
+    gpu::Device& device() { return *renderer.device(); }
+};
+
+Result<Done> SceneView::Impl::open(World& world) {
+    for (const std::string& name : options.overlays) {
+        const auto overlay = find_overlay(name);
+        if (!overlay) return overlay.errors();
+        overlays.push_back(*overlay);
+    }
+    const Bounds bounds = bounds_of(world);
+    size = 0.5f * length(bounds.size());
+    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+    camera = scene.camera.value_or(framing(bounds, aspect));
+    if (auto surrounded = surround(); !surrounded) return surrounded;
+    return bring(world);  // what cannot be brought there is told now
+}
+
+Result<Done> SceneView::Impl::surround() {
+    const std::string& file = scene.light.environment.file;
+    if (file.empty()) return renderer.surround(scene.light);
+    auto read =
+        sources.read_light ? sources.read_light(file) : Result<ImageF>(Error{file, "there is nobody to read it"});
+    if (read) return renderer.surround(scene.light, &*read);
+    notes.push_back("light: " + read.error().message() + "; the sky stands in for it");
+    return renderer.surround(scene.light);
+}
+
+// --- What there is, on the device
+
+Result<ClothOnDevice*> SceneView::Impl::cloth(World& world, ClothId id) {
+    const ClothModel* model = world.model(id).get();
+    const auto known = std::ranges::find(cloths, id, &ClothOnDevice::id);
+    if (known != cloths.end() && known->model == model) return &*known;
+    if (known != cloths.end()) {
+        if (auto idle = device().wait(device().submitted()); !idle) return idle.errors();
+        cloths.erase(known);
+    }
+    ClothOnDevice made;
+    made.id = id;
+    made.model = model;
+    made.uv_meters = uv_meters(model->mesh);
+    auto material = materials.find(renderer, model->name, look_of(scene, model->name), notes);
+    if (!material) return material.errors();
+    made.material = *material;
+    if (model->mesh.uvs.empty()) {
+        auto rest = device().memory().buffer(model->mesh.positions.size() * sizeof(Vec3), gpu::MemoryKind::upload,
+                                             "rest of " + model->name);
+        if (!rest) return rest.errors();
+        std::ranges::copy(model->mesh.positions, rest->as<Vec3>().begin());
+        made.rest = std::move(*rest);
+    }
+    cloths.push_back(std::move(made));
+    return &cloths.back();
+}
+
+Result<ColliderOnDevice*> SceneView::Impl::collider(const Collider& collider, ColliderId id) {
+    const auto known = std::ranges::find(colliders, id, &ColliderOnDevice::id);
+    if (known != colliders.end()) return &*known;
+    ColliderOnDevice made;
+    made.id = id;
+    const auto described = std::ranges::find(scene.colliders, collider.name, &ColliderDesc::name);
+    const Material look =
+        described != scene.colliders.end() ? look_of(scene, *described) : look_of(scene, std::string());
+    auto material = materials.find(renderer, "collider " + collider.name, look, notes);
+    if (!material) return material.errors();
+    made.material = *material;
+    const TriangleMesh mesh = mesh_of(collider);
+    if (!mesh.triangles.empty()) {
+        auto on_device = render::HostMesh::create(device(), static_cast<std::uint32_t>(mesh.positions.size()),
+                                                  mesh.triangles, {}, mesh.positions, collider.name);
+        if (!on_device) return on_device.errors();
+        if (auto moved = on_device->update(mesh.positions, mesh.normals, {}); !moved) return moved.errors();
+        made.mesh.emplace(std::move(*on_device));
+    }
+    colliders.push_back(std::move(made));
+    return &colliders.back();
+}
+
+Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth) {
+    const TriangleMesh& mesh = cloth.model->mesh;
+    if (!cloth.mesh) {
+        auto made = render::HostMesh::create(device(), static_cast<std::uint32_t>(mesh.positions.size()),
+                                             mesh.triangles, mesh.uvs, {}, cloth.model->name);
+        if (!made) return made.errors();
+        cloth.mesh.emplace(std::move(*made));
+    }
+    compute_tangents(mesh, cloth.positions, cloth.normals, cloth.tangents);
+    if (auto moved = cloth.mesh->update(cloth.positions, cloth.normals, cloth.tangents); !moved) return moved.errors();
+    return cloth.mesh->surface();
+}
+
+// --- A picture
+
+Result<Done> SceneView::Impl::add_cloth(World& world, std::size_t place, const Frame* frame) {
+    auto found = cloth(world, world.cloth_id(place));
+    if (!found) return found.errors();
+    ClothOnDevice& one = **found;
+    if (one.model->mesh.triangles.empty()) return Done{};
+    if (frame) draw_surface(frame->cloths[place], one.positions, one.normals);
+    auto surface = sources.surface ? sources.surface(one.id) : host_surface(one);
+    if (!surface) return surface.errors();
+    render::Object object;
+    object.surface = *surface;
+    object.material = one.material;
+    object.uv_meters[0] = one.uv_meters[0];
+    object.uv_meters[1] = one.uv_meters[1];
+    if (one.rest) object.rest = render::range_of(one.rest, 0, one.rest.size());
+    objects.push_back(object);
+    return Done{};
+}
+
+Result<Done> SceneView::Impl::add_collider(const Collider& described, ColliderId id) {
+    auto found = collider(described, id);
+    if (!found) return found.errors();
+    const ColliderOnDevice& one = **found;
+    if (!one.mesh) {
+        const Pose& pose = described.pose;
+        const Vec3 normal = pose.rotation * Vec3{described.numbers[0], described.numbers[1], described.numbers[2]};
+        grounds.push_back({normal, described.numbers[3] + dot(normal, pose.position), one.material});
+        return Done{};
+    }
+    render::Object object;
+    object.surface = one.mesh->surface();
+    object.rest = one.mesh->rest();
+    object.material = one.material;
+    const Pose& pose = described.pose;
+    object.transform = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.position};
+    objects.push_back(object);
+    return Done{};
+}
+
+Result<Done> SceneView::Impl::bring(World& world) {
+    // Without overlays nothing needs to come from a device that simulates.
+    const bool here = !sources.surface || !overlays.empty();
+    const Frame* frame = here ? &world.frame() : nullptr;
+    objects.clear();
+    grounds.clear();
+    shown = {};
+    for (std::size_t i = 0; i < world.cloth_count(); ++i)
+        if (auto added = add_cloth(world, i, frame); !added) return added;
+    if (!overlays.empty()) {
+        if (auto drawn = draw_overlays(world, *frame); !drawn) return drawn;
+    }
+    for (std::size_t i = 0; i < world.colliders().size(); ++i)
+        if (auto added = add_collider(world.colliders()[i], world.collider_id(i)); !added) return added;
+    return Done{};
+}
+
+Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
+    std::vector<std::vector<Vec3>> positions, normals;
+    for (std::size_t i = 0; i < world.cloth_count(); ++i) {
+        const ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);
+        positions.push_back(one.positions);
+        normals.push_back(one.normals);
+    }
+    shown = weft::draw_overlays(overlays, {.scene = scene,
+                                           .world = world,
+                                           .frame = frame,
+                                           .positions = positions,
+                                           .normals = normals,
+                                           .size = size,
+                                           .width = options.width,
+                                           .height = options.height});
+    turn = 1 - turn;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
+        ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);
+        if (one.model->mesh.triangles.empty()) continue;
+        const Scalars& scalars = shown.scalars[i];
+        gpu::Buffer& buffer = one.scalars[turn];
+        if (!buffer) {
+            auto made = device().memory().buffer(scalars.values.size() * sizeof(float), gpu::MemoryKind::upload,
+                                                 "overlay of " + one.model->name);
+            if (!made) return made.errors();
+            buffer = std::move(*made);
+        }
+        std::ranges::copy(scalars.values, buffer.as<float>().begin());
+        objects[next++].scalars = {render::range_of(buffer, 0, buffer.size()), scalars.least, scalars.most,
+                                   scalars.scale};
+    }
+    return Done{};
+}
+
+// --- Outside
+
+SceneView::SceneView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SceneView::SceneView(SceneView&&) noexcept = default;
+SceneView& SceneView::operator=(SceneView&&) noexcept = default;
+SceneView::~SceneView() = default;
+
+Result<SceneView> SceneView::create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene, World& world,
+                                    const ViewOptions& options, const ViewSources& sources) {
+    auto renderer = render::Renderer::create(std::move(device), {.samples = options.samples});
+    if (!renderer) return renderer.errors();
+    auto impl = std::make_unique<Impl>(scene, options, sources, std::move(*renderer));
+    if (auto opened = impl->open(world); !opened) return opened.errors();
+    return SceneView(std::move(impl));
+}
+
+const Camera& SceneView::camera() const {
+    return impl_->camera;
+}
+
+const std::vector<std::string>& SceneView::notes() const {
+    return impl_->notes;
+}
+
+Result<Image8> SceneView::picture(World& world, const Camera& camera) {
+    Impl& self = *impl_;
+    if (auto brought = self.bring(world); !brought) return brought.errors();
+    render::Drawing drawing;
+    drawing.camera = camera;
+    drawing.lighting = self.scene.light;
+    drawing.background = self.options.transparent ? render::Background::transparent : render::Background::sky;
+    drawing.objects = self.objects;
+    drawing.grounds = self.grounds;
+    drawing.lines = self.shown.lines;
+    drawing.lines_on_top = self.shown.lines_on_top;
+    drawing.points = self.shown.points;
+    drawing.flat = self.shown.flat;
+    drawing.two_passes = self.options.two_passes;
+    return self.renderer.picture(drawing, self.options.width, self.options.height);
+}
+
+Camera orbited(const Camera& camera, float degrees) {
+    const float angle = degrees * std::numbers::pi_v<float> / 180, c = std::cos(angle), s = std::sin(angle);
+    const Vec3 d = camera.position - camera.target;
+    Camera turned = camera;
+    turned.position = camera.target + Vec3{c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+    return turned;
+}
+
+}  // namespace weft
