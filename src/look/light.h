@@ -12,16 +12,16 @@ namespace weft {
 /// A far light with an edge to its shadows. Strength is in units of the picture: a white, matte surface that faces a
 /// sun of strength 1 is as bright as white paper, 1, before `exposure`.
 struct Sun {
-    float azimuth = 35;              ///< degrees from +z toward +x: where the light comes from
-    float elevation = 50;            ///< degrees above the horizon
-    float strength = 0.9f;           ///< 0: there is none
+    float azimuth = -40;             ///< degrees from +z toward +x: where the light comes from
+    float elevation = 48;            ///< degrees above the horizon
+    float strength = 1.15f;          ///< 0: there is none
     Vec3 color{1.0f, 0.96f, 0.90f};  ///< linear RGB
     float size = 3;                  ///< degrees across; larger ones have softer shadows (the real one: 0.53)
 };
 
 /// Light from all around: three colors that flow into one another.
 struct Sky {
-    float strength = 0.6f;
+    float strength = 0.5f;
     Vec3 zenith{0.75f, 0.85f, 1.0f};  ///< linear RGB, straight above
     Vec3 horizon{1.0f, 0.98f, 0.95f};
     Vec3 ground{0.55f, 0.52f, 0.50f};  ///< what comes from below

@@ -25,9 +25,9 @@ struct Material {
     float roughness[2] = {0.6f, 0.6f};
     Vec3 sheen_color{0, 0, 0};     ///< of fuzz that stands off the surface: Charlie sheen, as in KHR_materials_sheen
     float sheen_roughness = 0.5f;  ///< 0…1, alpha = sheen_roughness²
-    float velvet = 0;              ///< k_amp of the velvet distribution; 0: it is none
-    float velvet_alpha = 0.35f;    ///< its width
-    float transmission = 0;        ///< share of the matte light that goes through instead of back
+    float velvet = 0;  ///< k_amp of the velvet distribution, whose F0 is specular · sheen_color; 0: it is none
+    float velvet_alpha = 0.35f;  ///< its width
+    float transmission = 0;      ///< share of the matte light that goes through instead of back
     float coverage = 1;  ///< share of its area that threads fill, seen straight on; less than 1 shows what is behind
     Weave weave = Weave::smooth;
     float thread = 0.4f;           ///< mm from a thread to the next; of `grain`: size of a grain
@@ -55,7 +55,8 @@ inline constexpr Parameter material_parameters[] = {
     {.key = "sheen_roughness", .offset = offsetof(Material, sheen_roughness), .min = 0.05, .max = 1,
      .what = "how far from the rim its light reaches"},
     {.key = "velvet", .offset = offsetof(Material, velvet), .min = 0, .max = 100,
-     .what = "strength of the pile (k_amp); more than 0 makes it velvet, without sheen and highlight of other kinds"},
+     .what = "strength of the pile (k_amp); more than 0 makes it velvet: hairs that mirror `specular` of `sheen_color`, "
+             "without sheen and highlight of other kinds"},
     {.key = "velvet_alpha", .offset = offsetof(Material, velvet_alpha), .min = 0.05, .max = 1,
      .what = "how unruly the pile is"},
     {.key = "transmission", .offset = offsetof(Material, transmission), .min = 0, .max = 1,

@@ -76,10 +76,6 @@ Both gloss_to(const Fiber& fiber, float cosine, const AlbedoTable& table) {
             sum.layered += weight * share * shading::layered(fiber, lobes, to_viewer, at_cosine(table, l.z)).gloss;
         };
     };
-    if (fiber.velvet > 0) {
-        for_sphere(add_of(fiber, direction(cosine, 0), 1));
-        return sum;
-    }
     for (std::uint32_t turn = 0; turn < turns; ++turn) {
         const vec3 v = direction(cosine, pi * middle(turn, turns));
         for (const bool warp : {true, false}) {
@@ -110,7 +106,30 @@ Fiber fiber_of(const Material& material, float warp) {
             .velvet_alpha = material.velvet_alpha};
 }
 
+namespace {
+
+AlbedoTable velvet_table(const Fiber& fiber) {
+    AlbedoTable table{};
+    Fiber none = fiber, all = fiber;  // of F0
+    none.specular = 0;
+    all.specular = 1;
+    all.sheen_color = vec3(1);
+    for (std::uint32_t i = 0; i < table_size; ++i) {
+        const vec3 v = direction(middle(i, table_size), 0);
+        for_sphere([&](vec3 l, float share) {
+            const Lobes without = lobes_alone(none, l, v);
+            table[i].x += share * (lobes_alone(all, l, v).sheen.x - without.sheen.x);
+            table[i].y += share * without.sheen.x;
+            table[i].w += share * without.matte.x;
+        });
+    }
+    return table;
+}
+
+}  // namespace
+
 AlbedoTable albedo_table(const Fiber& fiber) {
+    if (fiber.velvet > 0) return velvet_table(fiber);
     AlbedoTable table{};
     Fiber unit = fiber;
     unit.sheen_color = vec3(1);

@@ -24,7 +24,7 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
 
     float across = 1.0 / (scale.x * scale.z);
     float turn = pixel_noise(pixel, whole(frame.light).w) * 2.0 * pi;
-    float least = 1.5 * scale.x, most = max(least, 0.25 * scale.y * whole(frame.sun).w);
+    float least = 2.2 * scale.x, most = max(least, 0.25 * scale.y * whole(frame.sun).w);
     most = min(most, 60.0 * scale.x);
     float depth_per_meter = 1.0 / scale.y;
     float margin = 1.0 * scale.x * depth_per_meter;

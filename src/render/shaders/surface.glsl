@@ -84,8 +84,10 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
 
     vec2 tiles = uv * (whole(material.tile).z > 0.5 ? vec2(1.0) : object.scale.xy) * material.tile.xy;
     float relief = whole(material.roughness).z;
-    vec4 first = texture(relief_map, tiles);
-    vec3 squares = texture(relief_squares, tiles).xyz * relief * relief;
+    vec2 across = dFdx(tiles) * vec2(textureSize(relief_map, 0)), down = dFdy(tiles) * vec2(textureSize(relief_map, 0));
+    float level = 0.5 * log2(max(dot(across, across), dot(down, down)) + 1e-12);
+    vec4 first = textureLod(relief_map, tiles, level);
+    vec3 squares = textureLod(relief_squares, tiles, level).xyz * relief * relief;
     vec2 slope = first.xy * relief;
     // The eye cannot look at the far side of a thread: slopes that turn away from it are pressed flat.
     place.normal = normalize(outward - slope.x * place.u - slope.y * place.v);
@@ -143,18 +145,20 @@ vec3 light_around(Place place, vec4 to_viewer, float occlusion) {
     // What folds reflect into one another keeps bright cloth from going gray in them (Jimenez and others 2016).
     vec3 a = 2.0404 * fiber.color - 0.3324, b = -4.7951 * fiber.color + 0.6417, c = 2.7552 * fiber.color + 0.6903;
     vec3 bright = max(vec3(open), ((open * a + b) * open + c) * open);
-    vec3 matte = fiber.color * to_viewer.w *
+    bool velvet = fiber.velvet > 0.0;
+    vec3 hairs = velvet_mirrored(fiber);
+    vec3 matte = fiber.color * to_viewer.w * (velvet ? vec3(1.0) - hairs : vec3(1.0)) *
                  (around_at(place.normal) * (1.0 - through) * bright + around_at(-place.normal) * through * occlusion);
     vec3 mirrored = reflect(-place.to_eye, place.normal);
     vec3 wide = normalize(mirrored + place.normal);
-    vec3 sheen = fiber.sheen_color * to_viewer.y * mirrored_around(wide, 1.0);
+    vec3 sheen = (velvet ? hairs * to_viewer.x + to_viewer.y : fiber.sheen_color * to_viewer.y) * mirrored_around(wide, 1.0);
     // Anisotropic lobes see more of what lies across the smooth direction (as Filament bends the reflection).
     vec2 alpha = mix(fiber.alpha_weft, fiber.alpha_warp, fiber.warp);
     float stretched = (alpha.y - alpha.x) / max(alpha.x + alpha.y, 1e-3);
     vec3 axis = stretched >= 0.0 ? place.v : place.u;
     vec3 bent = cross(cross(axis, place.to_eye), axis);
     vec3 around = reflect(-place.to_eye, normalize(mix(place.normal, bent, 0.5 * abs(stretched))));
-    vec3 gloss_from = fiber.velvet > 0.0 ? mirrored_around(wide, 1.0) : mirrored_around(around, sqrt(alpha.x * alpha.y));
+    vec3 gloss_from = mirrored_around(around, sqrt(alpha.x * alpha.y));
     float gloss_open = clamp(pow(dot(place.normal, place.to_eye) + open, exp2(-16.0 * alpha.x - 1.0)) - 1.0 + open, 0.0, 1.0);
     return matte + sheen * open + gloss_from * to_viewer.z * gloss_open;
 }

@@ -58,6 +58,14 @@ WEFT_SHADE float smooth_denominator(float nl, float nv) {
     return 4.0f * (nl + nv - nl * nv);
 }
 
+/// F0 of the hairs: they may be dyed.
+WEFT_SHADE vec3 velvet_mirrored(Fiber fiber) {
+    return fiber.specular * fiber.sheen_color;
+}
+WEFT_SHADE vec3 velvet_fresnel(vec3 f0, float cosine) {
+    return f0 + (vec3(1.0f) - f0) * power5(clamp(1.0f - cosine, 0.0f, 1.0f));
+}
+
 // --- Sheen: "Charlie" (Estevez and Kulla 2017), as in KHR_materials_sheen.
 
 WEFT_SHADE float charlie_distribution(float nh, float alpha) {
@@ -109,13 +117,15 @@ WEFT_SHADE Lobes lobes_alone(Fiber fiber, vec3 l, vec3 v) {
     float nl = clamp(l.z, 1e-3f, 1.0f), nv = clamp(v.z, 1e-3f, 1.0f);
     vec3 h = normalize(l + v);
     float nh = clamp(h.z, 0.0f, 1.0f), lh = clamp(dot(l, h), 0.0f, 1.0f);
-    float mirrored = fresnel(fiber.specular, lh);
     if (fiber.velvet > 0.0f) {
-        lobes.gloss = mirrored * velvet_distribution(nh, fiber.velvet, fiber.velvet_alpha) / smooth_denominator(nl, nv);
-        lobes.matte = vec3((1.0f - mirrored) / pi);
-        lobes.sheen = vec3(0.0f);
+        vec3 mirrored = velvet_fresnel(velvet_mirrored(fiber), lh);
+        float standing = velvet_distribution(nh, fiber.velvet, fiber.velvet_alpha) / smooth_denominator(nl, nv);
+        lobes.gloss = 0.0f;
+        lobes.sheen = mirrored * standing;
+        lobes.matte = (vec3(1.0f) - mirrored) / pi;
         return lobes;
     }
+    float mirrored = fresnel(fiber.specular, lh);
     vec3 from = vec3(l.x, l.y, nl), to = vec3(v.x, v.y, nv);
     lobes.gloss = mirrored * (fiber.warp * ggx(from, to, h, fiber.alpha_warp) +
                               (1.0f - fiber.warp) * ggx(from, to, h, fiber.alpha_weft));

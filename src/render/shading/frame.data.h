@@ -37,8 +37,7 @@ struct MaterialData {
     vec4 velvet;      ///< k_amp, alpha, coverage, whether threads cross (the back shows the other ones)
     vec4 tile;        ///< tiles per meter along u and v, or per unit of u and v; 1 where it is the latter; 0
     vec4 map;         ///< repeats of the color map; 1 where there is one; whether light passes (sheer)
-    vec4 table[table_size];  ///< by cosine to the viewer: albedo of gloss, of sheen of color 1, both alone; gloss and
-                             ///< matte as they are layered
+    vec4 table[table_size];  ///< albedos by the cosine to the viewer (albedo.h)
 };
 
 #ifndef __cplusplus
