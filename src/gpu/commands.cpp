@@ -137,8 +137,8 @@ Result<Done> Commands::end() {
     return Done{};
 }
 
-Result<std::uint64_t> Commands::submit(Moment after) {
-    auto value = device_->submit(commands_, after);
+Result<std::uint64_t> Commands::submit(Moment after, BinarySemaphores binary) {
+    auto value = device_->submit(commands_, after, binary);
     if (value) ran_ = true;
     return value;
 }

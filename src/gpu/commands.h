@@ -69,7 +69,7 @@ class Commands {
     void stamp();
     Result<Done> end();
 
-    Result<std::uint64_t> submit(Moment after = {});
+    Result<std::uint64_t> submit(Moment after = {}, BinarySemaphores binary = {});
     std::uint32_t stamp_count() const { return stamped_; }
     /// Milliseconds between the marked moments, one fewer than those, of the last time it ran, which has been waited
     /// for; empty without a clock, before it ever ran, and when the device is lost.

@@ -163,26 +163,35 @@ Device::~Device() {
     if (owned_) vk_.vkDestroyDevice(device_, nullptr);
 }
 
-Result<std::uint64_t> Device::submit(VkCommandBuffer commands, Moment after) {
+Result<std::uint64_t> Device::submit(VkCommandBuffer commands, Moment after, BinarySemaphores binary) {
     const std::uint64_t value = submitted_ + 1;
-    const std::uint32_t waits = after.semaphore == VK_NULL_HANDLE ? 0 : 1;
-    constexpr VkPipelineStageFlags everything = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    constexpr VkPipelineStageFlags everything[] = {VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                                                   VK_PIPELINE_STAGE_ALL_COMMANDS_BIT};
+    VkSemaphore waits[2]{}, signals[2] = {timeline_, binary.signal};
+    std::uint64_t wait_values[2]{}, signal_values[2] = {value, 0};  // binary ones have none
+    std::uint32_t wait_count = 0;
+    if (after.semaphore != VK_NULL_HANDLE) {
+        waits[wait_count] = after.semaphore;
+        wait_values[wait_count++] = after.value;
+    }
+    if (binary.wait != VK_NULL_HANDLE) waits[wait_count++] = binary.wait;
+    const std::uint32_t signal_count = binary.signal == VK_NULL_HANDLE ? 1 : 2;
     VkTimelineSemaphoreSubmitInfo timeline{};
     timeline.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
-    timeline.waitSemaphoreValueCount = waits;
-    timeline.pWaitSemaphoreValues = &after.value;
-    timeline.signalSemaphoreValueCount = 1;
-    timeline.pSignalSemaphoreValues = &value;
+    timeline.waitSemaphoreValueCount = wait_count;
+    timeline.pWaitSemaphoreValues = wait_values;
+    timeline.signalSemaphoreValueCount = signal_count;
+    timeline.pSignalSemaphoreValues = signal_values;
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.pNext = &timeline;
-    info.waitSemaphoreCount = waits;
-    info.pWaitSemaphores = &after.semaphore;
-    info.pWaitDstStageMask = &everything;
+    info.waitSemaphoreCount = wait_count;
+    info.pWaitSemaphores = waits;
+    info.pWaitDstStageMask = everything;
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands;
-    info.signalSemaphoreCount = 1;
-    info.pSignalSemaphores = &timeline_;
+    info.signalSemaphoreCount = signal_count;
+    info.pSignalSemaphores = signals;
     if (lock_queue_) lock_queue_();
     const VkResult result = vk_.vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE);
     if (unlock_queue_) unlock_queue_();

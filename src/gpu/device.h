@@ -27,6 +27,12 @@ struct Moment {
     std::uint64_t value = 0;
 };
 
+/// Beside moments, for what knows none: windows. Either may be missing.
+struct BinarySemaphores {
+    VkSemaphore wait = VK_NULL_HANDLE;    ///< before the work begins
+    VkSemaphore signal = VK_NULL_HANDLE;  ///< when it is done
+};
+
 struct DeviceOptions {
     /// Where compiled pipelines are kept from run to run; empty: nowhere.
     std::filesystem::path pipeline_cache = {};
@@ -65,7 +71,7 @@ class Device {
 
     /// Runs the commands after all that was submitted before, and not before `after`. Returns when they will be done:
     /// the value that `timeline()` reaches.
-    Result<std::uint64_t> submit(VkCommandBuffer commands, Moment after = {});
+    Result<std::uint64_t> submit(VkCommandBuffer commands, Moment after = {}, BinarySemaphores binary = {});
     Result<Done> wait(std::uint64_t value);
     VkSemaphore timeline() const { return timeline_; }
     std::uint64_t submitted() const { return submitted_; }

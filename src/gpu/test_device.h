@@ -23,10 +23,11 @@ const Shader& test_shader(std::string_view name);
 class OnDevice : public testing::Test {
   protected:
     void SetUp() override {
-        auto made = Instance::create({.validation = true, .on_message = [this](std::string_view text) {
-                                          const std::lock_guard lock(mutex_);
-                                          messages_.emplace_back(text);
-                                      }});
+        auto made = Instance::create(
+            {.validation = true, .surface_extensions = surface_extensions, .on_message = [this](std::string_view text) {
+                 const std::lock_guard lock(mutex_);
+                 messages_.emplace_back(text);
+             }});
         ASSERT_TRUE(made.ok()) << made.error().message();
         instance = std::move(*made);
         auto chosen = choose_device(instance->devices(), "", true);
@@ -55,6 +56,7 @@ class OnDevice : public testing::Test {
         return made ? std::move(*made) : Buffer{};
     }
 
+    std::vector<std::string> surface_extensions;  // to be set before
     std::shared_ptr<const Instance> instance;
     DeviceInfo info;
     std::shared_ptr<Device> device;
