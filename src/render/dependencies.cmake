@@ -24,3 +24,7 @@ endforeach()
 weft_embed_shaders(${render_shaders} render_shader_table ${render_names})
 set_source_files_properties(${folder}/shaders.cpp PROPERTIES OBJECT_DEPENDS "${render_shader_table_depends}")
 target_include_directories(weft_render PRIVATE ${render_shaders})
+
+# Windows.
+find_package(glfw3 3.3 REQUIRED)
+target_link_libraries(weft_render PRIVATE glfw)

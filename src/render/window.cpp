@@ -1,0 +1,219 @@
+#include "render/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <optional>
+#include <utility>
+
+namespace weft::render {
+namespace {
+
+std::string last_words() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "no reason given";
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Display>> Display::open() {
+    static std::weak_ptr<const Display> opened;
+    if (auto display = opened.lock()) return display;
+    if (!glfwInit()) {
+        return Error::of_machine(
+            "window",
+            "there is no display; set DISPLAY or WAYLAND_DISPLAY, or write pictures to files (" + last_words() + ")");
+    }
+    auto display = std::shared_ptr<const Display>(new Display);
+    opened = display;
+    return display;
+}
+
+Display::~Display() {
+    glfwTerminate();
+}
+
+std::vector<std::string> Display::surface_extensions() const {
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    return names ? std::vector<std::string>(names, names + count) : std::vector<std::string>{};
+}
+
+struct Window::Impl {
+    std::shared_ptr<const Display> display;
+    std::shared_ptr<gpu::Device> device;
+    gpu::SwapchainOptions images;
+    GLFWwindow* window = nullptr;
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    std::optional<gpu::Swapchain> swapchain;
+    WindowInput input;
+    bool buttons[3]{};
+    double asked = 0;  // s
+
+    ~Impl() {
+        drop_surface();
+        if (window) glfwDestroyWindow(window);
+    }
+
+    Result<Done> open(const WindowOptions& options);
+    Result<Done> make_surface();
+    void drop_surface();
+    void listen();
+    void moved(double x, double y);
+    void pressed(int key, int action);
+};
+
+Result<Done> Window::Impl::open(const WindowOptions& options) {
+    images = options.images;
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height), options.title.c_str(),
+                              nullptr, nullptr);
+    if (!window) return Error::of_machine("window", "cannot be opened: " + last_words());
+    listen();
+    asked = glfwGetTime();
+    return make_surface();
+}
+
+Result<Done> Window::Impl::make_surface() {
+    if (!device->presents()) {
+        return Error::of_machine(
+            device->info().name,
+            "has no windows: its driver or the Vulkan loader cannot show pictures on this display; "
+            "write them to files");
+    }
+    const VkResult result = glfwCreateWindowSurface(device->instance().handle(), window, nullptr, &surface);
+    if (result != VK_SUCCESS) return device->error("to make a window's surface", result);
+    auto made = gpu::Swapchain::create(*device, surface, images);
+    if (!made) return made.errors();
+    swapchain = std::move(*made);
+    return Done{};
+}
+
+void Window::Impl::drop_surface() {
+    swapchain.reset();
+    if (surface == VK_NULL_HANDLE) return;
+    const gpu::Instance& instance = device->instance();
+    const auto destroy =
+        reinterpret_cast<PFN_vkDestroySurfaceKHR>(instance.functions()(instance.handle(), "vkDestroySurfaceKHR"));
+    destroy(instance.handle(), std::exchange(surface, VK_NULL_HANDLE), nullptr);
+}
+
+void Window::Impl::listen() {
+    glfwSetWindowUserPointer(window, this);
+    static const auto of = [](GLFWwindow* one) { return static_cast<Impl*>(glfwGetWindowUserPointer(one)); };
+    glfwSetCursorPosCallback(window, [](GLFWwindow* one, double x, double y) { of(one)->moved(x, y); });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* one, int button, int action, int) {
+        if (button <= GLFW_MOUSE_BUTTON_MIDDLE) of(one)->buttons[button] = action == GLFW_PRESS;
+    });
+    glfwSetScrollCallback(window,
+                          [](GLFWwindow* one, double, double y) { of(one)->input.scroll += static_cast<float>(y); });
+    glfwSetKeyCallback(window, [](GLFWwindow* one, int key, int, int action, int) { of(one)->pressed(key, action); });
+    double x = 0, y = 0;
+    glfwGetCursorPos(window, &x, &y);
+    input.pointer = {static_cast<float>(x), static_cast<float>(y)};
+}
+
+void Window::Impl::moved(double x, double y) {
+    const Vec2 to{static_cast<float>(x), static_cast<float>(y)};
+    const Vec2 by = to - input.pointer;
+    input.pointer = to;
+    const std::pair<int, Vec2*> drags[] = {{GLFW_MOUSE_BUTTON_LEFT, &input.left},
+                                           {GLFW_MOUSE_BUTTON_MIDDLE, &input.middle},
+                                           {GLFW_MOUSE_BUTTON_RIGHT, &input.right}};
+    for (const auto& [button, drag] : drags)
+        if (buttons[button]) *drag = {drag->x + by.x, drag->y + by.y};
+}
+
+void Window::Impl::pressed(int key, int action) {
+    if (key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT) input.shift = action != GLFW_RELEASE;
+    const int number = key == GLFW_KEY_ESCAPE ? escape_key : key;
+    if (number < 0 || number >= static_cast<int>(input.held.size())) return;
+    input.held[static_cast<std::size_t>(number)] = action != GLFW_RELEASE;
+    if (action == GLFW_PRESS) input.pressed.set(static_cast<std::size_t>(number));
+}
+
+Result<Window> Window::create(std::shared_ptr<const Display> display, std::shared_ptr<gpu::Device> device,
+                              const WindowOptions& options) {
+    auto impl = std::make_unique<Impl>();
+    impl->display = std::move(display);
+    impl->device = std::move(device);
+    if (auto opened = impl->open(options); !opened) return opened.errors();
+    return Window(std::move(impl));
+}
+
+Window::Window(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Window::Window(Window&&) noexcept = default;
+Window& Window::operator=(Window&&) noexcept = default;
+Window::~Window() = default;
+
+WindowInput Window::input(double patience) {
+    if (patience > 0) {
+        glfwWaitEventsTimeout(patience);
+    } else {
+        glfwPollEvents();
+    }
+    WindowInput& now = impl_->input;
+    int width = 0, height = 0;
+    glfwGetWindowSize(impl_->window, &width, &height);
+    now.width = static_cast<float>(width);
+    now.height = static_cast<float>(height);
+    const double time = glfwGetTime();
+    now.seconds = static_cast<float>(time - std::exchange(impl_->asked, time));
+    const WindowInput told = now;
+    now.left = now.middle = now.right = {};
+    now.scroll = 0;
+    now.pressed.reset();
+    return told;
+}
+
+bool Window::closed() const {
+    return glfwWindowShouldClose(impl_->window);
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(impl_->window, GLFW_TRUE);
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(impl_->window, title.c_str());
+}
+
+VkExtent2D Window::extent() const {
+    if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return {0, 0};
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(impl_->window, &width, &height);
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+}
+
+VkFormat Window::format() const {
+    return impl_->swapchain->format();
+}
+
+bool Window::encodes_srgb() const {
+    return impl_->swapchain->encodes_srgb();
+}
+
+VkPresentModeKHR Window::mode() const {
+    return impl_->swapchain->mode();
+}
+
+Result<gpu::SwapchainImage> Window::next() {
+    if (!impl_->swapchain) {  // the last attempt to make it anew has failed
+        if (auto made = impl_->make_surface(); !made) return made.errors();
+    }
+    auto image = impl_->swapchain->acquire(extent());
+    if (!image || image->state != gpu::Acquired::surface_lost) return image;
+    impl_->drop_surface();
+    if (auto made = impl_->make_surface(); !made) return made.errors();
+    image = impl_->swapchain->acquire(extent());
+    if (image && image->state == gpu::Acquired::surface_lost) return gpu::SwapchainImage{};  // lost again: next time
+    return image;
+}
+
+Result<Done> Window::show(const gpu::SwapchainImage& image, std::uint64_t done) {
+    return impl_->swapchain->present(image, done);
+}
+
+}  // namespace weft::render
