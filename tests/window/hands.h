@@ -1,0 +1,32 @@
+// The other side of a window: who sits before the screen, and the window manager, by X11.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace weft {
+
+class Hands {
+  public:
+    /// At the window of that title, which there is.
+    explicit Hands(const std::string& title);
+    ~Hands();
+
+    /// Red, green and blue of a pixel of the screen.
+    std::array<int, 3> color(int x, int y) const;
+    void resize(unsigned width, unsigned height);
+    void set_minimized(bool minimized);
+    void ask_to_close();
+    void point_at(int x, int y);
+    /// 1 left, 2 middle, 3 right, 4 and 5 the wheel.
+    void button(unsigned number, bool down);
+    /// By its name in X11: "w", "space", "Escape".
+    void key(const std::string& name, bool down);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace weft

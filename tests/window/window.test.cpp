@@ -1,0 +1,442 @@
+// Windows on a display without a screen (Xvfb), drawn by a GPU in software, under the eyes of the validation layers.
+#include "render/window.h"
+
+#include "gpu/commands.h"
+#include "gpu/test_device.h"
+
+#include "hands.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace weft::render {
+namespace {
+
+using gpu::Acquired;
+using testing::HasSubstr;
+
+constexpr float red[] = {0.5f, 0, 0}, green[] = {0, 0.25f, 0}, blue[] = {0, 0, 1};
+using Linear = const float (&)[3];
+
+// What a system does that no test can make it do: the next call of each fails once that way.
+VolkDeviceTable healthy;
+VkResult acquire_says, present_says, create_says;
+
+VkResult once(VkResult& says) {
+    return std::exchange(says, VK_SUCCESS);
+}
+VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR chain, std::uint64_t timeout,
+                                       VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
+    if (const VkResult failed = once(acquire_says); failed != VK_SUCCESS) return failed;
+    return healthy.vkAcquireNextImageKHR(device, chain, timeout, semaphore, fence, index);
+}
+// Semaphores are waited for even where nothing can be shown.
+VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
+    const VkResult result = healthy.vkQueuePresentKHR(queue, info);
+    const VkResult failed = once(present_says);
+    return failed == VK_SUCCESS ? result : failed;
+}
+VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, const VkSwapchainCreateInfoKHR* info,
+                                      const VkAllocationCallbacks* callbacks, VkSwapchainKHR* made) {
+    if (const VkResult failed = once(create_says); failed != VK_SUCCESS) return failed;
+    return healthy.vkCreateSwapchainKHR(device, info, callbacks, made);
+}
+void fail_on_demand(VolkDeviceTable& table) {
+    healthy = table;
+    acquire_says = present_says = create_says = VK_SUCCESS;
+    table.vkAcquireNextImageKHR = acquire;
+    table.vkQueuePresentKHR = present;
+    table.vkCreateSwapchainKHR = create;
+}
+
+class WindowTest : public gpu::OnDevice {
+  protected:
+    void SetUp() override {
+        auto opened = Display::open();
+        ASSERT_TRUE(opened.ok()) << opened.error().message();
+        display = *opened;
+        surface_extensions = display->surface_extensions();
+        ASSERT_FALSE(surface_extensions.empty());
+        OnDevice::SetUp();
+        if (!instance) return;
+        // A GPU's driver may have no way to a display without a screen.
+        for (const gpu::DeviceInfo& one : instance->devices())
+            if (one.type == gpu::DeviceType::cpu && one.usable()) info = one;
+        open({.intercept = fail_on_demand});
+    }
+    void TearDown() override {
+        if (device) (void)device->wait(device->submitted());
+        framebuffers.clear();
+        frames.clear();
+        pass = {};
+        hands.reset();
+        window.reset();
+        OnDevice::TearDown();
+        display.reset();
+    }
+
+    bool show_window(const gpu::SwapchainOptions& images = {}) {
+        if (!device) return false;
+        auto made =
+            Window::create(display, device, {.title = "weft test", .width = 320, .height = 200, .images = images});
+        EXPECT_TRUE(made.ok()) << made.error().message();
+        if (!made) return false;
+        window.emplace(std::move(*made));
+        hands.emplace("weft test");
+        const gpu::Attachment color{.format = window->format(), .after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
+        auto made_pass = gpu::RenderPass::create(*device, {&color, 1}, "test");
+        EXPECT_TRUE(made_pass.ok());
+        if (made_pass) pass = std::move(*made_pass);
+        return true;
+    }
+
+    gpu::SwapchainImage next() {
+        auto image = window->next();
+        EXPECT_TRUE(image.ok()) << image.error().message();
+        return image ? *image : gpu::SwapchainImage{};
+    }
+    /// The value of the submit that fills it.
+    std::uint64_t fill(const gpu::SwapchainImage& image, Linear color) {
+        auto framebuffer =
+            gpu::Framebuffer::create(*device, pass, {&image.view, 1}, image.extent.width, image.extent.height);
+        auto commands = gpu::Commands::create(*device);
+        EXPECT_TRUE(framebuffer.ok() && commands.ok() && commands->begin().ok());
+        VkClearValue clear{};
+        clear.color = {{color[0], color[1], color[2], 1}};
+        commands->begin_pass(pass, *framebuffer, {&clear, 1});
+        commands->end_pass();
+        EXPECT_TRUE(commands->end().ok());
+        const auto value = commands->submit({}, image.semaphores);
+        EXPECT_TRUE(value.ok());
+        framebuffers.push_back(std::move(*framebuffer));
+        frames.push_back(std::move(*commands));
+        return value ? *value : 0;
+    }
+    void show(const gpu::SwapchainImage& image, Linear color) {
+        ASSERT_EQ(image.state, Acquired::image);
+        const auto shown = window->show(image, fill(image, color));
+        EXPECT_TRUE(shown.ok()) << shown.error().message();
+    }
+    void draw(Linear color) { show(next(), color); }
+
+    /// Hears events until it is so; what comes of them takes a moment. False after far too long.
+    bool until(const std::function<bool()>& so) {
+        for (int i = 0; i < 1000; ++i) {
+            if (so()) return true;
+            (void)window->input(0.02);
+        }
+        return false;
+    }
+    /// Frames until the screen shows that color at a place of the window.
+    bool seen(Linear color, int x = 160, int y = 100) {
+        std::array<int, 3> bytes{};
+        for (int i = 0; i < 3; ++i) {
+            const float v = color[i];
+            const float encoded = v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f;
+            bytes[static_cast<std::size_t>(i)] =
+                static_cast<int>(std::lround(255 * (window->encodes_srgb() ? encoded : v)));
+        }
+        const auto near = [&] {
+            const auto shown = hands->color(x, y);
+            for (std::size_t i = 0; i < 3; ++i)
+                if (std::abs(shown[i] - bytes[i]) > 1) return false;
+            return true;
+        };
+        return until(near);
+    }
+
+    std::shared_ptr<const Display> display;
+    std::optional<Window> window;
+    std::optional<Hands> hands;
+    gpu::RenderPass pass;
+    std::vector<gpu::Framebuffer> framebuffers;
+    std::vector<gpu::Commands> frames;
+};
+
+TEST_F(WindowTest, shows_what_is_drawn) {
+    if (!show_window()) return;
+    EXPECT_EQ(window->extent().width, 320u);
+    EXPECT_EQ(window->extent().height, 200u);
+    EXPECT_TRUE(window->encodes_srgb());
+    EXPECT_EQ(window->mode(), VK_PRESENT_MODE_FIFO_KHR);
+    draw(red);
+    EXPECT_TRUE(seen(red));
+    draw(green);
+    EXPECT_TRUE(seen(green));
+    draw(blue);
+    EXPECT_TRUE(seen(blue));
+    EXPECT_TRUE(seen(blue, 319, 199)) << "to the last corner";
+    for (int i = 0; i < 20; ++i) draw(i % 2 ? red : green);
+    EXPECT_TRUE(seen(red));
+}
+
+TEST_F(WindowTest, takes_the_newest_image_where_that_is_asked_for) {
+    if (!show_window({.mailbox = true})) return;
+    EXPECT_EQ(window->mode(), VK_PRESENT_MODE_MAILBOX_KHR);
+    for (int i = 0; i < 20; ++i) draw(red);
+    draw(blue);
+    EXPECT_TRUE(seen(blue));
+}
+
+TEST_F(WindowTest, has_new_images_when_it_is_resized) {
+    if (!show_window()) return;
+    draw(red);
+    const std::uint64_t before = next().generation;
+    hands->resize(500, 300);
+    ASSERT_TRUE(until([&] { return window->extent().width == 500; }));
+    const auto image = next();
+    EXPECT_EQ(image.extent.width, 500u);
+    EXPECT_EQ(image.extent.height, 300u);
+    EXPECT_GT(image.generation, before);
+    show(image, green);
+    EXPECT_TRUE(seen(green, 499, 299));
+    EXPECT_EQ(next().state, Acquired::image);
+}
+
+TEST_F(WindowTest, may_be_resized_between_getting_an_image_and_showing_it) {
+    if (!show_window()) return;
+    draw(red);
+    for (const unsigned width : {400u, 200u, 600u}) {
+        const auto image = next();
+        ASSERT_EQ(image.state, Acquired::image);
+        const std::uint64_t done = fill(image, green);
+        hands->resize(width, 250);
+        ASSERT_TRUE(until([&] { return window->extent().width == width; }));
+        EXPECT_TRUE(window->show(image, done).ok());
+        const auto after = next();
+        ASSERT_EQ(after.state, Acquired::image);
+        EXPECT_EQ(after.extent.width, width);
+        show(after, blue);
+        EXPECT_TRUE(seen(blue, static_cast<int>(width) - 1, 249));
+    }
+}
+
+TEST_F(WindowTest, may_be_resized_again_and_again) {
+    if (!show_window()) return;
+    for (unsigned i = 0; i < 30; ++i) {
+        hands->resize(200 + 10 * i, 200);
+        (void)window->input();
+        if (const auto image = next(); image.state == Acquired::image && i % 3 != 0) show(image, red);
+    }
+    ASSERT_TRUE(until([&] { return window->extent().width == 490; }));
+    draw(blue);
+    EXPECT_TRUE(seen(blue, 489, 199));
+    for (int i = 0; i < 10; ++i) draw(green);
+    EXPECT_TRUE(seen(green));
+}
+
+TEST_F(WindowTest, out_of_date_images_are_made_again) {
+    if (!show_window()) return;
+    draw(red);
+    const auto first = next();
+    present_says = VK_ERROR_OUT_OF_DATE_KHR;
+    show(first, green);
+    const auto second = next();
+    EXPECT_GT(second.generation, first.generation);
+    show(second, green);
+    acquire_says = VK_ERROR_OUT_OF_DATE_KHR;
+    const auto third = next();
+    EXPECT_GT(third.generation, second.generation);
+    show(third, blue);
+    EXPECT_TRUE(seen(blue));
+}
+
+TEST_F(WindowTest, what_is_suboptimal_for_good_is_not_made_again_each_time) {
+    if (!show_window()) return;
+    draw(red);
+    const auto first = next();
+    present_says = VK_SUBOPTIMAL_KHR;
+    show(first, green);
+    EXPECT_EQ(next().generation, first.generation);
+}
+
+TEST_F(WindowTest, draws_nothing_while_it_is_minimized) {
+    if (!show_window()) return;
+    draw(red);
+    hands->set_minimized(true);
+    ASSERT_TRUE(until([&] { return window->extent().width == 0; }));
+    EXPECT_EQ(next().state, Acquired::nothing);
+    EXPECT_EQ(next().state, Acquired::nothing);
+    hands->set_minimized(false);
+    ASSERT_TRUE(until([&] { return window->extent().width == 320; }));
+    draw(blue);
+    EXPECT_TRUE(seen(blue));
+}
+
+TEST_F(WindowTest, draws_nothing_where_no_image_comes_in_time) {
+    if (!show_window()) return;
+    draw(red);
+    acquire_says = VK_TIMEOUT;
+    EXPECT_EQ(next().state, Acquired::nothing);
+    draw(blue);
+    EXPECT_TRUE(seen(blue));
+}
+
+TEST_F(WindowTest, a_surface_that_is_lost_is_made_again) {
+    if (!show_window()) return;
+    draw(red);
+    acquire_says = VK_ERROR_SURFACE_LOST_KHR;
+    draw(green);
+    EXPECT_TRUE(seen(green));
+    present_says = VK_ERROR_SURFACE_LOST_KHR;
+    draw(red);
+    draw(blue);
+    EXPECT_TRUE(seen(blue));
+    hands->resize(400, 200);
+    ASSERT_TRUE(until([&] { return window->extent().width == 400; }));
+    create_says = VK_ERROR_SURFACE_LOST_KHR;
+    draw(green);
+    EXPECT_TRUE(seen(green, 399, 199));
+}
+
+TEST_F(WindowTest, an_image_that_was_not_shown_is_given_back) {
+    if (!show_window()) return;
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(next().state, Acquired::image);
+    draw(blue);
+    EXPECT_TRUE(seen(blue));
+    (void)fill(next(), red);  // drawn, but not shown
+    draw(green);
+    EXPECT_TRUE(seen(green));
+    EXPECT_EQ(next().state, Acquired::image);  // and taken along when it closes
+}
+
+TEST_F(WindowTest, a_device_that_is_lost_is_an_error) {
+    if (!show_window()) return;
+    draw(red);
+    acquire_says = VK_ERROR_DEVICE_LOST;
+    const auto image = window->next();
+    ASSERT_FALSE(image.ok());
+    EXPECT_EQ(image.error().fault, Fault::machine);
+    EXPECT_THAT(image.error().what, HasSubstr("failed to get a window's next image: VK_ERROR_DEVICE_LOST"));
+    const auto taken = next();
+    present_says = VK_ERROR_DEVICE_LOST;
+    EXPECT_FALSE(window->show(taken, fill(taken, red)).ok());
+    hands->resize(400, 200);
+    ASSERT_TRUE(until([&] { return window->extent().width == 400; }));
+    create_says = VK_ERROR_DEVICE_LOST;
+    EXPECT_FALSE(window->next().ok());
+    draw(blue);
+    EXPECT_TRUE(seen(blue)) << "nothing was left half done";
+}
+
+TEST_F(WindowTest, is_closed_when_somebody_asks_for_it) {
+    if (!show_window()) return;
+    (void)window->input();
+    EXPECT_FALSE(window->closed());
+    hands->ask_to_close();
+    EXPECT_TRUE(until([&] { return window->closed(); }));
+    draw(red);  // until it is destroyed
+}
+
+TEST_F(WindowTest, is_closed_by_the_program) {
+    if (!show_window()) return;
+    window->close();
+    EXPECT_TRUE(window->closed());
+}
+
+TEST_F(WindowTest, hears_what_hands_do) {
+    if (!show_window()) return;
+    draw(red);
+    WindowInput all;  // of several askings
+    const auto hear = [&](const std::function<bool()>& so) {
+        for (int i = 0; i < 1000 && !so(); ++i) {
+            const WindowInput now = window->input(0.02);
+            const Vec2 right = all.right, left = all.left;
+            const float scroll = all.scroll;
+            const Keys pressed = all.pressed;
+            all = now;
+            all.right = {right.x + now.right.x, right.y + now.right.y};
+            all.left = {left.x + now.left.x, left.y + now.left.y};
+            all.scroll += scroll;
+            all.pressed |= pressed;
+        }
+        return so();
+    };
+    hands->point_at(100, 50);
+    EXPECT_TRUE(hear([&] { return all.pointer == Vec2{100, 50}; }));
+    EXPECT_EQ(all.right, Vec2{}) << "no button was held";
+    EXPECT_EQ(all.width, 320);
+    EXPECT_EQ(all.height, 200);
+    hands->button(3, true);
+    hands->point_at(130, 60);
+    EXPECT_TRUE(hear([&] { return all.right == Vec2{30, 10}; }));
+    hands->button(3, false);
+    hands->point_at(200, 100);
+    EXPECT_TRUE(hear([&] { return all.pointer == Vec2{200, 100}; }));
+    EXPECT_EQ(all.right, (Vec2{30, 10}));
+    EXPECT_EQ(all.left, Vec2{});
+    hands->button(4, true);
+    hands->button(4, true);
+    EXPECT_TRUE(hear([&] { return all.scroll == 2; }));
+    hands->button(5, true);
+    EXPECT_TRUE(hear([&] { return all.scroll == 1; }));
+    hands->key("w", true);
+    EXPECT_TRUE(hear([&] { return all.held['W']; }));
+    hands->key("w", false);
+    EXPECT_TRUE(hear([&] { return !all.held['W']; }));
+    hands->key("Shift_L", true);
+    EXPECT_TRUE(hear([&] { return all.shift; }));
+    hands->key("Escape", true);
+    hands->key("Escape", false);
+    hands->key("3", true);
+    EXPECT_TRUE(hear([&] { return all.held['3']; }));
+    EXPECT_TRUE(all.pressed['W'] && all.pressed['3'] && all.pressed[escape_key]);
+    EXPECT_FALSE(all.pressed['S'] || all.held[escape_key]);
+    EXPECT_TRUE(window->input().pressed.none()) << "told once";
+}
+
+TEST_F(WindowTest, there_may_be_two) {
+    if (!show_window()) return;
+    auto other = Window::create(display, device, {.title = "other", .width = 100, .height = 100});
+    ASSERT_TRUE(other.ok()) << other.error().message();
+    draw(red);
+    window->close();
+    EXPECT_FALSE(other->closed());
+    auto image = other->next();
+    ASSERT_TRUE(image.ok());
+    ASSERT_EQ(image->state, Acquired::image);
+    EXPECT_TRUE(other->show(*image, fill(*image, blue)).ok());
+    draw(green);
+    EXPECT_TRUE(seen(green, 300, 180));
+    EXPECT_TRUE(seen(blue, 50, 50)) << "it lies on top";
+    (void)device->wait(device->submitted());
+}
+
+TEST_F(WindowTest, a_device_without_windows_is_an_error) {
+    if (!device) return;
+    auto plain = gpu::Instance::create();
+    ASSERT_TRUE(plain.ok());
+    auto opened = gpu::Device::create(*plain, info);
+    ASSERT_TRUE(opened.ok());
+    EXPECT_FALSE((*opened)->presents());
+    const auto made = Window::create(display, *opened);
+    ASSERT_FALSE(made.ok());
+    EXPECT_EQ(made.error().where, info.name);
+    EXPECT_EQ(made.error().fault, Fault::machine);
+    EXPECT_THAT(made.error().what, HasSubstr("write them to files"));
+}
+
+TEST(DisplayTest, there_is_none_without_one) {
+    const std::string name = std::getenv("DISPLAY");
+    const auto without = [](const char* other) {
+        other ? ::setenv("DISPLAY", other, 1) : ::unsetenv("DISPLAY");
+        const auto opened = Display::open();
+        EXPECT_FALSE(opened.ok());
+        return opened ? Error{} : opened.error();
+    };
+    EXPECT_THAT(without(nullptr).message(), HasSubstr("window: there is no display; set DISPLAY"));
+    EXPECT_THAT(without(":4711").message(), HasSubstr("there is no display"));
+    EXPECT_EQ(without(nullptr).fault, Fault::machine);
+    ::setenv("DISPLAY", name.c_str(), 1);
+    const auto opened = Display::open();
+    ASSERT_TRUE(opened.ok()) << opened.error().message();
+    EXPECT_EQ(Display::open().value(), *opened) << "one for all";
+}
+
+}  // namespace
+}  // namespace weft::render
