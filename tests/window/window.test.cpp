@@ -26,6 +26,7 @@ using Linear = const float (&)[3];
 // What a system does that no test can make it do: the next call of each fails once that way.
 VolkDeviceTable healthy;
 VkResult acquire_says, present_says, create_says;
+int swapchains;  // that there are
 
 VkResult once(VkResult& says) {
     return std::exchange(says, VK_SUCCESS);
@@ -44,14 +45,21 @@ VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* in
 VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, const VkSwapchainCreateInfoKHR* info,
                                       const VkAllocationCallbacks* callbacks, VkSwapchainKHR* made) {
     if (const VkResult failed = once(create_says); failed != VK_SUCCESS) return failed;
+    ++swapchains;
     return healthy.vkCreateSwapchainKHR(device, info, callbacks, made);
+}
+VKAPI_ATTR void VKAPI_CALL destroy(VkDevice device, VkSwapchainKHR chain, const VkAllocationCallbacks* callbacks) {
+    --swapchains;
+    healthy.vkDestroySwapchainKHR(device, chain, callbacks);
 }
 void fail_on_demand(VolkDeviceTable& table) {
     healthy = table;
     acquire_says = present_says = create_says = VK_SUCCESS;
+    swapchains = 0;
     table.vkAcquireNextImageKHR = acquire;
     table.vkQueuePresentKHR = present;
     table.vkCreateSwapchainKHR = create;
+    table.vkDestroySwapchainKHR = destroy;
 }
 
 class WindowTest : public gpu::OnDevice {
@@ -222,12 +230,14 @@ TEST_F(WindowTest, may_be_resized_again_and_again) {
         hands->resize(200 + 10 * i, 200);
         (void)window->input();
         if (const auto image = next(); image.state == Acquired::image && i % 3 != 0) show(image, red);
+        EXPECT_LE(swapchains, 6) << "old ones are kept while they are in use, and no longer";
     }
     ASSERT_TRUE(until([&] { return window->extent().width == 490; }));
     draw(blue);
     EXPECT_TRUE(seen(blue, 489, 199));
     for (int i = 0; i < 10; ++i) draw(green);
     EXPECT_TRUE(seen(green));
+    EXPECT_EQ(swapchains, 1);
 }
 
 TEST_F(WindowTest, out_of_date_images_are_made_again) {
