@@ -228,6 +228,33 @@ TEST_F(CommandsTest, the_validation_layer_sees_what_is_wrong) {
     EXPECT_THAT(take_messages(), testing::Contains(HasSubstr("VUID-vkCmdFillBuffer-size")));
 }
 
+// One that was not waited for must not be signaled again, and the validation layer knows.
+TEST_F(CommandsTest, work_goes_from_hand_to_hand_by_semaphores_without_values) {
+    VkSemaphoreCreateInfo create{};
+    create.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    ASSERT_EQ(device->vk().vkCreateSemaphore(device->handle(), &create, nullptr, &semaphore), VK_SUCCESS);
+    const Buffer a = make(64, MemoryKind::readback);
+    std::vector<Commands> all;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        auto commands = Commands::create(*device);
+        ASSERT_TRUE(commands.ok() && commands->begin().ok());
+        commands->fill(a, i);
+        commands->host_barrier();
+        ASSERT_TRUE(commands->end().ok());
+        const bool gives = i % 2 == 0;
+        const Moment before{i == 0 ? VK_NULL_HANDLE : device->timeline(), device->submitted()};
+        const auto value = commands->submit(
+            before, {.wait = gives ? VK_NULL_HANDLE : semaphore, .signal = gives ? semaphore : VK_NULL_HANDLE});
+        ASSERT_TRUE(value.ok()) << value.error().message();
+        EXPECT_EQ(*value, i + 1);
+        all.push_back(std::move(*commands));
+    }
+    EXPECT_TRUE(device->wait(6).ok());
+    EXPECT_EQ(a.as<std::uint32_t>()[0], 5u);
+    device->vk().vkDestroySemaphore(device->handle(), semaphore, nullptr);
+}
+
 TEST_F(CommandsTest, the_validation_layer_sees_a_barrier_that_is_missing) {
     const Buffer a = make(64, MemoryKind::device), b = make(64, MemoryKind::device);
     for (const bool wrong : {false, true}) {
