@@ -150,8 +150,10 @@ Result<Done> Swapchain::choose(const SwapchainOptions& options) {
 Result<Done> Swapchain::make_semaphore(VkSemaphore& semaphore) const {
     VkSemaphoreCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    const VkResult result = device_->vk().vkCreateSemaphore(device_->handle(), &info, nullptr, &semaphore);
+    VkSemaphore made = VK_NULL_HANDLE;
+    const VkResult result = device_->vk().vkCreateSemaphore(device_->handle(), &info, nullptr, &made);
     if (result != VK_SUCCESS) return device_->error("to make a semaphore", result);
+    semaphore = made;
     return Done{};
 }
 
@@ -324,8 +326,10 @@ Result<Done> Swapchain::fill_chain() {
         info.viewType = VK_IMAGE_VIEW_TYPE_2D;
         info.format = format_.format;
         info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        result = vk.vkCreateImageView(device_->handle(), &info, nullptr, &chain_.views.emplace_back());
+        VkImageView view = VK_NULL_HANDLE;
+        result = vk.vkCreateImageView(device_->handle(), &info, nullptr, &view);
         if (result != VK_SUCCESS) return device_->error("to draw into the images of a window", result);
+        chain_.views.push_back(view);
         if (auto made = make_semaphore(chain_.drawn.emplace_back()); !made) return made;
     }
     return Done{};
