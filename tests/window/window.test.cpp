@@ -8,10 +8,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace weft::render {
@@ -26,7 +29,8 @@ using Linear = const float (&)[3];
 // What a system does that no test can make it do: the next call of each fails once that way.
 VolkDeviceTable healthy;
 VkResult acquire_says, present_says, create_says;
-int swapchains;  // that there are
+int swapchains;        // that there are
+std::uint64_t waited;  // for that value of the timeline
 
 VkResult once(VkResult& says) {
     return std::exchange(says, VK_SUCCESS);
@@ -52,14 +56,20 @@ VKAPI_ATTR void VKAPI_CALL destroy(VkDevice device, VkSwapchainKHR chain, const 
     --swapchains;
     healthy.vkDestroySwapchainKHR(device, chain, callbacks);
 }
+VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice device, const VkSemaphoreWaitInfo* info, std::uint64_t timeout) {
+    waited = std::max(waited, *info->pValues);
+    return healthy.vkWaitSemaphores(device, info, timeout);
+}
 void fail_on_demand(VolkDeviceTable& table) {
     healthy = table;
     acquire_says = present_says = create_says = VK_SUCCESS;
     swapchains = 0;
+    waited = 0;
     table.vkAcquireNextImageKHR = acquire;
     table.vkQueuePresentKHR = present;
     table.vkCreateSwapchainKHR = create;
     table.vkDestroySwapchainKHR = destroy;
+    table.vkWaitSemaphores = wait;
 }
 
 class WindowTest : public gpu::OnDevice {
@@ -189,6 +199,37 @@ TEST_F(WindowTest, takes_the_newest_image_where_that_is_asked_for) {
     for (int i = 0; i < 20; ++i) draw(red);
     draw(blue);
     EXPECT_TRUE(seen(blue));
+}
+
+TEST_F(WindowTest, two_frames_are_under_way_at_most) {
+    if (!show_window()) return;
+    std::vector<std::uint64_t> done;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const auto image = next();
+        ASSERT_EQ(image.state, Acquired::image);
+        EXPECT_EQ(waited, i < 2 ? 0 : done[i - 2]) << "the frame before the last one is done, and no more than that";
+        done.push_back(fill(image, red));
+        EXPECT_TRUE(window->show(image, done.back()).ok());
+    }
+}
+
+// What shows an image waits for its semaphore, nobody knows until when; then the image comes back.
+TEST_F(WindowTest, every_image_has_a_semaphore_of_its_own) {
+    if (!show_window()) return;
+    std::map<std::uint32_t, VkSemaphore> of_image;
+    std::set<VkSemaphore> all;
+    VkSemaphore before = VK_NULL_HANDLE;
+    for (int i = 0; i < 20; ++i) {
+        const auto image = next();
+        ASSERT_EQ(image.state, Acquired::image);
+        const auto [known, fresh] = of_image.try_emplace(image.index, image.semaphores.signal);
+        EXPECT_EQ(known->second, image.semaphores.signal);
+        EXPECT_EQ(all.insert(image.semaphores.signal).second, fresh);
+        EXPECT_NE(image.semaphores.wait, before) << "which may not have been waited for yet";
+        before = image.semaphores.wait;
+        show(image, red);
+    }
+    EXPECT_GT(of_image.size(), 1u);
 }
 
 TEST_F(WindowTest, has_new_images_when_it_is_resized) {
