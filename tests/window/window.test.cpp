@@ -2,9 +2,8 @@
 #include "render/window.h"
 
 #include "gpu/commands.h"
-#include "gpu/test_device.h"
 
-#include "hands.h"
+#include "on_display.h"
 
 #include <gmock/gmock.h>
 
@@ -13,7 +12,6 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -74,51 +72,24 @@ void fail_on_demand(VolkDeviceTable& table) {
     table.vkWaitSemaphores = wait;
 }
 
-class WindowTest : public gpu::OnDevice {
+class WindowTest : public OnDisplay {
   protected:
-    void SetUp() override {
-        auto opened = Display::open();
-        ASSERT_TRUE(opened.ok()) << opened.error().message();
-        display = *opened;
-        surface_extensions = display->surface_extensions();
-        ASSERT_FALSE(surface_extensions.empty());
-        OnDevice::SetUp();
-        if (!instance) return;
-        // A GPU's driver may have no way to a display without a screen.
-        for (const gpu::DeviceInfo& one : instance->devices())
-            if (one.type == gpu::DeviceType::cpu && one.usable()) info = one;
-        open({.intercept = fail_on_demand});
-    }
+    WindowTest() { device_options.intercept = fail_on_demand; }
     void TearDown() override {
         if (device) (void)device->wait(device->submitted());
         framebuffers.clear();
         frames.clear();
         pass = {};
-        hands.reset();
-        window.reset();
-        OnDevice::TearDown();
-        display.reset();
+        OnDisplay::TearDown();
     }
 
     bool show_window(const gpu::SwapchainOptions& images = {}) {
-        if (!device) return false;
-        auto made =
-            Window::create(display, device, {.title = "weft test", .width = 320, .height = 200, .images = images});
-        EXPECT_TRUE(made.ok()) << made.error().message();
-        if (!made) return false;
-        window.emplace(std::move(*made));
-        hands.emplace("weft test");
+        if (!OnDisplay::show_window(images)) return false;
         const gpu::Attachment color{.format = window->format(), .after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
-        auto made_pass = gpu::RenderPass::create(*device, {&color, 1}, "test");
-        EXPECT_TRUE(made_pass.ok());
-        if (made_pass) pass = std::move(*made_pass);
-        return true;
-    }
-
-    gpu::SwapchainImage next() {
-        auto image = window->next();
-        EXPECT_TRUE(image.ok()) << image.error().message();
-        return image ? *image : gpu::SwapchainImage{};
+        auto made = gpu::RenderPass::create(*device, {&color, 1}, "test");
+        EXPECT_TRUE(made.ok());
+        if (made) pass = std::move(*made);
+        return made.ok();
     }
     /// The value of the submit that fills it.
     std::uint64_t fill(const gpu::SwapchainImage& image, Linear color) {
@@ -144,15 +115,7 @@ class WindowTest : public gpu::OnDevice {
     }
     void draw(Linear color) { show(next(), color); }
 
-    /// Hears events until it is so; what comes of them takes a moment. False after far too long.
-    bool until(const std::function<bool()>& so) {
-        for (int i = 0; i < 1000; ++i) {
-            if (so()) return true;
-            (void)window->input(0.02);
-        }
-        return false;
-    }
-    /// Frames until the screen shows that color at a place of the window.
+    /// Whether the screen comes to show that color at a place of the window.
     bool seen(Linear color, int x = 160, int y = 100) {
         std::array<int, 3> bytes{};
         for (int i = 0; i < 3; ++i) {
@@ -161,18 +124,9 @@ class WindowTest : public gpu::OnDevice {
             bytes[static_cast<std::size_t>(i)] =
                 static_cast<int>(std::lround(255 * (window->encodes_srgb() ? encoded : v)));
         }
-        const auto near = [&] {
-            const auto shown = hands->color(x, y);
-            for (std::size_t i = 0; i < 3; ++i)
-                if (std::abs(shown[i] - bytes[i]) > 1) return false;
-            return true;
-        };
-        return until(near);
+        return shown(bytes, x, y);
     }
 
-    std::shared_ptr<const Display> display;
-    std::optional<Window> window;
-    std::optional<Hands> hands;
     gpu::RenderPass pass;
     std::vector<gpu::Framebuffer> framebuffers;
     std::vector<gpu::Commands> frames;
