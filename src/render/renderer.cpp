@@ -142,7 +142,8 @@ struct Renderer::Impl {
     bool is_sheer(const Object& object) const {
         return object.scalars.values.address == 0 && materials.sheer(object.material);
     }
-    Result<std::uint64_t> draw(const Drawing& drawing, const Target& target, gpu::Moment wait, bool straight);
+    Result<std::uint64_t> draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window,
+                               bool straight);
 };
 
 // --- What stays
@@ -440,7 +441,7 @@ void Renderer::Impl::record_top(gpu::Commands& commands, const Drawing& drawing,
     commands.end_pass();
 }
 
-Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target& target, gpu::Moment wait,
+Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window,
                                            bool straight) {
     const bool sheer = std::ranges::any_of(drawing.objects, [&](const Object& object) { return is_sheer(object); });
     auto onto = presenting_for(target, straight);
@@ -474,13 +475,13 @@ Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target&
     if (auto ended = commands.end(); !ended) return ended.errors();
 
     // Surfaces that the device makes are there at moments of one timeline; the latest is that of all.
+    gpu::Moment ready;
     for (const Object& object : drawing.objects) {
-        const gpu::Moment ready = object.surface.ready;
-        if (ready.semaphore == VK_NULL_HANDLE) continue;
-        if (wait.semaphore == VK_NULL_HANDLE || (wait.semaphore == ready.semaphore && wait.value < ready.value))
-            wait = ready;
+        const gpu::Moment one = object.surface.ready;
+        if (one.semaphore != VK_NULL_HANDLE && (ready.semaphore == VK_NULL_HANDLE || ready.value < one.value))
+            ready = one;
     }
-    auto submitted = commands.submit(wait);
+    auto submitted = commands.submit(ready, window);
     if (!submitted) return submitted;
     slot.submitted = *submitted;
     next_slot = 1 - next_slot;
@@ -523,11 +524,11 @@ Result<Done> Renderer::surround(const Lighting& light, const ImageF* environment
     return Done{};
 }
 
-Result<std::uint64_t> Renderer::draw(const Drawing& drawing, const Target& target, gpu::Moment wait) {
+Result<std::uint64_t> Renderer::draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window) {
     if (!impl_->surrounded) {
         if (auto made = surround(drawing.lighting); !made) return made.errors();
     }
-    return impl_->draw(drawing, target, wait, false);
+    return impl_->draw(drawing, target, window, false);
 }
 
 Result<Image8> Renderer::picture(const Drawing& drawing, std::uint32_t width, std::uint32_t height) {

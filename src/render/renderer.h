@@ -40,9 +40,8 @@ class Renderer {
     Result<Done> surround(const Lighting& light, const ImageF* environment = nullptr);
 
     /// Records and submits; returns the value that the device's timeline reaches when the picture is there. Waits for
-    /// the frame before the last one, whose buffers it writes again. `wait`: signaled when the target may be drawn
-    /// into.
-    Result<std::uint64_t> draw(const Drawing& drawing, const Target& target, gpu::Moment wait = {});
+    /// the frame before the last one, whose buffers it writes again. `window`: those of a window's image.
+    Result<std::uint64_t> draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window = {});
     /// Draws, waits and reads back. Colors of a transparent picture are not multiplied by alpha.
     Result<Image8> picture(const Drawing& drawing, std::uint32_t width, std::uint32_t height);
 
