@@ -1,10 +1,10 @@
 #include "cli/render_options.h"
+#include "cli/render_window.h"
 
 #ifdef WEFT_VULKAN
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "io/image_file.h"
-#include "io/mesh_file.h"
+#include "cli/view_sources.h"
 #include "io/picture_writer.h"
 #include "view/overlays.h"
 #include "view/scene_view.h"
@@ -63,16 +63,6 @@ Result<bool> check_overlays(const std::vector<std::string>& names) {
     }
     if (!errors.empty()) return errors;
     return feedback;
-}
-
-template <class Picture>
-std::function<Result<Picture>(const std::string&)> beside(const std::filesystem::path& scene,
-                                                          Result<Picture> (*read)(const std::filesystem::path&)) {
-    return [folder = scene.parent_path(), read](const std::string& file) -> Result<Picture> {
-        const auto path = find_asset(file, folder);
-        if (!path) return path.errors();
-        return read(*path);
-    };
 }
 
 Result<std::shared_ptr<gpu::Device>> find_device(World& world, const std::string& name) {
@@ -140,9 +130,23 @@ int report(const RenderOptions& options, const Result<Done>& done) {
     return exit_done;
 }
 
+/// --window: until it is closed, or so much time is simulated.
+int open_window(const RenderOptions& options, const RenderPlan& plan) {
+    if (const auto checked = check_overlays(options.overlays); !checked) return wrong(checked.errors());
+    return show({.scene = options.scene,
+                 .length = options.length,
+                 .width = plan.size.width,
+                 .height = plan.size.height,
+                 .samples = static_cast<std::uint32_t>(options.samples),
+                 .camera = plan.camera,
+                 .overlays = options.overlays,
+                 .common = options.common});
+}
+
 int render(const RenderOptions& options) {
     const auto plan = check_options(options);
     if (!plan) return wrong(plan.errors());
+    if (options.window) return open_window(options, *plan);
     auto writers = make_writers(options);
     if (!writers) return wrong(writers.errors());
     const auto feedback = check_overlays(options.overlays);
@@ -170,16 +174,13 @@ int render(const RenderOptions& options) {
                                           .transparent = options.transparent});
         if (!begun) return wrong(begun.errors());
     }
-    auto view = SceneView::create(
-        *device, session->scene(), session->world(),
-        {.width = plan->size.width,
-         .height = plan->size.height,
-         .samples = static_cast<std::uint32_t>(options.samples),
-         .transparent = options.transparent,
-         .overlays = options.overlays},
-        {.surface = surfaces_on_device(session->world()),
-         .read_picture = beside<Image8>(options.scene, [](const auto& path) { return read_image(path); }),
-         .read_light = beside<ImageF>(options.scene, [](const auto& path) { return read_hdr(path); })});
+    auto view = SceneView::create(*device, session->scene(), session->world(),
+                                  {.width = plan->size.width,
+                                   .height = plan->size.height,
+                                   .samples = static_cast<std::uint32_t>(options.samples),
+                                   .transparent = options.transparent,
+                                   .overlays = options.overlays},
+                                  view_sources(options.scene, session->world()));
     if (!view) return wrong(view.errors());
     for (const std::string& note : session->notes()) print_warning(note);
     for (const std::string& note : view->notes()) print_warning(note);
@@ -225,11 +226,10 @@ Command add_render(CLI::App& program) {
     auto options = std::make_shared<RenderOptions>();
     command->add_option("scene", options->scene, "scene file")->required();
     add_length_options(*command, options->length, "simulate; 0 is the start alone");
-    command
-        ->add_option("--out", options->outputs,
-                     ".png (last frame), DIR/%04d.png (sequence), .mp4 (film, by the program ffmpeg); repeatable")
-        ->required()
-        ->allow_extra_args(false);
+    const auto out = command->add_option(
+        "--out", options->outputs,
+        ".png (last frame), DIR/%04d.png (sequence), .mp4 (film, by the program ffmpeg); repeatable");
+    out->allow_extra_args(false);
     command->add_option("--size", options->size, "of the picture, in pixels")->capture_default_str();
     command->add_option("--samples", options->samples, "a pixel: 1 to 256, a power of two; more than 4 take longer")
         ->capture_default_str();
@@ -242,9 +242,12 @@ Command add_render(CLI::App& program) {
         ->delimiter(',')
         ->allow_extra_args(false);
     command->add_flag("--transparent", options->transparent, "no background; .png alone");
+    command->add_flag("--window", options->window, "shows it as it moves, instead of writing it")->excludes(out);
     command->add_flag("--quiet", options->quiet, "no progress, no word of what was written");
     add_common_options(*command, options->common);
     command->footer(
+        window_help() +
+        "\n"
         "With --backend cpu, --device names the Vulkan device that draws.\n"
         "Examples:\n"
         "  weft render scenes/hanging_bunny.json --seconds 2 --out bunny.png --size 1920x1080 --samples 16\n"

@@ -107,6 +107,8 @@ Result<RenderPlan> check_options(const RenderOptions& options) {
     }
     note(check_samples(options.samples));
     note(check_outputs(options.outputs));
+    if (options.outputs.empty() && !options.window)
+        errors.push_back({"--out", "is missing: where pictures go; or --window, to see them"});
     // Floats count degrees beyond that in steps that can be seen.
     constexpr double most_degrees = 36000;
     if (!(std::abs(options.orbit) <= most_degrees))

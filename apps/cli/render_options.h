@@ -19,7 +19,7 @@ struct RenderOptions {
     std::int64_t samples = 4;
     double orbit = 0;
     std::optional<double> fps;
-    bool transparent = false, quiet = false;
+    bool transparent = false, quiet = false, window = false;
     Options common;
 };
 

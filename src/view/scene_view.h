@@ -5,8 +5,10 @@
 #include "gpu/device.h"
 #include "gpu/surface_buffers.h"
 #include "look/camera.h"
+#include "render/renderer.h"
 #include "scene/scene_desc.h"
 #include "solver/world.h"
+#include "view/overlays.h"
 
 #include <weft/result.h>
 
@@ -53,6 +55,12 @@ class SceneView {
     const Camera& camera() const;
     /// The world as it is now.
     Result<Image8> picture(World& world, const Camera& camera);
+    /// The same into a target of any size; returns when it is there, on the device's timeline. `window`: of a window's
+    /// image.
+    Result<std::uint64_t> draw(World& world, const Camera& camera, const render::Target& target,
+                               gpu::BinarySemaphores window = {});
+    /// From now on, in place of those before.
+    void set_overlays(std::vector<const Overlay*> overlays);
     /// What was put right, a line each: maps that cannot be read.
     const std::vector<std::string>& notes() const;
 

@@ -302,7 +302,9 @@ Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<const gpu::
 }
 
 Result<std::shared_ptr<gpu::Device>> make_vulkan_device(const VulkanOptions& options) {
-    auto instance = gpu::Instance::create({.validation = options.validation, .on_message = options.on_message});
+    auto instance = gpu::Instance::create({.validation = options.validation,
+                                           .surface_extensions = options.surface_extensions,
+                                           .on_message = options.on_message});
     if (!instance) return instance.errors();
     auto info = gpu::choose_device((*instance)->devices(), options.device, options.software);
     if (!info) return info.errors();

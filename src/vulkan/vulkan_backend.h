@@ -35,6 +35,8 @@ struct VulkanOptions {
     bool timings = false;
     /// Bytes: never takes more of the device than this; 0: as much as there is.
     std::uint64_t memory_limit = 0;
+    /// For one that shows pictures in windows: gpu::InstanceOptions.
+    std::vector<std::string> surface_extensions = {};
     /// Validation layers, for tests; what they say.
     bool validation = false;
     std::function<void(std::string_view)> on_message = {};

@@ -14,16 +14,19 @@ struct Hands::Impl {
     Time now = 1000;  // ms; each event comes after the one before
 
     Atom atom(const char* name) const { return XInternAtom(display, name, False); }
+    std::string title_of(Window one) const {
+        char* name = nullptr;
+        if (!XFetchName(display, one, &name) || !name) return {};
+        std::string title = name;
+        XFree(name);
+        return title;
+    }
     void find(const std::string& title) {
         Window unused = 0, *children = nullptr;
         unsigned count = 0;
         XQueryTree(display, root, &unused, &unused, &children, &count);
-        for (unsigned i = 0; i < count; ++i) {
-            char* name = nullptr;
-            if (!XFetchName(display, children[i], &name) || !name) continue;
-            if (title == name) window = children[i];
-            XFree(name);
-        }
+        for (unsigned i = 0; i < count; ++i)
+            if (title_of(children[i]).starts_with(title)) window = children[i];
         if (children) XFree(children);
         if (!window) throw std::runtime_error("there is no window '" + title + "'");
     }
@@ -47,7 +50,12 @@ Hands::Hands(const std::string& title) : impl_(std::make_unique<Impl>()) {
     impl_->display = XOpenDisplay(nullptr);
     if (!impl_->display) throw std::runtime_error("there is no display");
     impl_->root = DefaultRootWindow(impl_->display);
-    impl_->find(title);
+    try {
+        impl_->find(title);
+    } catch (...) {
+        XCloseDisplay(impl_->display);
+        throw;
+    }
 }
 
 Hands::~Hands() {
@@ -60,6 +68,10 @@ std::array<int, 3> Hands::color(int x, int y) const {
     const unsigned long pixel = XGetPixel(image, 0, 0);
     XDestroyImage(image);
     return {static_cast<int>(pixel >> 16 & 255), static_cast<int>(pixel >> 8 & 255), static_cast<int>(pixel & 255)};
+}
+
+std::string Hands::title() const {
+    return impl_->title_of(impl_->window);
 }
 
 void Hands::resize(unsigned width, unsigned height) {

@@ -9,12 +9,14 @@ namespace weft {
 
 class Hands {
   public:
-    /// At the window of that title, which there is.
+    /// At the window whose title begins so. Throws std::runtime_error if there is none.
     explicit Hands(const std::string& title);
     ~Hands();
 
     /// Red, green and blue of a pixel of the screen.
     std::array<int, 3> color(int x, int y) const;
+    /// As it is now.
+    std::string title() const;
     void resize(unsigned width, unsigned height);
     void set_minimized(bool minimized);
     void ask_to_close();
