@@ -9,6 +9,7 @@
 #include "view/scene_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -73,7 +74,10 @@ struct SceneView::Impl {
     std::vector<ColliderOnDevice> colliders;
     std::uint32_t turn = 0;
 
+    std::array<std::uint64_t, 2> frames{};  // when the frame before the last one is there, and the last
+
     // Of one picture.
+    std::uint32_t width = 1, height = 1;
     std::vector<render::Object> objects;
     std::vector<render::Ground> grounds;
     OverlayOutput shown;
@@ -94,6 +98,7 @@ struct SceneView::Impl {
     Result<Done> add_collider(const Collider& collider, ColliderId id);
     Result<Done> draw_overlays(World& world, const Frame& frame);
     Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth);
+    Result<render::Drawing> draw(World& world, const Camera& camera, std::uint32_t wide, std::uint32_t high);
     gpu::Device& device() { return *renderer.device(); }
 };
 
@@ -255,8 +260,8 @@ Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
                                            .positions = positions,
                                            .normals = normals,
                                            .size = size,
-                                           .width = options.width,
-                                           .height = options.height});
+                                           .width = width,
+                                           .height = height});
     turn = 1 - turn;
     std::size_t next = 0;
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
@@ -275,6 +280,25 @@ Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
                                    scalars.scale};
     }
     return Done{};
+}
+
+Result<render::Drawing> SceneView::Impl::draw(World& world, const Camera& from, std::uint32_t wide,
+                                              std::uint32_t high) {
+    width = wide;
+    height = high;
+    if (auto brought = bring(world); !brought) return brought.errors();
+    render::Drawing drawing;
+    drawing.camera = from;
+    drawing.lighting = scene.light;
+    drawing.background = options.transparent ? render::Background::transparent : render::Background::sky;
+    drawing.objects = objects;
+    drawing.grounds = grounds;
+    drawing.lines = shown.lines;
+    drawing.lines_on_top = shown.lines_on_top;
+    drawing.points = shown.points;
+    drawing.flat = shown.flat;
+    drawing.two_passes = options.two_passes;
+    return drawing;
 }
 
 // --- Outside
@@ -301,21 +325,27 @@ const std::vector<std::string>& SceneView::notes() const {
     return impl_->notes;
 }
 
+void SceneView::set_overlays(std::vector<const Overlay*> overlays) {
+    impl_->overlays = std::move(overlays);
+}
+
 Result<Image8> SceneView::picture(World& world, const Camera& camera) {
     Impl& self = *impl_;
-    if (auto brought = self.bring(world); !brought) return brought.errors();
-    render::Drawing drawing;
-    drawing.camera = camera;
-    drawing.lighting = self.scene.light;
-    drawing.background = self.options.transparent ? render::Background::transparent : render::Background::sky;
-    drawing.objects = self.objects;
-    drawing.grounds = self.grounds;
-    drawing.lines = self.shown.lines;
-    drawing.lines_on_top = self.shown.lines_on_top;
-    drawing.points = self.shown.points;
-    drawing.flat = self.shown.flat;
-    drawing.two_passes = self.options.two_passes;
-    return self.renderer.picture(drawing, self.options.width, self.options.height);
+    const auto drawing = self.draw(world, camera, self.options.width, self.options.height);
+    if (!drawing) return drawing.errors();
+    return self.renderer.picture(*drawing, self.options.width, self.options.height);
+}
+
+Result<std::uint64_t> SceneView::draw(World& world, const Camera& camera, const render::Target& target,
+                                      gpu::BinarySemaphores window) {
+    Impl& self = *impl_;
+    // What is written for this frame was read by the one before the last.
+    if (auto waited = self.device().wait(self.frames[0]); !waited) return waited.errors();
+    const auto drawing = self.draw(world, camera, target.width, target.height);
+    if (!drawing) return drawing.errors();
+    const auto done = self.renderer.draw(*drawing, target, window);
+    if (done) self.frames = {self.frames[1], *done};
+    return done;
 }
 
 Camera orbited(const Camera& camera, float degrees) {
