@@ -14,17 +14,17 @@ namespace weft {
 struct Sun {
     float azimuth = -40;             ///< degrees from +z toward +x: where the light comes from
     float elevation = 48;            ///< degrees above the horizon
-    float strength = 1.15f;          ///< 0: there is none
+    float strength = 1.0f;           ///< 0: there is none
     Vec3 color{1.0f, 0.96f, 0.90f};  ///< linear RGB
     float size = 3;                  ///< degrees across; larger ones have softer shadows (the real one: 0.53)
 };
 
 /// Light from all around: three colors that flow into one another.
 struct Sky {
-    float strength = 0.5f;
-    Vec3 zenith{0.75f, 0.85f, 1.0f};  ///< linear RGB, straight above
+    float strength = 0.52f;
+    Vec3 zenith{0.80f, 0.88f, 1.0f};  ///< linear RGB, straight above
     Vec3 horizon{1.0f, 0.98f, 0.95f};
-    Vec3 ground{0.55f, 0.52f, 0.50f};  ///< what comes from below
+    Vec3 ground{0.62f, 0.60f, 0.58f};  ///< what comes from below
 };
 
 /// A picture of what is around, in place of the sky: equirectangular, its middle column toward -z.
