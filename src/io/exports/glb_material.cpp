@@ -223,15 +223,9 @@ void GltfMaterials::add_highlight(const Material& material, const Tile& tile, ti
 }
 
 void GltfMaterials::add_fuzz(const Material& material, tinygltf::Material& to) {
-    Vec3 color = material.sheen_color;
+    const Vec3 color = material.sheen_color;
     float roughness = material.sheen_roughness;
-    if (material.velvet > 0) {
-        // Of a pile the sheen has the color at its fullest, and the more of it the stronger the pile is.
-        const Vec3 c = material.color;
-        const float fullest = std::max({c.x, c.y, c.z, 1e-3f});
-        color = c / fullest * (material.velvet / (1 + material.velvet));
-        roughness = material.velvet_alpha;
-    }
+    if (material.velvet > 0) roughness = material.velvet_alpha;  // its hairs have their color as that of the sheen
     if (color == Vec3{}) return;
     extend(to.extensions, "KHR_materials_sheen",
            {{"sheenColorFactor", numbers({color.x, color.y, color.z})}, {"sheenRoughnessFactor", number(roughness)}});
