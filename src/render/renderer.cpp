@@ -16,7 +16,6 @@
 namespace weft::render {
 namespace {
 
-constexpr std::uint32_t shadow_side = 2048;  // texels: 1.5 mm each over 3 m
 constexpr std::uint32_t most_samples = 256;
 constexpr VkClearValue clear_depth{.depthStencil = {1, 0}};
 constexpr VkClearValue clear_nothing{};
@@ -167,13 +166,13 @@ Result<Done> Renderer::Impl::make_fixed() {
     if (auto made = take(gpu::Sampler::create(*device, compare), shadow_compare); !made) return made;
     if (auto made = take(gpu::Sampler::create(*device, point), nearest); !made) return made;
     if (auto made = take(gpu::Sampler::create(*device, {.address_v = clamp}), around_sampler); !made) return made;
-    const gpu::ImageDesc map{.width = shadow_side,
-                             .height = shadow_side,
+    const gpu::ImageDesc map{.width = shadow_map_side,
+                             .height = shadow_map_side,
                              .format = depth_format,
                              .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
     if (auto made = take(gpu::Image::create(*device, map, "shadow"), shadow_map); !made) return made;
     const VkImageView view = shadow_map.view();
-    auto frame = gpu::Framebuffer::create(*device, passes.shadow, {&view, 1}, shadow_side, shadow_side);
+    auto frame = gpu::Framebuffer::create(*device, passes.shadow, {&view, 1}, shadow_map_side, shadow_map_side);
     if (auto made = take(std::move(frame), shadow_frame); !made) return made;
     gpu::Memory& memory = device->memory();
     if (auto made = take(memory.buffer(32, gpu::MemoryKind::device, "bounds"), bounds); !made) return made;
@@ -298,7 +297,7 @@ void Renderer::Impl::record_sun(gpu::Commands& commands, const Drawing& drawing,
     }
     commands.barrier();
     commands.bind(*pipelines.sun);
-    const SunPush values{placed.frames[0], bounds.address(), light.address(), static_cast<float>(shadow_side)};
+    const SunPush values{placed.frames[0], bounds.address(), light.address(), static_cast<float>(shadow_map_side)};
     commands.push(std::as_bytes(std::span(&values, 1)).first(28));
     commands.dispatch(1);
     commands.drawing_barrier();

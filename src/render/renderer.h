@@ -10,6 +10,9 @@
 
 namespace weft::render {
 
+/// Texels across the map of the sun's shadows: 1.5 mm each over 3 m.
+inline constexpr std::uint32_t shadow_map_side = 2048;
+
 struct RendererOptions {
     /// A pixel: 1, 2 or 4 at once, if the device has so many; more, up to 256, by drawing the picture again and again.
     std::uint32_t samples = 4;
