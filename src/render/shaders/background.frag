@@ -1,5 +1,5 @@
 #version 460
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 color;

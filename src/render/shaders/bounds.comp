@@ -4,7 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #define WEFT_OWN_PUSH
-#include "../shading/frame.data.h"
+#include "render/shading/frame.data.h"
 
 layout(local_size_x = 64) in;
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Bounds { uint at[]; };

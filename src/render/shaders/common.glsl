@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
-#include "../shading/frame.data.h"
-#include "../shading/tone.h"
+#include "render/shading/frame.data.h"
+#include "render/shading/tone.h"
 #define frame push.frame.data
 
 // Reads a vector from a buffer as one. Lavapipe (Mesa 22.3) reads the first component where a shader asks for the last

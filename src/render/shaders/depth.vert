@@ -1,5 +1,5 @@
 #version 460
-#include "common.glsl"
-#include "mesh.glsl"
+#include "render/shaders/common.glsl"
+#include "render/shaders/mesh.glsl"
 
 void main() { gl_Position = frame.to_clip * vec4(world_position(), 1.0); }

@@ -1,5 +1,5 @@
 #version 460
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 #define object push.object.data
 
 layout(location = 0) in vec3 position;
@@ -9,7 +9,7 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec3 rest;
 layout(location = 5) in float scalar;
 layout(location = 0) out vec4 color;
-#include "surface.glsl"
+#include "render/shaders/surface.glsl"
 
 void main() {
     Place place = find_place(normal, tangent, uv, rest, gl_FrontFacing, gl_FragCoord.xy);

@@ -1,7 +1,7 @@
 #version 460
 // A square of a plane around what the camera looks at, as large as grounds reach before they have faded. The object's
 // transform holds two directions along it, its normal, and a point of it.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 #define object push.object.data
 
 layout(location = 0) out vec3 position;

@@ -1,5 +1,5 @@
 #version 460
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) in vec4 color;
 layout(location = 1) noperspective in float across;

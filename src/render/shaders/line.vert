@@ -1,6 +1,6 @@
 #version 460
 // A line as a strip that is as wide as it says in pixels, and half a pixel more on each side where it fades.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) out vec4 color;
 layout(location = 1) noperspective out float across;  // pixels from the middle

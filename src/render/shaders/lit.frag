@@ -1,7 +1,7 @@
 #version 460
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 #define object push.object.data
-#include "../shading/color_scale.h"
+#include "render/shading/color_scale.h"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -10,7 +10,7 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec3 rest;
 layout(location = 5) in float scalar;
 layout(location = 0) out vec4 color;
-#include "surface.glsl"
+#include "render/shaders/surface.glsl"
 
 // 0: both sides at once, by which side is seen; 1: all that is drawn are fronts; 2: all are backs.
 layout(constant_id = 0) const uint sides = 0u;

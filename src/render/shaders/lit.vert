@@ -1,6 +1,6 @@
 #version 460
-#include "common.glsl"
-#include "mesh.glsl"
+#include "render/shaders/common.glsl"
+#include "render/shaders/mesh.glsl"
 
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;

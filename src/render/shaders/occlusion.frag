@@ -1,7 +1,7 @@
 #version 460
 // How much of the light around reaches each place: horizons in the depth picture along some directions (Bavoil and
 // others 2008; weighted by the cosine as Jimenez and others 2016). At half the size; gives the depth too.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec2 left;

@@ -1,6 +1,6 @@
 #version 460
 // Takes the noise out, over four by four pixels of about the same depth.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec2 left;

@@ -1,6 +1,6 @@
 #version 460
 // Onto the target, with a noise of half a step against bands.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 color;

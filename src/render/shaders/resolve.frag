@@ -1,7 +1,7 @@
 #version 460
 // Samples of a pixel become one color: sheer cloth over the rest, tones pressed into what a screen shows, and only then
 // the mean, so that an edge to a very bright place stays smooth.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 color;

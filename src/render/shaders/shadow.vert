@@ -1,6 +1,6 @@
 #version 460
-#include "common.glsl"
-#include "mesh.glsl"
+#include "render/shaders/common.glsl"
+#include "render/shaders/mesh.glsl"
 
 void main() {
     vec4 p = frame.shadow.data.to_shadow * vec4(world_position(), 1.0);

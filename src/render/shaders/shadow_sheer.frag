@@ -1,6 +1,6 @@
 #version 460
 // Of a sheer cloth, as many points cast a shadow as its threads cover.
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 #define object push.object.data
 
 void main() {

@@ -1,7 +1,7 @@
 #version 460
 // Cloth that one sees through, in any order: weighted sums of color, and optical depth (McGuire and Bavoil 2013; sums
 // of logarithms in place of products, so that both pictures blend alike).
-#include "common.glsl"
+#include "render/shaders/common.glsl"
 #define object push.object.data
 
 layout(location = 0) in vec3 position;
@@ -12,7 +12,7 @@ layout(location = 4) in vec3 rest;
 layout(location = 5) in float scalar;
 layout(location = 0) out vec4 sum;
 layout(location = 1) out vec4 depth;
-#include "surface.glsl"
+#include "render/shaders/surface.glsl"
 
 layout(constant_id = 0) const uint sides = 0u;
 

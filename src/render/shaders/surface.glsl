@@ -1,5 +1,5 @@
 // The light that a place of a surface sends to the eye.
-#include "shadows.glsl"
+#include "render/shaders/shadows.glsl"
 layout(set = 0, binding = 2) uniform sampler2D occlusion_map;    // what is left of the light around, and the depth
 layout(set = 0, binding = 3) uniform sampler2D environment_map;  // as rough materials mirror it, rougher by level
 layout(set = 0, binding = 4) uniform sampler2D background_map;

@@ -4,7 +4,7 @@
 #ifndef WEFT_SHADING_BRDF_H
 #define WEFT_SHADING_BRDF_H
 
-#include "glsl.h"
+#include "render/shading/glsl.h"
 
 WEFT_SHADING_BEGIN
 

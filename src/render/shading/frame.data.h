@@ -2,7 +2,7 @@
 #ifndef WEFT_SHADING_FRAME_H
 #define WEFT_SHADING_FRAME_H
 
-#include "brdf.h"
+#include "render/shading/brdf.h"
 
 #ifdef __cplusplus
 #include <cstdint>

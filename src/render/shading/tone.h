@@ -2,7 +2,7 @@
 #ifndef WEFT_SHADING_TONE_H
 #define WEFT_SHADING_TONE_H
 
-#include "glsl.h"
+#include "render/shading/glsl.h"
 
 WEFT_SHADING_BEGIN
 
