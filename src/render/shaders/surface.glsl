@@ -100,7 +100,7 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
 
     float warp = whole(material.velvet).w > 0.5 && !front ? 1.0 - first.w : first.w;
     vec3 color = mix(material.weft_color.rgb, material.color.rgb, warp);
-    if (whole(material.map).z > 0.5) color *= texture(color_map, uv * material.map.xy).rgb;
+    if (whole(material.map).z > 0.5) color *= texture(color_map, vec2(uv.x, -uv.y) * material.map.xy).rgb;  // rows from the top
     vec2 lost = max(squares.xy - slope * slope, vec2(0.0));  // by filtering: roughness that is left (LEAN)
     vec2 alpha = material.roughness.xy;
     Fiber fiber;
