@@ -26,7 +26,7 @@ void main() {
     bool front = sides == 0u ? gl_FrontFacing : sides == 1u;
     Place place = find_place(normal, tangent, uv, rest, front, gl_FragCoord.xy);
     if ((object.flags & object_has_scalars) != 0u) {
-        color = vec4(scalar_color(place), 1.0);
+        color = vec4(scalar_color(place), 2.0);  // an alpha by which resolve.frag leaves it as it is
     } else {
         color = vec4(light_of(place), 1.0);
     }

@@ -22,12 +22,19 @@ void main() {
     vec4 all = vec4(0.0);
     for (int i = 0; i < int(samples); ++i) {
         vec4 one = texelFetch(lit, pixel, i);
+        bool as_it_is = one.a > 1.5;  // colors of a scale are no light (lit.frag)
+        vec3 shown = as_it_is ? one.rgb : tone_map(one.rgb);
+        float alpha = min(one.a, 1.0);
 #ifdef WEFT_SHEER
         vec4 sum = texelFetch(sheer_sum, pixel, i);
         float covered = 1.0 - exp(-texelFetch(sheer_depth, pixel, i).r);
-        if (sum.a > 0.0) one = mix(one, vec4(sum.rgb / sum.a, 1.0), covered);
+        if (sum.a > 0.0) {
+            vec3 over = sum.rgb / sum.a;
+            shown = as_it_is ? mix(shown, tone_map(over), covered) : tone_map(mix(one.rgb, over, covered));
+            alpha = mix(alpha, 1.0, covered);
+        }
 #endif
-        all += vec4(tone_map(one.rgb), one.a);
+        all += vec4(shown, alpha);
     }
     color = all * push.numbers.x / float(samples);  // a share of all passes over this picture
 }
