@@ -20,11 +20,12 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
     vec3 lifted = position + side * (scale.x * (0.7 + 1.3 * grazing));
     vec3 p = (frame.shadow.data.to_shadow * vec4(lifted, 1.0)).xyz;
     bool outside = any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0)));
+    float beyond = max(0.0, p.z - 1.0) * scale.y;  // m: farther from all that casts shadows
     p = clamp(p, vec3(0.0), vec3(1.0));
 
     float across = 1.0 / (scale.x * scale.z);
     float turn = pixel_noise(pixel, whole(frame.light).w) * 2.0 * pi;
-    float least = 2.2 * scale.x, most = max(least, 0.25 * scale.y * whole(frame.sun).w);
+    float least = 2.2 * scale.x, most = max(least, (0.25 * scale.y + beyond) * whole(frame.sun).w);
     most = min(most, 60.0 * scale.x);
     float depth_per_meter = 1.0 / scale.y;
     float margin = 1.0 * scale.x * depth_per_meter;
@@ -40,7 +41,7 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
         }
     }
     float radius = least;
-    if (blockers > 0.0) radius = clamp((p.z - depths / blockers) * scale.y * whole(frame.sun).w, least, most);
+    if (blockers > 0.0) radius = clamp(((p.z - depths / blockers) * scale.y + beyond) * whole(frame.sun).w, least, most);
     float reached = 0.0;
     for (int i = 0; i < shadow_taps; ++i) {
         vec2 offset = disc(i, shadow_taps, turn) * radius;
