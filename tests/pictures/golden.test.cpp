@@ -1,0 +1,101 @@
+// Scenes as pictures, held against those that somebody has looked at (tests/golden). Where one differs, what came out
+// and where they differ are left in golden/ of the build. scripts/golden makes them anew.
+
+#include "measure.h"
+#include "scenes.h"
+
+#include "io/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace weft {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path golden_folder = fs::path(WEFT_SOURCE_DIR) / "tests" / "golden";
+const fs::path left_folder = fs::path(WEFT_BINARY_DIR) / "golden";
+
+void write_picture(const fs::path& path, const Image8& image) {
+    fs::create_directories(path.parent_path());
+    const auto bytes = png_bytes(image);
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message();
+    std::ofstream out(path, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
+    ASSERT_TRUE(out.flush()) << path;
+}
+
+class Golden : public PictureTest, public testing::WithParamInterface<PictureScene> {};
+
+TEST_P(Golden, looks_as_it_did) {
+    if (info.type != gpu::DeviceType::cpu) GTEST_SKIP() << "golden pictures are of lavapipe, not of " << info.name;
+    const PictureScene& scene = GetParam();
+    const Image8 image = drawn(scene);
+    if (HasFailure()) return;
+    const fs::path golden = golden_folder / (scene.name + ".png");
+    if (std::getenv("WEFT_WRITE_GOLDEN")) return write_picture(golden, image);
+
+    const fs::path got = left_folder / (scene.name + "_got.png"),
+                   differs = left_folder / (scene.name + "_difference.png");
+    fs::remove(got);
+    fs::remove(differs);
+    const auto expected = read_image(golden);
+    if (!expected) write_picture(got, image);
+    ASSERT_TRUE(expected.ok()) << expected.error().message() << "\nwhat came out is " << got
+                               << "\nscripts/golden makes all of them";
+    const PictureDistance distance = distance_of(*expected, image);
+    if (alike(distance)) return;
+    write_picture(got, image);
+    if (distance.width > 0) write_picture(differs, picture_of(distance, *expected));
+    ADD_FAILURE() << scene.name << " differs from " << golden << ": ΔE is " << distance.mean << " on the mean ("
+                  << mean_allowed << " allowed), and beyond " << distance.worst << " in a pixel of a hundred ("
+                  << worst_allowed << " allowed)\nwhat came out is " << got << "\nwhere it differs, " << differs
+                  << "\nIf it is right, scripts/golden makes all of them anew";
+}
+
+INSTANTIATE_TEST_SUITE_P(Vulkan, Golden, testing::ValuesIn(picture_scenes()),
+                         [](const auto& one) { return one.param.name; });
+
+// What is compared above must be able to fail: changes of the scene that somebody would complain of.
+class VulkanGoldenCatches : public PictureTest {
+  protected:
+    void expect_caught(const char* what, const std::string& look, const std::string& light) {
+        const PictureScene good{.name = "good", .look = "\"cotton\"", .light = "{}"};
+        PictureScene changed = good;
+        if (!look.empty()) changed.look = look;
+        if (!light.empty()) changed.light = light;
+        const PictureDistance distance = distance_of(drawn(good), drawn(changed));
+        EXPECT_FALSE(alike(distance)) << what << ": " << distance.mean << " " << distance.worst;
+    }
+};
+
+TEST_F(VulkanGoldenCatches, brighter_by_5_percent) {
+    expect_caught("brightness", "", R"({ "exposure": 0.0704 })");
+}
+TEST_F(VulkanGoldenCatches, other_normals) {
+    expect_caught("threads four times as high", R"({ "material": "cotton", "relief": 4 })", "");
+}
+TEST_F(VulkanGoldenCatches, light_from_elsewhere) {
+    expect_caught("the sun", "", R"({ "sun": { "azimuth": 50 } })");
+}
+TEST_F(VulkanGoldenCatches, no_occlusion) {
+    expect_caught("occlusion", "", R"({ "occlusion": 0 })");
+}
+
+TEST(GoldenPictures, are_those_of_the_scenes_and_no_others) {
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(golden_folder)) {
+        if (entry.path().extension() != ".png") continue;
+        ++count;
+        const auto named = [&](const PictureScene& scene) { return scene.name == entry.path().stem(); };
+        EXPECT_TRUE(std::ranges::any_of(picture_scenes(), named)) << entry.path() << " belongs to no scene";
+    }
+    EXPECT_EQ(count, picture_scenes().size()) << "scripts/golden makes them";
+}
+
+}  // namespace
+}  // namespace weft
