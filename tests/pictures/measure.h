@@ -21,9 +21,9 @@ struct PictureDistance {
 /// Sizes that differ are as far away as anything can be.
 PictureDistance distance_of(const Image8& a, const Image8& b);
 
-/// What golden pictures may differ by. 5 % of brightness, of a picture half as bright as paper, is more than twice
+/// What golden pictures may differ by. 5 % of brightness, of a picture half as bright as paper, is four times
 /// that.
-inline constexpr double mean_allowed = 0.4, worst_allowed = 2.5;
+inline constexpr double mean_allowed = 0.25, worst_allowed = 1.5;
 inline bool alike(const PictureDistance& d) {
     return d.mean <= mean_allowed && d.worst <= worst_allowed;
 }

@@ -12,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t width = 160, height = 90;
 constexpr int frames_laid = 36, frames_hung = 24;
 
 std::vector<PictureScene> all_scenes() {
@@ -70,8 +69,11 @@ std::string scene_text(const PictureScene& scene) {
                      "pins": [{ "vertices": [0, 16] }] }],
         "colliders": [{ "name": "ball", "sphere": { "radius": 0.25 }, "transform": { "position": [0, 0.3, 0] } },
                       { "name": "ground", "plane": {} }],)";
+    const std::string from_near = R"({ "position": [0.55, 0.95, 1.75], "target": [0, 0.24, 0], "fov": 21 })",
+                      from_far = R"({ "position": [0.9, 0.9, 1.9], "target": [0, 0.42, 0.05], "fov": 34 })";
     return R"({ "weft": 1,)" + (scene.hung ? hung : laid) + R"(
-        "camera": { "position": [0.55, 0.95, 1.75], "target": [0, 0.28, 0], "fov": 32 },
+        "camera": )" +
+           (scene.hung ? from_far : from_near) + R"(,
         "light": )" +
            scene.light + R"(,
         "look": { "cloth": )" +
@@ -115,8 +117,8 @@ Image8 PictureTest::drawn(const PictureScene& scene) {
     ViewSources sources;
     if (scene.environment) sources.read_light = [](const std::string&) { return Result<ImageF>(window_light()); };
     auto view = SceneView::create(device, session->scene(), session->world(),
-                                  {.width = width,
-                                   .height = height,
+                                  {.width = scene.hung ? 320u : 160u,  // legends need room
+                                   .height = scene.hung ? 180u : 90u,
                                    .samples = scene.samples,
                                    .transparent = scene.transparent,
                                    .overlays = scene.overlays},
