@@ -17,7 +17,7 @@ vec3 as_glm(Vec3 v) {
 // In distances from the eye to what it looks at.
 constexpr float nearest = 0.005f, farthest = 60;
 constexpr float ground_begins_to_fade = 1.5f, ground_ends = 6;
-constexpr float occlusion_reaches = 0.09f;
+constexpr float occlusion_reaches = 0.2f;
 
 /// Right-handed, y down on the picture, depth from 0 to 1.
 mat4 perspective(float fov, float aspect, float nearby, float far) {

@@ -7,7 +7,10 @@ layout(location = 0) in vec2 place;
 layout(location = 0) out vec2 left;
 layout(set = 0, binding = 0) uniform sampler2D depths;
 
-const int directions = 3, steps = 4;
+const int directions = 3, steps = 5;
+
+// What hides light beyond the radius, and folds behind folds, are not seen by it: as dark as they look.
+const float contrast = 1.8;
 
 vec3 view_position(ivec2 pixel) {
     float depth = texelFetch(depths, pixel, 0).r;
@@ -32,7 +35,7 @@ void main() {
     float radius = whole(frame.light).z;
     // Pixels that the radius covers here.
     float scale = radius / -here.z * 0.5 * whole(frame.size).y * length(vec3(whole(frame.to_clip[0]).y, whole(frame.to_clip[1]).y, whole(frame.to_clip[2]).y));
-    scale = min(scale, 0.2 * whole(frame.size).y);
+    scale = min(scale, 0.35 * whole(frame.size).y);
     float noise = pixel_noise(gl_FragCoord.xy, whole(frame.light).w);
     float jitter = pixel_noise(gl_FragCoord.yx + 17.0, whole(frame.light).w);
     float hidden = 0.0;
@@ -47,12 +50,12 @@ void main() {
                 if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(frame.size.xy)))) continue;
                 vec3 d = view_position(tap) - here;
                 float distance2 = dot(d, d);
-                float above = dot(d, normal) * inversesqrt(max(distance2, 1e-12)) - 0.08;
-                float fading = clamp(1.0 - distance2 / (radius * radius), 0.0, 1.0);
+                float above = dot(d, normal) * inversesqrt(max(distance2, 1e-12)) - 0.04;
+                float near2 = distance2 / (radius * radius), fading = clamp(1.0 - near2 * near2, 0.0, 1.0);
                 highest = max(highest, above * fading);
             }
             hidden += highest * highest;  // of the cosine-weighted half circle below that horizon
         }
     }
-    left = nothing ? vec2(1.0, 1e4) : vec2(clamp(1.0 - hidden / float(2 * directions), 0.0, 1.0), -here.z);
+    left = nothing ? vec2(1.0, 1e4) : vec2(pow(clamp(1.0 - hidden / float(2 * directions), 0.0, 1.0), contrast), -here.z);
 }
