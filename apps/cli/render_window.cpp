@@ -129,8 +129,7 @@ class Show {
         if (!image) return image.errors();
         drawn_ = image->state == gpu::Acquired::image;
         if (!drawn_) return Done{};
-        const render::Target target{.image = image->image,
-                                    .view = image->view,
+        const render::Target target{.view = image->view,
                                     .format = window_.format(),
                                     .width = image->extent.width,
                                     .height = image->extent.height,

@@ -1,5 +1,7 @@
 #include "render/albedo.h"
 
+#include "render/sampling.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,21 +14,9 @@ constexpr std::uint32_t sphere_rings = 48, sphere_slices = 24;  // over directio
 constexpr std::uint32_t facets = 128;                           // of each lobe of gloss, for each of `turns` viewers
 constexpr std::uint32_t turns = 4;
 
-float middle(std::uint32_t i, std::uint32_t count) {
-    return (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-}
-
 vec3 direction(float cosine, float angle) {
     const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
     return {sine * std::cos(angle), sine * std::sin(angle), cosine};
-}
-
-// Van der Corput: 0.5, 0.25, 0.75, …
-float radical_inverse(std::uint32_t bits) {
-    float result = 0, digit = 0.5f;
-    for (; bits != 0; bits >>= 1, digit *= 0.5f)
-        if (bits & 1) result += digit;
-    return result;
 }
 
 vec2 at_cosine(const AlbedoTable& table, float cosine) {

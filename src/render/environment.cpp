@@ -1,5 +1,7 @@
 #include "render/environment.h"
 
+#include "render/sampling.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -119,13 +121,6 @@ std::array<glm::vec4, 9> harmonics_of(const ImageF& image) {
     return sums;
 }
 
-float radical_inverse(std::uint32_t bits) {
-    float result = 0, digit = 0.5f;
-    for (; bits != 0; bits >>= 1, digit *= 0.5f)
-        if (bits & 1) result += digit;
-    return result;
-}
-
 /// What a mirror of that roughness shows of each direction, seen from there (Karis 2013), from pictures as blurred as
 /// its facets are far apart (Krivanek and Colbert 2008).
 ImageF mirrored(const std::vector<ImageF>& sharp, float roughness, std::uint32_t width) {
@@ -138,7 +133,7 @@ ImageF mirrored(const std::vector<ImageF>& sharp, float roughness, std::uint32_t
     std::vector<Facet> list;
     const float pixel = 4 * pi / static_cast<float>(sharp[0].width * sharp[0].height);
     for (std::uint32_t i = 0; i < facets; ++i) {
-        const float part = (static_cast<float>(i) + 0.5f) / facets, angle = 2 * pi * radical_inverse(i);
+        const float part = middle(i, facets), angle = 2 * pi * radical_inverse(i);
         const float slope2 = alpha * alpha * part / (1 - part), cosine = 1 / std::sqrt(1 + slope2);
         const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
         const Vec3 h{sine * std::cos(angle), sine * std::sin(angle), cosine};

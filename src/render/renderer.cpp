@@ -103,9 +103,7 @@ struct Renderer::Impl {
     gpu::Buffer bounds, light;  // LightData
     MaterialSet materials;
 
-    Lighting lighting;
     bool surrounded = false, has_environment = false;
-    const ImageF* environment = nullptr;
     Surroundings surroundings;
     gpu::Image around, background;
 
@@ -545,12 +543,11 @@ Result<Image8> Renderer::picture(const Drawing& drawing, std::uint32_t width, st
         auto buffer = self.device->memory().buffer(bytes, gpu::MemoryKind::readback, "picture");
         if (auto made = take(std::move(buffer), self.read_back); !made) return made.errors();
     }
-    const Target target{self.own.handle(),
-                        self.own.view(),
-                        self.own.desc().format,
-                        width,
-                        height,
-                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+    const Target target{.view = self.own.view(),
+                        .format = self.own.desc().format,
+                        .width = width,
+                        .height = height,
+                        .after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
     const auto drawn = self.draw(drawing, target, {}, drawing.background == Background::transparent);
     if (!drawn) return drawn.errors();
     const auto copied = gpu::run_once(*self.device, [&](gpu::Commands& commands) {

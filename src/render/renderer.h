@@ -20,7 +20,6 @@ struct RendererOptions {
 
 /// What a picture is put into.
 struct Target {
-    VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_R8G8B8A8_SRGB;  ///< of those that don't encode sRGB, colors are encoded here
     std::uint32_t width = 0, height = 0;
@@ -39,7 +38,7 @@ class Renderer {
     /// Pictures that it names are read by the caller; without, it is as if it named none.
     Result<MaterialId> add(const Material& material, const Image8* color_map = nullptr,
                            const Image8* normal_map = nullptr);
-    /// What is around from now on. Kept as it is where the light and the picture are the same as before.
+    /// What is around from now on, and what it lights. Waits for the frames under way.
     Result<Done> surround(const Lighting& light, const ImageF* environment = nullptr);
 
     /// Records and submits; returns the value that the device's timeline reaches when the picture is there. Waits for

@@ -23,7 +23,7 @@ float unit_of(std::uint32_t width, std::uint32_t height) {
 }
 
 Vec4 color_at(const Legend::Bar& bar, float t) {
-    const auto color = render::shading::color_scale(t, static_cast<int>(bar.scale));
+    const auto color = shading::color_scale(t, static_cast<int>(bar.scale));
     return {color.x, color.y, color.z, 1};
 }
 

@@ -103,7 +103,7 @@ TEST(Legend, has_the_colors_of_the_scale) {
     std::vector<FlatVertex> flat;
     draw_legends(std::vector<Legend>{{.title = "", .bar = Legend::Bar{0, 1, ColorScale::amount}}}, 1280, 720, flat);
     for (const float t : {0.0f, 0.5f, 1.0f}) {
-        const auto color = render::shading::color_scale(t, WEFT_SCALE_AMOUNT);
+        const auto color = shading::color_scale(t, WEFT_SCALE_AMOUNT);
         std::size_t found = 0;
         for (const FlatVertex& corner : flat) found += corner.color == Vec4{color.x, color.y, color.z, 1};
         EXPECT_GE(found, 3u) << t;
@@ -132,14 +132,14 @@ float luminance(glm::vec3 c) {
 TEST(ColorScale, of_amounts_grows_lighter_all_the_way) {
     float before = -1;
     for (int i = 0; i <= 100; ++i) {
-        const float now = luminance(render::shading::color_scale(static_cast<float>(i) / 100, WEFT_SCALE_AMOUNT));
+        const float now = luminance(shading::color_scale(static_cast<float>(i) / 100, WEFT_SCALE_AMOUNT));
         EXPECT_GT(now, before) << i;
         before = now;
     }
 }
 
 TEST(ColorScale, of_balance_is_lightest_in_the_middle_blue_below_and_red_above) {
-    const auto at = [](float t) { return render::shading::color_scale(t, WEFT_SCALE_BALANCE); };
+    const auto at = [](float t) { return shading::color_scale(t, WEFT_SCALE_BALANCE); };
     for (int i = 0; i < 50; ++i) {
         const float t = static_cast<float>(i) / 100, next = t + 0.01f;
         EXPECT_LT(luminance(at(t)), luminance(at(next))) << t;
@@ -152,7 +152,7 @@ TEST(ColorScale, of_balance_is_lightest_in_the_middle_blue_below_and_red_above) 
 
 TEST(ColorScale, stays_within_its_ends) {
     for (const int kind : {WEFT_SCALE_BALANCE, WEFT_SCALE_AMOUNT}) {
-        const auto at = [&](float t) { return render::shading::color_scale(t, kind); };
+        const auto at = [&](float t) { return shading::color_scale(t, kind); };
         EXPECT_EQ(at(-5), at(0));
         EXPECT_EQ(at(7), at(1));
         EXPECT_EQ(at(std::nanf("")), at(1));

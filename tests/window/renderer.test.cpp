@@ -49,8 +49,7 @@ class RendererInWindow : public OnDisplay {
         const auto image = next();
         ASSERT_EQ(image.state, gpu::Acquired::image);
         const auto done = renderer->draw(drawing,
-                                         {.image = image.image,
-                                          .view = image.view,
+                                         {.view = image.view,
                                           .format = window->format(),
                                           .width = image.extent.width,
                                           .height = image.extent.height},

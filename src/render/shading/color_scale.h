@@ -5,20 +5,13 @@
 #define WEFT_SCALE_BALANCE 0  // compressed … at rest … stretched: blue, light gray, red
 #define WEFT_SCALE_AMOUNT 1   // none … much: dark violet, green, yellow
 
-#ifdef __cplusplus
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
+#include "render/shading/glsl.h"
 
-#define WEFT_SHADING inline
-namespace weft::render::shading {
-using glm::vec3;
-#else
-#define WEFT_SHADING
-#endif
+WEFT_SHADING_BEGIN
 
 // The cool-warm map of Moreland, "Diverging Color Maps for Scientific Visualization" (2009): even steps in Msh, the
 // same lightness on both sides. Cubics in the distance from the middle, within 0.03 of it. `s` in -1…1.
-WEFT_SHADING vec3 color_of_balance(float s) {
+WEFT_SHADE vec3 color_of_balance(float s) {
     vec3 middle = vec3(0.8654f, 0.8654f, 0.8654f);
     float d = s < 0.0f ? -s : s;
     vec3 cold = vec3(-0.4968f, -0.0290f, 0.6426f) +
@@ -30,7 +23,7 @@ WEFT_SHADING vec3 color_of_balance(float s) {
 
 // Viridis by Smith and van der Walt (CC0): lightness rises evenly with the value. A polynomial within 0.016 of it.
 // `t` in 0…1.
-WEFT_SHADING vec3 color_of_amount(float t) {
+WEFT_SHADE vec3 color_of_amount(float t) {
     vec3 high = vec3(5.1906f, 11.6437f, 58.6809f) +
                 t * (vec3(4.9187f, -11.4636f, -68.1625f) + t * vec3(-5.2909f, 3.8791f, 27.5786f));
     vec3 low = vec3(-0.9185f, -0.0386f, -0.0030f) + t * (vec3(-3.4088f, -4.5383f, -19.7036f) + t * high);
@@ -38,14 +31,12 @@ WEFT_SHADING vec3 color_of_amount(float t) {
 }
 
 // sRGB, 0…1, of a value `t` from the scale's lower end, 0, to its upper, 1; beyond them the color of the end.
-WEFT_SHADING vec3 color_scale(float t, int kind) {
+WEFT_SHADE vec3 color_scale(float t, int kind) {
     t = t < 1.0f ? (t > 0.0f ? t : 0.0f) : 1.0f;
     vec3 color = kind == WEFT_SCALE_AMOUNT ? color_of_amount(t) : color_of_balance(t * 2.0f - 1.0f);
     return clamp(color, vec3(0.0f), vec3(1.0f));
 }
 
-#ifdef __cplusplus
-}  // namespace weft::render::shading
-#endif
-#undef WEFT_SHADING
+WEFT_SHADING_END
+
 #endif

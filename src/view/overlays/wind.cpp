@@ -84,8 +84,7 @@ void wind(const OverlayInput& input, OverlayOutput& output) {
             for (int z = 0; z < grid.count[2]; ++z) {
                 const Vec3 at = grid.at(x, y, z);
                 const Vec3 velocity = wind_velocity(winds, at, number++);
-                const auto color =
-                    render::shading::color_scale(length(velocity) / static_cast<float>(most), WEFT_SCALE_AMOUNT);
+                const auto color = shading::color_scale(length(velocity) / static_cast<float>(most), WEFT_SCALE_AMOUNT);
                 add_arrow(output.lines, at, velocity * scale, {color.x, color.y, color.z, 1}, pixels(input, 1.6f));
             }
         }
