@@ -91,8 +91,8 @@ Result<Line> measure(render::Renderer& renderer, const render::Drawing& drawing,
                               .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     auto image = gpu::Image::create(device, desc, "target");
     if (!image) return image.errors();
-    const render::Target target{image->handle(), image->view(), desc.format,
-                                frames.width,    frames.height, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+    const render::Target target{image->view(), desc.format, frames.width, frames.height,
+                                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
     struct Took {
         double ms = 0, cpu_ms = 0;
     };

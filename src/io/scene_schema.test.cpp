@@ -235,7 +235,7 @@ TEST(SceneSchema, HasEveryKeyWithItsMeaningUnitAndDefault) {
     EXPECT_EQ(schema_at("/cloths/*/fabric/preset").at("default"), "cotton");
     EXPECT_EQ(schema_at("/cloths/*/fabric/preset").at("enum").size(), fabric_presets().size());
     EXPECT_EQ(schema_at("/look/*/material").at("enum").size(), material_presets().size());
-    EXPECT_EQ(schema_at("/light/sun/strength").at("default").dump(), "0.9");
+    EXPECT_EQ(schema_at("/light/sun/strength").at("default").get<float>(), Sun().strength);
     EXPECT_EQ(schema_at("/gravity").at("default").dump(), "[0,-9.81,0]");
 }
 

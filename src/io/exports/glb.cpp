@@ -67,7 +67,9 @@ FilmSize film_size(std::span<const ExportSurface> surfaces, const std::filesyste
     for (const ExportSurface& surface : surfaces) {
         const TriangleMesh& mesh = *surface.mesh;
         const auto vertices = static_cast<double>(surface.positions.size());
-        const double vertex = 2 * sizeof(Vec3) + (mesh.uvs.empty() ? 0 : sizeof(Vec2) + sizeof(Vec4)) +
+        const bool tangents = surface.material != nullptr &&
+                              (surface.material->weave != Weave::smooth || !surface.material->normal_map.empty());
+        const double vertex = 2 * sizeof(Vec3) + (mesh.uvs.empty() ? 0 : sizeof(Vec2) + (tangents ? sizeof(Vec4) : 0)) +
                               (mesh.colors.empty() ? 0 : sizeof(Vec4));
         const double index = has_short_indices(surface.positions.size()) ? 2 : 4;
         // The names stand in JSON, where a character may take six; the rest of the JSON of a cloth is a few lines.

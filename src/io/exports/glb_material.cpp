@@ -16,8 +16,8 @@ namespace {
 
 using tinygltf::Value;
 
-// What a tile takes as a PNG: 256 by 256 pixels, each byte of which the packing may make nine bits long.
-constexpr std::uint64_t most_tile_bytes = 300'000;
+// What a tile takes as a PNG: 256 by 256 pixels of three bytes, each of which the packing may make nine bits long.
+constexpr std::uint64_t most_tile_bytes = 225'000;
 
 // glTF's reflection of dielectrics straight on, which KHR_materials_specular multiplies.
 constexpr float gltf_specular = 0.04f;
