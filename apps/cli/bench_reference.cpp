@@ -96,7 +96,8 @@ class TrafficCounter {
         const bool coarsest = pass.level + 1 == model_.hierarchy.size();
         if (pass.kind == PassKind::reach) return projected(level.reach, level.reach.batches[pass.batch]);
         if (pass.kind == PassKind::collect)
-            return {.own = 2 * word * Surroundings::members * nodes, .shared = block * (finer + nodes)};
+            return {.own = 2 * word * static_cast<double>(level.restriction.node.size()),
+                    .shared = block * (finer + nodes)};
         if (pass.kind == PassKind::settle || coarsest) return {.own = 0, .shared = 3 * block * nodes};
         return {.own = 2 * word * Carry::parents * nodes,
                 .shared = block * (3 * nodes + model_.hierarchy[pass.level + 1].count)};

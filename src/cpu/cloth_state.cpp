@@ -126,9 +126,9 @@ SurfaceView ClothState::surface() {
 
 LevelView ClothState::level(std::uint32_t i) {
     LevelState& state = levels[i];
-    const Surroundings& around = model->hierarchy[i].around;
-    return {&state.position[0].x, &state.origin[0].x,   &state.displacement[0].x,
-            around.node.data(),   around.weight.data(), around.stride};
+    const Restriction& from = model->hierarchy[i].restriction;
+    return {&state.position[0].x, &state.origin[0].x, &state.displacement[0].x,
+            from.begin.data(),    from.node.data(),   from.weight.data()};
 }
 
 // Rows between nodes are rows like any other.

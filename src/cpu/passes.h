@@ -81,12 +81,11 @@ struct GatherView {
 
 /// One coarse level. Blocks of four floats per node.
 struct LevelView {
-    float* position;              ///< w: inverse mass
-    float* origin;                ///< where what is around it is, in the mean
-    float* displacement;          ///< what the level's rows, and those of coarser levels, make of it
-    const std::uint32_t* around;  ///< [member · stride + node]
-    const float* weight;          ///< likewise
-    std::uint32_t stride;
+    float* position;                     ///< w: inverse mass
+    float* origin;                       ///< where what it carries is, in the mean
+    float* displacement;                 ///< what the level's rows, and those of coarser levels, make of it
+    const std::uint32_t *begin, *finer;  ///< as Restriction has them: begin and node
+    const float* weight;                 ///< likewise
 };
 
 /// From a level's displacements to nodes of the finer one, or to particles.

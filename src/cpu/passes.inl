@@ -238,10 +238,11 @@ WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
 inline void collect_pass(const float* finer, const LevelView& level, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         vec3 sum(real(0.0f));
-        for (std::size_t k = 0; k < Surroundings::members; ++k) {
+        const std::size_t packet = i / lane_padding;
+        for (std::size_t k = level.begin[packet]; k < level.begin[packet + 1]; ++k) {
             real unused;
-            const std::size_t at = k * level.stride + i;
-            sum = sum + gather_blocks(finer, level.around + at, unused) * load(level.weight + at);
+            const std::size_t at = k * lane_padding + i % lane_padding;
+            sum = sum + gather_blocks(finer, level.finer + at, unused) * load(level.weight + at);
         }
         store_blocks(sum, real(0.0f), level.origin + 4 * i);
     }

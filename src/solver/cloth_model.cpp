@@ -161,6 +161,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
         model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
                                           layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
     model.pin_spans = find_pin_spans(model.hierarchy, topology.rest_positions);
+    for (CoarseLevel& level : model.hierarchy) level.ways = {};
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);

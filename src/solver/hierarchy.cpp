@@ -2,7 +2,6 @@
 
 #include "mesh/grouping.h"
 #include "physics/rest_frames.h"
-#include "solver/link_graph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -240,81 +239,74 @@ Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> p
     return carry;
 }
 
-// The finer nodes around one that lie opposite one another, the straightest pairs first.
-class Opposites {
-  public:
-    struct Pair {
-        double cosine;
-        std::uint32_t a, b;
-        double share_a;  // of the pair's mean that lies nearest to the node
-    };
+// A hub may carry thousands. The heaviest of them tell where it is well enough.
+constexpr std::size_t most_members = 256;
 
-    Opposites(const LinkGraph& graph, std::span<const Vec3> place) : graph_(graph), place_(place) {}
-
-    std::span<const Pair> at(std::uint32_t node) {
-        constexpr double straight = -0.95, alike = 1.5;
-        constexpr std::size_t most_links = 24;  // more than these are a hub, where no two stand out
-        pairs_.clear();
-        const auto links = graph_[node];
-        if (links.size() > most_links) return {};
-        for (std::uint32_t i = 0; i < links.size(); ++i) {
-            for (std::uint32_t j = i + 1; j < links.size(); ++j) {
-                const Vec3 a = place_[links[i].to] - place_[node], b = place_[links[j].to] - place_[node];
-                const double la = length(a), lb = length(b);
-                if (!(la > 0 && lb > 0) || la > alike * lb || lb > alike * la) continue;
-                const double cosine = static_cast<double>(dot(a, b)) / (la * lb);
-                if (cosine < straight) pairs_.push_back({cosine, links[i].to, links[j].to, lb / (la + lb)});
-            }
-        }
-        std::ranges::stable_sort(pairs_, {}, &Pair::cosine);
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < pairs_.size() && 2 * kept + 2 < Surroundings::members; ++i) {
-            const auto is_taken = [&](std::uint32_t p) {
-                return std::any_of(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(kept),
-                                   [&](const Pair& other) { return other.a == p || other.b == p; });
-            };
-            if (!is_taken(pairs_[i].a) && !is_taken(pairs_[i].b)) pairs_[kept++] = pairs_[i];
-        }
-        return std::span(pairs_).first(kept);
-    }
-
-  private:
-    const LinkGraph& graph_;
-    std::span<const Vec3> place_;
-    std::vector<Pair> pairs_;
+struct Member {
+    std::uint32_t node;
+    double weight;
 };
 
-Surroundings surroundings(const LinkGraph& fine, std::span<const Vec3> place, std::span<const std::uint32_t> chosen,
-                          std::span<const std::uint8_t> pinned) {
-    Surroundings around;
-    around.stride = padded(static_cast<std::uint32_t>(chosen.size()));
-    around.node.resize(std::size_t{Surroundings::members} * around.stride);
-    around.weight.resize(around.node.size());
-    Opposites opposites(fine, place);
-    const auto set = [&](std::uint32_t node, std::size_t member, std::uint32_t other, double weight) {
-        around.node[member * around.stride + node] = other;
-        around.weight[member * around.stride + node] = static_cast<float>(weight);
-    };
-    for (std::uint32_t node = 0; node < chosen.size(); ++node) {
-        for (std::size_t member = 0; member < Surroundings::members; ++member) set(node, member, chosen[node], 0);
-        const auto pairs = pinned[chosen[node]] ? std::span<const Opposites::Pair>() : opposites.at(chosen[node]);
-        const double each = 1.0 / static_cast<double>(2 * pairs.size() + 1);
-        set(node, 0, chosen[node], each);
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            set(node, 2 * k + 1, pairs[k].a, 2 * each * pairs[k].share_a);
-            set(node, 2 * k + 2, pairs[k].b, 2 * each * (1 - pairs[k].share_a));
+// `mass`: of the finer nodes; pinned ones are carried by none.
+Restriction restriction_of(std::span<const Parents> parents, std::span<const std::uint32_t> chosen,
+                           std::span<const double> mass, std::span<const std::uint8_t> pinned) {
+    const auto count = static_cast<std::uint32_t>(chosen.size());
+    const auto carried = group_items<Member>(count, [&](auto put) {
+        for (std::uint32_t i = 0; i < parents.size(); ++i) {
+            for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
+                put(parents[i].node[k], {i, parents[i].weight[k] * mass[i]});
+            }
         }
+    });
+    std::array<std::vector<Member>, lane_padding> lists;
+    Restriction restriction;
+    restriction.begin.push_back(0);
+    for (std::uint32_t first = 0; first < count; first += lane_padding) {
+        std::size_t longest = 0;
+        for (std::uint32_t lane = 0; lane < lane_padding; ++lane) {
+            std::vector<Member>& list = lists[lane];
+            list.clear();
+            if (first + lane >= count) continue;
+            const std::uint32_t node = first + lane;
+            list.assign(carried.items.begin() + carried.offsets[node],
+                        carried.items.begin() + carried.offsets[node + 1]);
+            if (list.size() > most_members) {
+                std::ranges::stable_sort(list, std::ranges::greater{}, &Member::weight);
+                list.resize(most_members);
+                std::ranges::sort(list, {}, &Member::node);
+            }
+            double sum = 0;
+            for (const Member& member : list) sum += member.weight;
+            if (pinned[chosen[node]] || !(sum > 0)) list = {{chosen[node], 1}}, sum = 1;
+            for (Member& member : list) member.weight /= sum;
+            longest = std::max(longest, list.size());
+        }
+        const std::size_t at = restriction.node.size();
+        restriction.node.resize(at + longest * lane_padding);
+        restriction.weight.resize(restriction.node.size());
+        for (std::uint32_t lane = 0; lane < lane_padding; ++lane) {
+            const std::vector<Member>& list = lists[lane];
+            for (std::size_t k = 0; k < longest; ++k) {
+                const bool member = k < list.size();
+                restriction.node[at + k * lane_padding + lane] = member         ? list[k].node
+                                                                 : list.empty() ? 0
+                                                                                : list[0].node;
+                restriction.weight[at + k * lane_padding + lane] = member ? static_cast<float>(list[k].weight) : 0;
+            }
+        }
+        restriction.begin.push_back(restriction.begin.back() + static_cast<std::uint32_t>(longest));
     }
-    return around;
+    return restriction;
 }
 
-// Where each node is at rest by the mean of what is around it, in places of the same kind on the finer level.
-std::vector<Vec3> means_of(const Surroundings& around, std::span<const Vec3> finer, std::size_t count) {
+// Where each node is at rest, by the finer ones that it carries.
+std::vector<Vec3> means_of(const Restriction& restriction, std::span<const Vec3> finer, std::uint32_t count) {
     std::vector<Vec3> means(count);
-    for (std::size_t node = 0; node < count; ++node) {
-        for (std::size_t member = 0; member < Surroundings::members; ++member) {
-            const std::size_t at = member * around.stride + node;
-            means[node] += finer[around.node[at]] * around.weight[at];
+    for (std::uint32_t node = 0; node < count; ++node) {
+        const std::uint32_t packet = node / lane_padding;
+        for (std::uint32_t k = restriction.begin[packet]; k < restriction.begin[packet + 1]; ++k) {
+            const std::size_t at = std::size_t{k} * lane_padding + node % lane_padding;
+            means[node] += finer[restriction.node[at]] * restriction.weight[at];
         }
     }
     return means;
@@ -344,10 +336,11 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         const Selection selection = select_nodes(graph, unit, pinned);
         const auto count = static_cast<std::uint32_t>(selection.chosen.size());
         if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
-        CoarseLevel level{.count = count, .particle = {}, .around = {}, .weight = {}, .reach = {}, .carry = {}};
+        CoarseLevel level{
+            .count = count, .particle = {}, .restriction = {}, .weight = {}, .reach = {}, .carry = {}, .ways = {}};
         level.carry = carry_to(selection.parents, pinned);
-        level.around = surroundings(graph, place, selection.chosen, pinned);
-        std::vector<Vec3> means = means_of(level.around, mean, count);
+        level.restriction = restriction_of(selection.parents, selection.chosen, mass, pinned);
+        std::vector<Vec3> means = means_of(level.restriction, mean, count);
 
         std::vector<double> carried(count);
         for (std::uint32_t i = 0; i < graph.size(); ++i) {
@@ -372,16 +365,18 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         for (std::uint32_t node = 0; node < count; ++node) {
             for (const Link& link : coarse[node]) {
                 if (link.to < node || is_implied(coarse, node, link)) continue;
-                // What the mean is off by must not pull at the cloth at rest.
+                // Means near a border lie nearer to one another than their nodes, or farther apart. What they are off
+                // by must not pull at the cloth at rest, nor take from it what it may stretch by.
                 const double apart = length(means[node] - means[link.to]);
                 const StraightLine line =
                     straight_line(kept_frames[node], kept_frames[link.to], places[link.to] - places[node]);
                 const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
-                rows.add({node, link.to},
-                         {static_cast<float>(std::max(limit.length, apart)), static_cast<float>(limit.give)});
+                const double reach = std::max(limit.length, apart * (limit.length / link.length));
+                rows.add({node, link.to}, {static_cast<float>(reach), static_cast<float>(limit.give)});
             }
         }
         level.reach = pack_rows(ConstraintKind::reach, rows, count);
+        level.ways = coarse;
         levels.push_back(std::move(level));
         graph = std::move(coarse);
         particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places),

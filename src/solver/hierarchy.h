@@ -10,6 +10,7 @@
 #include "physics/rest_shape.h"
 #include "scene/fabric.h"
 #include "solver/constraint_table.h"
+#include "solver/link_graph.h"
 
 #include <array>
 #include <cstdint>
@@ -26,23 +27,27 @@ struct Carry {
     AlignedVector<float> weight;        ///< likewise; sums to 1, to 0 for what is pinned
 };
 
-/// Where a node takes its place from: itself and up to three pairs of finer nodes (or particles) on opposite sides of
-/// it, SoA, weighted so that at rest their mean lies where the node does, or nearly so. One particle alone may quiver,
-/// and a node that followed it would set all around quivering.
-struct Surroundings {
-    static constexpr std::uint32_t members = 7;
-    std::uint32_t stride = 0;
-    AlignedVector<std::uint32_t> node;  ///< [member · stride + node]; the first is the node itself
-    AlignedVector<float> weight;        ///< likewise; sums to 1
+/// Where a node takes its place from: the mean of all that it carries, weighted by mass and share. That is the
+/// transpose of Carry, and has to be. Rows between such means and a displacement that is carried back are constraints
+/// on the particles themselves, and what projects those takes energy out of them; of nodes that follow less than what
+/// they move, waves shorter than a cell of nodes are taken for longer ones, and feed them. Pinned nodes are their
+/// own place.
+///
+/// Lists of lane_padding nodes side by side, shorter ones ending in weights of 0.
+struct Restriction {
+    AlignedVector<std::uint32_t> begin;  ///< packet of nodes -> its first member, and an end
+    AlignedVector<std::uint32_t> node;   ///< [member · lane_padding + node in its packet]: of the next finer level
+    AlignedVector<float> weight;         ///< likewise; sums to 1
 };
 
 struct CoarseLevel {
     std::uint32_t count = 0;
     AlignedVector<std::uint32_t> particle;  ///< node -> particle; padded
-    Surroundings around;                    ///< in the next finer level; of the first level, particles
+    Restriction restriction;                ///< from the next finer level; of the first level, from particles
     AlignedVector<float> weight;            ///< 1/kg per node: of all that it carries; padded with zeros
     ConstraintTable reach;                  ///< rows between nodes
     Carry carry;                            ///< to the next finer level; of the first level, to the particles
+    LinkGraph ways;                         ///< between nodes; until the model is built
 
     std::uint32_t capacity() const { return particle_capacity(count); }
 };

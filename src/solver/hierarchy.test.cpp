@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <random>
@@ -60,15 +61,81 @@ TEST(Hierarchy, of_a_square_grid_takes_every_second_particle_again_and_again) {
                                 b = level.particle[level.reach.particles[level.reach.stride + row]];
             const bool diagonal = a % n != b % n && a / n != b / n;
             const float limit = level.reach.fields[row], straight = way * (diagonal ? std::numbers::sqrt2_v<float> : 1);
+            // What a node near a border or by the pin carries lies to one side of it.
+            const auto aside = [&](std::uint32_t p) {
+                const auto near = [&](std::uint32_t i) { return i < 2 * step || i + 2 * step >= n; };
+                return near(p % n) || near(p / n);
+            };
+            const float more = aside(a) || aside(b) ? 1.15f : 1.0f;
             EXPECT_GE(limit, straight * 0.99999f);
-            EXPECT_LE(limit, straight * (diagonal ? 1.05f : 1.005f)) << "cotton gives way along the bias";
+            EXPECT_LE(limit, straight * more * (diagonal ? 1.05f : 1.005f)) << "cotton gives way along the bias";
             EXPECT_GE(limit, straight * (diagonal ? 1.02f : 1));
         }
         step *= 2;
     }
 }
 
-// Nodes are where the mean of their surroundings is. At rest no row may pull for that, or the cloth would never be at
+// What a node takes its place from.
+std::vector<std::pair<std::uint32_t, float>> members_of(const CoarseLevel& level, std::uint32_t node) {
+    const Restriction& from = level.restriction;
+    std::vector<std::pair<std::uint32_t, float>> members;
+    const std::uint32_t packet = node / lane_padding;
+    for (std::uint32_t k = from.begin[packet]; k < from.begin[packet + 1]; ++k) {
+        const std::size_t at = std::size_t{k} * lane_padding + node % lane_padding;
+        if (from.weight[at] > 0) members.emplace_back(from.node[at], from.weight[at]);
+    }
+    return members;
+}
+
+// A node is the mean of what it carries, each by its mass and by how far it follows: the transpose of what it hands
+// on, without which coarse levels would put energy into the cloth.
+TEST(Hierarchy, takes_a_nodes_place_from_what_it_carries) {
+    for (const TriangleMesh& mesh :
+         {make_grid({1, 1}, {40, 40}, GridDiagonal::alternating), jittered(40), make_sphere(0.5f, 4), fan(3000)}) {
+        const auto model = model_of(mesh);
+        std::vector<double> mass(model->mass.begin(), model->mass.begin() + model->particle_count);
+        std::vector<std::uint8_t> pinned(mass.size());
+        pinned[0] = 1;
+        for (const CoarseLevel& level : model->hierarchy) {
+            std::vector<std::map<std::uint32_t, double>> carries(level.count);
+            for (std::uint32_t i = 0; i < mass.size(); ++i) {
+                for (std::uint32_t k = 0; k < Carry::parents; ++k) {
+                    const std::size_t at = std::size_t{k} * level.carry.stride + i;
+                    if (level.carry.weight[at] > 0)
+                        carries[level.carry.node[at]][i] += level.carry.weight[at] * mass[i];
+                }
+            }
+            std::vector<double> carried(level.count);
+            std::vector<std::uint8_t> held(level.count);
+            for (std::uint32_t node = 0; node < level.count; ++node) {
+                for (const auto& [finer, weight] : carries[node]) carried[node] += weight;
+                held[node] = level.weight[node] == 0;
+                const auto members = members_of(level, node);
+                if (held[node]) {
+                    ASSERT_EQ(members.size(), 1u) << "a pinned node is its own place";
+                    EXPECT_EQ(members[0].second, 1);
+                    EXPECT_TRUE(pinned[members[0].first]);
+                    continue;
+                }
+                double sum = 0;
+                for (const auto& [finer, weight] : members) sum += weight;
+                EXPECT_NEAR(sum, 1, 1e-5);
+                if (members.size() != carries[node].size()) {
+                    EXPECT_EQ(members.size(), 256u) << "only of a hub some are left out";
+                    EXPECT_GT(carries[node].size(), members.size());
+                    continue;
+                }
+                for (const auto& [finer, weight] : members) {
+                    ASSERT_TRUE(carries[node].contains(finer));
+                    EXPECT_NEAR(weight, carries[node][finer] / carried[node], 1e-6);
+                }
+            }
+            mass = carried, pinned = held;
+        }
+    }
+}
+
+// Nodes are where the mean of what they carry is. At rest no row may pull for that, or the cloth would never be at
 // rest.
 TEST(Hierarchy, leaves_a_cloth_at_rest_alone) {
     for (const bool lines : {false, true}) {
@@ -84,15 +151,7 @@ TEST(Hierarchy, leaves_a_cloth_at_rest_alone) {
             for (const CoarseLevel& level : model->hierarchy) {
                 std::vector<Vec3> mean(level.count);
                 for (std::uint32_t node = 0; node < level.count; ++node) {
-                    float sum = 0;
-                    for (std::uint32_t k = 0; k < Surroundings::members; ++k) {
-                        const std::size_t at = std::size_t{k} * level.around.stride + node;
-                        ASSERT_LT(level.around.node[at], finer.size());
-                        EXPECT_GE(level.around.weight[at], 0);
-                        mean[node] += finer[level.around.node[at]] * level.around.weight[at];
-                        sum += level.around.weight[at];
-                    }
-                    EXPECT_NEAR(sum, 1, 1e-6);
+                    for (const auto& [member, weight] : members_of(level, node)) mean[node] += finer[member] * weight;
                 }
                 for (std::uint32_t row = 0; row < level.reach.stride; ++row) {
                     if (!level.reach.is_real(row)) continue;

@@ -10,38 +10,15 @@ namespace {
 
 constexpr std::size_t most_pins = 8;
 constexpr double near = 0.25;
-// Ways along rows have corners, which makes them up to this much longer than they need be.
+// Ways along links have corners, which makes them up to this much longer than they need be.
 constexpr double detour = 1.12;
 constexpr double unreached = std::numeric_limits<double>::infinity();
-
-LinkGraph graph_of_rows(const CoarseLevel& level) {
-    std::vector<std::vector<Link>> links(level.count);
-    const ConstraintTable& rows = level.reach;
-    for (std::uint32_t row = 0; row < rows.stride; ++row) {
-        if (!rows.is_real(row)) continue;
-        const std::uint32_t a = rows.particles[row], b = rows.particles[rows.stride + row];
-        const double length = rows.fields[row];
-        links[a].push_back({b, length, length});
-        links[b].push_back({a, length, length});
-    }
-    LinkGraph graph;
-    for (auto& of_node : links) {
-        std::ranges::sort(of_node, {}, &Link::to);
-        graph.links.insert(graph.links.end(), of_node.begin(), of_node.end());
-        graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
-    }
-    return graph;
-}
 
 // Goes from pin to pin, each as far as can be from those before.
 class SpanFinder {
   public:
     SpanFinder(const CoarseLevel& level, std::uint32_t pin_count, std::span<const Vec3> at_rest)
-        : level_(level),
-          at_rest_(at_rest),
-          graph_(graph_of_rows(level)),
-          search_(graph_),
-          nearest_(pin_count, unreached) {}
+        : level_(level), at_rest_(at_rest), search_(level.ways), nearest_(pin_count, unreached) {}
 
     bool is_reached(std::uint32_t pin) const { return nearest_[pin] < unreached; }
 
@@ -81,7 +58,6 @@ class SpanFinder {
 
     const CoarseLevel& level_;
     std::span<const Vec3> at_rest_;
-    LinkGraph graph_;
     LocalSearch search_;
     std::vector<double> nearest_;   // per pin, to the nearest chosen one
     std::vector<double> distance_;  // per pin, to the last chosen one

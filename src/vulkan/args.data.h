@@ -210,7 +210,8 @@ struct LevelArgs {
     Vec4s displacement;
     Vec4s finer;    // collect: where the finer ones are
     Vec4s coarser;  // lift and spread: displacements of the coarser level; 0 if there is none
-    Uints nodes;    // [member · stride + node]: what is collected, or the parents
+    Uints begin;    // collect: as Restriction has it
+    Uints nodes;    // likewise; or the parents, [parent · stride + finer node]
     Floats weights;
     uint stride;
     uint count;

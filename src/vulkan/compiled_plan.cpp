@@ -413,9 +413,10 @@ class Compiler {
                        .displacement = work(mine.displacement),
                        .finer = pass.level == 0 ? state(cloth_.position) : work(work_.levels[pass.level - 1].origin),
                        .coarser = 0,
-                       .nodes = of_model(buffers_.levels[pass.level].around_node),
-                       .weights = of_model(buffers_.levels[pass.level].around_weight),
-                       .stride = level.around.stride,
+                       .begin = of_model(buffers_.levels[pass.level].restriction_begin),
+                       .nodes = of_model(buffers_.levels[pass.level].restriction_node),
+                       .weights = of_model(buffers_.levels[pass.level].restriction_weight),
+                       .stride = 0,
                        .count = level.count};
         if (pass.kind == PassKind::collect) {
             add(list, "collect", args, level.count, pass, substep);

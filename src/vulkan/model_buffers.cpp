@@ -53,8 +53,9 @@ Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& de
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
         self->tables[kind] = add_table(arena, model.constraints[kind], lists);
     for (const CoarseLevel& level : model.hierarchy) {
-        self->levels.push_back({.around_node = arena.add_array(level.around.node),
-                                .around_weight = arena.add_array(level.around.weight),
+        self->levels.push_back({.restriction_begin = arena.add_array(level.restriction.begin),
+                                .restriction_node = arena.add_array(level.restriction.node),
+                                .restriction_weight = arena.add_array(level.restriction.weight),
                                 .carry_node = arena.add_array(level.carry.node),
                                 .carry_weight = arena.add_array(level.carry.weight),
                                 .reach = add_table(arena, level.reach, lists)});

@@ -17,7 +17,7 @@ struct TableBuffers {
 };
 
 struct LevelBuffers {
-    Slot around_node, around_weight, carry_node, carry_weight;
+    Slot restriction_begin, restriction_node, restriction_weight, carry_node, carry_weight;
     TableBuffers reach;
 };
 

@@ -74,8 +74,38 @@ TEST(HierarchyOf, a_sheet_that_gives_way_along_the_bias_leaves_it_hanging) {
         const double off = mean_displacement(exact, hang(tethers, {.substeps = 5, .hierarchy = true}));
         std::printf("  off by %.1f mm, without levels and tethers %.1f mm\n", 1e3 * off, 1e3 * plain);
         // What is left is the corners' own: the pull there is many times that elsewhere.
-        EXPECT_LT(off, 0.004);
+        EXPECT_LT(off, 0.0045);
         EXPECT_LT(off, plain / 3);
+    }
+}
+
+// Taut between its pins, where every level has work to do at all times. Levels whose nodes follow other particles than
+// those they move shake such a sheet at 0.2 to 0.7 m/s for ever.
+TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
+    constexpr std::uint32_t side = 32;
+    for (const bool rigid : {false, true}) {
+        for (const std::uint32_t substeps : {5u, 20u}) {
+            SheetDesc sheet{.resolution = {side, side}, .layout = {.lines = true, .hierarchy = true}};
+            sheet.pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f && std::abs(p.z) > 0.499f; };
+            sheet.fabric.stretch.inextensible = rigid;
+            World world = make_world({.substeps = substeps, .hierarchy = true}, sheet);
+            run(world, 20);
+            double fastest = 0;
+            std::vector<Vec3> before, now;
+            collect_positions(world.frame(), before);
+            for (int frame = 0; frame < 30; ++frame) {
+                world.step(1.0 / 60);
+                collect_positions(world.frame(), now);
+                double sum = 0;
+                for (std::size_t i = 0; i < now.size(); ++i)
+                    sum += 3600.0 * static_cast<double>(dot(now[i] - before[i], now[i] - before[i]));
+                fastest = std::max(fastest, std::sqrt(sum / static_cast<double>(now.size())));
+                before = now;
+            }
+            std::printf("  %2u substeps%s  %.2f mm/s\n", substeps, rigid ? ", rigid" : "", 1e3 * fastest);
+            EXPECT_LT(fastest, 0.005);
+        }
     }
 }
 

@@ -87,7 +87,7 @@ Step rigid_step(LimitsRef limits) { return Step(1e3, 1e-3, 0.0, limits.at.tensio
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 bool is_finite(vec4 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z) && is_finite(v.w); }
 
-#define WEFT_LINES_ABREAST 16u  // lane_padding
+#define WEFT_LANE_PADDING 16u  // lane_padding
 
 #define WEFT_REPORT_SPEED_CAPPED 1u
 #define WEFT_REPORT_NON_FINITE 2u

@@ -72,7 +72,7 @@ void run_all_lines(LineArgs a)
         uint base = a.blocks.at[2u * b], end = b + 1u;
         while (end < a.count &&
                (line_rows_at_hand == 1u ||
-                a.blocks.at[2u * end] + a.blocks.at[2u * end + 1u] * WEFT_LINES_ABREAST - base <= line_rows_at_hand))
+                a.blocks.at[2u * end] + a.blocks.at[2u * end + 1u] * WEFT_LANE_PADDING - base <= line_rows_at_hand))
             ++end;
         if (b > 0u) meet();
         run_lines(a, LineRound(b, end, base));

@@ -3,7 +3,6 @@
 #define WEFT_LEVELS_GLSL
 
 #define WEFT_PARENTS 4u  // Carry::parents
-#define WEFT_MEMBERS 7u  // Surroundings::members
 
 vec3 carried(LevelArgs a, uint i)
 {
@@ -18,8 +17,10 @@ vec3 carried(LevelArgs a, uint i)
 void run_collect(LevelArgs a, uint i)
 {
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < WEFT_MEMBERS; ++k) {
-        uint at = k * a.stride + i;
+    uint packet = i / WEFT_LANE_PADDING;
+    uint end = a.begin.at[packet + 1u];
+    for (uint k = a.begin.at[packet]; k < end; ++k) {
+        uint at = k * WEFT_LANE_PADDING + i % WEFT_LANE_PADDING;
         sum = sum + load_point(a.finer, a.nodes.at[at]).xyz * a.weights.at[at];
     }
     a.origin.at[i] = vec4(sum, 0.0);

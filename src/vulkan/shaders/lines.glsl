@@ -53,7 +53,7 @@ void couple_row(LineArgs a, LineRound round, uint r, bool first)
 {
     vec4 mine = a.scratch.at[r];
     vec3 before = vec3(0.0);
-    if (!first) before = a.scratch.at[r - WEFT_LINES_ABREAST].xyz;
+    if (!first) before = a.scratch.at[r - WEFT_LANE_PADDING].xyz;
     float coupling = line_coupling(before, mine.xyz, mine.w);
     if (line_rows_at_hand > 1u) line_couplings[r - round.base] = coupling;
     else a.scratch.at[r].w = coupling;
@@ -66,22 +66,22 @@ void solve_line(LineArgs a, LineRound round, uint begin, uint length)
     vec4 numbers = line_number(a, round, begin);
     float coupling = line_coupling_of(a, round, begin);
     for (uint k = 0u; k < length; ++k) {
-        uint r = begin + k * WEFT_LINES_ABREAST;
-        uint ahead = min(k + 1u, length - 1u) * WEFT_LINES_ABREAST + begin;
+        uint r = begin + k * WEFT_LANE_PADDING;
+        uint ahead = min(k + 1u, length - 1u) * WEFT_LANE_PADDING + begin;
         vec4 next_numbers = line_number(a, round, ahead);
         float next_coupling = line_coupling_of(a, round, ahead);
         LineTerms t = LineTerms(vec3(0.0), numbers.w, numbers.z, numbers.y, numbers.x);
         LineRow now = eliminate_line(before, coupling, t);
         if (k > 0u)
-            keep_number(a, round, r - WEFT_LINES_ABREAST, vec4(before.limit, before.couples, before.factor, before.g));
+            keep_number(a, round, r - WEFT_LANE_PADDING, vec4(before.limit, before.couples, before.factor, before.g));
         before = now;
         numbers = next_numbers, coupling = next_coupling;
     }
     float next = 0.0;
     numbers = vec4(before.limit, before.couples, 0.0, before.g);
     for (uint k = length; k-- > 0u;) {
-        uint r = begin + k * WEFT_LINES_ABREAST;
-        vec4 next_numbers = line_number(a, round, k > 0u ? r - WEFT_LINES_ABREAST : r);
+        uint r = begin + k * WEFT_LANE_PADDING;
+        vec4 next_numbers = line_number(a, round, k > 0u ? r - WEFT_LANE_PADDING : r);
         LineRow row = line_start();
         row.limit = numbers.x, row.factor = numbers.z, row.g = numbers.w;
         next = substitute_stretch(row, next);
@@ -99,7 +99,7 @@ void end_row(LineArgs a, LineRound round, uint r, bool first, bool last)
     uint from = a.particles.at[r], to = a.particles.at[a.stride + r];
     vec3 mine = a.scratch.at[r].xyz * change;
     vec3 pull = vec3(0.0);  // of the row behind
-    if (!last) pull = a.scratch.at[r + WEFT_LINES_ABREAST].xyz * line_number(a, round, r + WEFT_LINES_ABREAST).x;
+    if (!last) pull = a.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(a, round, r + WEFT_LANE_PADDING).x;
     // Padding goes from the end of a line to itself; that point is the last real row's.
     if (from != to) {
         vec4 x = load_point(a.position, to);
@@ -117,24 +117,24 @@ void run_lines(LineArgs a, LineRound round)
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     Step h = substep_of(a.frame);
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LINES_ABREAST;
+        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all) begin_row(a, round, begin + i, h);
     }
     meet();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LINES_ABREAST;
-        for (uint i = me; i < rows; i += all) couple_row(a, round, begin + i, i < WEFT_LINES_ABREAST);
+        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        for (uint i = me; i < rows; i += all) couple_row(a, round, begin + i, i < WEFT_LANE_PADDING);
     }
     meet();
-    for (uint i = me; i < (round.end - round.first) * WEFT_LINES_ABREAST; i += all) {
-        uint b = round.first + i / WEFT_LINES_ABREAST;
-        solve_line(a, round, a.blocks.at[2u * b] + i % WEFT_LINES_ABREAST, a.blocks.at[2u * b + 1u]);
+    for (uint i = me; i < (round.end - round.first) * WEFT_LANE_PADDING; i += all) {
+        uint b = round.first + i / WEFT_LANE_PADDING;
+        solve_line(a, round, a.blocks.at[2u * b] + i % WEFT_LANE_PADDING, a.blocks.at[2u * b + 1u]);
     }
     meet();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LINES_ABREAST;
+        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all)
-            end_row(a, round, begin + i, i < WEFT_LINES_ABREAST, i + WEFT_LINES_ABREAST >= rows);
+            end_row(a, round, begin + i, i < WEFT_LANE_PADDING, i + WEFT_LANE_PADDING >= rows);
     }
 }
 

@@ -125,10 +125,10 @@ RowRange rows_of(RowArgs a, uint i)
 {
     if (a.hand_out == WEFT_ROWS_SERIAL) return RowRange(a.begin, i == 0u ? a.count : 0u, 1u);
     if (a.hand_out == WEFT_ROWS_LINES) {
-        uint block = i / WEFT_LINES_ABREAST;
+        uint block = i / WEFT_LANE_PADDING;
         if (block >= a.count) return RowRange(0u, 0u, 1u);
-        return RowRange(a.blocks.at[2u * block] + i % WEFT_LINES_ABREAST, a.blocks.at[2u * block + 1u],
-                        WEFT_LINES_ABREAST);
+        return RowRange(a.blocks.at[2u * block] + i % WEFT_LANE_PADDING, a.blocks.at[2u * block + 1u],
+                        WEFT_LANE_PADDING);
     }
     return RowRange(a.begin + i, i < a.count ? 1u : 0u, 1u);
 }
