@@ -5,6 +5,9 @@
 #include "io/atomic_file.h"
 #include "weft/session.h"
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cstdio>
 

@@ -4,6 +4,8 @@
 #include "io/json_text.h"
 #include "scene/problems.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <concepts>

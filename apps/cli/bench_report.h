@@ -4,7 +4,7 @@
 #include "cli/bench_edges.h"
 #include "cli/bench_measure.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <string>

@@ -4,6 +4,8 @@
 #include "scene/looks.h"
 #include "weft/session.h"
 
+#include <CLI/CLI.hpp>
+
 #include <filesystem>
 #include <iostream>
 

@@ -4,12 +4,14 @@
 #include <weft/result.h>
 #include <weft/simulation.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace weft {
 struct Frame;

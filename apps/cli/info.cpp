@@ -15,6 +15,7 @@
 
 #include <weft/weft.h>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>

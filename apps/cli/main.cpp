@@ -5,6 +5,8 @@
 #include <unistd.h>
 #include <weft/weft.h>
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>

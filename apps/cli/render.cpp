@@ -11,6 +11,8 @@
 #include "weft/drawing_device.h"
 #include "weft/session.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #endif

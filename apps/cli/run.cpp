@@ -6,6 +6,9 @@
 #include "io/export_plan.h"
 #include "weft/session.h"
 
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 
 namespace weft::cli {

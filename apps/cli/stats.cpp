@@ -5,6 +5,8 @@
 #include "scene/scene_keys.h"
 #include "solver/statistics.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
