@@ -11,11 +11,11 @@
 #include "weft/drawing_device.h"
 #include "weft/session.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cstdio>
 #endif
+
+#include <CLI/CLI.hpp>
 
 namespace weft::cli {
 namespace {
