@@ -22,6 +22,11 @@ constexpr double influence = 2.25;
 // Likewise, of a first level that leaves all nearer to the fine rows: four edges on a square grid.
 constexpr double far = 2;
 
+// By how much the means of two nodes may be nearer to one another than the nodes at most, for a row to be as much
+// shorter. What carries the one lies beyond what carries the other, and no bending of the cloth brings them farther
+// apart; of means that nearly coincide that is not so.
+constexpr double closest = 0.9;
+
 constexpr double unreached = LocalWays::unreached;
 
 // Per finer node, the nodes that it follows: up to four, the nearest first.
@@ -365,13 +370,14 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         for (std::uint32_t node = 0; node < count; ++node) {
             for (const Link& link : coarse[node]) {
                 if (link.to < node || is_implied(coarse, node, link)) continue;
-                // Means near a border lie nearer to one another than their nodes, or farther apart. What they are off
-                // by must not pull at the cloth at rest, nor take from it what it may stretch by.
+                // Means lie nearer to one another than their nodes or farther apart, near borders and on irregular
+                // meshes. What they are off by must not pull at the cloth at rest, nor take from it what it may stretch
+                // by.
                 const double apart = length(means[node] - means[link.to]);
                 const StraightLine line =
                     straight_line(kept_frames[node], kept_frames[link.to], places[link.to] - places[node]);
                 const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
-                const double reach = std::max(limit.length, apart * (limit.length / link.length));
+                const double reach = link.length > 0 ? limit.length * std::max(closest, apart / link.length) : apart;
                 rows.add({node, link.to}, {static_cast<float>(reach), static_cast<float>(limit.give)});
             }
         }
