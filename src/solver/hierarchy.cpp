@@ -24,7 +24,8 @@ constexpr double far = 2;
 
 // By how much the means of two nodes may be nearer to one another than the nodes at most, for a row to be as much
 // shorter. What carries the one lies beyond what carries the other, and no bending of the cloth brings them farther
-// apart; of means that nearly coincide that is not so.
+// apart. Of means that nearly coincide that is not so; nor of a pin, from which a pull draws all that lies to both
+// sides.
 constexpr double closest = 0.9;
 
 constexpr double unreached = LocalWays::unreached;
@@ -377,7 +378,8 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
                 const StraightLine line =
                     straight_line(kept_frames[node], kept_frames[link.to], places[link.to] - places[node]);
                 const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
-                const double reach = link.length > 0 ? limit.length * std::max(closest, apart / link.length) : apart;
+                const double least = held[node] || held[link.to] ? 1 : closest;
+                const double reach = link.length > 0 ? limit.length * std::max(least, apart / link.length) : apart;
                 rows.add({node, link.to}, {static_cast<float>(reach), static_cast<float>(limit.give)});
             }
         }
