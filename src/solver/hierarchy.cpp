@@ -253,6 +253,21 @@ struct Member {
     double weight;
 };
 
+// What a node takes its place from, weighted: of all that it carries, or itself where that is nothing.
+std::vector<Member> members_of(std::uint32_t itself, std::span<const Member> carried) {
+    std::vector<Member> members(carried.begin(), carried.end());
+    if (members.size() > most_members) {
+        std::ranges::stable_sort(members, std::ranges::greater{}, &Member::weight);
+        members.resize(most_members);
+        std::ranges::sort(members, {}, &Member::node);
+    }
+    double sum = 0;
+    for (const Member& member : members) sum += member.weight;
+    if (!(sum > 0)) return {{itself, 1}};
+    for (Member& member : members) member.weight /= sum;
+    return members;
+}
+
 // `mass`: of the finer nodes; pinned ones are carried by none.
 Restriction restriction_of(std::span<const Parents> parents, std::span<const std::uint32_t> chosen,
                            std::span<const double> mass, std::span<const std::uint8_t> pinned) {
@@ -260,44 +275,32 @@ Restriction restriction_of(std::span<const Parents> parents, std::span<const std
     const auto carried = group_items<Member>(count, [&](auto put) {
         for (std::uint32_t i = 0; i < parents.size(); ++i) {
             for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
+                if (pinned[chosen[parents[i].node[k]]]) continue;  // its own place
                 put(parents[i].node[k], {i, parents[i].weight[k] * mass[i]});
             }
         }
     });
-    std::array<std::vector<Member>, lane_padding> lists;
     Restriction restriction;
     restriction.begin.push_back(0);
+    std::vector<std::vector<Member>> lists;
     for (std::uint32_t first = 0; first < count; first += lane_padding) {
-        std::size_t longest = 0;
-        for (std::uint32_t lane = 0; lane < lane_padding; ++lane) {
-            std::vector<Member>& list = lists[lane];
-            list.clear();
-            if (first + lane >= count) continue;
-            const std::uint32_t node = first + lane;
-            list.assign(carried.items.begin() + carried.offsets[node],
-                        carried.items.begin() + carried.offsets[node + 1]);
-            if (list.size() > most_members) {
-                std::ranges::stable_sort(list, std::ranges::greater{}, &Member::weight);
-                list.resize(most_members);
-                std::ranges::sort(list, {}, &Member::node);
-            }
-            double sum = 0;
-            for (const Member& member : list) sum += member.weight;
-            if (pinned[chosen[node]] || !(sum > 0)) list = {{chosen[node], 1}}, sum = 1;
-            for (Member& member : list) member.weight /= sum;
-            longest = std::max(longest, list.size());
+        lists.clear();
+        for (std::uint32_t node = first; node < std::min(first + lane_padding, count); ++node) {
+            const std::span all(carried.items);
+            const std::uint32_t begin = carried.offsets[node], end = carried.offsets[node + 1];
+            lists.push_back(members_of(chosen[node], all.subspan(begin, end - begin)));
         }
+        std::size_t longest = 0;
+        for (const auto& list : lists) longest = std::max(longest, list.size());
         const std::size_t at = restriction.node.size();
         restriction.node.resize(at + longest * lane_padding);
         restriction.weight.resize(restriction.node.size());
-        for (std::uint32_t lane = 0; lane < lane_padding; ++lane) {
-            const std::vector<Member>& list = lists[lane];
+        for (std::size_t lane = 0; lane < lists.size(); ++lane) {
             for (std::size_t k = 0; k < longest; ++k) {
-                const bool member = k < list.size();
-                restriction.node[at + k * lane_padding + lane] = member         ? list[k].node
-                                                                 : list.empty() ? 0
-                                                                                : list[0].node;
-                restriction.weight[at + k * lane_padding + lane] = member ? static_cast<float>(list[k].weight) : 0;
+                const bool ended = k >= lists[lane].size();
+                const Member member = ended ? Member{lists[lane][0].node, 0} : lists[lane][k];
+                restriction.node[at + k * lane_padding + lane] = member.node;
+                restriction.weight[at + k * lane_padding + lane] = static_cast<float>(member.weight);
             }
         }
         restriction.begin.push_back(restriction.begin.back() + static_cast<std::uint32_t>(longest));

@@ -18,7 +18,7 @@ enum class PassKind : std::uint8_t {
     push,        ///< per particle: the sum of that over its triangles, on its velocity
     predict,     ///< per particle: gravity, then where it would go
     hold,        ///< per held particle: to where it is carried
-    collect,     ///< per node of a coarse level: where the finer ones around it are
+    collect,     ///< per node of a coarse level: where what it carries is
     lift,        ///< per node of a coarse level: from there to where the coarser level takes it
     reach,       ///< one batch of a coarse level's rows
     settle,      ///< per node: how far the rows have moved it
