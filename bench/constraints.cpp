@@ -30,9 +30,15 @@ std::shared_ptr<const ClothModel> sheet(std::uint32_t side, BendModel bend) {
     return model;
 }
 
+BendModel bend_model(ConstraintKind kind) {
+    return kind == ConstraintKind::plate     ? BendModel::plate
+           : kind == ConstraintKind::flexion ? BendModel::distance
+                                             : BendModel::hinges;
+}
+
 // All batches of one constraint, once per iteration, as a step does with one iteration a substep.
 void project(benchmark::State& state, const cpu::Passes* passes, ConstraintKind kind, std::uint32_t side) {
-    cpu::ClothState cloth(sheet(side, kind == ConstraintKind::plate ? BendModel::plate : BendModel::hinges));
+    cpu::ClothState cloth(sheet(side, bend_model(kind)));
     const ConstraintTable& table = cloth.model->table(kind);
     const cpu::ParticleView particles = cloth.now.view();
     const cpu::RowView rows = cloth.rows(kind);

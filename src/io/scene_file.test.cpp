@@ -153,6 +153,7 @@ TEST(SceneFile, PresetsCanBeOverridden) {
     EXPECT_EQ(fabric(R"({"hinges": "source"})").bend.hinges, HingeChoice::source);
     EXPECT_EQ(fabric(R"("silk")").bend.hinges, HingeChoice::all);
     EXPECT_EQ(fabric(R"({"bend_model": "plate"})").bend.model, BendModel::plate);
+    EXPECT_EQ(fabric(R"({"bend_model": "distance"})").bend.model, BendModel::distance);
     EXPECT_EQ(fabric(R"("silk")").bend.model, BendModel::hinges);
 }
 

@@ -3,6 +3,7 @@
 
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
+#include "physics/flexion/flexion.data.h"
 #include "physics/plate/plate.data.h"
 #include "physics/reach/reach.data.h"
 #include "physics/rest_shape.h"

@@ -6,6 +6,7 @@
 
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
+#include "physics/flexion/flexion.data.h"
 #include "physics/plate/plate.data.h"
 #include "physics/reach/reach.data.h"
 #include "physics/stretch/stretch.data.h"

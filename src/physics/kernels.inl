@@ -22,6 +22,7 @@
 #include "physics/stretch/line.kernel.h"
 #include "physics/bend/bend.kernel.h"
 #include "physics/plate/plate.kernel.h"
+#include "physics/flexion/flexion.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/feedback.kernel.h"

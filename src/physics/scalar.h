@@ -5,6 +5,7 @@
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/contact/contact.data.h"
+#include "physics/flexion/flexion.data.h"
 #include "physics/kernel_language.h"
 #include "physics/plate/plate.data.h"
 #include "physics/reach/reach.data.h"

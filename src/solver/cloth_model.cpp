@@ -165,8 +165,8 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);
-    // The same values for both; which of them makes rows is one of the values.
-    model.fabric.plate = model.fabric.bend;
+    // The same values for all three; which of them makes rows is one of the values.
+    model.fabric.plate = model.fabric.flexion = model.fabric.bend;
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                              \
     add_table(model, topology, ConstraintKind::name, build_##name(rest, model.fabric.name), \
               layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, clock);

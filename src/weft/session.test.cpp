@@ -90,7 +90,8 @@ TEST_F(SessionOfACloth, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
     folder.write("messy.obj", messy_obj);
     for (const char* more : {"", R"(, "fabric": {"hinges": "source", "rest_angle": 0})", R"(, "tethers": "on",
                              "pins": [{"vertices": [0, 8]}])",
-                             R"(, "fabric": {"inextensible": true})", R"(, "fabric": {"bend_model": "plate"})"}) {
+                             R"(, "fabric": {"inextensible": true})", R"(, "fabric": {"bend_model": "plate"})",
+                             R"(, "fabric": {"bend_model": "distance"})"}) {
         auto session = open(R"("mesh": {"file": "messy.obj"})" + std::string(more));
         ASSERT_TRUE(session.ok()) << session.error().message();
         EXPECT_THAT(session->notes(),

@@ -75,13 +75,15 @@ TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
     }
 }
 
-TEST(Determinism, holds_for_the_plate) {
-    const std::string expected = drape({0, "scalar"}, 2, BendModel::plate);
-    EXPECT_NE(expected, drape({0, "scalar"}, 2));
-    for (std::string_view isa : cpu_instruction_sets()) {
-        EXPECT_EQ(drape({0, std::string(isa)}, 2, BendModel::plate), expected) << isa;
+TEST(Determinism, holds_for_all_that_bends) {
+    for (const BendModel model : {BendModel::plate, BendModel::distance}) {
+        const std::string expected = drape({0, "scalar"}, 2, model);
+        EXPECT_NE(expected, drape({0, "scalar"}, 2));
+        for (std::string_view isa : cpu_instruction_sets()) {
+            EXPECT_EQ(drape({0, std::string(isa)}, 2, model), expected) << isa;
+        }
+        EXPECT_EQ(drape({1, ""}, 2, model), expected) << "two threads";
     }
-    EXPECT_EQ(drape({1, ""}, 2, BendModel::plate), expected) << "two threads";
 }
 
 }  // namespace

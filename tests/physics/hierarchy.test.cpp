@@ -109,6 +109,41 @@ TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
     }
 }
 
+// Of an interlock T-shirt, which its own weight would stretch by a fifth. Fine rows alone leave it a quarter of a meter
+// too long with so few substeps, and shake it.
+TEST(HierarchyOf, a_soft_sheet_between_four_corners_bounds_what_it_stretches_by) {
+    WEFT_TOO_LONG_FOR_SANITIZERS();
+    constexpr std::uint32_t side = 65;
+    const auto middle_of = [](const WorldSettings& settings) {
+        SheetDesc sheet{.resolution = {side, side}, .layout = {.lines = true, .hierarchy = settings.hierarchy}};
+        sheet.pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f && std::abs(p.z) > 0.499f; };
+        sheet.fabric.body.density = 0.187f;
+        sheet.fabric.stretch = {.stretch = {33, 69}, .compression = {33, 69}, .shear = 18};
+        World world = make_world(settings, sheet);
+        run(world, 8);
+        double height = 0, fastest = 0;
+        std::vector<Vec3> before, now;
+        collect_positions(world.frame(), before);
+        for (int frame = 0; frame < 120; ++frame) {
+            world.step(1.0 / 60);
+            collect_positions(world.frame(), now);
+            height += static_cast<double>(now[side * side / 2].y) / 120;
+            for (std::size_t i = 0; i < now.size(); ++i)
+                fastest = std::max(fastest, 60.0 * static_cast<double>(length(now[i] - before[i])));
+            before = now;
+        }
+        return std::pair{height, fastest};
+    };
+    const auto [exact, swing] = middle_of({.substeps = 40});
+    const auto [lower, wild] = middle_of({.substeps = 5});
+    const auto [held, calm] = middle_of({.substeps = 5, .hierarchy = true});
+    std::printf("  middle at %.3f m, 5 substeps %.3f m, with levels %.3f m; fastest %.2f, %.2f, %.2f m/s\n", exact,
+                lower, held, swing, wild, calm);
+    EXPECT_LT(lower, exact - 0.1) << "what levels are for";
+    EXPECT_NEAR(held, exact, 0.03);
+    EXPECT_LT(calm, 0.5);
+}
+
 TEST(HierarchyOf, a_falling_sheet_does_not_disturb_its_fall) {
     World world = make_world({.hierarchy = true}, {.resolution = {33, 33}, .layout = {.hierarchy = true}});
     run(world, 1);

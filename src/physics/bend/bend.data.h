@@ -17,9 +17,9 @@ namespace weft {
 /// Which hinges bend: `source` leaves out those that only cutting a rectangle in two has made.
 enum class HingeChoice { all, source };
 
-/// What measures the curvature: the angles across the edges one by one (bend.md), or those of a triangle together
-/// (plate.md).
-enum class BendModel { hinges, plate };
+/// What measures the curvature: the angles across the edges one by one (bend.md), those of a triangle together
+/// (plate.md), or how near to one another two triangles bring their tips (flexion.md).
+enum class BendModel { hinges, plate, distance };
 
 struct BendMaterial {
     static constexpr int plain[2] = {2, 2};
@@ -38,8 +38,9 @@ inline constexpr Parameter bend_parameters[] = {
     {.key = "hinges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, hinges),
      .what = "`all` edges bend, or those of the `source`: not the diagonals of flat rectangles", .choices = "all|source"},
     {.key = "bend_model", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, model),
-     .what = "`hinges` measure curvature edge by edge, a `plate` triangle by triangle: closer to `bend`, and twice the work",
-     .choices = "hinges|plate"},
+     .what = "`hinges` measure curvature edge by edge, a `plate` triangle by triangle: closer to `bend`, and twice the work; "
+             "`distance` rows between the tips of neighboring triangles take a third of it, but let slight folds be",
+     .choices = "hinges|plate|distance"},
 };
 
 }  // namespace weft
