@@ -73,7 +73,7 @@ inline constexpr Parameter solver_keys[] = {
              "whole 1/65536 m, in any order",
      .choices = "gather|fixed-point"},
     {.key = "hierarchy", .kind = ParameterKind::flag, .offset = offsetof(SolverDesc, hierarchy),
-     .what = "coarse levels over each cloth, projected first: far less stretch of large ones; little for soft fabrics"},
+     .what = "coarse levels over each cloth, projected first: far less stretch of large ones"},
     {.key = "substeps", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, substeps), .min = 1,
      .max = 10000, .what = "steps per frame; twice as many cost twice the time and leave about a quarter of the stretch"},
     {.key = "iterations", .kind = ParameterKind::integer, .offset = offsetof(SolverDesc, iterations), .min = 1,
