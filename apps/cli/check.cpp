@@ -39,7 +39,7 @@ Command add_check(CLI::App& program) {
             const ClothModel& model = *cloth.model;
             std::cout << *scene << ": cloth '" << model.name << "': " << model.particle_count << " particles ("
                       << model.pinned_count << " pinned), " << model.triangle_count << " triangles";
-            if (!model.binding.empty()) std::cout << ", drawn with " << model.mesh.triangles.size();
+            if (!model.binding.empty()) std::cout << ", drawn with " << model.mesh().triangles.size();
             for (const ConstraintTable& table : model.constraints) {
                 std::cout << ", " << table.rows << ' ' << constraint_info(table.kind).name << " rows in "
                           << table.batches.size() << " batches";

@@ -231,7 +231,7 @@ TEST(ClothModel, is_simulated_on_one_mesh_and_drawn_as_another) {
     TriangleMesh fine = make_grid({1, 1}, {33, 33}, GridDiagonal::uniform);
     const auto bound = model_of(turned, fine);
     EXPECT_TRUE(plain->binding.empty());
-    EXPECT_EQ(bound->mesh.positions, fine.positions);
+    EXPECT_EQ(bound->mesh().positions, fine.positions);
     EXPECT_EQ(bound->particle_count, 25u);
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         EXPECT_EQ(bound->constraints[kind].fields, plain->constraints[kind].fields);

@@ -1,5 +1,6 @@
 #include "solver/cloth_model.h"
 
+#include "mesh/grouping.h"
 #include "physics/tether/held_places.h"
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
@@ -73,21 +74,59 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     }
 }
 
+// Edges stand in the order of their lower end, and then of the upper one.
+class EdgeIndex {
+  public:
+    explicit EdgeIndex(const Topology& topology) : edges_(topology.edges), first_(topology.particle_count + 1) {
+        for (const Edge& edge : edges_) ++first_[edge.a + 1];
+        for (std::size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
+    }
+    std::size_t find(std::uint32_t a, std::uint32_t b) const {
+        if (a > b) std::swap(a, b);
+        const auto begin = edges_.begin() + first_[a], end = edges_.begin() + first_[a + 1];
+        return static_cast<std::size_t>(std::ranges::lower_bound(begin, end, b, {}, &Edge::b) - edges_.begin());
+    }
+
+  private:
+    std::span<const Edge> edges_;
+    std::vector<std::uint32_t> first_;
+};
+
 void measure_edges(ClothModel& model, const RestShape& rest) {
     constexpr float cos2_10_degrees = 0.9698463f;
     const Topology& topology = rest.topology;
+    const std::size_t count = topology.edges.size();
+    std::vector<std::uint8_t> axial(count), has_row(count);
     double sum = 0;
-    model.edges.reserve(topology.edges.size());
-    std::vector<std::array<std::uint32_t, 2>> others;
-    for (const Edge& edge : topology.edges) {
+    for (std::size_t e = 0; e < count; ++e) {
+        const Edge& edge = topology.edges[e];
         const float cos2 = cos2_to_warp(rest, edge);
-        const bool axial = cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees;
-        (axial ? model.edges : others).push_back({edge.a, edge.b});
+        axial[e] = cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees;
         sum += length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
     }
-    model.axial_edges = model.edges.size();
-    model.edges.insert(model.edges.end(), others.begin(), others.end());
-    model.mean_edge = static_cast<float>(sum / static_cast<double>(topology.edges.size()));
+    model.mean_edge = static_cast<float>(sum / static_cast<double>(count));
+
+    const EdgeIndex index(topology);
+    const ConstraintTable& rows = model.table(ConstraintKind::stretch);
+    model.axial_rows.assign(rows.stride, false);
+    for (std::uint32_t row = 0; row < rows.stride; ++row) {
+        if (!rows.is_real(row)) continue;
+        const std::size_t e = index.find(rows.particles[row], rows.particles[std::size_t{rows.stride} + row]);
+        has_row[e] = 1;
+        model.axial_rows[row] = axial[e];
+    }
+    for (const bool along : {true, false}) {
+        for (std::size_t e = 0; e < count; ++e) {
+            if (!has_row[e] && static_cast<bool>(axial[e]) == along)
+                model.edges_without_row.push_back({topology.edges[e].a, topology.edges[e].b});
+        }
+        if (along) model.axial_without_row = model.edges_without_row.size();
+    }
+}
+
+// Whether every vertex is a particle, and every triangle a face.
+bool is_simulated_as_drawn(const TriangleMesh& mesh, const Topology& topology) {
+    return topology.particle_count == mesh.positions.size() && topology.triangles.size() == mesh.triangles.size();
 }
 
 // A simulated mesh was checked when its topology was built.
@@ -194,7 +233,13 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     } else {
         model->vertex_to_particle = std::move(topology.vertex_to_particle);
     }
-    model->mesh = desc.drawn ? std::move(*desc.drawn) : std::move(desc.mesh);
+    if (desc.drawn) {
+        model->set_mesh(std::move(*desc.drawn));
+    } else if (is_simulated_as_drawn(desc.mesh, topology)) {
+        model->set_mesh_of_particles(std::move(desc.mesh.uvs), std::move(desc.mesh.colors));
+    } else {
+        model->set_mesh(std::move(desc.mesh));
+    }
     clock.spent_on(BuildPart::rest);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
@@ -204,11 +249,65 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
                                                              const ClothPins& pins, const ClothLayout& layout) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
-    model->mesh = from.mesh;
     model->binding = from.binding;
+    if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
+        model->set_mesh_of_particles(mesh.uvs, mesh.colors);
+    } else {
+        model->set_mesh(from.mesh());
+    }
     model->vertex_to_particle = from.vertex_to_particle;
     if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout); !done) return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+void ClothModel::set_mesh(TriangleMesh mesh) {
+    mesh_ = std::move(mesh);
+    mesh_.normals = {};
+    mesh_of_particles_ = false;
+}
+
+void ClothModel::set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors) {
+    mesh_.uvs = std::move(uvs);
+    mesh_.colors = std::move(colors);
+    mesh_of_particles_ = true;
+}
+
+const TriangleMesh& ClothModel::mesh() const {
+    if (!mesh_of_particles_) return mesh_;
+    std::call_once(mesh_made_, [&] {
+        std::vector<std::uint32_t> vertex(particle_count);
+        mesh_.positions.reserve(particle_count);
+        for (std::uint32_t v = 0; v < particle_count; ++v) {
+            vertex[vertex_to_particle[v]] = v;
+            mesh_.positions.push_back(rest_position(vertex_to_particle[v]));
+        }
+        mesh_.triangles.reserve(triangle_count);
+        for (std::uint32_t t = 0; t < triangle_count; ++t) {
+            const auto [a, b, c] = triangle(t);
+            mesh_.triangles.push_back({vertex[a], vertex[b], vertex[c]});
+        }
+    });
+    return mesh_;
+}
+
+EdgesByDirection edges_by_direction(const ClothModel& model) {
+    const auto grouped = [&](bool wanted) {
+        auto by_lower = group_items<std::uint32_t>(model.particle_count, [&](auto put) {
+            for_each_edge(model, [&](const EdgeEnds& ends, bool axial) {
+                if (axial == wanted) put(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
+            });
+        });
+        std::vector<EdgeEnds> edges;
+        edges.reserve(by_lower.items.size());
+        for (std::uint32_t a = 0; a < model.particle_count; ++a) {
+            const auto begin = by_lower.items.begin() + by_lower.offsets[a];
+            const auto end = by_lower.items.begin() + by_lower.offsets[a + 1];
+            std::sort(begin, end);
+            for (auto b = begin; b != end; ++b) edges.push_back({a, *b});
+        }
+        return edges;
+    };
+    return {grouped(true), grouped(false)};
 }
 
 std::vector<float> face_masses(const ClothModel& model) {

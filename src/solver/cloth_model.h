@@ -14,6 +14,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,9 +45,10 @@ struct ClothModelDesc {
     BuildTimes build_times = {};  ///< what went before: its topology
 };
 
+using EdgeEnds = std::array<std::uint32_t, 2>;
+
 struct ClothModel {
     std::string name;
-    TriangleMesh mesh;  ///< as drawn
     /// How the drawn mesh follows the simulated one. Empty where they are the same.
     Binding binding;
     std::vector<std::uint32_t> vertex_to_particle;  ///< of the drawn mesh, as Topology has it; empty with a binding
@@ -67,11 +69,21 @@ struct ClothModel {
     std::uint32_t triangle_count = 0, face_stride = 0;
     FacesAround around;  ///< `nothing` is face_stride
 
-    std::vector<std::array<std::uint32_t, 2>> edges;  ///< their ends; those along warp or weft (within 10°) first
-    std::size_t axial_edges = 0;                      ///< how many those are
-    float mean_edge = 0;                              ///< m
+    /// Edges are the rows of stretch, by row whether along warp or weft (within 10°), and those that have none, as
+    /// nothing stretches there: of these the ones along warp or weft first, and how many they are.
+    std::vector<bool> axial_rows;
+    std::vector<EdgeEnds> edges_without_row;
+    std::size_t axial_without_row = 0;
+    float mean_edge = 0;  ///< m
 
     BuildTimes build_times;
+
+    /// As drawn, without normals: cloth has those of its surface.
+    const TriangleMesh& mesh() const;
+    void set_mesh(TriangleMesh mesh);
+    /// Likewise, and positions and triangles are those of the particles: they are not kept, but made when somebody asks
+    /// first, in whatever thread.
+    void set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors);
 
     /// Particles and anchors: what a step moves.
     std::uint32_t point_count() const { return particle_count + anchor_count; }
@@ -81,7 +93,30 @@ struct ClothModel {
         return {faces[t], faces[std::size_t{face_stride} + t], faces[2 * std::size_t{face_stride} + t]};
     }
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
+
+  private:
+    bool mesh_of_particles_ = false;
+    mutable TriangleMesh mesh_;
+    mutable std::once_flag mesh_made_;
 };
+
+/// visit(ends, whether along warp or weft) for every edge, in no particular order.
+template <class Visit>
+void for_each_edge(const ClothModel& model, Visit&& visit) {
+    const ConstraintTable& rows = model.table(ConstraintKind::stretch);
+    for (std::uint32_t row = 0; row < rows.stride; ++row) {
+        if (rows.is_real(row))
+            visit(EdgeEnds{rows.particles[row], rows.particles[std::size_t{rows.stride} + row]}, model.axial_rows[row]);
+    }
+    for (std::size_t i = 0; i < model.edges_without_row.size(); ++i)
+        visit(model.edges_without_row[i], i < model.axial_without_row);
+}
+
+/// All edges, ends ascending: those along warp or weft, and the others.
+struct EdgesByDirection {
+    std::vector<EdgeEnds> axial, others;
+};
+EdgesByDirection edges_by_direction(const ClothModel& model);
 
 /// kg, of every triangle at rest, with padding, which weighs nothing.
 std::vector<float> face_masses(const ClothModel& model);

@@ -23,7 +23,7 @@ void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::ve
     normals.resize(particle.size());
     for (std::size_t v = 0; v < particle.size(); ++v) {
         const bool still = particle[v] == none;
-        positions[v] = still ? cloth.model->mesh.positions[v] : cloth.positions[particle[v]].xyz();
+        positions[v] = still ? cloth.model->mesh().positions[v] : cloth.positions[particle[v]].xyz();
         normals[v] = still ? Vec3{0, 1, 0} : cloth.normals[particle[v]].xyz();
     }
 }

@@ -10,13 +10,13 @@ double speed2(const Vec4& v) {
 }
 
 void add_strain(const ClothModel& model, std::span<const Vec4> positions, Tally& stretch, Tally& shear) {
-    for (std::size_t e = 0; e < model.edges.size(); ++e) {
-        const auto [a, b] = model.edges[e];
+    for_each_edge(model, [&](const EdgeEnds& ends, bool axial) {
+        const auto [a, b] = ends;
         const double rest = distance(model.rest_position(a), model.rest_position(b));
-        if (rest <= 0) continue;
+        if (rest <= 0) return;
         const double now = distance(positions[a].xyz(), positions[b].xyz());
-        (e < model.axial_edges ? stretch : shear).add(std::abs(now / rest - 1));
-    }
+        (axial ? stretch : shear).add(std::abs(now / rest - 1));
+    });
 }
 
 }  // namespace

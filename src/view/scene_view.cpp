@@ -42,7 +42,7 @@ struct ColliderOnDevice {
 Bounds bounds_of(const World& world) {
     Bounds bounds;
     for (std::size_t i = 0; i < world.cloth_count(); ++i)
-        bounds.include(weft::bounds_of(world.model(world.cloth_id(i))->mesh.positions));
+        bounds.include(weft::bounds_of(world.model(world.cloth_id(i))->mesh().positions));
     for (const Collider& collider : world.colliders())
         for (const Vec3 p : mesh_of(collider).positions) bounds.include(to_world(collider.pose, p));
     if (bounds.empty()) bounds.include(Bounds{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}});
@@ -139,15 +139,15 @@ Result<ClothOnDevice*> SceneView::Impl::cloth(World& world, ClothId id) {
     ClothOnDevice made;
     made.id = id;
     made.model = model;
-    made.uv_meters = uv_meters(model->mesh);
+    made.uv_meters = uv_meters(model->mesh());
     auto material = materials.find(renderer, model->name, look_of(scene, model->name), notes);
     if (!material) return material.errors();
     made.material = *material;
-    if (model->mesh.uvs.empty()) {
-        auto rest = device().memory().buffer(model->mesh.positions.size() * sizeof(Vec3), gpu::MemoryKind::upload,
+    if (model->mesh().uvs.empty()) {
+        auto rest = device().memory().buffer(model->mesh().positions.size() * sizeof(Vec3), gpu::MemoryKind::upload,
                                              "rest of " + model->name);
         if (!rest) return rest.errors();
-        std::ranges::copy(model->mesh.positions, rest->as<Vec3>().begin());
+        std::ranges::copy(model->mesh().positions, rest->as<Vec3>().begin());
         made.rest = std::move(*rest);
     }
     cloths.push_back(std::move(made));
@@ -178,7 +178,7 @@ Result<ColliderOnDevice*> SceneView::Impl::collider(const Collider& collider, Co
 }
 
 Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth) {
-    const TriangleMesh& mesh = cloth.model->mesh;
+    const TriangleMesh& mesh = cloth.model->mesh();
     if (!cloth.mesh) {
         auto made = render::HostMesh::create(device(), static_cast<std::uint32_t>(mesh.positions.size()),
                                              mesh.triangles, mesh.uvs, {}, cloth.model->name);
@@ -196,7 +196,7 @@ Result<Done> SceneView::Impl::add_cloth(World& world, std::size_t place, const F
     auto found = cloth(world, world.cloth_id(place));
     if (!found) return found.errors();
     ClothOnDevice& one = **found;
-    if (one.model->mesh.triangles.empty()) return Done{};
+    if (one.model->mesh().triangles.empty()) return Done{};
     if (frame) draw_surface(frame->cloths[place], one.positions, one.normals);
     auto surface = sources.surface ? sources.surface(one.id) : host_surface(one);
     if (!surface) return surface.errors();
@@ -266,7 +266,7 @@ Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
     std::size_t next = 0;
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
         ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);
-        if (one.model->mesh.triangles.empty()) continue;
+        if (one.model->mesh().triangles.empty()) continue;
         const Scalars& scalars = shown.scalars[i];
         gpu::Buffer& buffer = one.scalars[turn];
         if (!buffer) {

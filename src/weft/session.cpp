@@ -125,7 +125,7 @@ Errors apply(const Options& options, SceneDesc& scene) {
 const Material* material_of(const ClothModel& cloth, std::span<const SceneLook> looks) {
     const auto look = std::ranges::find(looks, cloth.name, &SceneLook::object);
     if (look != looks.end()) return &look->material;
-    return cloth.mesh.colors.empty() ? &find_material("cotton")->material : nullptr;
+    return cloth.mesh().colors.empty() ? &find_material("cotton")->material : nullptr;
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ void DrawnFrame::update(const Frame& frame, std::span<const SceneLook> looks) {
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         const ClothFrame& cloth = frame.cloths[i];
         draw_surface(cloth, buffers_[i].positions, buffers_[i].normals);
-        surfaces_[i] = {cloth.model->name, &cloth.model->mesh, buffers_[i].positions, buffers_[i].normals,
+        surfaces_[i] = {cloth.model->name, &cloth.model->mesh(), buffers_[i].positions, buffers_[i].normals,
                         material_of(*cloth.model, looks)};
     }
 }
@@ -250,7 +250,7 @@ void Session::remove(ClothId id) {
 
 Result<Done> Session::rebuild(Entry& entry, const SceneCloth& desc, const ClothPins& pins, Holds holds) {
     const ClothModel& now = *world_->model(entry.id);
-    const TriangleMesh& mesh = entry.simulated ? *entry.simulated : now.mesh;
+    const TriangleMesh& mesh = entry.simulated ? *entry.simulated : now.mesh();
     auto topology = build_topology(mesh, entry.topology);
     if (!topology) return topology.errors();
     auto model = change_cloth_model(now, mesh, *topology, fabric_of(desc), pins, world_->settings().layout());
@@ -291,7 +291,7 @@ Result<Done> Session::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const ClothModel& model = *world_->model(id);
     const auto cloths = std::span(world_->frame().cloths);
     const auto frame = std::ranges::find(cloths, id, &ClothFrame::id);
-    const TriangleMesh& mesh = one.simulated ? *one.simulated : model.mesh;
+    const TriangleMesh& mesh = one.simulated ? *one.simulated : model.mesh();
     auto topology = build_topology(mesh, one.topology);
     if (!topology) return topology.errors();
     const PinnedCloth cloth{mesh, *topology, frame->positions, world_->frame().time};

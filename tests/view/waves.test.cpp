@@ -24,7 +24,7 @@ Off waved(std::uint32_t side, GridDiagonal diagonal) {
     std::vector<Vec3> positions, normals;
     std::vector<Vec4> tangents;
     draw_surface(cloth, positions, normals);
-    compute_tangents(cloth.model->mesh, positions, normals, tangents);
+    compute_tangents(cloth.model->mesh(), positions, normals, tangents);
     Off off;
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const Vec3 p = positions[v];

@@ -140,7 +140,7 @@ class VulkanSurfaces : public testing::Test {
         const gpu::SurfaceBuffers buffers = surface(id);
         const Frame& frame = world().frame();
         const auto& cloth = *std::ranges::find(frame.cloths, id, &ClothFrame::id);
-        const TriangleMesh& mesh = cloth.model->mesh;
+        const TriangleMesh& mesh = cloth.model->mesh();
         std::vector<Vec3> positions, normals;
         std::vector<Vec4> tangents;
         draw_surface(cloth, positions, normals);

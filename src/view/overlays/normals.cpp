@@ -42,10 +42,10 @@ std::vector<std::uint32_t> thinned_out(const TriangleMesh& mesh, float spacing) 
 void normals(const OverlayInput& input, OverlayOutput& output) {
     for (std::size_t i = 0; i < input.frame.cloths.size(); ++i) {
         const ClothModel& model = *input.frame.cloths[i].model;
-        const float spacing = spacing_of(model.mesh);
+        const float spacing = spacing_of(model.mesh());
         if (!(spacing > 0)) continue;
         const float reach = std::min(std::max(spacing, model.mean_edge) * 0.9f, 0.1f * input.size);
-        for (const std::uint32_t v : thinned_out(model.mesh, spacing)) {
+        for (const std::uint32_t v : thinned_out(model.mesh(), spacing)) {
             const Vec3 from = input.positions[i][v];
             add_line(output.lines, from, from + input.normals[i][v] * reach, color, pixels(input, 1.3f));
         }

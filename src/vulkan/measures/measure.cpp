@@ -20,8 +20,8 @@ struct TwoFloats {
     float high, low;
 };
 
-void add_edge(const ClothModel& model, std::size_t edge, std::vector<std::uint32_t>& list) {
-    const auto [a, b] = model.edges[edge];
+void add_edge(const ClothModel& model, const EdgeEnds& ends, std::vector<std::uint32_t>& list) {
+    const auto [a, b] = ends;
     const double rest = distance(model.rest_position(a), model.rest_position(b));
     if (rest <= 0) return;
     const TwoFloats square(rest * rest);
@@ -131,7 +131,9 @@ class Measuring {
 Result<std::unique_ptr<const MeasureLists>> MeasureLists::create(gpu::Device& device, const ClothModel& model) {
     auto lists = std::make_unique<MeasureLists>();
     std::vector<std::uint32_t> stretch, shear;
-    for (std::size_t e = 0; e < model.edges.size(); ++e) add_edge(model, e, e < model.axial_edges ? stretch : shear);
+    const EdgesByDirection edges = edges_by_direction(model);
+    for (const EdgeEnds& edge : edges.axial) add_edge(model, edge, stretch);
+    for (const EdgeEnds& edge : edges.others) add_edge(model, edge, shear);
     lists->stretch_edges = static_cast<std::uint32_t>(stretch.size() / words_of_edge);
     lists->shear_edges = static_cast<std::uint32_t>(shear.size() / words_of_edge);
     lists->masses = lists->arena.add_array(model.mass);

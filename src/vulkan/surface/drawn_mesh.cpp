@@ -43,7 +43,7 @@ Result<std::shared_ptr<const DrawnMesh>> DrawnMesh::create(gpu::Device& device,
                                                            std::shared_ptr<const ClothModel> cloth_model) {
     auto self = std::shared_ptr<DrawnMesh>(new DrawnMesh(std::move(cloth_model)));
     const ClothModel& model = *self->model;
-    const TriangleMesh& mesh = model.mesh;
+    const TriangleMesh& mesh = model.mesh();
     assert(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
     Arena& arena = self->arena_;
     Lists lists;

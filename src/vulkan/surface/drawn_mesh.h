@@ -27,7 +27,7 @@ class DrawnMesh {
     Slot particle;                      ///< of each vertex, or, with a binding,
     Slot bound_particles, bound_shape;
 
-    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(model->mesh.positions.size()); }
+    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(model->mesh().positions.size()); }
     const Arena& arena() const { return arena_; }
     std::uint64_t address(Slot slot) const { return arena_.address(slot); }
 

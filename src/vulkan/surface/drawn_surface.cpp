@@ -29,7 +29,7 @@ Result<Done> DrawnSurface::make(Set& set) {
     // Vertices that no triangle uses are in their place from the start, and nothing moves them.
     std::vector<Vec4> still_positions, still_normals;
     if (std::ranges::find(model.vertex_to_particle, none) != model.vertex_to_particle.end()) {
-        for (const Vec3 p : model.mesh.positions) still_positions.push_back({p.x, p.y, p.z, 1});
+        for (const Vec3 p : model.mesh().positions) still_positions.push_back({p.x, p.y, p.z, 1});
         still_normals.assign(still_positions.size(), {0, 1, 0, 0});
         set.positions = set.arena.add_array(still_positions);
         set.normals = set.arena.add_array(still_normals);
@@ -96,7 +96,7 @@ gpu::SurfaceBuffers DrawnSurface::buffers(const Set& set) const {
             .uvs = range_of(mesh_->arena(), mesh_->uvs),
             .triangles = range_of(mesh_->arena(), mesh_->triangles),
             .vertex_count = mesh_->vertex_count(),
-            .triangle_count = static_cast<std::uint32_t>(mesh_->model->mesh.triangles.size()),
+            .triangle_count = static_cast<std::uint32_t>(mesh_->model->mesh().triangles.size()),
             .ready = {device_.timeline(), set.written}};
 }
 
