@@ -38,6 +38,21 @@ struct Turn {
     std::uint32_t a, b;
 };
 
+// Few, nearly always: then a sort that asks for no memory.
+void sort_by_cosine(std::vector<Turn>& turns) {
+    constexpr std::size_t few = 16;
+    if (turns.size() > few) {
+        std::ranges::stable_sort(turns, {}, &Turn::cosine);
+        return;
+    }
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+        const Turn turn = turns[i];
+        std::size_t at = i;
+        for (; at > 0 && turn.cosine < turns[at - 1].cosine; --at) turns[at] = turns[at - 1];
+        turns[at] = turn;
+    }
+}
+
 // For each end the one that a path goes on with, or `nothing`.
 std::vector<std::uint32_t> join_ends(std::span<const std::uint32_t> points, std::span<const Vec3> positions) {
     const LinkEnds ends(points, positions.size());
@@ -61,7 +76,7 @@ std::vector<std::uint32_t> join_ends(std::span<const std::uint32_t> points, std:
                 if (cosine < -straight_enough) turns.push_back({cosine, here[i], here[j]});
             }
         }
-        std::ranges::stable_sort(turns, {}, &Turn::cosine);
+        sort_by_cosine(turns);
         for (const Turn& turn : turns) {
             if (partner[turn.a] != nothing || partner[turn.b] != nothing) continue;
             partner[turn.a] = turn.b;

@@ -7,11 +7,7 @@
 
 namespace weft {
 
-struct RestFrame {
-    Vec3 normal, warp;  ///< unit; 0 where there are no triangles
-};
-
-/// Per particle: means over its triangles.
+/// What RestShape::frames holds, of its areas and warps.
 std::vector<RestFrame> rest_frames(const RestShape& rest);
 
 /// Of the straight line between two places, m.

@@ -1,5 +1,7 @@
 #include "physics/rest_shape.h"
 
+#include "physics/rest_frames.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,23 @@ Vec3 warp_from_uvs(Vec3 e1, Vec3 e2, Vec2 t1, Vec2 t2) {
     const float scale = std::abs(t1.x * t2.y) + std::abs(t2.x * t1.y);
     if (!(std::abs(det) > 1e-6f * scale)) return {};
     return normalized((e1 * t2.y - e2 * t1.y) * (det > 0 ? 1.0f : -1.0f));
+}
+
+float cos2_at(const RestShape& rest, const Edge& edge) {
+    const Vec3 along = normalized(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
+    float sum = 0, count = 0;
+    for (std::uint32_t t : {edge.triangle0, edge.triangle1}) {
+        if (t == none) continue;
+        const float c = dot(along, rest.warp[t]);
+        sum += c * c;
+        count += 1;
+    }
+    return count > 0 ? std::min(1.0f, sum / count) : 1.0f;
+}
+
+float area_at(const RestShape& rest, const Edge& edge) {
+    return (edge.triangle0 == none ? 0.0f : rest.area[edge.triangle0]) +
+           (edge.triangle1 == none ? 0.0f : rest.area[edge.triangle1]);
 }
 
 }  // namespace
@@ -47,24 +66,14 @@ RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
         if (!(dot(warp, warp) > 0.5f)) warp = warp_without_uvs(normalized(n));
         rest.warp.push_back(warp);
     }
-    return rest;
-}
-
-float cos2_to_warp(const RestShape& rest, const Edge& edge) {
-    const Vec3 along = normalized(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
-    float sum = 0, count = 0;
-    for (std::uint32_t t : {edge.triangle0, edge.triangle1}) {
-        if (t == none) continue;
-        const float c = dot(along, rest.warp[t]);
-        sum += c * c;
-        count += 1;
+    rest.frames = rest_frames(rest);
+    rest.cos2_to_warp.reserve(topology.edges.size());
+    rest.area_at_edge.reserve(topology.edges.size());
+    for (const Edge& edge : topology.edges) {
+        rest.cos2_to_warp.push_back(cos2_at(rest, edge));
+        rest.area_at_edge.push_back(area_at(rest, edge));
     }
-    return count > 0 ? std::min(1.0f, sum / count) : 1.0f;
-}
-
-float area_at(const RestShape& rest, const Edge& edge) {
-    return (edge.triangle0 == none ? 0.0f : rest.area[edge.triangle0]) +
-           (edge.triangle1 == none ? 0.0f : rest.area[edge.triangle1]);
+    return rest;
 }
 
 float directional(float warp, float bias, float weft, float cos2) {

@@ -15,10 +15,17 @@ struct Attachment {
     Vec3 place = {};       ///< m: where the anchor starts
 };
 
+struct RestFrame {
+    Vec3 normal, warp;  ///< unit; 0 where there are no triangles
+};
+
 struct RestShape {
     const Topology& topology;
     std::vector<float> area;                   ///< per triangle, m²
     std::vector<Vec3> warp;                    ///< per triangle, unit, in its plane: the direction in which u grows
+    std::vector<float> cos2_to_warp = {};      ///< per edge: of the angle between the two, the mean over its triangles
+    std::vector<float> area_at_edge = {};      ///< per edge: that of its one or two triangles, m²
+    std::vector<RestFrame> frames = {};        ///< per particle: means over its triangles (rest_frames.h)
     std::vector<std::uint8_t> held = {};       ///< per particle: 1 if its place is given from outside; empty: none is
     std::vector<Attachment> attachments = {};  ///< the anchor of number i is particle `topology.particle_count` + i
     Elasticity elasticity = {};                ///< for one-sided limits
@@ -32,12 +39,6 @@ inline float area_of(Vec3 a, Vec3 b, Vec3 c) {
 /// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis laid into the triangle (the z axis
 /// where the triangle faces x).
 RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology);
-
-/// cos² of the angle between an edge and the warp, the mean over the edge's triangles.
-float cos2_to_warp(const RestShape& rest, const Edge& edge);
-
-/// The area of the edge's one or two triangles, m².
-float area_at(const RestShape& rest, const Edge& edge);
 
 /// A stiffness with the given values along warp, bias (45°) and weft at an angle to the warp:
 /// (warp·cos² + weft·sin²)(1 - s) + bias·s with s = sin²(2φ).

@@ -100,7 +100,7 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
     double sum = 0;
     for (std::size_t e = 0; e < count; ++e) {
         const Edge& edge = topology.edges[e];
-        const float cos2 = cos2_to_warp(rest, edge);
+        const float cos2 = rest.cos2_to_warp[e];
         axial[e] = cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees;
         sum += length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
     }

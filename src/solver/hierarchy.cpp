@@ -112,6 +112,13 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
     });
     Neighbors result{.of = {.offsets = {0}, .items = {}}, .limit = {}};
     Adjacency& neighbors = result.of;
+    struct Nearest {
+        double distance;
+        std::uint32_t node;
+    };
+    std::vector<Nearest> nearest(fine.size());  // whom it follows most
+    for (std::uint32_t i = 0; i < fine.size(); ++i)
+        nearest[i] = {selection.parents[i].distance[0], selection.parents[i].node[0]};
     std::vector<std::uint32_t> seen(count, none);  // by which node last
     std::vector<double> way(count);                // to that node, as far as it is known
     for (std::uint32_t node = 0; node < count; ++node) {
@@ -136,8 +143,7 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
             }
             if (parents.node[0] != node) continue;
             for (const Link& link : fine[follower]) {
-                const Parents& others = selection.parents[link.to];
-                add(others.node[0], to_node + link.length + others.distance[0]);
+                add(nearest[link.to].node, to_node + link.length + nearest[link.to].distance);
             }
         }
         std::sort(neighbors.items.begin() + neighbors.offsets.back(), neighbors.items.end());
@@ -253,26 +259,25 @@ struct Member {
     double weight;
 };
 
-// What a node takes its place from, weighted: of all that it carries, or itself where that is nothing.
-std::vector<Member> members_of(std::uint32_t itself, std::span<const Member> carried) {
-    std::vector<Member> members(carried.begin(), carried.end());
-    if (members.size() > most_members) {
-        std::ranges::stable_sort(members, std::ranges::greater{}, &Member::weight);
-        members.resize(most_members);
-        std::ranges::sort(members, {}, &Member::node);
+// What a node takes its place from, weighted: of all that it carries; nothing where that weighs nothing.
+std::span<const Member> members_of(std::span<Member> carried) {
+    if (carried.size() > most_members) {
+        std::ranges::stable_sort(carried, std::ranges::greater{}, &Member::weight);
+        carried = carried.first(most_members);
+        std::ranges::sort(carried, {}, &Member::node);
     }
     double sum = 0;
-    for (const Member& member : members) sum += member.weight;
-    if (!(sum > 0)) return {{itself, 1}};
-    for (Member& member : members) member.weight /= sum;
-    return members;
+    for (const Member& member : carried) sum += member.weight;
+    if (!(sum > 0)) return {};
+    for (Member& member : carried) member.weight /= sum;
+    return carried;
 }
 
 // `mass`: of the finer nodes; pinned ones are carried by none.
 Restriction restriction_of(std::span<const Parents> parents, std::span<const std::uint32_t> chosen,
                            std::span<const double> mass, std::span<const std::uint8_t> pinned) {
     const auto count = static_cast<std::uint32_t>(chosen.size());
-    const auto carried = group_items<Member>(count, [&](auto put) {
+    auto carried = group_items<Member>(count, [&](auto put) {
         for (std::uint32_t i = 0; i < parents.size(); ++i) {
             for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
                 if (pinned[chosen[parents[i].node[k]]]) continue;  // its own place
@@ -280,30 +285,33 @@ Restriction restriction_of(std::span<const Parents> parents, std::span<const std
             }
         }
     });
+    std::vector<Member> itself(count);  // where a node carries nothing
+    std::vector<std::span<const Member>> lists(count);
+    for (std::uint32_t node = 0; node < count; ++node) {
+        itself[node] = {chosen[node], 1};
+        const std::uint32_t begin = carried.offsets[node], end = carried.offsets[node + 1];
+        lists[node] = members_of(std::span(carried.items).subspan(begin, end - begin));
+        if (lists[node].empty()) lists[node] = std::span(itself).subspan(node, 1);
+    }
     Restriction restriction;
+    restriction.begin.reserve(padded(count) / lane_padding + 1);
     restriction.begin.push_back(0);
-    std::vector<std::vector<Member>> lists;
     for (std::uint32_t first = 0; first < count; first += lane_padding) {
-        lists.clear();
-        for (std::uint32_t node = first; node < std::min(first + lane_padding, count); ++node) {
-            const std::span all(carried.items);
-            const std::uint32_t begin = carried.offsets[node], end = carried.offsets[node + 1];
-            lists.push_back(members_of(chosen[node], all.subspan(begin, end - begin)));
-        }
         std::size_t longest = 0;
-        for (const auto& list : lists) longest = std::max(longest, list.size());
-        const std::size_t at = restriction.node.size();
-        restriction.node.resize(at + longest * lane_padding);
-        restriction.weight.resize(restriction.node.size());
-        for (std::size_t lane = 0; lane < lists.size(); ++lane) {
-            for (std::size_t k = 0; k < longest; ++k) {
-                const bool ended = k >= lists[lane].size();
-                const Member member = ended ? Member{lists[lane][0].node, 0} : lists[lane][k];
-                restriction.node[at + k * lane_padding + lane] = member.node;
-                restriction.weight[at + k * lane_padding + lane] = static_cast<float>(member.weight);
-            }
-        }
+        for (std::uint32_t node = first; node < std::min(first + lane_padding, count); ++node)
+            longest = std::max(longest, lists[node].size());
         restriction.begin.push_back(restriction.begin.back() + static_cast<std::uint32_t>(longest));
+    }
+    restriction.node.resize(std::size_t{restriction.begin.back()} * lane_padding);
+    restriction.weight.resize(restriction.node.size());
+    for (std::uint32_t node = 0; node < count; ++node) {
+        const std::uint32_t packet = node / lane_padding, begin = restriction.begin[packet];
+        for (std::size_t k = 0; k < restriction.begin[packet + 1] - begin; ++k) {
+            const Member member = k < lists[node].size() ? lists[node][k] : Member{lists[node][0].node, 0};
+            const std::size_t at = (begin + k) * lane_padding + node % lane_padding;
+            restriction.node[at] = member.node;
+            restriction.weight[at] = static_cast<float>(member.weight);
+        }
     }
     return restriction;
 }
@@ -329,7 +337,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
     if (rest.elasticity.reserve() > useless_reserve) return levels;
 
     LinkGraph graph = graph_of_edges(rest, fabric);
-    std::vector<RestFrame> frames = rest_frames(rest);
+    std::vector<RestFrame> frames = rest.frames;
     std::vector<std::uint32_t> particle(graph.size());
     std::vector<std::uint8_t> pinned(graph.size());
     std::vector<double> mass(graph.size());

@@ -67,11 +67,12 @@ LinkGraph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
     graph.links.resize(graph.offsets.back());
     std::vector<std::uint32_t> next(graph.offsets.begin(), graph.offsets.end() - 1);
     // Sorted by (a, b), edges come to each particle with the other end ascending.
-    for (const Edge& edge : topology.edges) {
+    for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+        const Edge& edge = topology.edges[e];
         const double length_at_rest = length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
         double reach = length_at_rest;
         if (turns) {
-            const double cos2 = std::clamp(static_cast<double>(cos2_to_warp(rest, edge)), 0.0, 1.0);
+            const double cos2 = std::clamp(static_cast<double>(rest.cos2_to_warp[e]), 0.0, 1.0);
             reach = limit_along(rest.elasticity, reach, reach * std::sqrt(cos2), reach * std::sqrt(1 - cos2)).length;
         }
         graph.links[next[edge.a]++] = {edge.b, length_at_rest, reach};

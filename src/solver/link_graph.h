@@ -57,19 +57,24 @@ class LocalSearch {
     /// &Link::length or &Link::reach.
     template <double Link::*Measure, class Visit>
     void run(std::uint32_t from, double limit, Visit&& visit) {
+        inverse_width_ = limit > 0 ? buckets / limit : 0;
         offer(from, 0);
-        while (!queue_.empty()) {
-            const auto [d, node] = queue_.front();
-            std::pop_heap(queue_.begin(), queue_.end(), std::greater());
-            queue_.pop_back();
-            if (d > distance_[node]) continue;
-            const Go go = visit(node, d);
-            if (go == Go::back) continue;
-            for (const Link& link : graph_[node]) {
-                if (d + link.*Measure <= limit) offer(link.to, d + link.*Measure);
+        for (bucket_ = 0; bucket_ < buckets; ++bucket_) {
+            auto& here = waiting_[bucket_];
+            std::make_heap(here.begin(), here.end(), std::greater());
+            while (!here.empty()) {
+                const auto [d, node] = here.front();
+                std::pop_heap(here.begin(), here.end(), std::greater());
+                here.pop_back();
+                if (d > distance_[node]) continue;
+                const Go go = visit(node, d);
+                if (go == Go::back) continue;
+                for (const Link& link : graph_[node]) {
+                    if (d + link.*Measure <= limit) offer(link.to, d + link.*Measure);
+                }
             }
         }
-        queue_.clear();
+        bucket_ = buckets;
         for (const std::uint32_t node : touched_) distance_[node] = unseen;
         touched_.clear();
     }
@@ -81,15 +86,21 @@ class LocalSearch {
         if (!(d < distance_[node])) return;
         if (distance_[node] == unseen) touched_.push_back(node);
         distance_[node] = d;
-        queue_.emplace_back(d, node);
-        std::push_heap(queue_.begin(), queue_.end(), std::greater());
+        const std::size_t bucket = std::min(static_cast<std::size_t>(d * inverse_width_), buckets - 1);
+        auto& there = waiting_[bucket];
+        there.emplace_back(d, node);
+        if (bucket == bucket_) std::push_heap(there.begin(), there.end(), std::greater());
     }
 
     using Entry = std::pair<double, std::uint32_t>;
+    static constexpr std::size_t buckets = 16;
     const LinkGraph& graph_;
     std::vector<double> distance_;
     std::vector<std::uint32_t> touched_;
-    std::vector<Entry> queue_;
+    // Nodes wait in buckets of distance. The nearest bucket that has any is a heap.
+    std::array<std::vector<Entry>, buckets> waiting_;
+    std::size_t bucket_ = buckets;
+    double inverse_width_ = 0;
 };
 
 /// The same where the goals are known and the order of visits is no matter: nodes wait in buckets of distance in place
@@ -108,20 +119,34 @@ class LocalWays {
         const auto bucket_of = [&](double d) {
             return std::min(static_cast<std::size_t>(d * inverse_width), buckets - 1);
         };
+        if (waiting_.size() <= buckets) waiting_.resize(1024);
+        std::array<std::uint32_t, buckets> last;  // of each bucket
+        for (std::uint32_t bucket = 0; bucket < buckets; ++bucket) {
+            waiting_[bucket].next = none;
+            last[bucket] = bucket;
+        }
+        std::uint32_t count = buckets;
+        waiting_[count] = {0, from, none};
+        waiting_[0].next = last[0] = count++;
         distance_[from] = 0;
-        touched_.push_back(from);
-        waiting_[0].push_back({0, from});
         std::size_t missing = goals.size();  // from the last one on, all others are known
         for (std::size_t bucket = 0; bucket < buckets && missing > 0; ++bucket) {
-            for (std::size_t i = 0; i < waiting_[bucket].size(); ++i) {
-                const auto [d, node] = waiting_[bucket][i];
+            for (std::uint32_t at = waiting_[bucket].next; at != none; at = waiting_[at].next) {
+                const double d = waiting_[at].distance;
+                const std::uint32_t node = waiting_[at].node;
                 if (d > distance_[node] || (node != from && closed(node))) continue;
-                for (const Link& link : graph_[node]) {
+                const std::span<const Link> links = graph_[node];
+                if (count + links.size() > waiting_.size()) waiting_.resize(2 * (count + links.size()));
+                Waiting* const waiting = waiting_.data();
+                double* const distance = distance_.data();
+                for (const Link& link : links) {
                     const double along = d + link.*Measure;
-                    if (!(along <= limit && along < distance_[link.to])) continue;
-                    if (distance_[link.to] == unreached) touched_.push_back(link.to);
-                    distance_[link.to] = along;
-                    waiting_[bucket_of(along)].push_back({along, link.to});
+                    if (!(along <= limit && along < distance[link.to])) continue;
+                    distance[link.to] = along;
+                    waiting[count] = {along, link.to, none};
+                    std::uint32_t& end = last[bucket_of(along)];
+                    waiting[end].next = count;
+                    end = count++;
                 }
             }
             const auto is_known = [&](std::uint32_t goal) {
@@ -129,25 +154,23 @@ class LocalWays {
             };
             while (missing > 0 && is_known(goals[missing - 1])) --missing;
         }
-        for (auto& bucket : waiting_) bucket.clear();
         for (std::size_t i = 0; i < goals.size(); ++i) {
             if (distance_[goals[i]] < unreached) found(i, distance_[goals[i]]);
         }
-        for (const std::uint32_t node : touched_) distance_[node] = unreached;
-        touched_.clear();
+        for (std::uint32_t i = buckets; i < count; ++i) distance_[waiting_[i].node] = unreached;
     }
 
   private:
     static constexpr std::size_t buckets = 16;
 
+    // One of a list: those of a bucket, in the order in which they came. The first ones are the buckets.
     struct Waiting {
-        double distance;
-        std::uint32_t node;
+        double distance = 0;
+        std::uint32_t node = 0, next = none;
     };
     const LinkGraph& graph_;
     std::vector<double> distance_;
-    std::vector<std::uint32_t> touched_;
-    std::array<std::vector<Waiting>, buckets> waiting_;
+    std::vector<Waiting> waiting_;
 };
 
 }  // namespace weft

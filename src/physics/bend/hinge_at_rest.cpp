@@ -41,16 +41,15 @@ std::optional<HingeAtRest> hinge_at_rest(const RestShape& rest, const Hinge& hin
     const Topology& topology = rest.topology;
     if (material.hinges == HingeChoice::source && cuts_a_rectangle(topology, hinge)) return {};
     const auto [warp, bias, weft] = material.bend;
-    const Edge& edge = topology.edges[hinge.edge];
     // The cloth curves across the edge: an edge along the weft bends the warp.
-    const float across = 1 - cos2_to_warp(rest, edge);
+    const float across = 1 - rest.cos2_to_warp[hinge.edge];
     const float stiffness = directional(warp, bias, weft, across);
     if (!(stiffness > 0)) return {};
     const Vec3 e = topology.rest_positions[hinge.b] - topology.rest_positions[hinge.a];
     const float angle = std::isnan(material.rest_angle)
                             ? mesh_angle(topology, hinge)
                             : material.rest_angle * static_cast<float>(std::numbers::pi / 180);
-    return HingeAtRest{angle, area_at(rest, edge) / (stiffness * dot(e, e))};
+    return HingeAtRest{angle, rest.area_at_edge[hinge.edge] / (stiffness * dot(e, e))};
 }
 
 }  // namespace weft

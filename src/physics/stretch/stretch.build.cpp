@@ -29,11 +29,12 @@ RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
     const Moduli pull = without_shear({material.stretch[0], material.stretch[1]}, material.shear);
     const Moduli push = without_shear({material.compression[0], material.compression[1]}, material.shear);
     RowList rows = make_rows(ConstraintKind::stretch);
-    for (const Edge& edge : rest.topology.edges) {
+    for (std::size_t e = 0; e < rest.topology.edges.size(); ++e) {
+        const Edge& edge = rest.topology.edges[e];
         const float length_at_rest =
             length(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
-        const float cos2 = cos2_to_warp(rest, edge);
-        const float strip = area_at(rest, edge) / (length_at_rest * length_at_rest);
+        const float cos2 = rest.cos2_to_warp[e];
+        const float strip = rest.area_at_edge[e] / (length_at_rest * length_at_rest);
         // A negative compliance says "no stiffness" to the kernel, which has no infinity.
         const auto compliance = [&](Moduli k) {
             if (material.inextensible) return 0.0f;

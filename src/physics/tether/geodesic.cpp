@@ -1,6 +1,7 @@
 #include "physics/tether/geodesic.h"
 
 #include "base/lowest_first.h"
+#include "base/prefetch.h"
 
 #include <algorithm>
 #include <array>
@@ -36,43 +37,61 @@ double through_triangle(Vec3 a, Vec3 b, Vec3 c, double da, double db) {
     return std::sqrt((cx - sx) * (cx - sx) + (cy - sy) * (cy - sy));
 }
 
-// Half a cache line, all that most visits read of a triangle: a front comes by every one three times, in an order that
-// no cache likes.
-struct MarchTriangle {
-    Triangle corners;
-    float twice_area;           // m²
-    std::array<float, 3> side;  // m, each opposite the corner of the same number
+// A triangle as a particle sees it that it stands at.
+struct Sector {
+    std::array<std::uint32_t, 2> others;  // corners, in the order in which the triangle has them from here on
+    std::array<float, 2> side;            // m, from here to them
+    float twice_area;                     // m²
 
-    std::size_t number_of(std::uint32_t corner) const {
-        return corners[0] == corner ? 0 : corners[1] == corner ? 1 : 2;
-    }
-
-    /// No front that was at the two other corners at da and db is at this one before. By way of a point X of the side,
-    /// |SC| = |SX| + |XC|, with |SX| >= |SA| - |XA|, |SX| >= |SB| - |XB| and |XC| no less than the height.
-    double earliest(std::size_t corner, double da, double db) const {
+    /// No front that was here at d and at others[from] at d_from is at the third corner before. By way of a point X of
+    /// the side between the two, |SC| = |SX| + |XC|, with |SX| >= |SA| - |XA|, |SX| >= |SB| - |XB| and |XC| no less
+    /// than the height.
+    double earliest_from(std::size_t from, double d, double d_from) const {
         constexpr double rounding = 1e-6;  // more than that of the floats
-        const float ab = side[corner], height = twice_area / ab;
-        return (da + db - ab) / 2 + height - rounding * (da + db + ab + height);
+        const float ab = side[from], height = twice_area / ab;
+        return (d + d_from - ab) / 2 + height - rounding * (d + d_from + ab + height);
     }
+    /// Nor at others[to] before, along the side.
+    double earliest_along(std::size_t to, double d) const { return d + side[to] * (1 - 1e-6); }
 };
 
-std::vector<MarchTriangle> measure_triangles(const Topology& topology) {
-    std::vector<MarchTriangle> result;
-    result.reserve(topology.triangles.size());
-    for (const Triangle& t : topology.triangles) {
-        const Vec3 a = topology.rest_positions[t[0]], b = topology.rest_positions[t[1]],
-                   c = topology.rest_positions[t[2]];
-        result.push_back({t, length(cross(b - a, c - a)), {length(c - b), length(a - c), length(b - a)}});
+// The sectors of each particle, its triangles ascending: side by side, as a front comes by in an order that no cache
+// likes, and asked for when the particle is seen from afar.
+class Sectors {
+  public:
+    explicit Sectors(const Topology& topology)
+        : offsets_(topology.particle_triangles.offsets), sectors_(topology.particle_triangles.items.size()) {
+        std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end());
+        const auto& x = topology.rest_positions;
+        for (const Triangle& t : topology.triangles) {
+            const float twice_area = length(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]));
+            const std::array<float, 3> side = {length(x[t[1]] - x[t[0]]), length(x[t[2]] - x[t[1]]),
+                                               length(x[t[0]] - x[t[2]])};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t second = (k + 1) % 3, third = (k + 2) % 3;
+                sectors_[next[t[k]]++] = {{t[second], t[third]}, {side[k], side[third]}, twice_area};
+            }
+        }
     }
-    return result;
-}
+    std::span<const Sector> operator[](std::uint32_t particle) const {
+        return std::span(sectors_).subspan(offsets_[particle], offsets_[particle + 1] - offsets_[particle]);
+    }
+    WEFT_PREFETCH void will_need(std::uint32_t particle) const {
+        const auto own = (*this)[particle];
+        prefetch(own.data(), own.size_bytes());
+    }
+
+  private:
+    std::span<const std::uint32_t> offsets_;
+    std::vector<Sector> sectors_;
+};
 
 // Every way that is known has a number, most · particle + i; it is final once it has come out of the queue.
 class March {
   public:
     March(const Topology& topology, std::uint32_t most)
         : topology_(topology),
-          triangles_(measure_triangles(topology)),
+          sectors_(topology),
           ways_{most, std::vector<Way>(std::size_t{most} * topology.particle_count)},
           final_(ways_.ways.size()),
           queue_(ways_.ways.size()) {}
@@ -85,9 +104,8 @@ class March {
             const std::uint32_t way = queue_.pop().item;
             final_[way] = 1;
             const Way front = ways_.ways[way];
-            for (const std::uint32_t t : topology_.particle_triangles[way / ways_.most]) {
-                pass(triangles_[t], way / ways_.most, front);
-            }
+            const std::uint32_t particle = way / ways_.most;
+            for (const Sector& sector : sectors_[particle]) pass(sector, particle, front);
         }
         return std::move(ways_);
     }
@@ -123,17 +141,16 @@ class March {
         if (!is_final(*taken)) queue_.put(static_cast<std::uint32_t>(taken - ways_.ways.data()), offered.distance);
     }
 
-    /// The front has come to corner p: what that means for the two others.
-    void pass(const MarchTriangle& triangle, std::uint32_t p, const Way& front) {
-        const std::size_t at = triangle.number_of(p);
-        const std::size_t others[2] = {(at + 1) % 3, (at + 2) % 3};
-        const Way* known[2] = {find(triangle.corners[others[0]], front.place),
-                               find(triangle.corners[others[1]], front.place)};
+    /// The front has come to p: what that means for the two other corners of a triangle there.
+    void pass(const Sector& sector, std::uint32_t p, const Way& front) {
+        const Way* known[2] = {find(sector.others[0], front.place), find(sector.others[1], front.place)};
         const bool final[2] = {known[0] && is_final(*known[0]), known[1] && is_final(*known[1])};
         const auto& x = topology_.rest_positions;
         for (const std::size_t i : {0, 1}) {
-            const std::uint32_t q = triangle.corners[others[i]], r = triangle.corners[others[1 - i]];
+            const std::uint32_t q = sector.others[i], r = sector.others[1 - i];
             if (!final[i]) {  // along the edge
+                if (known[i] && sector.earliest_along(i, front.distance) > known[i]->distance) continue;
+                if (!known[i]) sectors_.will_need(q);
                 const double d = front.distance + std::sqrt(dot_exact(x[q] - x[p], x[q] - x[p]));
                 offer(q, {d, front.place, front.source});
                 continue;
@@ -141,14 +158,14 @@ class March {
             // Fronts from different sources do not make one front.
             const double dq = known[i]->distance;
             if (known[i]->source != front.source) continue;
-            if (known[1 - i] && triangle.earliest(others[1 - i], front.distance, dq) > known[1 - i]->distance) continue;
+            if (known[1 - i] && sector.earliest_from(i, front.distance, dq) > known[1 - i]->distance) continue;
             const double arrival = through_triangle(x[p], x[q], x[r], front.distance, dq);
             if (arrival < infinity) offer(r, {arrival, front.place, front.source});
         }
     }
 
     const Topology& topology_;
-    const std::vector<MarchTriangle> triangles_;
+    const Sectors sectors_;
     WaysToPlaces ways_;
     std::vector<std::uint8_t> final_;  // per way
     LowestFirst queue_;

@@ -25,10 +25,9 @@ struct Tether {
 };
 
 // Where the cloth is flat, the way runs as the straight line does.
-Limit limit_between(const RestShape& rest, std::span<const RestFrame> frames, std::uint32_t a, std::uint32_t b,
-                    double way) {
+Limit limit_between(const RestShape& rest, std::uint32_t a, std::uint32_t b, double way) {
     const auto& x = rest.topology.rest_positions;
-    const StraightLine line = straight_line(frames[a], frames[b], x[b] - x[a]);
+    const StraightLine line = straight_line(rest.frames[a], rest.frames[b], x[b] - x[a]);
     if (!follows(way, line)) return limit_any_way(rest.elasticity, way);
     const double scale = way / line.length;
     return limit_along(rest.elasticity, way, scale * line.along_warp, scale * line.along_weft);
@@ -44,7 +43,6 @@ RowList build_tether(const RestShape& rest, const TetherMaterial& material) {
     if (places.empty()) return rows;
     const auto most = static_cast<std::uint32_t>(std::min(places.size(), max_ways));
     const WaysToPlaces ways = ways_to_places(rest.topology, places, most);
-    const std::vector<RestFrame> frames = rest_frames(rest);
     const double slack = 1 + static_cast<double>(material.slack);
     // Rank by rank, so that the rows of a color run through the particles in order.
     std::array<RowList, max_tethers> ranks;
@@ -56,7 +54,7 @@ RowList build_tether(const RestShape& rest, const TetherMaterial& material) {
         std::sort(tethers.begin(), tethers.end());
         for (std::size_t rank = 0; rank < std::min(tethers.size(), max_tethers); ++rank) {
             const auto [distance, anchor] = tethers[rank];
-            const Limit limit = limit_between(rest, frames, anchor, p, distance * slack);
+            const Limit limit = limit_between(rest, anchor, p, distance * slack);
             if (!std::isfinite(limit.length + limit.give)) continue;  // no stiffness at all
             ranks[rank].add({p, anchor}, {static_cast<float>(limit.length), static_cast<float>(limit.give)});
         }
