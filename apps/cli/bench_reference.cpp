@@ -84,6 +84,11 @@ class TrafficCounter {
     }
     static double row_bytes(const ConstraintTable& table) { return word * (table.arity + table.field_count); }
 
+    static double carry_bytes(const Carry& carry) {
+        const std::size_t node = carry.narrow.empty() ? sizeof carry.wide[0] : sizeof carry.narrow[0];
+        return static_cast<double>(Carry::parents * (node + sizeof carry.weight[0]));
+    }
+
     PassTraffic projected(const ConstraintTable& table, const Batch& batch) {
         const Touched t = touched(table, batch);
         return {.own = t.rows * row_bytes(table), .shared = block * (t.read + t.moved), .rows = t.rows};
@@ -99,7 +104,7 @@ class TrafficCounter {
             return {.own = 2 * word * static_cast<double>(level.restriction.node.size()),
                     .shared = block * (finer + nodes)};
         if (pass.kind == PassKind::settle || coarsest) return {.own = 0, .shared = 3 * block * nodes};
-        return {.own = 2 * word * Carry::parents * nodes,
+        return {.own = carry_bytes(model_.hierarchy[pass.level + 1].carry) * nodes,
                 .shared = block * (3 * nodes + model_.hierarchy[pass.level + 1].count)};
     }
 
@@ -150,7 +155,7 @@ class TrafficCounter {
                 return {.own = t.rows * row_bytes(table), .shared = block * (2 * t.read + t.moved), .rows = t.rows};
             }
             case PassKind::spread:
-                return {.own = 2 * word * Carry::parents * points,
+                return {.own = carry_bytes(model_.hierarchy.front().carry) * points,
                         .shared = block * (2 * points + model_.hierarchy.front().count)};
             case PassKind::collect:
             case PassKind::lift:

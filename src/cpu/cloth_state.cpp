@@ -143,13 +143,17 @@ RowView ClothState::level_rows(std::uint32_t i) {
 
 CarryView ClothState::carry_to_level(std::uint32_t i) const {
     if (i + 1 == levels.size()) return {};
-    const Carry& carry = model->hierarchy[i + 1].carry;
-    return {&levels[i + 1].displacement[0].x, carry.stride, carry.node.data(), carry.weight.data()};
+    return carry_from(i + 1);
 }
 
 CarryView ClothState::carry_to_particles() const {
-    const Carry& carry = model->hierarchy[0].carry;
-    return {&levels[0].displacement[0].x, carry.stride, carry.node.data(), carry.weight.data()};
+    return carry_from(0);
+}
+
+CarryView ClothState::carry_from(std::uint32_t i) const {
+    const Carry& carry = model->hierarchy[i].carry;
+    return {&levels[i].displacement[0].x, carry.stride, carry.narrow.empty() ? nullptr : carry.narrow.data(),
+            carry.wide.empty() ? nullptr : carry.wide.data(), carry.weight.data()};
 }
 
 AirView ClothState::air(float density) {

@@ -86,6 +86,9 @@ struct ClothState {
     void begin_frame(const StepPlan& plan);
     void end_frame(const StepPlan& plan, double dt);
     void update_normals();
+
+  private:
+    CarryView carry_from(std::uint32_t i) const;
 };
 
 }  // namespace weft::cpu

@@ -92,7 +92,8 @@ struct LevelView {
 struct CarryView {
     const float* displacement;  ///< of the coarser level; nullptr if there is none
     std::uint32_t stride;
-    const std::uint32_t* node;  ///< [parent · stride + finer node]
+    const std::uint16_t* narrow;  ///< as in Carry: one of the two is nullptr
+    const std::uint32_t* wide;
     const float* weight;
 };
 

@@ -225,14 +225,18 @@ inline void correct_pass(const ParticleView& p, const RowView& rows, const Corre
     }
 }
 
-WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
+template <class Node>
+WEFT_FN vec3 carried(const CarryView& carry, const Node* nodes, std::size_t i) {
     vec3 sum(real(0.0f));
     for (std::size_t k = 0; k < Carry::parents; ++k) {
         real unused;
         const std::size_t at = k * carry.stride + i;
-        sum = sum + gather_blocks(carry.displacement, carry.node + at, unused) * load(carry.weight + at);
+        sum = sum + gather_blocks(carry.displacement, nodes + at, unused) * load(carry.weight + at);
     }
     return sum;
+}
+WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
+    return carry.narrow ? carried(carry, carry.narrow, i) : carried(carry, carry.wide, i);
 }
 
 inline void collect_pass(const float* finer, const LevelView& level, Range range) {

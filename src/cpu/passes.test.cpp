@@ -366,6 +366,36 @@ TEST_P(InstructionSet, ends_a_substep_and_begins_the_next_in_one) {
     }
 }
 
+TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_take) {
+    const Fixture state = random_state(3, false);
+    const std::uint32_t stride = padded(particle_count), nodes = 50;
+    std::mt19937 random(9);
+    const auto below = [&](std::uint32_t end) {
+        return std::uniform_int_distribution<std::uint32_t>(0, end - 1)(random);
+    };
+    AlignedVector<Vec4> displacement(nodes);
+    for (Vec4& d : displacement)
+        d = {static_cast<float>(below(100)), static_cast<float>(below(100)), 0.1f * static_cast<float>(below(100)), 0};
+    AlignedVector<std::uint16_t> narrow(std::size_t{Carry::parents} * stride);
+    AlignedVector<float> weight(narrow.size());
+    for (std::size_t i = 0; i < narrow.size(); ++i) {
+        narrow[i] = static_cast<std::uint16_t>(below(nodes));
+        weight[i] = 0.01f * static_cast<float>(below(100));
+    }
+    const AlignedVector<std::uint32_t> wide(narrow.begin(), narrow.end());
+    const CarryView short_numbers{&displacement[0].x, stride, narrow.data(), nullptr, weight.data()},
+        long_numbers{&displacement[0].x, stride, nullptr, wide.data(), weight.data()};
+    const auto spread = [&](const Passes& passes, const CarryView& carry) {
+        Fixture f = state;
+        passes.spread(f.view().position, carry, {0, stride});
+        return f.position;
+    };
+    const auto one_by_one = spread(scalar_passes(), long_numbers);
+    EXPECT_NE(one_by_one[0], state.position[0]);
+    expect_same(spread(*GetParam(), short_numbers), one_by_one, "16 bits");
+    expect_same(spread(*GetParam(), long_numbers), one_by_one, "32 bits");
+}
+
 TEST_P(InstructionSet, touches_every_shape_alike) {
     const Pose here{rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}};
     const Pose there{rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}};

@@ -117,8 +117,8 @@ WEFT_FN void store_blocks(vec3 v, real fourth, float* p) {
 }
 
 // The blocks of every fourth index, side by side in one register; and back.
-template <class Tag>
-WEFT_FN hn::Vec<Tag> load_parts(Tag tag, const float* base, const std::uint32_t* index) {
+template <class Tag, class Index>
+WEFT_FN hn::Vec<Tag> load_parts(Tag tag, const float* base, const Index* index) {
     if constexpr (hn::MaxLanes(tag) == 4) {
         return hn::Load(tag, base + 4 * std::size_t{*index});
     } else {
@@ -167,7 +167,8 @@ WEFT_FN void store_blocks_unordered(vec3 v, real fourth, float* p) {
 }
 
 // Whole 128-bit blocks and a transpose in registers: several times faster than the gather instructions.
-WEFT_FN vec3 gather_blocks(const float* base, const std::uint32_t* index, real& fourth) {
+template <class Index>
+WEFT_FN vec3 gather_blocks(const float* base, const Index* index, real& fourth) {
     V r0 = load_parts(D(), base, index), r1 = load_parts(D(), base, index + 1);
     V r2 = load_parts(D(), base, index + 2), r3 = load_parts(D(), base, index + 3);
     transpose_blocks(r0, r1, r2, r3);

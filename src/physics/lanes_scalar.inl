@@ -32,7 +32,8 @@ WEFT_FN void store_blocks(vec3 v, real fourth, real* p) {
 }
 WEFT_FN vec3 load_blocks_unordered(const real* p, real& fourth) { return load_blocks(p, fourth); }
 WEFT_FN void store_blocks_unordered(vec3 v, real fourth, real* p) { store_blocks(v, fourth, p); }
-WEFT_FN vec3 gather_blocks(const real* base, const std::uint32_t* index, real& fourth) {
+template <class Index>
+WEFT_FN vec3 gather_blocks(const real* base, const Index* index, real& fourth) {
     return load_blocks(base + 4 * std::size_t{*index}, fourth);
 }
 WEFT_FN void scatter_blocks(vec3 v, real fourth, real* base, const std::uint32_t* index) {

@@ -237,17 +237,23 @@ bool is_implied(const LinkGraph& graph, std::uint32_t from, const Link& link) {
     });
 }
 
-Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> pinned) {
+// `count`: of the nodes that carry.
+Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> pinned, std::uint32_t count) {
     Carry carry;
     carry.stride = padded(static_cast<std::uint32_t>(parents.size()));
-    carry.node.resize(std::size_t{Carry::parents} * carry.stride);
     carry.weight.resize(std::size_t{Carry::parents} * carry.stride);
-    for (std::uint32_t i = 0; i < parents.size(); ++i) {
-        for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
-            carry.node[std::size_t{k} * carry.stride + i] = parents[i].node[k];
-            carry.weight[std::size_t{k} * carry.stride + i] = static_cast<float>(parents[i].weight[k]);
+    const auto write = [&]<class Node>(AlignedVector<Node>& nodes) {
+        nodes.resize(carry.weight.size());
+        for (std::uint32_t i = 0; i < parents.size(); ++i) {
+            for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
+                const std::size_t at = std::size_t{k} * carry.stride + i;
+                nodes[at] = static_cast<Node>(parents[i].node[k]);
+                carry.weight[at] = static_cast<float>(parents[i].weight[k]);
+            }
         }
-    }
+    };
+    constexpr std::uint32_t most_narrow = std::uint32_t{1} << 16;
+    count <= most_narrow ? write(carry.narrow) : write(carry.wide);
     return carry;
 }
 
@@ -355,7 +361,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
         CoarseLevel level{
             .count = count, .particle = {}, .restriction = {}, .weight = {}, .reach = {}, .carry = {}, .ways = {}};
-        level.carry = carry_to(selection.parents, pinned);
+        level.carry = carry_to(selection.parents, pinned, count);
         level.restriction = restriction_of(selection.parents, selection.chosen, mass, pinned);
         std::vector<Vec3> means = means_of(level.restriction, mean, count);
 

@@ -23,8 +23,11 @@ namespace weft {
 struct Carry {
     static constexpr std::uint32_t parents = 4;
     std::uint32_t stride = 0;
-    AlignedVector<std::uint32_t> node;  ///< [parent · stride + finer node]
-    AlignedVector<float> weight;        ///< likewise; sums to 1, to 0 for what is pinned
+    AlignedVector<std::uint16_t> narrow;  ///< [parent · stride + finer node]: the parent, where 16 bits hold them all
+    AlignedVector<std::uint32_t> wide;    ///< likewise, where they do not; one of the two is empty
+    AlignedVector<float> weight;          ///< likewise; sums to 1, to 0 for what is pinned
+
+    std::uint32_t node(std::size_t at) const { return narrow.empty() ? wide[at] : narrow[at]; }
 };
 
 /// Where a node takes its place from: the mean of all that it carries, weighted by mass and share. That is the

@@ -103,7 +103,7 @@ TEST(Hierarchy, takes_a_nodes_place_from_what_it_carries) {
                 for (std::uint32_t k = 0; k < Carry::parents; ++k) {
                     const std::size_t at = std::size_t{k} * level.carry.stride + i;
                     if (level.carry.weight[at] > 0)
-                        carries[level.carry.node[at]][i] += level.carry.weight[at] * mass[i];
+                        carries[level.carry.node(at)][i] += level.carry.weight[at] * mass[i];
                 }
             }
             std::vector<double> carried(level.count);
@@ -179,10 +179,10 @@ TEST(Hierarchy, carries_what_its_nodes_do) {
                 double sum = 0, x = 0;
                 for (std::uint32_t k = 0; k < Carry::parents; ++k) {
                     const std::size_t at = std::size_t{k} * level.carry.stride + i;
-                    ASSERT_LT(level.carry.node[at], level.count);
+                    ASSERT_LT(level.carry.node(at), level.count);
                     EXPECT_GE(level.carry.weight[at], 0);
                     sum += level.carry.weight[at];
-                    x += level.carry.weight[at] * model->rest_position(level.particle[level.carry.node[at]]).x;
+                    x += level.carry.weight[at] * model->rest_position(level.particle[level.carry.node(at)]).x;
                 }
                 if (&level == &model->hierarchy[0]) {
                     const bool pinned = !(model->start[i].w > 0);

@@ -7,7 +7,7 @@ namespace {
 
 // What lies in an arena until it is built.
 struct Lists {
-    std::vector<std::vector<std::uint32_t>> blocks;
+    std::vector<std::vector<std::uint32_t>> blocks, carry_nodes;
     std::vector<std::uint32_t> offsets, items, span_ends;
     std::vector<float> weights, masses, span_lengths;
 };
@@ -52,11 +52,14 @@ Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& de
     lists.blocks.reserve(constraint_kind_count + model.hierarchy.size());  // the arena reads them where they are
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
         self->tables[kind] = add_table(arena, model.constraints[kind], lists);
+    lists.carry_nodes.reserve(model.hierarchy.size());
     for (const CoarseLevel& level : model.hierarchy) {
+        auto& nodes = lists.carry_nodes.emplace_back(level.carry.weight.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = level.carry.node(i);
         self->levels.push_back({.restriction_begin = arena.add_array(level.restriction.begin),
                                 .restriction_node = arena.add_array(level.restriction.node),
                                 .restriction_weight = arena.add_array(level.restriction.weight),
-                                .carry_node = arena.add_array(level.carry.node),
+                                .carry_node = arena.add_array(nodes),
                                 .carry_weight = arena.add_array(level.carry.weight),
                                 .reach = add_table(arena, level.reach, lists)});
     }
