@@ -14,8 +14,8 @@ namespace {
 
 class CpuBackend final : public Backend {
   public:
-    CpuBackend(const cpu::Passes& passes, unsigned workers)
-        : passes_(passes), team_(workers), executor_(passes, team_) {}
+    CpuBackend(const cpu::Passes& passes, const CpuOptions& options)
+        : passes_(passes), team_(options.workers), executor_(passes, team_, options.smallest_shared) {}
 
     std::string_view name() const override { return "cpu"; }
     std::string device() const override {
@@ -132,7 +132,7 @@ Result<std::unique_ptr<Backend>> make_cpu_backend(const CpuOptions& options) {
         for (std::string_view isa : cpu_instruction_sets()) known += (known.empty() ? "" : ", ") + std::string(isa);
         return Error{"instruction set '" + options.isa + "'", "this machine has " + known};
     }
-    return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*passes, options.workers));
+    return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*passes, options));
 }
 
 std::vector<std::string_view> cpu_instruction_sets() {

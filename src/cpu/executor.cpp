@@ -81,32 +81,40 @@ Executor::Frame Executor::make_frame(const Job& job, std::span<Rank> ranks) {
 }
 
 void Executor::run(std::span<Job> jobs, std::array<double, stage_count>& stage_ms) {
-    const auto is_small = [](const Job& job) { return job.cloth->model->particle_count <= largest_small_cloth; };
+    std::uint32_t limit = largest_small_cloth + 1;
+    const auto is_small = [&](const Job& job) { return job.cloth->model->particle_count < limit; };
+    if (std::ranges::count_if(jobs, is_small) < static_cast<std::ptrdiff_t>(team_.ranks())) limit = smallest_shared_;
     small_.clear();
     for (Job& job : jobs) {
         if (is_small(job)) small_.push_back(&job);
-    }
-    const bool side_by_side = team_.ranks() > 1 && small_.size() >= team_.ranks();
-    for (const Job& job : jobs) {
         // All on this thread: nobody could catch what fails on another.
-        const unsigned ranks = side_by_side && is_small(job) ? 1 : team_.ranks();
-        job.cloth->prepare(*job.plan, job.input->colliders.size(), ranks, job.input->feedback);
+        job.cloth->prepare(*job.plan, job.input->colliders.size(), is_small(job) ? 1 : team_.ranks(),
+                           job.input->feedback);
     }
+    const bool side_by_side = team_.ranks() > 1 && small_.size() > 1;
     for (Job& job : jobs) {
-        if (!side_by_side || !is_small(job)) run_together(job, stage_ms);
+        if (!is_small(job)) {
+            run_together(job, ranks_, stage_ms);
+        } else if (!side_by_side) {
+            run_together(job, std::span(ranks_).first(1), stage_ms);
+        }
     }
     if (side_by_side) run_side_by_side(stage_ms);
 }
 
-void Executor::run_together(Job& job, std::array<double, stage_count>& stage_ms) {
+void Executor::run_together(Job& job, std::span<Rank> ranks, std::array<double, stage_count>& stage_ms) {
     job.cloth->begin_frame(*job.plan);
-    const Frame frame = make_frame(job, ranks_);
-    std::array<double, stage_count> unused{};
-    for (Rank& rank : ranks_) rank.reports = report_none;
-    team_.run([&](unsigned rank) { run_rank(frame, rank, rank == 0 ? stage_ms : unused); });
+    const Frame frame = make_frame(job, ranks);
+    for (Rank& rank : ranks) rank.reports = report_none;
+    if (ranks.size() == 1) {
+        run_rank(frame, 0, stage_ms);
+    } else {
+        std::array<double, stage_count> unused{};
+        team_.run([&](unsigned rank) { run_rank(frame, rank, rank == 0 ? stage_ms : unused); });
+    }
     job.cloth->end_frame(*job.plan, job.input->dt);
     job.reports = report_none;
-    for (const Rank& rank : ranks_) job.reports |= rank.reports;
+    for (const Rank& rank : ranks) job.reports |= rank.reports;
 }
 
 void Executor::run_side_by_side(std::array<double, stage_count>& stage_ms) {

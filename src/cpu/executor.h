@@ -13,7 +13,9 @@ namespace weft::cpu {
 
 class Executor {
   public:
-    Executor(const Passes& passes, WorkerTeam& team) : passes_(passes), team_(team), ranks_(team.ranks()) {}
+    /// `smallest_shared`: as in CpuOptions.
+    Executor(const Passes& passes, WorkerTeam& team, std::uint32_t smallest_shared = 0)
+        : passes_(passes), team_(team), smallest_shared_(smallest_shared), ranks_(team.ranks()) {}
 
     struct Job {
         ClothState* cloth = nullptr;
@@ -22,8 +24,8 @@ class Executor {
         std::uint32_t reports = report_none;  ///< out. With report_non_finite the state is whatever came out.
     };
 
-    /// Cloths too small to be worth the team's meetings run side by side, one to a thread, if they are enough for all.
-    /// Whatever does what: the bits are the same.
+    /// Cloths too small to be worth the team's meetings have a thread each: of middling size if they are enough for all
+    /// threads, the smallest always. Whatever does what: the bits are the same.
     void run(std::span<Job> jobs, std::array<double, stage_count>& stage_ms);
 
     /// Where the first non-finite value comes from: an input, or a pass of the frame that starts from the state as it
@@ -37,7 +39,7 @@ class Executor {
         std::array<double, stage_count> stage_ms{};
     };
 
-    void run_together(Job& job, std::array<double, stage_count>& stage_ms);
+    void run_together(Job& job, std::span<Rank> ranks, std::array<double, stage_count>& stage_ms);
     void run_side_by_side(std::array<double, stage_count>& stage_ms);
     void run_rank(const Frame& frame, unsigned rank, std::array<double, stage_count>& stage_ms);
     void run_pass(const Frame& frame, const Pass& pass, std::uint32_t substep, unsigned rank);
@@ -59,6 +61,7 @@ class Executor {
 
     const Passes& passes_;
     WorkerTeam& team_;
+    std::uint32_t smallest_shared_;
     std::vector<Rank> ranks_;
     std::vector<Job*> small_;  // of the frame, the largest first
 };

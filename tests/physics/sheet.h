@@ -85,7 +85,9 @@ inline double sag(const World& world) {
     return -1 - lowest;
 }
 
-inline World make_world(const WorldSettings& settings, const CpuOptions& options) {
+/// Threads share small sheets too, so that tests need no large ones to see what comes of it.
+inline World make_world(const WorldSettings& settings, CpuOptions options) {
+    options.smallest_shared = 0;
     auto backend = make_cpu_backend(options);
     EXPECT_TRUE(backend.ok());
     return World(std::move(*backend), settings);
