@@ -78,18 +78,18 @@ TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
 // The smallest cloths have a thread each, whether they are enough for all threads or not.
 TEST(Determinism, does_not_tell_which_cloths_are_shared) {
     const auto bits = [](std::uint32_t smallest_shared, unsigned workers) {
-        const WorldSettings settings{.substeps = 8, .hierarchy = true};
+        const WorldSettings settings{.substeps = 4, .hierarchy = true};
         World world(std::move(*make_cpu_backend({.workers = workers, .smallest_shared = smallest_shared})), settings);
-        for (const std::uint32_t side : {12u, 20u, 46u})
+        for (const std::uint32_t side : {12u, 20u, 28u})
             world.add(make_sheet({.resolution = {side, side},
                                   .layout = {.lines = true, .hierarchy = true},
                                   .pinned = [](Vec3 p) { return p.x < -0.49f; }}));
-        run(world, 0.25);
+        run(world, 0.1);
         return world.state_hash();
     };
     const std::string expected = bits(0, 0);
-    for (const std::uint32_t smallest_shared : {0u, 200u, 2000u, 1000000u}) {
-        for (const unsigned workers : {1u, 4u}) EXPECT_EQ(bits(smallest_shared, workers), expected) << smallest_shared;
+    for (const std::uint32_t smallest_shared : {0u, 200u, 500u, 1000u}) {
+        for (const unsigned workers : {1u, 3u}) EXPECT_EQ(bits(smallest_shared, workers), expected) << smallest_shared;
     }
 }
 
