@@ -14,13 +14,7 @@
 #include <hwy/foreach_target.h>
 
 #include "cpu/passes.h"
-#include "physics/attachment/attachment.data.h"
-#include "physics/bend/bend.data.h"
-#include "physics/flexion/flexion.data.h"
-#include "physics/plate/plate.data.h"
-#include "physics/reach/reach.data.h"
-#include "physics/stretch/stretch.data.h"
-#include "physics/tether/tether.data.h"
+#include "physics/constraints.data.h"
 
 #include <algorithm>
 

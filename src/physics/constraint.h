@@ -1,14 +1,8 @@
 // The kinds of constraint, and their rows as the builders make them.
 #pragma once
 
-#include "physics/attachment/attachment.data.h"
-#include "physics/bend/bend.data.h"
-#include "physics/flexion/flexion.data.h"
-#include "physics/plate/plate.data.h"
-#include "physics/reach/reach.data.h"
+#include "physics/constraints.data.h"
 #include "physics/rest_shape.h"
-#include "physics/stretch/stretch.data.h"
-#include "physics/tether/tether.data.h"
 
 #include <cstdint>
 #include <span>

@@ -4,13 +4,7 @@
 
 #include "physics/lanes.glsl"
 
-#include "physics/attachment/attachment.data.h"
-#include "physics/bend/bend.data.h"
-#include "physics/flexion/flexion.data.h"
-#include "physics/plate/plate.data.h"
-#include "physics/reach/reach.data.h"
-#include "physics/stretch/stretch.data.h"
-#include "physics/tether/tether.data.h"
+#include "physics/constraints.data.h"
 
 #include "physics/kernels.inl"
 

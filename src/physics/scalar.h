@@ -2,15 +2,9 @@
 // `weft::reference` in double, for tests and measurements.
 #pragma once
 
-#include "physics/attachment/attachment.data.h"
-#include "physics/bend/bend.data.h"
+#include "physics/constraints.data.h"
 #include "physics/contact/contact.data.h"
-#include "physics/flexion/flexion.data.h"
 #include "physics/kernel_language.h"
-#include "physics/plate/plate.data.h"
-#include "physics/reach/reach.data.h"
-#include "physics/stretch/stretch.data.h"
-#include "physics/tether/tether.data.h"
 
 #include <cmath>
 #include <cstddef>

@@ -3,14 +3,8 @@
 
 #include "base/parameter.h"
 #include "physics/air/air.data.h"
-#include "physics/attachment/attachment.data.h"
-#include "physics/bend/bend.data.h"
+#include "physics/constraints.data.h"
 #include "physics/contact/contact.data.h"
-#include "physics/flexion/flexion.data.h"
-#include "physics/plate/plate.data.h"
-#include "physics/reach/reach.data.h"
-#include "physics/stretch/stretch.data.h"
-#include "physics/tether/tether.data.h"
 
 #include <weft/result.h>
 #include <weft/scene.h>

@@ -1,4 +1,5 @@
-// Flexion: the distance between the tips of two triangles that share an edge. Read by C++ and by GLSL (flexion.md has the law).
+// Flexion: the distance between the tips of two triangles that share an edge. Read by C++ and by GLSL (flexion.md has
+// the law).
 #ifndef WEFT_FLEXION_DATA_H
 #define WEFT_FLEXION_DATA_H
 

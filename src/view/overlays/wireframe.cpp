@@ -42,11 +42,11 @@ std::vector<Ends> unique_edges(const TriangleMesh& mesh) {
 std::vector<Ends> drawn_edges(const ClothModel& model) {
     if (!model.binding.empty()) return unique_edges(model.mesh());
     const std::vector<std::uint32_t> vertex = first_vertices(model);
-    const EdgesByDirection all = edges_by_direction(model);
     std::vector<Ends> edges;
-    for (const auto* some : {&all.axial, &all.others})
-        for (const auto& [a, b] : *some)
-            if (vertex[a] != none && vertex[b] != none) edges.push_back({vertex[a], vertex[b]});
+    for_each_edge(model, [&](const EdgeEnds& ends, bool) {
+        const auto [a, b] = ends;
+        if (vertex[a] != none && vertex[b] != none) edges.push_back({vertex[a], vertex[b]});
+    });
     return edges;
 }
 
