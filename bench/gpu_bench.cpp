@@ -1,11 +1,11 @@
 // Square sheets on a Vulkan device, by the device's own clock: milliseconds a frame, method by method, beside what the
 // memory alone would take. Needs nothing but a driver where it runs.
 
-#include "cli/bench_reference.h"
+#include "cli/bench/bench_reference.h"
 #include "gpu/device.h"
 #include "gpu_probes.h"
 #include "mesh/procedural.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 #include "vulkan/vulkan_backend.h"
 
 #include <charconv>

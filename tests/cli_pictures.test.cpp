@@ -2,7 +2,7 @@
 
 #include "cli_fixture.h"
 
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 #include <gmock/gmock.h>
 

@@ -113,7 +113,7 @@ TEST(Layers, a_wrong_include_is_found) {
     fs::create_directories(root / "mesh");
     fs::create_directories(root / "scene");
     std::ofstream(root / "mesh" / "a.h")
-        << "#include \"solver/world.h\"\n#include \"base/hash.h\"\n#include <weft/simulation.h>\n";
+        << "#include \"solver/world/world.h\"\n#include \"base/hash.h\"\n#include <weft/simulation.h>\n";
     std::ofstream(root / "scene" / "b.h") << "#include \"physics/scalar.h\"\n#include \"physics/bend/bend.data.h\"\n";
     EXPECT_EQ(violations(root).size(), 3u);
     fs::remove_all(root);

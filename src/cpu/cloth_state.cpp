@@ -1,6 +1,6 @@
 #include "cpu/cloth_state.h"
 
-#include "solver/frame_numbers.h"
+#include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
 #include <cassert>

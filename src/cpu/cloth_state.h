@@ -4,10 +4,10 @@
 #include "base/aligned.h"
 #include "cpu/contact_account.h"
 #include "cpu/passes.h"
-#include "solver/cloth_model.h"
-#include "solver/jacobi.h"
-#include "solver/snapshot.h"
-#include "solver/step_plan.h"
+#include "solver/model/cloth_model.h"
+#include "solver/model/jacobi.h"
+#include "solver/plan/step_plan.h"
+#include "solver/state/snapshot.h"
 
 #include <array>
 #include <memory>

@@ -3,7 +3,7 @@
 
 #include "base/aligned.h"
 #include "base/workers.h"
-#include "solver/feedback.h"
+#include "solver/state/feedback.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Runs step plans on lanes and threads.
 #pragma once
 
-#include "solver/backend.h"
+#include "solver/world/backend.h"
 
 #include <weft/result.h>
 

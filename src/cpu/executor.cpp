@@ -1,8 +1,8 @@
 #include "cpu/executor.h"
 
 #include "base/flush_subnormals.h"
-#include "solver/diagnosis.h"
-#include "solver/frame_numbers.h"
+#include "solver/measures/diagnosis.h"
+#include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
 #include <atomic>

@@ -4,7 +4,7 @@
 #include "base/workers.h"
 #include "cpu/cloth_state.h"
 #include "cpu/passes.h"
-#include "solver/backend.h"
+#include "solver/world/backend.h"
 
 #include <array>
 #include <vector>

@@ -3,11 +3,11 @@
 
 #include "base/transform.h"
 #include "physics/constraint.h"
-#include "solver/air.h"
-#include "solver/collider.h"
-#include "solver/constraint_table.h"
-#include "solver/faces_around.h"
-#include "solver/hierarchy.h"
+#include "solver/model/constraint_table.h"
+#include "solver/model/faces_around.h"
+#include "solver/model/hierarchy.h"
+#include "solver/world/air.h"
+#include "solver/world/collider.h"
 
 #include <array>
 #include <cstdint>

@@ -1,11 +1,11 @@
 // Every instruction set against one lane, constraint by constraint, on random and degenerate input: equal to the bit.
 #include "cpu/passes.h"
 
-#include "solver/faces_around.h"
+#include "solver/model/faces_around.h"
 
 #include "base/aligned.h"
 #include "physics/testing.h"
-#include "solver/random_rows.test.h"
+#include "solver/model/random_rows.test.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // What a collider looks like.
 #pragma once
 
-#include "solver/collider.h"
+#include "solver/world/collider.h"
 
 #include <weft/mesh.h>
 

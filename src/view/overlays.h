@@ -4,7 +4,7 @@
 
 #include "render/drawing.h"
 #include "scene/scene_desc.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 #include "view/legend.h"
 
 #include <weft/result.h>

@@ -7,7 +7,7 @@
 #include "look/camera.h"
 #include "render/renderer.h"
 #include "scene/scene_desc.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 #include "view/overlays.h"
 
 #include <weft/result.h>

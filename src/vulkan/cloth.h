@@ -3,7 +3,7 @@
 
 #include "base/hash.h"
 #include "gpu/commands.h"
-#include "solver/measures.h"
+#include "solver/measures/measures.h"
 #include "vulkan/cloth_state.h"
 #include "vulkan/compiled_plan.h"
 #include "vulkan/surface/drawn_surface.h"

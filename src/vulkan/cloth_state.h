@@ -1,8 +1,8 @@
 // What changes while a cloth moves, as the Vulkan backend keeps it.
 #pragma once
 
-#include "solver/jacobi.h"
-#include "solver/snapshot.h"
+#include "solver/model/jacobi.h"
+#include "solver/state/snapshot.h"
 #include "vulkan/frame_input.h"
 #include "vulkan/model_buffers.h"
 

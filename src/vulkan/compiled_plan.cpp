@@ -1,6 +1,6 @@
 #include "vulkan/compiled_plan.h"
 
-#include "solver/frame_numbers.h"
+#include "solver/plan/frame_numbers.h"
 #include "vulkan/args.data.h"
 #include "vulkan/command_lists.h"
 #include "vulkan/make_command.h"

@@ -1,6 +1,6 @@
 #include "vulkan/frame_input.h"
 
-#include "solver/frame_numbers.h"
+#include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
 #include <cstring>
@@ -31,7 +31,7 @@ WindIn wind_in(const WindNow& wind) {
             .kind = static_cast<std::uint32_t>(wind.kind)};
 }
 
-// Strain of stretch per lambda and rest length: what tension_in (solver/tension.h) begins with.
+// Strain of stretch per lambda and rest length: what tension_in (solver/plan/tension.h) begins with.
 float strain_per_lambda(const ClothModel& model, double substep_seconds) {
     const StretchMaterial& fabric = model.fabric.stretch;
     const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);

@@ -3,7 +3,7 @@
 
 #include "gpu/commands.h"
 #include "gpu/device.h"
-#include "solver/backend.h"
+#include "solver/world/backend.h"
 #include "vulkan/args.data.h"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "vulkan/frame_run.h"
 
-#include "solver/diagnosis.h"
-#include "solver/frame_numbers.h"
+#include "solver/measures/diagnosis.h"
+#include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // A ClothModel on the device: what does not change while a cloth moves. Shared by all cloths of that model.
 #pragma once
 
-#include "solver/cloth_model.h"
+#include "solver/model/cloth_model.h"
 #include "vulkan/arena.h"
 #include "vulkan/measures/measure.h"
 

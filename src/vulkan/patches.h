@@ -3,8 +3,8 @@
 // away.
 #pragma once
 
-#include "solver/cloth_model.h"
-#include "solver/jacobi.h"
+#include "solver/model/cloth_model.h"
+#include "solver/model/jacobi.h"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/device_info.h"
-#include "solver/backend.h"
+#include "solver/world/backend.h"
 
 #include <weft/result.h>
 

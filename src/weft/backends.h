@@ -1,7 +1,7 @@
 // Which backend a program's options ask for.
 #pragma once
 
-#include "solver/backend.h"
+#include "solver/world/backend.h"
 
 #include <weft/result.h>
 #include <weft/simulation.h>

@@ -3,7 +3,7 @@
 
 #ifdef WEFT_VULKAN
 #include "gpu/surface_buffers.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 
 #include <weft/ids.h>
 #include <weft/result.h>

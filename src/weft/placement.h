@@ -3,7 +3,7 @@
 
 #include "mesh/topology.h"
 #include "scene/scene_desc.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 
 #include <weft/result.h>
 

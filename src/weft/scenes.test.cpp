@@ -1,5 +1,5 @@
 // Every scene of the library opens without a note, and its first frames go well.
-#include "solver/statistics.h"
+#include "solver/measures/statistics.h"
 #include "weft/session.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "weft/session.h"
 
-#include "io/mesh_file.h"
-#include "io/scene_file.h"
+#include "io/meshes/mesh_file.h"
+#include "io/scenes/scene_file.h"
 #include "mesh/topology.h"
 #include "scene/check.h"
 #include "scene/nearest_name.h"

@@ -1,9 +1,9 @@
 // A scene, loaded and ready to step: what the public Simulation and the command line both stand on.
 #pragma once
 
-#include "io/exporter.h"
+#include "io/exports/exporter.h"
 #include "scene/scene_desc.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 
 #include <weft/result.h>
 #include <weft/simulation.h>

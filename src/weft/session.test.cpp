@@ -1,6 +1,6 @@
 #include "weft/session.h"
 
-#include "io/temporary_folder.test.h"
+#include "io/files/temporary_folder.test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "scene/check.h"
 #include "scene/scene_keys.h"
-#include "solver/statistics.h"
+#include "solver/measures/statistics.h"
 #include "weft/placement.h"
 
 #include <weft/weft.h>

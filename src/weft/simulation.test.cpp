@@ -1,5 +1,5 @@
 // The public interface, as a program uses it.
-#include "io/temporary_folder.test.h"
+#include "io/files/temporary_folder.test.h"
 
 #include <weft/weft.h>
 

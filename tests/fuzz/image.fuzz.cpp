@@ -2,7 +2,7 @@
 // written.
 //
 // The first byte chooses: 'h' reads the rest as Radiance, any other as PNG, JPEG, TGA or BMP.
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 #include <cmath>
 #include <cstddef>

@@ -3,11 +3,11 @@
 // The first byte chooses what load_mesh makes of the whole input, see `ending_of`; any other is followed by numbers as
 // `ByteReader` takes them.
 #include "cpu/cpu_backend.h"
-#include "io/mesh_file.h"
+#include "io/meshes/mesh_file.h"
 #include "scene/check.h"
 #include "scene/scene_keys.h"
-#include "solver/statistics.h"
-#include "solver/world.h"
+#include "solver/measures/statistics.h"
+#include "solver/world/world.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // Any bytes as a scene file: either a scene that passes its own checks, builds a world, if its meshes are at hand, and
 // stays finite, or errors that a user can read.
-#include "io/scene_file.h"
+#include "io/scenes/scene_file.h"
 #include "scene/check.h"
 #include "weft/session.h"
 

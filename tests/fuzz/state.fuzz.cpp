@@ -6,9 +6,9 @@
 #include "base/hash.h"
 #include "cpu/cpu_backend.h"
 #include "mesh/procedural.h"
-#include "solver/snapshot.h"
-#include "solver/statistics.h"
-#include "solver/world.h"
+#include "solver/measures/statistics.h"
+#include "solver/state/snapshot.h"
+#include "solver/world/world.h"
 
 #include <algorithm>
 #include <cstddef>

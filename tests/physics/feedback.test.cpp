@@ -1,6 +1,6 @@
 // What cloth does to colliders: forces against weights, momentum against momentum, and when it is known.
 
-#include "solver/feedback.test.h"
+#include "solver/state/feedback.test.h"
 #include "sheet.h"
 
 #include <array>

@@ -3,8 +3,8 @@
 
 #include "cpu/cpu_backend.h"
 #include "mesh/procedural.h"
-#include "solver/statistics.h"
-#include "solver/world.h"
+#include "solver/measures/statistics.h"
+#include "solver/world/world.h"
 
 #include <gtest/gtest.h>
 

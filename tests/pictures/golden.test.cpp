@@ -4,7 +4,7 @@
 #include "measure.h"
 #include "scenes.h"
 
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 #include <gtest/gtest.h>
 

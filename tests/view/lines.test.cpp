@@ -2,7 +2,7 @@
 
 #include "shown.h"
 
-#include "solver/air.h"
+#include "solver/world/air.h"
 #include "view/nice_numbers.h"
 
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "vulkan_fixture.h"
 
 #include "mesh/procedural.h"
-#include "solver/statistics.h"
-#include "solver/world.h"
+#include "solver/measures/statistics.h"
+#include "solver/world/world.h"
 
 #include <volk.h>
 

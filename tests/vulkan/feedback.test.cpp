@@ -6,8 +6,8 @@
 
 #include "cpu/cpu_backend.h"
 #include "mesh/procedural.h"
-#include "solver/feedback.test.h"
-#include "solver/world.h"
+#include "solver/state/feedback.test.h"
+#include "solver/world/world.h"
 
 #include <cstring>
 #include <functional>

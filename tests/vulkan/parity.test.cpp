@@ -8,7 +8,7 @@
 #include "vulkan_fixture.h"
 
 #include "cpu/cpu_backend.h"
-#include "solver/random_rows.test.h"
+#include "solver/model/random_rows.test.h"
 
 #include <bit>
 #include <cmath>

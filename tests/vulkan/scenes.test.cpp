@@ -2,7 +2,7 @@
 
 #include "vulkan_fixture.h"
 
-#include "solver/statistics.h"
+#include "solver/measures/statistics.h"
 #include "weft/session.h"
 
 #include <weft/weft.h>

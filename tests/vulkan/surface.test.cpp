@@ -6,7 +6,7 @@
 #include "vulkan_fixture.h"
 
 #include "mesh/procedural.h"
-#include "solver/world.h"
+#include "solver/world/world.h"
 #include "vulkan/interop.h"
 
 #include <bit>

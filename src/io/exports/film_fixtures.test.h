@@ -1,8 +1,8 @@
 // Small films for the tests of the exporters: cloths that wave, with every kind of vertex data.
 #pragma once
 
-#include "io/exporter.h"
-#include "io/temporary_folder.test.h"
+#include "io/exports/exporter.h"
+#include "io/files/temporary_folder.test.h"
 #include "mesh/procedural.h"
 
 #include <cmath>

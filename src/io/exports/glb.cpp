@@ -4,9 +4,9 @@
 // The numbers go to a nameless file while the run lasts: memory stays that of one frame, and a full disk shows at the
 // frame that fills it. tinygltf writes the JSON; the container is written here, because tinygltf's own writer would
 // hold the whole film in memory twice.
-#include "io/export_format.h"
+#include "io/exports/export_format.h"
 #include "io/exports/glb_material.h"
-#include "solver/frame.h"
+#include "solver/state/frame.h"
 
 #include <tiny_gltf.h>
 

@@ -1,8 +1,8 @@
 #include "io/exports/glb_material.h"
 
-#include "io/image_file.h"
-#include "io/mesh_file.h"
-#include "io/whole_file.h"
+#include "io/files/whole_file.h"
+#include "io/images/image_file.h"
+#include "io/meshes/mesh_file.h"
 #include "look/weave.h"
 #include "mesh/uv_scale.h"
 

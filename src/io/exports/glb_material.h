@@ -1,7 +1,7 @@
 // Materials as glTF 2.0 says them, with the extensions that Khronos has ratified for cloth.
 #pragma once
 
-#include "io/exporter.h"
+#include "io/exports/exporter.h"
 #include "look/material.h"
 
 #include <weft/result.h>

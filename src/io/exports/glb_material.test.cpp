@@ -1,5 +1,5 @@
 #include "io/exports/film_fixtures.test.h"
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "look/weave.h"
 
 #include <gmock/gmock.h>

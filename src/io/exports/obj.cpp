@@ -1,5 +1,5 @@
 // Wavefront OBJ. Numbers are the shortest text that reads back as the same float.
-#include "io/export_format.h"
+#include "io/exports/export_format.h"
 
 #include <array>
 #include <charconv>

@@ -6,7 +6,7 @@
 // All cloths are one mesh, one after another, since the format knows only one list of points. Readers match it to the
 // mesh by the number and order of vertices alone, and those that load an .obj drop vertices that no face uses: both
 // files leave them out. Coordinates are the scene's own in both.
-#include "io/export_format.h"
+#include "io/exports/export_format.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "io/exports/film_fixtures.test.h"
-#include "io/mesh_file.h"
+#include "io/meshes/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Binary little-endian PLY: all cloths as one mesh, since the format knows only one.
-#include "io/export_format.h"
+#include "io/exports/export_format.h"
 
 #include <algorithm>
 #include <bit>

@@ -18,7 +18,7 @@ struct ReachMaterial {
     static constexpr int plain[2] = {-1, -1};
 };
 
-// Its rows are between the nodes of coarse levels, not between particles: solver/hierarchy.h makes them.
+// Its rows are between the nodes of coarse levels, not between particles: solver/model/hierarchy.h makes them.
 inline constexpr std::array<Parameter, 0> reach_parameters{};
 
 }  // namespace weft

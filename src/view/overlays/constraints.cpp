@@ -1,6 +1,6 @@
 // Rows as lines: two particles are joined; a hinge joins the tips of its wings; a plate is its triangle, drawn smaller.
 // The color is that of the row's batch. Rows of one batch share no particle, so lines of one color never meet, but for
-// rows along lines (solver/lines.h) and the overflow.
+// rows along lines (solver/model/lines.h) and the overflow.
 
 #include "view/overlay_parts.h"
 

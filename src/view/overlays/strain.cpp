@@ -1,4 +1,4 @@
-#include "solver/measures.h"
+#include "solver/measures/measures.h"
 #include "view/nice_numbers.h"
 #include "view/overlay_parts.h"
 

@@ -1,5 +1,5 @@
 #include "render/shading/color_scale.h"
-#include "solver/air.h"
+#include "solver/world/air.h"
 #include "view/nice_numbers.h"
 #include "view/overlay_parts.h"
 

@@ -9,7 +9,7 @@
 #define WEFT_SUM_WORDS 16
 #define WEFT_SUM_CONTACTS 12
 
-#define WEFT_RECORD_WORDS 8  // solver/feedback.h has them
+#define WEFT_RECORD_WORDS 8  // solver/state/feedback.h has them
 
 #ifdef __cplusplus
 namespace weft::vulkan {

@@ -1,6 +1,6 @@
 #include "vulkan/feedback/contact_readback.h"
 
-#include "solver/frame.h"
+#include "solver/state/frame.h"
 #include "vulkan/primitives/scan.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gpu/commands.h"
-#include "solver/feedback.h"
+#include "solver/state/feedback.h"
 #include "vulkan/arena.h"
 #include "vulkan/feedback/args.data.h"
 #include "vulkan/programs.h"

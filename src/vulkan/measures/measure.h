@@ -1,7 +1,7 @@
 // Kinetic energy, speed, strain and residual of a cloth, summed up where it lies.
 #pragma once
 
-#include "solver/measures.h"
+#include "solver/measures/measures.h"
 #include "vulkan/arena.h"
 #include "vulkan/programs.h"
 

@@ -1,6 +1,6 @@
 // What one-sided rows allow for in this frame: the tension that the last one left in the cloth, all but a twentieth of
 // the rows stay below it, and what pins stretch that are held too far apart. The work of one workgroup.
-// (solver/tension.cpp has the same for the CPU.)
+// (solver/plan/tension.cpp has the same for the CPU.)
 #ifndef WEFT_LIMITS_GLSL
 #define WEFT_LIMITS_GLSL
 

@@ -90,7 +90,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
             for (uint k = 0u; k < moved; ++k) a.corrections.at[k * a.stride + r] = vec4(change[k], 0.0);               \
         } else {                                                                                                       \
             for (uint k = 0u; k < moved; ++k) {                                                                        \
-                /* Of a particle that a row names twice, the last one counts (solver/jacobi.cpp). */                   \
+                /* Of a particle that a row names twice, the last one counts (solver/model/jacobi.cpp). */                   \
                 bool counts = p[0] != p[1];                                                                            \
                 for (uint later = k + 1u; later < moved; ++later) counts = counts && p[later] != p[k];                 \
                 if (counts) add_quanta(a.sums, p[k], change[k]);                                                       \

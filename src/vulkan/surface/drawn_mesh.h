@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/surface_buffers.h"
-#include "solver/cloth_model.h"
+#include "solver/model/cloth_model.h"
 #include "vulkan/arena.h"
 
 #include <memory>

@@ -1,5 +1,6 @@
 // The drawn surface of a cloth, made on the device from where its particles are: positions, normals and tangents, one
-// of each for every vertex of the drawn mesh, equal to those of draw_surface() and compute_tangents() (solver/frame.h).
+// of each for every vertex of the drawn mesh, equal to those of draw_surface() and compute_tangents()
+// (solver/state/frame.h).
 #pragma once
 
 #include "gpu/commands.h"

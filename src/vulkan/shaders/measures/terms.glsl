@@ -43,7 +43,7 @@ Term edge_term(MeasureEdgesArgs a, uint e)
     return deviation(value(add(now2, Two(-rest2, -rest2_low))) / (rest * (now + rest)));
 }
 
-// What is left of a row of stretch (solver/residual.cpp): |C + α̃λ| over the rest length, C from the length as float
+// What is left of a row of stretch (solver/measures/residual.cpp): |C + α̃λ| over the rest length, C from the length as float
 // that the solver has seen.
 Term row_term(MeasureRowsArgs a, uint row)
 {

@@ -1,0 +1,208 @@
+#include "cli/bench/bench_reference.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+namespace weft::cli {
+namespace {
+
+constexpr double word = 4;    // a number, an index, a multiplier
+constexpr double block = 16;  // four numbers: one of a particle's arrays, a node's or a triangle's
+
+// Bytes of one pass.
+struct PassTraffic {
+    double own = 0;     ///< what no other pass reads: rows, indices, weights
+    double shared = 0;  ///< blocks of particles, nodes and triangles, in and out
+    double rows = 0;    ///< how many rows are projected in it
+};
+
+class TrafficCounter {
+  public:
+    TrafficCounter(const ClothModel& model, const StepPlan& plan, double colliders)
+        : model_(model), plan_(plan), colliders_(colliders), seen_(model.capacity(), 0) {}
+
+    /// Lambda not included.
+    PassTraffic of(const Pass& pass) {
+        const auto [found, fresh] = known_.try_emplace({pass.kind, pass.constraint, pass.batch, pass.level});
+        if (fresh) found->second = count(pass);
+        return found->second;
+    }
+
+    /// A multiplier starts at 0 in the first iteration and is written only if another one goes on from it. (That the
+    /// last substep keeps it for statistics is left out.)
+    double lambda_bytes(const Pass& pass) {
+        const bool projects = pass.kind == PassKind::project || pass.kind == PassKind::correct;
+        if (!projects || plan_.iterations < 2 || plan_.method == Method::pbd) return 0;
+        const double transfers = pass.first_iteration ? 1 : 2;
+        return of(pass).rows * constraint_info(pass.constraint).lambdas * word * transfers;
+    }
+
+    /// What all passes of a substep go over: their own, the four arrays of the particles, and three of the nodes.
+    double working_set() {
+        std::map<Key, double> own;
+        for (const Pass& pass : plan_.substep) {
+            const PassTraffic traffic = of(pass);
+            double& bytes = own[{pass.kind, pass.constraint, pass.batch, pass.level}];
+            bytes = std::max(bytes, traffic.own + std::min(lambda_bytes(pass), traffic.rows * word));
+        }
+        double sum = 4 * block * model_.point_count();
+        for (const auto& [key, bytes] : own) sum += bytes;
+        for (const CoarseLevel& level : model_.hierarchy) sum += 3 * block * level.count;
+        return sum;
+    }
+
+  private:
+    using Key = std::tuple<PassKind, ConstraintKind, std::uint32_t, std::uint32_t>;
+
+    // Rows [begin, end) of a table without those that only fill it up: indices and fields once per row; and each
+    // particle once, however many of the rows share it.
+    struct Touched {
+        double rows = 0, read = 0, moved = 0;
+    };
+    Touched touched(const ConstraintTable& table, std::uint32_t begin, std::uint32_t end) {
+        Touched sum;
+        const std::uint32_t moved = constraint_info(table.kind).moved;
+        round_ += 2;  // marks of former rounds are smaller than this one's: round_ for read, round_ + 1 for moved
+        for (std::uint32_t r = begin; r < end; ++r) {
+            if (!table.is_real(r)) continue;
+            ++sum.rows;
+            for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
+                std::uint32_t& mark = seen_[table.particles[std::size_t{slot} * table.stride + r]];
+                if (mark < round_) ++sum.read, mark = round_;
+                if (slot < moved && mark == round_) ++sum.moved, mark = round_ + 1;
+            }
+        }
+        return sum;
+    }
+    Touched touched(const ConstraintTable& table, const Batch& batch) {
+        if (batch.blocks == 0) return touched(table, batch.begin, batch.padded_end());
+        return touched(table, table.blocks[batch.first_block].begin,
+                       table.blocks[batch.first_block + batch.blocks - 1].end());
+    }
+    static double row_bytes(const ConstraintTable& table) { return word * (table.arity + table.field_count); }
+
+    static double carry_bytes(const Carry& carry) {
+        const std::size_t node = carry.narrow.empty() ? sizeof carry.wide[0] : sizeof carry.narrow[0];
+        return static_cast<double>(Carry::parents * (node + sizeof carry.weight[0]));
+    }
+
+    PassTraffic projected(const ConstraintTable& table, const Batch& batch) {
+        const Touched t = touched(table, batch);
+        return {.own = t.rows * row_bytes(table), .shared = block * (t.read + t.moved), .rows = t.rows};
+    }
+
+    PassTraffic count_level(const Pass& pass) {
+        const CoarseLevel& level = model_.hierarchy[pass.level];
+        const double nodes = level.count;
+        const double finer = pass.level == 0 ? model_.particle_count : model_.hierarchy[pass.level - 1].count;
+        const bool coarsest = pass.level + 1 == model_.hierarchy.size();
+        if (pass.kind == PassKind::reach) return projected(level.reach, level.reach.batches[pass.batch]);
+        if (pass.kind == PassKind::collect)
+            return {.own = 2 * word * static_cast<double>(level.restriction.node.size()),
+                    .shared = block * (finer + nodes)};
+        if (pass.kind == PassKind::settle || coarsest) return {.own = 0, .shared = 3 * block * nodes};
+        return {.own = carry_bytes(model_.hierarchy[pass.level + 1].carry) * nodes,
+                .shared = block * (3 * nodes + model_.hierarchy[pass.level + 1].count)};
+    }
+
+    bool predicts_first() const { return plan_.substep.front().kind == PassKind::predict; }
+
+    PassTraffic count_faces(const Pass& pass) {
+        const double particles = model_.particle_count;
+        const auto triangles = static_cast<double>(model_.triangle_count);
+        const double corners = 3 * word * triangles;
+        switch (pass.kind) {
+            case PassKind::air:  // positions, velocities; a mass in, an impulse out, the wind where there is one
+                return {.own = corners + word * triangles,
+                        .shared = block * (2 * particles + (plan_.frame_begin.empty() ? 1 : 2) * triangles)};
+            case PassKind::push:  // all four arrays of a particle in, three out
+                return {.own = corners, .shared = block * (7 * particles + triangles)};
+            default:  // wind, faces: positions in, a block per triangle out; normals: the other way
+                return {.own = corners, .shared = block * (particles + triangles)};
+        }
+    }
+
+    PassTraffic count(const Pass& pass) {
+        const double points = model_.point_count();
+        const ConstraintTable& table = model_.table(pass.constraint);
+        switch (pass.kind) {
+            case PassKind::predict:  // four arrays in, four out
+                return {.own = 0, .shared = 8 * block * points};
+            case PassKind::velocities:  // four in, two out; all but the last are one pass with the next prediction
+                return {.own = 0, .shared = 6 * block * points / (predicts_first() ? plan_.substeps : 1)};
+            case PassKind::hold:  // few particles are held
+                return {};
+            case PassKind::contact:  // most of a cloth touches nothing: it is read
+                return {.own = 0, .shared = colliders_ * block * points};
+            case PassKind::project:
+                return projected(table, table.batches[pass.batch]);
+            case PassKind::correct: {  // a share in, a correction out per particle that a row may move
+                const Touched t = touched(table, 0, table.stride);
+                const double out = block * constraint_info(table.kind).moved * t.rows;
+                return {.own = t.rows * (row_bytes(table) + word), .shared = block * t.read + out, .rows = t.rows};
+            }
+            case PassKind::average: {  // and all of them in again, found by an index
+                double items = 0;
+                for (const ConstraintTable& each : model_.constraints)
+                    items += static_cast<double>(each.rows) * constraint_info(each.kind).moved;
+                return {.own = (word + block) * items, .shared = 2 * block * points};
+            }
+            case PassKind::damp: {  // positions and velocities in, velocities out
+                const Touched t = touched(table, table.batches[pass.batch]);
+                return {.own = t.rows * row_bytes(table), .shared = block * (2 * t.read + t.moved), .rows = t.rows};
+            }
+            case PassKind::spread:
+                return {.own = carry_bytes(model_.hierarchy.front().carry) * points,
+                        .shared = block * (2 * points + model_.hierarchy.front().count)};
+            case PassKind::collect:
+            case PassKind::lift:
+            case PassKind::reach:
+            case PassKind::settle:
+                return count_level(pass);
+            case PassKind::wind:
+            case PassKind::air:
+            case PassKind::push:
+            case PassKind::faces:
+            case PassKind::normals:
+                return count_faces(pass);
+        }
+        return {};
+    }
+
+    const ClothModel& model_;
+    const StepPlan& plan_;
+    double colliders_;
+    std::map<Key, PassTraffic> known_;
+    std::vector<std::uint32_t> seen_;  ///< per particle, or node: the last round that touched it
+    std::uint32_t round_ = 0;
+};
+
+}  // namespace
+
+double FrameTraffic::all() const {
+    return std::accumulate(bytes.begin(), bytes.end(), 0.0);
+}
+
+FrameTraffic frame_traffic(const World& world) {
+    FrameTraffic frame;
+    for (std::size_t i = 0; i < world.frame().cloths.size(); ++i) {
+        const StepPlan& plan = world.plan(i);
+        TrafficCounter counter(*world.frame().cloths[i].model, plan, static_cast<double>(world.colliders().size()));
+        const auto add = [&](const std::vector<Pass>& passes, double times) {
+            for (const Pass& pass : passes) {
+                const PassTraffic traffic = counter.of(pass);
+                frame.bytes[stage_of(pass)] += times * (traffic.own + traffic.shared + counter.lambda_bytes(pass));
+            }
+        };
+        add(plan.frame_begin, 1);
+        add(plan.substep, plan.substeps);
+        add(plan.frame_end, 1);
+        frame.working_set = std::max(frame.working_set, counter.working_set());
+    }
+    return frame;
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,261 @@
+#include "cli/render/render_options.h"
+#include "cli/render/render_window.h"
+
+#ifdef WEFT_VULKAN
+#include "cli/render/view_sources.h"
+#include "cli/shell/interrupt.h"
+#include "cli/shell/progress.h"
+#include "io/images/picture_writer.h"
+#include "view/overlays.h"
+#include "view/scene_view.h"
+#include "weft/drawing_device.h"
+#include "weft/session.h"
+
+#include <algorithm>
+#include <cstdio>
+#endif
+
+#include <CLI/CLI.hpp>
+
+namespace weft::cli {
+namespace {
+
+#ifdef WEFT_VULKAN
+
+using Writers = std::vector<std::unique_ptr<PictureWriter>>;
+
+/// A run and what is drawn of it.
+struct Job {
+    Session& session;
+    SceneView& view;
+    Writers& writers;
+    Camera camera;
+    double orbit = 0;  ///< degrees, from the first frame to the last
+    std::uint64_t frames = 0;
+    FilmFrames film;
+    bool quiet = false;
+};
+
+Result<Writers> make_writers(const RenderOptions& options) {
+    Writers writers;
+    Errors errors;
+    for (const std::string& path : options.outputs) {
+        auto writer = make_picture_writer(path);
+        if (writer) {
+            writers.push_back(std::move(*writer));
+        } else {
+            errors.insert(errors.end(), writer.errors().begin(), writer.errors().end());
+        }
+    }
+    if (!errors.empty()) return errors;
+    return writers;
+}
+
+/// Whether any of them needs an account of contacts.
+Result<bool> check_overlays(const std::vector<std::string>& names) {
+    Errors errors;
+    bool feedback = false;
+    for (const std::string& name : names) {
+        const auto overlay = find_overlay(name);
+        if (overlay) {
+            feedback = feedback || (*overlay)->needs_feedback;
+        } else {
+            for (const Error& error : overlay.errors()) errors.push_back({"--overlay", error.message()});
+        }
+    }
+    if (!errors.empty()) return errors;
+    return feedback;
+}
+
+Result<std::shared_ptr<gpu::Device>> find_device(World& world, const std::string& name) {
+    auto device = drawing_device(world, name);
+    if (device) return device;
+    Errors errors = device.errors();
+    for (Error& error : errors) {
+        constexpr std::string_view elsewhere = ", or use --backend cpu";  // helps a run, not a picture
+        if (const auto at = error.what.find(elsewhere); at != std::string::npos) error.what.erase(at, elsewhere.size());
+        error.what += "; pictures are drawn by Vulkan, whatever the backend";
+    }
+    return errors;
+}
+
+Result<Done> draw(Job& job, std::uint64_t frame, bool in_film) {
+    const double part = job.frames == 0 ? 1 : static_cast<double>(frame) / static_cast<double>(job.frames);
+    auto picture = job.view.picture(job.session.world(), orbited(job.camera, static_cast<float>(job.orbit * part)));
+    if (!picture) return picture.errors();
+    for (auto& writer : job.writers) {
+        if (!(writer->last_alone() ? frame == job.frames : in_film)) continue;
+        if (auto written = writer->write(*picture); !written) return written;
+    }
+    return Done{};
+}
+
+Result<Done> simulate_and_draw(Job& job) {
+    const bool films = !std::ranges::all_of(job.writers, [](const auto& writer) { return writer->last_alone(); });
+    const bool stills = std::ranges::any_of(job.writers, [](const auto& writer) { return writer->last_alone(); });
+    const EndOnSignal end_on_signal;
+    Progress progress(films ? "rendering" : "simulating", job.frames, job.quiet);
+    std::uint64_t picture = 0;
+    bool warned = false;
+    for (std::uint64_t i = 0; i <= job.frames; ++i) {
+        if (i > 0) {
+            job.session.advance();
+            if (auto went = check_step(job.session.world().summary(), warned); !went) return went;
+        }
+        const bool in_film = films && picture < job.film.count() && job.film.frame(picture) == i;
+        if (in_film || (stills && i == job.frames)) {
+            if (auto drawn = draw(job, i, in_film); !drawn) return drawn;
+        }
+        if (in_film) ++picture;
+        if (i > 0) progress.update(i);
+        if (end_on_signal.asked())
+            return Error{"", "interrupted at frame " + std::to_string(i) + " of " + std::to_string(job.frames) +
+                                 ": only what was whole by then was written"};
+    }
+    for (auto& writer : job.writers)
+        if (auto finished = writer->finish(); !finished) return finished;
+    return Done{};
+}
+
+int wrong(const Errors& errors) {
+    print_errors(errors);
+    return exit_code(errors);
+}
+
+int report(const RenderOptions& options, const Result<Done>& done) {
+    if (!done) {
+        print_errors(done.errors());
+        return exit_failed;
+    }
+    if (!options.quiet)
+        for (const std::string& file : options.outputs) std::printf("wrote %s\n", file.c_str());
+    return exit_done;
+}
+
+/// --window: until it is closed, or so much time is simulated.
+int open_window(const RenderOptions& options, const RenderPlan& plan) {
+    if (const auto checked = check_overlays(options.overlays); !checked) return wrong(checked.errors());
+    return show({.scene = options.scene,
+                 .length = options.length,
+                 .width = plan.size.width,
+                 .height = plan.size.height,
+                 .samples = static_cast<std::uint32_t>(options.samples),
+                 .camera = plan.camera,
+                 .overlays = options.overlays,
+                 .common = options.common});
+}
+
+int render(const RenderOptions& options) {
+    const auto plan = check_options(options);
+    if (!plan) return wrong(plan.errors());
+    if (options.window) return open_window(options, *plan);
+    auto writers = make_writers(options);
+    if (!writers) return wrong(writers.errors());
+    const auto feedback = check_overlays(options.overlays);
+    if (!feedback) return wrong(feedback.errors());
+
+    Options common = options.common;
+    common.feedback = *feedback;
+    if (common.backend == "cpu") common.device.clear();  // it names the one that draws
+    auto session = Session::open(options.scene, common);
+    if (!session) return wrong(session.errors());
+    const auto frames = frame_count(options.length, session->frame_seconds(), 0);
+    if (!frames) return wrong(frames.errors());
+    const double frame_rate = static_cast<double>(session->scene().frame_rate);
+    const auto rate = film_rate(options, frame_rate);
+    if (!rate) return wrong(rate.errors());
+    auto device = find_device(session->world(), options.common.device);
+    if (!device) return wrong(device.errors());
+
+    const FilmFrames film(*frames, frame_rate, *rate);
+    for (auto& writer : *writers) {
+        const auto begun = writer->begin({.width = plan->size.width,
+                                          .height = plan->size.height,
+                                          .frame_rate = *rate,
+                                          .picture_count = film.count(),
+                                          .transparent = options.transparent});
+        if (!begun) return wrong(begun.errors());
+    }
+    auto view = SceneView::create(*device, session->scene(), session->world(),
+                                  {.width = plan->size.width,
+                                   .height = plan->size.height,
+                                   .samples = static_cast<std::uint32_t>(options.samples),
+                                   .transparent = options.transparent,
+                                   .overlays = options.overlays},
+                                  view_sources(options.scene, session->world()));
+    if (!view) return wrong(view.errors());
+    for (const std::string& note : session->notes()) print_warning(note);
+    for (const std::string& note : view->notes()) print_warning(note);
+
+    Job job{.session = *session,
+            .view = *view,
+            .writers = *writers,
+            .camera = plan->camera.value_or(view->camera()),
+            .orbit = options.orbit,
+            .frames = *frames,
+            .film = film,
+            .quiet = options.quiet};
+    return report(options, simulate_and_draw(job));
+}
+
+std::string overlay_names() {
+    std::string names;
+    for (const Overlay& overlay : overlays()) names += (names.empty() ? "" : ", ") + std::string(overlay.name);
+    return names;
+}
+
+#else
+
+int render(const RenderOptions& options) {
+    if (const auto plan = check_options(options); !plan) {
+        print_errors(plan.errors());
+        return exit_code(plan.errors());
+    }
+    print_errors({{"", "this build has no Vulkan, by which pictures are drawn"}});
+    return exit_failed;
+}
+
+std::string overlay_names() {
+    return "none in this build";
+}
+
+#endif
+
+}  // namespace
+
+Command add_render(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("render", "simulates a scene and makes pictures of it, or a film");
+    auto options = std::make_shared<RenderOptions>();
+    command->add_option("scene", options->scene, "scene file")->required();
+    add_length_options(*command, options->length, "simulate; 0 is the start alone");
+    const auto out = command->add_option(
+        "--out", options->outputs,
+        ".png (last frame), DIR/%04d.png (sequence), .mp4 (film, by the program ffmpeg); repeatable");
+    out->allow_extra_args(false);
+    command->add_option("--size", options->size, "of the picture, in pixels")->capture_default_str();
+    command->add_option("--samples", options->samples, "a pixel: 1 to 256, a power of two; more than 4 take longer")
+        ->capture_default_str();
+    command->add_option("--camera", options->camera,
+                        "px,py,pz,tx,ty,tz[,fov]: position, target (m), degrees; instead of the scene's");
+    command->add_option("--orbit", options->orbit,
+                        "degrees that the camera has gone around its target by the last frame");
+    command->add_option("--fps", options->fps, "pictures a second of a film or sequence, instead of all frames");
+    command->add_option("--overlay", options->overlays, "drawn on top, repeatable: " + overlay_names())
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command->add_flag("--transparent", options->transparent, "no background; .png alone");
+    command->add_flag("--window", options->window, "shows it as it moves, instead of writing it")->excludes(out);
+    command->add_flag("--quiet", options->quiet, "no progress, no word of what was written");
+    add_common_options(*command, options->common);
+    command->footer(
+        window_help() +
+        "\n"
+        "With --backend cpu, --device names the Vulkan device that draws.\n"
+        "Examples:\n"
+        "  weft render scenes/hanging_bunny.json --seconds 2 --out bunny.png --size 1920x1080 --samples 16\n"
+        "  weft render scenes/flag.json --seconds 4 --orbit 90 --fps 30 --out flag.mp4\n"
+        "  weft render scenes/hanging_sheet.json --frames 0 --out start.png --camera 0,1,3,0,0.5,0,40");
+    return [options] { return render(*options); };
+}
+
+}  // namespace weft::cli

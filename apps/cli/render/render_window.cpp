@@ -1,0 +1,227 @@
+#include "cli/render/render_window.h"
+
+#ifdef WEFT_VULKAN
+#include "cli/render/view_sources.h"
+#include "render/orbit.h"
+#include "render/window.h"
+#include "view/overlays.h"
+#include "view/pace.h"
+#include "view/scene_view.h"
+#include "vulkan/interop.h"
+#include "weft/backends.h"
+#include "weft/session.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+#endif
+
+namespace weft::cli {
+
+#ifdef WEFT_VULKAN
+namespace {
+
+constexpr double idle_patience = 0.1;   // s: how long it sleeps while there is nothing to draw
+constexpr double title_interval = 0.5;  // s
+constexpr std::size_t most_keys = 9;    // 1…9
+
+/// The device that draws, which must know windows, and simulates too where that is wanted of it.
+struct Machine {
+    std::shared_ptr<const render::Display> display;
+    std::shared_ptr<gpu::Device> device;
+
+    static Result<Machine> open(const Options& options) {
+        auto display = render::Display::open();
+        if (!display) return display.errors();
+        auto device =
+            make_vulkan_device({.device = options.device, .surface_extensions = (*display)->surface_extensions()});
+        if (!device) return device.errors();
+        return Machine{*display, *device};
+    }
+    Result<std::unique_ptr<Backend>> backend(const Options& options) const {
+        const bool vulkan = options.backend == "vulkan" || !options.device.empty() || device->info().is_gpu();
+        if (options.backend != "cpu" && vulkan)
+            return make_vulkan_backend(device, {.execution = options.execution, .timings = options.stage_timings});
+        Options on_cpu = options;
+        on_cpu.backend = "cpu";
+        on_cpu.device.clear();  // it names the one that draws
+        return make_backend(on_cpu);
+    }
+};
+
+/// A scene that runs, and the window in which that is seen.
+class Show {
+  public:
+    Show(Session& session, SceneView& view, render::Window& window, const ShowOptions& options,
+         std::optional<std::uint64_t> frames)
+        : session_(session),
+          view_(view),
+          window_(window),
+          frames_(frames),
+          camera_(options.camera.value_or(view.camera())),
+          start_(session.world().save()),
+          pace_(session.frame_seconds()) {
+        for (const std::string& name : options.overlays) {
+            const auto it = std::ranges::find(overlays(), name, &Overlay::name);
+            if (it != overlays().end()) shown_.push_back(&*it);
+        }
+    }
+
+    Result<Done> run() {
+        if (auto set = set_overlays(); !set) return set;
+        while (!window_.closed()) {
+            const render::WindowInput input = window_.input(drawn_ ? 0 : idle_patience);
+            if (auto obeyed = obey(input); !obeyed) return obeyed;
+            if (auto stepped = step(static_cast<double>(input.seconds)); !stepped) return stepped;
+            if (auto drawn = draw(); !drawn) return drawn;
+            tell(static_cast<double>(input.seconds));
+        }
+        return Done{};
+    }
+
+  private:
+    static bool pressed(const render::WindowInput& input, char key) {
+        return input.pressed[static_cast<std::size_t>(key)];
+    }
+
+    Result<Done> obey(const render::WindowInput& input) {
+        camera_ = render::steered(camera_, input);
+        if (pressed(input, render::escape_key)) window_.close();
+        if (pressed(input, ' ')) paused_ = !paused_;
+        if (pressed(input, 'R')) {
+            if (auto restored = session_.world().restore(start_); !restored) return restored;
+        }
+        bool changed = false;
+        for (std::size_t i = 0; i < std::min(overlays().size(), most_keys); ++i) {
+            if (!pressed(input, static_cast<char>('1' + i))) continue;
+            const Overlay* overlay = &overlays()[i];
+            changed = true;
+            if (std::erase(shown_, overlay) == 0) shown_.push_back(overlay);
+        }
+        return changed ? set_overlays() : Done{};
+    }
+
+    Result<Done> set_overlays() {
+        const bool feedback = std::ranges::any_of(shown_, &Overlay::needs_feedback);
+        WorldSettings settings = session_.world().settings();
+        if (std::exchange(settings.feedback, feedback) != feedback) {
+            if (auto done = session_.configure(settings); !done) return done;
+        }
+        view_.set_overlays(shown_);
+        return Done{};
+    }
+
+    Result<Done> step(double seconds) {
+        for (unsigned due = paused_ ? 0 : pace_.due(seconds); due > 0 && !window_.closed(); --due) {
+            session_.advance();
+            const Frame& frame = session_.world().summary();
+            step_ms_ += frame.step_ms;
+            ++steps_;
+            if (auto went = check_step(frame, warned_); !went) return went;
+            if (frames_ && frame.index >= *frames_) window_.close();
+        }
+        return Done{};
+    }
+
+    Result<Done> draw() {
+        const auto image = window_.next();
+        if (!image) return image.errors();
+        drawn_ = image->state == gpu::Acquired::image;
+        if (!drawn_) return Done{};
+        const render::Target target{.view = image->view,
+                                    .format = window_.format(),
+                                    .width = image->extent.width,
+                                    .height = image->extent.height,
+                                    .after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
+        const auto done = view_.draw(session_.world(), camera_, target, image->semaphores);
+        if (!done) return done.errors();
+        ++pictures_;
+        return window_.show(*image, *done);
+    }
+
+    void tell(double seconds) {
+        clock_ += seconds;
+        if (clock_ < title_interval) return;
+        std::array<char, 96> figures{};
+        std::snprintf(figures.data(), figures.size(), "%.0f fps, %.2f ms a step%s", pictures_ / clock_,
+                      steps_ > 0 ? step_ms_ / steps_ : 0, paused_ ? ", paused" : "");
+        window_.set_title("weft: " + session_.scene().name + ": " + figures.data());
+        clock_ = step_ms_ = 0;
+        pictures_ = steps_ = 0;
+    }
+
+    Session& session_;
+    SceneView& view_;
+    render::Window& window_;
+    std::optional<std::uint64_t> frames_;
+    Camera camera_;
+    Snapshot start_;
+    Pace pace_;
+    std::vector<const Overlay*> shown_;
+    bool paused_ = false, warned_ = false;
+    bool drawn_ = true;  // there was something to draw into
+    // Since the title was last written:
+    double clock_ = 0, step_ms_ = 0;
+    int pictures_ = 0, steps_ = 0;
+};
+
+Result<Done> open_and_run(const ShowOptions& options) {
+    const auto machine = Machine::open(options.common);
+    if (!machine) return machine.errors();
+    auto session =
+        Session::open(options.scene, options.common, [&](const Options& common) { return machine->backend(common); });
+    if (!session) return session.errors();
+    std::optional<std::uint64_t> frames;
+    if (options.length.frames || options.length.seconds) {
+        const auto count = frame_count(options.length, session->frame_seconds(), 0);
+        if (!count) return count.errors();
+        frames = *count;
+    }
+    auto window = render::Window::create(
+        machine->display, machine->device,
+        {.title = "weft: " + session->scene().name, .width = options.width, .height = options.height});
+    if (!window) return window.errors();
+    auto view = SceneView::create(
+        machine->device, session->scene(), session->world(),
+        {.width = options.width, .height = options.height, .samples = options.samples, .overlays = {}},
+        view_sources(options.scene, session->world()));
+    if (!view) return view.errors();
+    for (const std::string& note : session->notes()) print_warning(note);
+    for (const std::string& note : view->notes()) print_warning(note);
+    return Show(*session, *view, *window, options, frames).run();
+}
+
+}  // namespace
+
+std::string window_help() {
+    std::string help =
+        "In the window: left button around, right button looks elsewhere, middle button (or shift and left) along,\n"
+        "wheel nearer; W S up and down, A D left and right, Q E back and forth; space pauses, R starts again,\n"
+        "Esc closes. Overlays:";
+    for (std::size_t i = 0; i < std::min(overlays().size(), most_keys); ++i)
+        help += (i > 0 ? ", " : " ") + std::to_string(i + 1) + " " + std::string(overlays()[i].name);
+    return help;
+}
+
+int show(const ShowOptions& options) {
+    const auto done = open_and_run(options);
+    if (done) return exit_done;
+    print_errors(done.errors());
+    return exit_code(done.errors());
+}
+
+#else
+
+std::string window_help() {
+    return "This build has no windows.";
+}
+
+int show(const ShowOptions&) {
+    print_errors({{"", "this build has no Vulkan, by which pictures are drawn"}});
+    return exit_failed;
+}
+
+#endif
+
+}  // namespace weft::cli

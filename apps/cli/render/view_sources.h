@@ -1,0 +1,16 @@
+// Where a view of a scene finds what it does not have itself.
+#pragma once
+
+#ifdef WEFT_VULKAN
+#include "solver/world/world.h"
+#include "view/scene_view.h"
+
+#include <filesystem>
+
+namespace weft::cli {
+
+/// Files are looked for beside the scene; surfaces come from the world's backend, where it has them on a device.
+ViewSources view_sources(const std::filesystem::path& scene, World& world);
+
+}  // namespace weft::cli
+#endif

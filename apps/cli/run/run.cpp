@@ -1,0 +1,165 @@
+#include "cli/shell/command.h"
+
+#include "cli/run/stats.h"
+#include "cli/shell/progress.h"
+#include "io/exports/export_plan.h"
+#include "io/files/atomic_file.h"
+#include "weft/session.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace weft::cli {
+namespace {
+
+struct RunOptions {
+    std::string scene;
+    Length length;
+    std::vector<std::string> outputs;
+    std::string stats;
+    bool quiet = false;
+    Options common;
+};
+
+using Exporters = std::vector<std::unique_ptr<Exporter>>;
+
+Result<Exporters> open_exporters(const RunOptions& options) {
+    Exporters exporters;
+    Errors errors;
+    for (const std::string& path : options.outputs) {
+        auto exporter = make_exporter(path);
+        if (exporter) {
+            exporters.push_back(std::move(*exporter));
+        } else {
+            errors.insert(errors.end(), exporter.errors().begin(), exporter.errors().end());
+        }
+    }
+    if (!errors.empty()) return errors;
+    return exporters;
+}
+
+ExportInfo export_info(const Session& session, std::uint64_t frames) {
+    // The start is a frame too.
+    return {session.scene().name, session.scene().frame_rate, frames + 1, session.folder()};
+}
+
+Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const Session& session, std::uint64_t frames) {
+    DrawnFrame drawn;
+    if (!exporters.empty()) drawn.update(session.world().frame(), session.scene().looks);
+    return plan_exports(exporters, export_info(session, frames), drawn.surfaces());
+}
+
+Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
+                      bool quiet) {
+    for (auto& exporter : exporters) {
+        if (auto begun = exporter->begin(export_info(session, frames)); !begun) return begun;
+    }
+    DrawnFrame drawn;
+    const auto write = [&]() -> Result<Done> {
+        if (exporters.empty()) return Done{};
+        const Frame& frame = session.world().frame();
+        drawn.update(frame, session.scene().looks);
+        for (auto& exporter : exporters) {
+            if (auto written = exporter->write({frame.index, frame.time, drawn.surfaces()}); !written) return written;
+        }
+        return Done{};
+    };
+    if (auto written = write(); !written) return written;
+
+    Progress progress("simulating", frames, quiet);
+    bool warned = false;
+    for (std::uint64_t i = 1; i <= frames; ++i) {
+        session.advance();
+        const Frame& frame = session.world().summary();
+        statistics.add(session.world());
+        if (auto went = check_step(frame, warned); !went) return went;
+        if (auto written = write(); !written) return written;
+        progress.update(i);
+    }
+    for (auto& exporter : exporters) {
+        if (auto finished = exporter->finish(); !finished) return finished;
+    }
+    return Done{};
+}
+
+int run(const RunOptions& options) {
+    const auto wrong = [](const Errors& errors) {
+        print_errors(errors);
+        return exit_code(errors);
+    };
+    auto exporters = open_exporters(options);
+    if (!exporters) return wrong(exporters.errors());
+    Options common = options.common;
+    common.stage_timings = !options.stats.empty();
+    auto session = Session::open(options.scene, common);
+    if (!session) return wrong(session.errors());
+    const auto frames = frame_count(options.length, session->frame_seconds());
+    if (!frames) return wrong(frames.errors());
+    const auto estimates = plan(*exporters, *session, *frames);
+    if (!estimates) return wrong(estimates.errors());
+    if (!options.stats.empty()) {  // made and gone again: at the end it would be too late to say that it cannot be
+        if (const auto file = AtomicFile::create(options.stats); !file) return wrong(file.errors());
+    }
+    for (const std::string& note : session->notes()) print_warning(note);
+    if (const auto note = large_export_note(*estimates)) print_warning(*note);
+
+    RunStatistics statistics(*session, *frames);
+    if (auto done = simulate(*session, *frames, *exporters, statistics, options.quiet); !done) {
+        print_errors(done.errors());
+        return exit_failed;
+    }
+    if (options.quiet && options.stats.empty()) return exit_done;
+    const auto stats = statistics.gather(*session, options.scene);
+    if (!options.stats.empty()) {
+        if (auto written = write_stats(stats, options.stats); !written) {
+            print_errors(written.errors());
+            return exit_failed;
+        }
+    }
+    if (!options.quiet) {
+        print_summary(stats);
+        for (const ExportEstimate& written : *estimates) {
+            for (const auto& file : written.files) std::printf("wrote %s\n", file.c_str());
+        }
+        if (!options.stats.empty()) std::printf("wrote %s\n", options.stats.c_str());
+    }
+    return exit_done;
+}
+
+}  // namespace
+
+Result<Done> check_step(const Frame& frame, bool& warned) {
+    const std::string where = "frame " + std::to_string(frame.index);
+    for (const ClothFrame& cloth : frame.cloths) {
+        if (cloth.reports & report_device_failed) return Error::of_machine(where, cloth.detail);
+        if (warned || !(cloth.reports & report_non_finite)) continue;
+        print_warning(where + ": cloth '" + cloth.model->name + "' is held where the frame began: " + cloth.detail);
+        warned = true;
+    }
+    return Done{};
+}
+
+Command add_run(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("run", "simulates a scene, exports it, measures it");
+    auto options = std::make_shared<RunOptions>();
+    command->add_option("scene", options->scene, "scene file")->required();
+    add_length_options(*command, options->length, "simulate");
+    command
+        ->add_option("--out", options->outputs,
+                     ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
+        ->allow_extra_args(false);
+    command->add_option("--stats", options->stats, "write the run's figures to this JSON file");
+    command->add_flag("--feedback", options->common.feedback,
+                      "force and torque of the cloths on each collider, in the last frame");
+    command->add_flag("--quiet", options->quiet, "no progress, no summary");
+    add_common_options(*command, options->common);
+    command->footer(
+        "Examples:\n"
+        "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb --stats stats.json\n"
+        "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.ply --threads 2");
+    return [options] { return run(*options); };
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,184 @@
+#include "cli/run/stats.h"
+
+#include "io/files/atomic_file.h"
+#include "scene/check.h"
+#include "scene/scene_keys.h"
+#include "solver/measures/statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace weft::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json mean_max(MeanMax value) {
+    return {{"mean", value.mean}, {"max", value.max}};
+}
+
+Json axes(Vec3 v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+// Of the last frame.
+Json loads(const World& world) {
+    Json list = Json::array();
+    const Feedback& feedback = world.feedback();
+    for (std::size_t i = 0; i < feedback.colliders.size(); ++i) {
+        const ColliderLoad& load = feedback.colliders[i];
+        list.push_back({{"name", world.collider(load.collider).name},
+                        {"force", axes(load.force)},
+                        {"torque", axes(load.torque)},
+                        {"contacts", load.contacts}});
+    }
+    return list;
+}
+
+}  // namespace
+
+double percentile(const std::vector<double>& sorted, double fraction) {
+    if (sorted.empty()) return 0;
+    const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(sorted.size())));
+    return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+double median(const std::vector<double>& sorted) {
+    if (sorted.empty()) return 0;
+    const std::size_t half = sorted.size() / 2;
+    return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+RunStatistics::RunStatistics(const Session& session, std::uint64_t frames) : frame_seconds_(session.frame_seconds()) {
+    const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);
+    snapshot_frame_ = frames - static_cast<std::uint64_t>(last_second + 0.5);
+    if (snapshot_frame_ == 0) collect_positions(session.world().frame(), snapshot_);
+    step_ms_.reserve(frames);
+}
+
+void RunStatistics::add(const World& world) {
+    const Frame& frame = world.summary();
+    step_ms_.push_back(frame.step_ms);
+    for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms_[stage] += frame.stage_ms[stage];
+    reports_ |= frame.reports;
+    if (frame.index == snapshot_frame_) {
+        collect_positions(world.frame(), snapshot_);
+        snapshot_time_ = frame.time;
+    }
+}
+
+double RunStatistics::mean_speed(const Frame& frame) const {
+    std::vector<Vec3> now;
+    collect_positions(frame, now);
+    const double elapsed = frame.time - snapshot_time_;
+    return elapsed > 0 ? mean_displacement(snapshot_, now) / elapsed : 0;
+}
+
+Json RunStatistics::gather(const Session& session, const std::string& scene_file) const {
+    const World& world = session.world();
+    const Frame& frame = world.frame();
+    std::uint64_t particles = 0, triangles = 0;
+    Json constraints = Json::object();
+    for (const ClothFrame& cloth : frame.cloths) {
+        particles += cloth.model->particle_count;
+        triangles += cloth.model->triangle_count;
+        for (const ConstraintTable& table : cloth.model->constraints) {
+            const std::string name(constraint_info(table.kind).name);
+            constraints[name] = constraints.value(name, std::uint64_t{0}) + table.rows;
+        }
+    }
+    std::vector<double> sorted = step_ms_;
+    std::sort(sorted.begin(), sorted.end());
+    Json stages = Json::object();
+    const double frames = static_cast<double>(std::max<std::size_t>(1, step_ms_.size()));
+    for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
+        stages[std::string(stage_name(stage))] = stage_ms_[stage] / frames;
+    }
+    const ClothMeasures measures = world.measure();
+    const Penetration penetration = measure_penetration(frame, world.colliders());
+    const Intersections intersections = count_intersections(frame);
+
+    Json stats;
+    stats["scene"] = scene_file;
+    stats["backend"] = world.backend().name();
+    stats["device"] = world.backend().device();
+    stats["threads"] = world.backend().threads();
+    stats["solver"] = solver_text(world.settings());
+    stats["substeps"] = world.settings().substeps;
+    stats["iterations"] = world.settings().iterations;
+    stats["frames"] = step_ms_.size();
+    stats["particles"] = particles;
+    stats["triangles"] = triangles;
+    stats["constraints"] = constraints;
+    stats["ms_per_frame"] = {
+        {"median", median(sorted)}, {"p95", percentile(sorted, 0.95)}, {"max", percentile(sorted, 1)}};
+    stats["stage_ms"] = stages;
+    stats["stretch"] = mean_max(measures.strain.stretch);
+    stats["shear"] = mean_max(measures.strain.shear);
+    stats["residual"] = {{"mean", measures.residual.mean}, {"max", measures.residual.max}};
+    stats["kinetic_energy"] = measures.kinetic_energy;
+    stats["mean_speed"] = mean_speed(frame);
+    stats["max_speed"] = measures.max_speed;
+    stats["penetration"] = {{"max", penetration.max}, {"count", penetration.count}};
+    if (world.settings().feedback) stats["colliders"] = loads(world);
+    stats["self_contacts"] = 0;  // cloth does not yet see itself
+    stats["intersections"] = {{"triangles", intersections.triangles}, {"edges", intersections.edges}};
+    stats["torn_edges"] = 0;  // nor does it tear
+    stats["reports"] = report_names(reports_);
+    stats["state_hash"] = world.state_hash();
+    stats["finite"] = measures.finite;
+    return stats;
+}
+
+std::string solver_text(const WorldSettings& settings) {
+    const auto name = [](std::string_view key, auto value) {
+        const auto names = choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
+        return std::string(names[static_cast<std::size_t>(value)]);
+    };
+    const Projection projection = resolve(settings.projection, settings.method);
+    return name("method", settings.method) + ", " + name("projection", projection) +
+           (projection == Projection::jacobi ? " by " + name("accumulate", settings.accumulate) : "") +
+           (settings.hierarchy ? ", hierarchy" : "");
+}
+
+Result<Done> write_stats(const Json& stats, const std::filesystem::path& file) {
+    auto out = AtomicFile::create(file);
+    if (!out) return out.errors();
+    if (auto written = out->write(stats.dump(2) + '\n'); !written) return written;
+    return out->commit();
+}
+
+void print_summary(const Json& s) {
+    const auto number = [&](const char* group, const char* key) { return s[group][key].get<double>(); };
+    std::printf("%llu frames of %llu particles, %llu triangles on %s (%s, %u thread%s)\n",
+                s["frames"].get<unsigned long long>(), s["particles"].get<unsigned long long>(),
+                s["triangles"].get<unsigned long long>(), s["backend"].get<std::string>().c_str(),
+                s["device"].get<std::string>().c_str(), s["threads"].get<unsigned>(),
+                s["threads"].get<unsigned>() == 1 ? "" : "s");
+    std::printf("  ms a frame    median %.3f, p95 %.3f, max %.3f (%u substeps of %u)\n",
+                number("ms_per_frame", "median"), number("ms_per_frame", "p95"), number("ms_per_frame", "max"),
+                s["substeps"].get<unsigned>(), s["iterations"].get<unsigned>());
+    std::printf("  stretch       mean %.3f %%, max %.3f %%\n", 100 * number("stretch", "mean"),
+                100 * number("stretch", "max"));
+    std::printf("  residual      mean %.3f %%, max %.3f %%\n", 100 * number("residual", "mean"),
+                100 * number("residual", "max"));
+    std::printf("  penetration   max %.3g mm\n", 1000 * number("penetration", "max"));
+    std::printf("  mean speed    %.3g m/s\n", s["mean_speed"].get<double>());
+    if (s.contains("colliders")) {
+        for (const Json& load : s["colliders"]) {
+            const auto axis = [&](const char* of, std::size_t k) { return load[of][k].get<double>(); };
+            std::printf("  on %-10s force %.3g, %.3g, %.3g N, torque %.3g, %.3g, %.3g N m, %u contacts\n",
+                        load["name"].get<std::string>().c_str(), axis("force", 0), axis("force", 1), axis("force", 2),
+                        axis("torque", 0), axis("torque", 1), axis("torque", 2), load["contacts"].get<unsigned>());
+        }
+    }
+    std::string reports;
+    for (const Json& report : s["reports"]) reports += (reports.empty() ? "" : ", ") + report.get<std::string>();
+    if (!reports.empty()) std::printf("  reports       %s\n", reports.c_str());
+    std::printf("  state hash    %s\n", s["state_hash"].get<std::string>().c_str());
+}
+
+}  // namespace weft::cli

@@ -1,0 +1,62 @@
+#include "io/exports/export_format.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+// How far from 1 the squared length of a normal may be: an order above the rounding of a normalization in float, two
+// below what glTF's validator takes for an error.
+constexpr float unit_tolerance = 1e-5f;
+
+std::string problem_of(const ExportSurface& surface) {
+    if (surface.mesh == nullptr) return "has no mesh";
+    const TriangleMesh& mesh = *surface.mesh;
+    const std::size_t count = surface.positions.size();
+    if (mesh.triangles.empty()) return "has no triangles";
+    if (surface.normals.size() != count) {
+        return "has " + std::to_string(count) + " positions but " + std::to_string(surface.normals.size()) + " normals";
+    }
+    if (!mesh.uvs.empty() && mesh.uvs.size() != count) return "does not have one UV per vertex";
+    if (!mesh.colors.empty() && mesh.colors.size() != count) return "does not have one color per vertex";
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!finite(surface.positions[i])) return "has a position that is not finite at vertex " + std::to_string(i);
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+        const std::uint32_t highest = std::ranges::max(triangle);
+        if (highest >= count) {
+            return "has a triangle on vertex " + std::to_string(highest) + " of " + std::to_string(count);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Done> check_frame(const ExportFrame& frame, const std::string& where) {
+    if (frame.surfaces.empty()) return Error{where, "there is no cloth to write"};
+    for (const ExportSurface& surface : frame.surfaces) {
+        const std::string problem = problem_of(surface);
+        if (problem.empty()) continue;
+        return Error{
+            where, "frame " + std::to_string(frame.index) + ": cloth \"" + std::string(surface.name) + "\" " + problem};
+    }
+    return Done{};
+}
+
+Result<Done> check_writable(const std::filesystem::path& path) {
+    const Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file) return file.errors();
+    return Done{};
+}
+
+Vec3 unit_normal(Vec3 normal) {
+    const float squared = dot(normal, normal);
+    if (std::abs(squared - 1) <= unit_tolerance) return normal;
+    const Vec3 scaled = normalized(normal);
+    const float remaining = dot(scaled, scaled);  // not 1 for zero, denormal and non-finite input
+    return std::abs(remaining - 1) <= unit_tolerance ? scaled : Vec3{0, 1, 0};
+}
+
+}  // namespace weft

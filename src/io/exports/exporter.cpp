@@ -1,0 +1,186 @@
+#include "io/exports/exporter.h"
+
+#include "io/exports/export_format.h"
+#include "io/files/file_pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace weft {
+namespace fs = std::filesystem;
+
+#define WEFT_STILL(name, ending, what)                                     \
+    Result<Done> write_##name(const ExportFrame& frame, AtomicFile& file); \
+    std::uint64_t size_##name(std::span<const ExportSurface> surfaces);
+#define WEFT_FILM(name, ending, what) std::unique_ptr<Exporter> make_##name(const fs::path& path);
+#include "io/exports/exports.def"
+#undef WEFT_STILL
+#undef WEFT_FILM
+
+namespace {
+
+struct Writers {
+    StillWriter still = nullptr;
+    StillSize still_size = nullptr;
+    FilmMaker film = nullptr;
+};
+
+constexpr std::array formats = {
+#define WEFT_STILL(name, ending, what) ExportFormat{ending, what},
+#define WEFT_FILM(name, ending, what) ExportFormat{ending, what},
+#include "io/exports/exports.def"
+#undef WEFT_STILL
+#undef WEFT_FILM
+};
+
+constexpr std::array<Writers, formats.size()> writers = {{
+#define WEFT_STILL(name, ending, what) {.still = write_##name, .still_size = size_##name},
+#define WEFT_FILM(name, ending, what) {.film = make_##name},
+#include "io/exports/exports.def"
+#undef WEFT_STILL
+#undef WEFT_FILM
+}};
+
+Result<Done> write_still(StillWriter writer, const ExportFrame& frame, const fs::path& path) {
+    if (Result<Done> checked = check_frame(frame, path.string()); !checked) return checked;
+    Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file) return file.errors();
+    if (Result<Done> written = writer(frame, *file); !written) return written;
+    return file->commit();
+}
+
+/// Holds on to the newest frame, because only finish knows that it was the last.
+class LastFrameExporter : public Exporter {
+  public:
+    LastFrameExporter(const Writers& format, fs::path path)
+        : writer_(format.still), size_(format.still_size), path_(std::move(path)) {}
+
+    Result<ExportEstimate> estimate(const ExportInfo&, std::span<const ExportSurface> surfaces) const override {
+        return ExportEstimate{{path_}, size_(surfaces)};
+    }
+
+    Result<Done> begin(const ExportInfo&) override { return check_writable(path_); }
+
+    Result<Done> write(const ExportFrame& frame) override {
+        index_ = frame.index;
+        time_ = frame.time;
+        surfaces_.resize(frame.surfaces.size());
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const ExportSurface& from = frame.surfaces[i];
+            surfaces_[i].name = from.name;
+            surfaces_[i].mesh = from.mesh;
+            surfaces_[i].positions.assign(from.positions.begin(), from.positions.end());
+            surfaces_[i].normals.assign(from.normals.begin(), from.normals.end());
+        }
+        return Done{};
+    }
+
+    Result<Done> finish() override {
+        std::vector<ExportSurface> views;
+        for (const Surface& s : surfaces_) views.push_back({s.name, s.mesh, s.positions, s.normals});
+        return write_still(writer_, {index_, time_, views}, path_);
+    }
+
+  private:
+    struct Surface {
+        std::string name;
+        const TriangleMesh* mesh = nullptr;
+        std::vector<Vec3> positions, normals;
+    };
+
+    StillWriter writer_;
+    StillSize size_;
+    fs::path path_;
+    std::uint64_t index_ = 0;
+    double time_ = 0;
+    std::vector<Surface> surfaces_;
+};
+
+class SequenceExporter : public Exporter {
+  public:
+    SequenceExporter(const Writers& format, const fs::path& path, FilePattern pattern)
+        : writer_(format.still),
+          size_(format.still_size),
+          path_(path),
+          folder_(folder_of(path)),
+          pattern_(std::move(pattern)) {}
+
+    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override {
+        return ExportEstimate{{path_}, info.frame_count * size_(surfaces)};
+    }
+
+    Result<Done> begin(const ExportInfo&) override { return check_writable(folder_ / pattern_.name(0)); }
+
+    Result<Done> write(const ExportFrame& frame) override {
+        return write_still(writer_, frame, folder_ / pattern_.name(frame.index));
+    }
+
+    Result<Done> finish() override { return Done{}; }
+
+  private:
+    StillWriter writer_;
+    StillSize size_;
+    fs::path path_, folder_;
+    FilePattern pattern_;
+};
+
+/// ".glb, .obj, .ply": all endings, or those of formats that make sequences.
+std::string list_endings(bool sequences_only) {
+    std::string list;
+    for (std::size_t i = 0; i < formats.size(); ++i) {
+        if (sequences_only && writers[i].still == nullptr) continue;
+        list += (list.empty() ? "" : ", ") + std::string(formats[i].ending);
+    }
+    return list;
+}
+
+Error unknown_ending(const fs::path& path, const std::string& ending) {
+    const std::string problem = ending.empty() ? "has no ending" : "unknown ending \"" + ending + "\"";
+    return {path.string(), problem + "; known are " + list_endings(false)};
+}
+
+Result<std::unique_ptr<Exporter>> make_sequence(const fs::path& path, const Writers& writer) {
+    std::optional<FilePattern> pattern = parse_pattern(path.filename().string());
+    if (!pattern) return Error{path.string(), pattern_rule};
+    if (writer.still == nullptr) {
+        return Error{path.string(), "a " + path.extension().string() +
+                                        " holds the whole animation in one file; sequences are made of " +
+                                        list_endings(true)};
+    }
+    return std::unique_ptr<Exporter>(std::make_unique<SequenceExporter>(writer, path, *std::move(pattern)));
+}
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() {
+    return formats;
+}
+
+Result<std::unique_ptr<Exporter>> make_exporter(const fs::path& path) {
+    const std::string ending = ending_of(path);
+    const auto format = std::ranges::find(formats, ending, &ExportFormat::ending);
+    if (format == formats.end()) return unknown_ending(path, ending);
+    const Writers& writer = writers[static_cast<std::size_t>(format - formats.begin())];
+
+    std::unique_ptr<Exporter> exporter;
+    if (has_pattern(path)) {
+        Result<std::unique_ptr<Exporter>> sequence = make_sequence(path, writer);
+        if (!sequence) return sequence;
+        exporter = *std::move(sequence);
+    } else if (writer.film != nullptr) {
+        exporter = writer.film(path);
+    } else {
+        exporter = std::make_unique<LastFrameExporter>(writer, path);
+    }
+
+    std::error_code error;
+    fs::create_directories(folder_of(path), error);
+    if (error) return Error{path.string(), "its folder cannot be made: " + error.message()};
+    return exporter;
+}
+
+}  // namespace weft

@@ -1,0 +1,156 @@
+#include "io/images/picture_writer.h"
+
+#include "io/exports/export_format.h"
+#include "io/files/file_pattern.h"
+#include "io/images/picture_format.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace weft {
+namespace fs = std::filesystem;
+
+#define WEFT_PICTURE(name, ending, what) Result<Done> write_##name(const Image8& picture, AtomicFile& file);
+#define WEFT_FILM(name, ending, what) std::unique_ptr<PictureWriter> make_##name(const fs::path& path);
+#include "io/images/pictures.def"
+#undef WEFT_PICTURE
+#undef WEFT_FILM
+
+namespace {
+
+struct Makers {
+    ImageWriter picture = nullptr;
+    PictureFilmMaker film = nullptr;
+};
+
+constexpr std::array formats = {
+#define WEFT_PICTURE(name, ending, what) PictureFormat{ending, what},
+#define WEFT_FILM(name, ending, what) PictureFormat{ending, what},
+#include "io/images/pictures.def"
+#undef WEFT_PICTURE
+#undef WEFT_FILM
+};
+
+constexpr std::array<Makers, formats.size()> makers = {{
+#define WEFT_PICTURE(name, ending, what) {.picture = write_##name},
+#define WEFT_FILM(name, ending, what) {.film = make_##name},
+#include "io/images/pictures.def"
+#undef WEFT_PICTURE
+#undef WEFT_FILM
+}};
+
+Result<Done> write_one(ImageWriter writer, const Image8& picture, const fs::path& path) {
+    Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file) return file.errors();
+    if (Result<Done> written = writer(picture, *file); !written) return written;
+    return file->commit();
+}
+
+/// Holds on to the newest picture, because only finish knows that it was the last.
+class LastPicture : public PictureWriter {
+  public:
+    LastPicture(ImageWriter writer, fs::path path) : writer_(writer), path_(std::move(path)) {}
+
+    Result<Done> begin(const PictureInfo& info) override {
+        info_ = info;
+        return prepare_place(path_);
+    }
+    Result<Done> write(const Image8& picture) override {
+        last_ = picture;
+        return check_picture(picture, info_, path_);
+    }
+    Result<Done> finish() override {
+        if (!last_) return Error{path_.string(), "there is no picture to write"};
+        return write_one(writer_, *last_, path_);
+    }
+    bool last_alone() const override { return true; }
+
+  private:
+    ImageWriter writer_;
+    fs::path path_;
+    PictureInfo info_;
+    std::optional<Image8> last_;
+};
+
+class PictureSequence : public PictureWriter {
+  public:
+    PictureSequence(ImageWriter writer, const fs::path& path, FilePattern pattern)
+        : writer_(writer), folder_(folder_of(path)), pattern_(std::move(pattern)) {}
+
+    Result<Done> begin(const PictureInfo& info) override {
+        info_ = info;
+        return prepare_place(next());
+    }
+    Result<Done> write(const Image8& picture) override {
+        if (Result<Done> checked = check_picture(picture, info_, next()); !checked) return checked;
+        if (Result<Done> written = write_one(writer_, picture, next()); !written) return written;
+        ++number_;
+        return Done{};
+    }
+    Result<Done> finish() override { return Done{}; }
+
+  private:
+    fs::path next() const { return folder_ / pattern_.name(number_); }
+
+    ImageWriter writer_;
+    fs::path folder_;
+    FilePattern pattern_;
+    PictureInfo info_;
+    std::uint64_t number_ = 0;
+};
+
+Error unknown_ending(const fs::path& path, const std::string& ending) {
+    std::string list;
+    for (const PictureFormat& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.ending);
+    const std::string problem = ending.empty() ? "has no ending" : "unknown ending \"" + ending + "\"";
+    return {path.string(), problem + "; pictures are written as " + list};
+}
+
+}  // namespace
+
+std::span<const PictureFormat> picture_formats() {
+    return formats;
+}
+
+Result<Done> prepare_place(const fs::path& path) {
+    std::error_code error;
+    fs::create_directories(folder_of(path), error);
+    if (error) return Error{path.string(), "its folder cannot be made: " + error.message()};
+    return check_writable(path);
+}
+
+Result<Done> check_picture(const Image8& picture, const PictureInfo& info, const fs::path& path) {
+    const bool whole = picture.rgba.size() == std::size_t{picture.width} * picture.height * 4;
+    if (picture.width == info.width && picture.height == info.height && !picture.rgba.empty() && whole) return Done{};
+    const auto size = [](std::uint32_t width, std::uint32_t height) {
+        return std::to_string(width) + "x" + std::to_string(height);
+    };
+    return Error{path.string(), "a picture of " + size(picture.width, picture.height) + " with " +
+                                    std::to_string(picture.rgba.size()) + " bytes among those of " +
+                                    size(info.width, info.height)};
+}
+
+Result<std::unique_ptr<PictureWriter>> make_picture_writer(const fs::path& path) {
+    const std::string ending = ending_of(path);
+    const auto format = std::ranges::find(formats, ending, &PictureFormat::ending);
+    if (format == formats.end()) return unknown_ending(path, ending);
+    const Makers& maker = makers[static_cast<std::size_t>(format - formats.begin())];
+
+    std::unique_ptr<PictureWriter> writer;
+    if (has_pattern(path)) {
+        std::optional<FilePattern> pattern = parse_pattern(path.filename().string());
+        if (!pattern) return Error{path.string(), pattern_rule};
+        if (!maker.picture) return Error{path.string(), "a " + ending + " holds all pictures in one file"};
+        writer = std::make_unique<PictureSequence>(maker.picture, path, *std::move(pattern));
+    } else if (maker.film) {
+        writer = maker.film(path);
+    } else {
+        writer = std::make_unique<LastPicture>(maker.picture, path);
+    }
+    return writer;
+}
+
+}  // namespace weft

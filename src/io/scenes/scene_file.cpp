@@ -1,0 +1,212 @@
+#include "io/scenes/scene_file.h"
+
+#include "io/scenes/json_reader.h"
+#include "io/scenes/json_text.h"
+#include "io/scenes/scene_look.h"
+#include "scene/check.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_keys.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+namespace weft {
+namespace {
+
+using nlohmann::json;
+
+void read_head(ObjectReader& scene) {
+    SceneHead head;
+    scene.values(head_keys, &head);
+    if (head.weft != scene_format)
+        scene.problems().add(at(scene.pointer(), "weft"), "must be " + number_text(scene_format) +
+                                                              ", the only format this version reads, got " +
+                                                              number_text(head.weft));
+}
+
+void read_air(ObjectReader& o, AirDesc& air) {
+    o.values(air_keys, &air);
+    o.objects("wind", [&](ObjectReader& wind) {
+        WindDesc& desc = air.wind.emplace_back();
+        wind.values(wind_keys, &desc);
+        wind.object("gust", [&](ObjectReader& gust) { gust.values(gust_keys, &desc.gust); });
+        wind.object("turbulence", [&](ObjectReader& t) { t.values(turbulence_keys, &desc.turbulence); });
+    });
+}
+
+template <class Shape>
+void read_made(ObjectReader& mesh, std::string_view kind, std::span<const Parameter> keys, MeshDesc& result) {
+    auto& shape = result.emplace<Shape>();
+    mesh.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
+    mesh.only_with("file", mesh_file_keys);
+}
+
+void read_mesh(ObjectReader& mesh, MeshDesc& result) {
+    MeshFileDesc file;
+    mesh.know(mesh_keys);
+    mesh.values(mesh_file_keys, &file);
+    const std::string_view kind = mesh.one_of({"grid", "sphere", "box", "file"});
+    if (kind == "file") result = std::move(file);
+    if (kind == "grid") read_made<GridDesc>(mesh, kind, grid_keys, result);
+    if (kind == "sphere") read_made<SphereMeshDesc>(mesh, kind, sphere_mesh_keys, result);
+    if (kind == "box") read_made<BoxMeshDesc>(mesh, kind, box_mesh_keys, result);
+}
+
+void use_preset(const std::string& name, const std::string& place, SceneCloth& cloth, Problems& problems) {
+    if (const FabricPreset* preset = find_fabric(name)) {
+        cloth.fabric = preset->fabric;
+        cloth.fabric_name = name;
+        return;
+    }
+    std::vector<std::string_view> names;
+    for (const FabricPreset& preset : fabric_presets()) names.push_back(preset.name);
+    problems.add(place, "unknown fabric " + in_quotes(name) + suggestion(name, names));
+}
+
+void read_fabric_object(ObjectReader& o, SceneCloth& cloth) {
+    FabricHead head;
+    o.values(fabric_keys, &head);
+    use_preset(head.preset, at(o.pointer(), "preset"), cloth, o.problems());
+    Fabric& fabric = cloth.fabric;
+    for (const FabricTable& table : fabric_tables())
+        o.values(table.parameters, reinterpret_cast<std::byte*>(&fabric) + table.offset);
+
+    follow_stretch(fabric, o.find("stretch") != nullptr, o.find("compression") != nullptr);
+}
+
+void read_fabric(ObjectReader& o, SceneCloth& cloth) {
+    const json* found = o.find("fabric");
+    const std::string place = at(o.pointer(), "fabric");
+    if (!found) return;
+    if (found->is_string())
+        use_preset(found->get<std::string>(), place, cloth, o.problems());
+    else if (found->is_object())
+        o.object("fabric", [&](ObjectReader& fabric) { read_fabric_object(fabric, cloth); });
+    else
+        o.problems().add(place, "must be the name of a fabric or an object, got " + json_text(*found));
+}
+
+void read_pin(ObjectReader& pin, PinDesc& result) {
+    ColorPins by_color;
+    pin.know(pin_keys);
+    pin.values(color_pin_keys, &by_color);
+    pin.values(pin_motion_keys, &result);
+    const std::string_view kind = pin.one_of({"vertices", "box", "color"});
+    if (kind == "vertices") result.select = VertexPins{pin.indices("vertices")};
+    if (kind == "box") {
+        BoxPins in_box;
+        pin.object("box", [&](ObjectReader& o) { o.values(box_keys, &in_box.box); });
+        result.select = in_box;
+    }
+    if (kind == "color") result.select = by_color;
+    if (!kind.empty()) pin.only_with("color", color_pin_keys);
+    pin.objects("motion", [&](ObjectReader& key) { key.values(offset_key_keys, &result.motion.emplace_back()); });
+}
+
+void read_cloth(ObjectReader& o, SceneCloth& cloth) {
+    o.values(cloth_keys, &cloth);
+    o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
+    o.object("drawn", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.drawn.emplace()); });
+    o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
+    read_fabric(o, cloth);
+    o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
+}
+
+void read_motion(ObjectReader& o, ColliderDesc& collider) {
+    const json* found = o.find("motion");
+    if (!found || *found == "static") return;
+    const std::string place = at(o.pointer(), "motion");
+    if (!found->is_object()) {
+        o.problems().add(place, "must be \"static\" or an object with keys, got " + json_text(*found));
+        return;
+    }
+    o.object("motion", [&](ObjectReader& motion) {
+        motion.know(motion_keys);
+        motion.objects("keys", [&](ObjectReader& key) {
+            // What a key does not say is as the transform has it.
+            PoseKey& pose = collider.motion.emplace_back();
+            pose.position = collider.transform.position;
+            pose.rotation_degrees = collider.transform.rotation_degrees;
+            key.values(pose_key_keys, &pose);
+        });
+        if (motion.find("keys") == nullptr || (motion.find("keys")->is_array() && motion.find("keys")->empty()))
+            motion.problems().add(at(place, "keys"), "must hold at least one key");
+    });
+}
+
+template <class Shape>
+void read_shape(ObjectReader& collider, std::string_view kind, std::span<const Parameter> keys, Shape& shape) {
+    collider.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
+}
+
+void read_collider(ObjectReader& o, ColliderDesc& collider) {
+    o.values(collider_keys, &collider);
+    const std::string_view kind = o.one_of(shape_keys);
+#define WEFT_SHAPE(name, Name) \
+    if (kind == #name) read_shape(o, kind, name##_parameters, collider.shape.emplace<Name##Desc>());
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+    o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
+    read_motion(o, collider);
+}
+
+SceneDesc read_scene(const json& value, Problems& problems) {
+    SceneDesc scene;
+    ObjectReader o(value, "", problems);
+    if (!value.is_object()) return scene;
+    read_head(o);
+    o.values(scene_keys, &scene);
+    o.object("solver", [&](ObjectReader& solver) { solver.values(solver_keys, &scene.solver); });
+    o.object("air", [&](ObjectReader& air) { read_air(air, scene.air.emplace()); });
+    o.objects("cloths", [&](ObjectReader& cloth) { read_cloth(cloth, scene.cloths.emplace_back()); });
+    o.objects("colliders", [&](ObjectReader& collider) { read_collider(collider, scene.colliders.emplace_back()); });
+    read_pictures(o, scene);
+    o.finish();
+    return scene;
+}
+
+}  // namespace
+
+Result<SceneDesc> parse_scene(std::string_view text, std::string_view name) {
+    Problems problems;
+    const std::optional<json> value = parse_json(text, problems);
+    if (!value) return std::move(problems).take(name);
+
+    SceneDesc scene = read_scene(*value, problems);
+    // What could not be read still has its default; what the checks say about that would only puzzle.
+    Problems of_values(&problems);
+    check_scene(scene, of_values);
+    problems.append(std::move(of_values));
+    if (!problems.none()) return std::move(problems).take(name);
+
+    name_unnamed(scene);
+    return scene;
+}
+
+Result<SceneDesc> load_scene(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) return Error{name, "is a folder, not a scene file"};
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return Error{name, "cannot be opened: " + std::generic_category().message(errno)};
+
+    // Not by the size of the file: a pipe has none.
+    std::string text;
+    constexpr std::size_t piece = std::size_t{1} << 16;
+    while (file && text.size() <= max_json_bytes) {
+        const std::size_t before = text.size();
+        text.resize(before + piece);
+        file.read(text.data() + before, piece);
+        text.resize(before + static_cast<std::size_t>(file.gcount()));
+    }
+    if (file.bad()) return Error{name, "cannot be read"};
+    return parse_scene(text, name);
+}
+
+}  // namespace weft

@@ -1,0 +1,117 @@
+// Scenes damaged at random: whatever the text, there is a scene that passes its checks or there are errors.
+#include "io/scenes/scene_file.h"
+#include "scene/check.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace weft {
+namespace {
+
+constexpr std::string_view seed_scene = R"({
+    "weft": 1, "name": "all", "gravity": [0, -1.62, 0.5], "frame_rate": 24, // moon
+    "solver": { "method": "xpbd", "projection": "gauss-seidel", "substeps": 7, "iterations": 3 },
+    "cloths": [
+        { "name": "sheet", "mesh": { "grid": { "size": [2, 3], "resolution": [5, 9], "diagonal": "cross" } },
+          "transform": { "position": [1, 2, 3], "rotation": [90, 0, -45], "scale": 2 },
+          "fabric": { "preset": "denim", "density": 0.5, "stretch": [100, 200], "rest_angle": "mesh" },
+          "pins": [ { "vertices": [0, 4] }, { "box": { "min": [-1, -2, -3], "max": [1, 2, 3] } } ] },
+        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "hinges": "source", "bend_model": "plate" },
+          "drawn": { "box": { "size": [1, 1, 1], "resolution": [3, 4, 5] } } },
+        { "mesh": { "file": "bunny.obj", "up": "z" }, "fabric": "silk", "pins": [ { "color": [1, 0, 0.5] } ] } ],
+    "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7 }, { "sphere": { "radius": 0.1 } } ],
+    "camera": { "position": [1, 2, 3], "target": [0, 1, 0], "fov": 30 },
+    "light": { "sun": { "azimuth": 10, "color": [1, 1, 0.5] }, "sky": { "strength": 0.5, "zenith": [0, 0, 1] },
+               "environment": { "file": "hall.hdr", "rotation": 90, "visible": false }, "exposure": -1, "occlusion": 0.5 },
+    "look": { "sheet": "velvet", "collider 0": { "color": [0.5, 0.5, 0.5], "roughness": 0.4, "weave": "twill" },
+              "cloth 1": { "material": "silk", "weft_color": [1, 0, 0], "map_repeat": [2, 3], "color_map": "a.png" } }
+})";
+
+constexpr std::array<std::string_view, 24> pieces = {
+    "{",   "}",  "[",      "]",      ",",  ":",  "\"", "-1", "1e39",    "1e999", "null",        "true",
+    "0.5", "64", "\"xx\"", "[1, 2]", "{}", "[]", "//", "/*", "\\u0000", "\xff",  "99999999999", "\"weft\"",
+};
+
+// Not <random>: its distributions give other numbers with other libraries.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    std::size_t below(std::size_t limit) {  // PCG's multiplier and output of the high bits
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<std::size_t>(state_ >> 33) % limit;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+void damage(std::string& text, Random& random) {
+    const std::size_t place = random.below(text.size() + 1);
+    const std::size_t length = random.below(12);
+    switch (random.below(6)) {
+        case 0:
+            text.insert(place, pieces[random.below(pieces.size())]);
+            break;
+        case 1:
+            text.erase(place, length);
+            break;
+        case 2:
+            text.replace(place, length, pieces[random.below(pieces.size())]);
+            break;
+        case 3:
+            text.insert(place, text.substr(random.below(text.size() + 1), random.below(60)));
+            break;
+        case 4:
+            if (place < text.size()) text[place] = "0123456789-.e"[random.below(13)];
+            break;
+        default:
+            if (place < text.size()) text[place] = static_cast<char>(random.below(256));
+            break;
+    }
+}
+
+TEST(SceneFileFuzz, DamagedScenesLoadOrSayWhatIsWrong) {
+    Random random(1);
+    int loaded = 0;
+    for (int round = 0; round < 6000; ++round) {
+        std::string text(seed_scene);
+        for (std::size_t i = random.below(3) + 1; i > 0; --i) damage(text, random);
+        const Result<SceneDesc> scene = parse_scene(text, "fuzz");
+        if (scene) {
+            ++loaded;
+            ASSERT_TRUE(check_scene(*scene).empty()) << text;
+            continue;
+        }
+        ASSERT_FALSE(scene.errors().empty()) << text;
+        for (const Error& error : scene.errors()) {
+            ASSERT_FALSE(error.what.empty()) << text;
+            ASSERT_EQ(error.message().find('\n'), std::string::npos) << text;
+        }
+    }
+    EXPECT_GT(loaded, 100);  // the damage is small enough to get past the parser
+}
+
+// Every value replaced by every other kind of value, so that each is met where no one expects it.
+TEST(SceneFileFuzz, EveryValueMayBeOfAnyType) {
+    int rejected = 0;
+    for (std::size_t place = seed_scene.find(": "); place != seed_scene.npos; place = seed_scene.find(": ", place + 1))
+        for (const std::string_view piece :
+             {"null", "true", "-1", "0.5", "1e38", "\"x\"", "[]", "[[]]", "{}", "[{}]"}) {
+            std::string text(seed_scene.substr(0, place + 2));
+            text += piece;
+            // The rest of the object stays: a `_` that is unknown takes the value that stood here.
+            text += ", \"_\": ";
+            text += seed_scene.substr(place + 2);
+            const Result<SceneDesc> scene = parse_scene(text, "fuzz");
+            ASSERT_FALSE(scene) << text;
+            rejected += static_cast<int>(scene.errors().size());
+        }
+    EXPECT_GT(rejected, 0);
+}
+
+}  // namespace
+}  // namespace weft

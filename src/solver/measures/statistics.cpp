@@ -1,0 +1,78 @@
+#include "solver/measures/statistics.h"
+
+#include "collide/crossings.h"
+
+#include <algorithm>
+
+namespace weft {
+
+ClothMeasures measure(const Frame& frame) {
+    MeasureSums sums;
+    for (const ClothFrame& cloth : frame.cloths) sums.add(*cloth.model, cloth.positions, cloth.velocities);
+    return sums.result();
+}
+
+Strain measure_strain(const Frame& frame) {
+    return measure(frame).strain;
+}
+
+double kinetic_energy(const Frame& frame) {
+    return measure(frame).kinetic_energy;
+}
+
+double max_speed(const Frame& frame) {
+    return measure(frame).max_speed;
+}
+
+bool all_finite(const Frame& frame) {
+    return measure(frame).finite;
+}
+
+Penetration measure_penetration(const Frame& frame, std::span<const Collider> colliders) {
+    constexpr double tolerance = 1e-6;  // m: rounding of float positions a few meters from the origin
+    Penetration result;
+    for (const ClothFrame& cloth : frame.cloths) {
+        for (std::uint32_t t = 0; t < cloth.model->triangle_count; ++t) {
+            const auto [ia, ib, ic] = cloth.model->triangle(t);
+            const Vec3 a = cloth.positions[ia].xyz(), b = cloth.positions[ib].xyz(), c = cloth.positions[ic].xyz();
+            const Vec3 samples[] = {a, b, c, (a + b) * 0.5f, (b + c) * 0.5f, (c + a) * 0.5f, (a + b + c) / 3.0f};
+            double deepest = 0;
+            for (const Collider& collider : colliders) {
+                for (Vec3 p : samples) deepest = std::max(deepest, -signed_distance(collider, p));
+            }
+            result.max = std::max(result.max, deepest);
+            result.count += deepest > tolerance;
+        }
+    }
+    return result;
+}
+
+Intersections count_intersections(const Frame& frame) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (const ClothFrame& cloth : frame.cloths) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec4& p : cloth.positions) positions.push_back(p.xyz());
+        for (std::uint32_t t = 0; t < cloth.model->triangle_count; ++t) {
+            const auto [a, b, c] = cloth.model->triangle(t);
+            triangles.push_back({a + first, b + first, c + first});
+        }
+    }
+    const Crossings crossings = count_crossings(positions, triangles);
+    return {crossings.triangles, crossings.edges};
+}
+
+double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to) {
+    Tally mean;
+    for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) mean.add(distance(from[i], to[i]));
+    return mean.result().mean;
+}
+
+void collect_positions(const Frame& frame, std::vector<Vec3>& out) {
+    out.clear();
+    for (const ClothFrame& cloth : frame.cloths) {
+        for (const Vec4& p : cloth.positions) out.push_back(p.xyz());
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,96 @@
+#include "solver/model/binding.h"
+
+#include "collide/closest_point.h"
+#include "mesh/weld.h"
+#include "physics/scalar.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace weft {
+namespace {
+
+using scalar::FollowFrame;
+
+scalar::vec3 spread(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Vec3 gathered(scalar::vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Vec3 to_local(const FollowFrame& frame, Vec3 v) {
+    const scalar::vec3 all = spread(v);
+    return {scalar::dot(frame.x, all), scalar::dot(frame.y, all), scalar::dot(frame.z, all)};
+}
+
+FollowFrame frame_at(const BoundVertex& vertex, std::span<const Vec4> positions, std::span<const Vec4> normals) {
+    const auto corner = [&](std::size_t i) { return spread(positions[vertex.particles[i]].xyz()); };
+    const auto normal = [&](std::size_t i) { return spread(normals[vertex.particles[i]].xyz()); };
+    return scalar::follow_frame(corner(0), corner(1), corner(2), normal(0), normal(1), normal(2), vertex.weights[0],
+                                vertex.weights[1]);
+}
+
+// As surface/normals.md has them.
+std::vector<Vec3> area_weighted_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    std::vector<Vec3> sums(positions.size());
+    for (const auto& [a, b, c] : triangles) {
+        const Vec3 n = cross(positions[b] - positions[a], positions[c] - positions[a]);
+        for (const std::uint32_t corner : {a, b, c}) sums[corner] += n;
+    }
+    for (Vec3& n : sums) n = dot(n, n) > 1e-30f ? normalized(n) : Vec3{};
+    return sums;
+}
+
+// Smooth across seams: vertices in the same place share their normal. Zero where there is none.
+std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
+    if (!mesh.normals.empty()) return mesh.normals;
+    const Weld weld = weld_vertices(mesh.positions, 0);
+    std::vector<Triangle> triangles = mesh.triangles;
+    for (Triangle& t : triangles)
+        for (std::uint32_t& corner : t) corner = weld.first_vertex[weld.vertex_to_welded[corner]];
+    std::vector<Vec3> normals = area_weighted_normals(mesh.positions, triangles);
+    for (std::size_t v = 0; v < normals.size(); ++v) normals[v] = normals[weld.first_vertex[weld.vertex_to_welded[v]]];
+    return normals;
+}
+
+}  // namespace
+
+Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology) {
+    std::vector<Vec4> positions, normals;
+    for (const Vec3 p : topology.rest_positions) positions.push_back({p.x, p.y, p.z, 0});
+    for (const Vec3 n : area_weighted_normals(topology.rest_positions, topology.triangles))
+        normals.push_back(n == Vec3{} ? Vec4{0, 1, 0, 0} : Vec4{n.x, n.y, n.z, 0});
+    const std::vector<Vec3> drawn_normals = normals_of(drawn);
+    const SurfaceSearch search(topology.rest_positions, topology.triangles);
+
+    Binding binding;
+    binding.vertices.reserve(drawn.positions.size());
+    for (std::size_t v = 0; v < drawn.positions.size(); ++v) {
+        const SurfacePoint point = search.closest(drawn.positions[v]);
+        BoundVertex vertex{.particles = topology.triangles[point.triangle],
+                           .weights = {static_cast<float>(point.weights[1]), static_cast<float>(point.weights[2])},
+                           .offset = {},
+                           .normal = {}};
+        const FollowFrame frame = frame_at(vertex, positions, normals);
+        vertex.offset = to_local(frame, drawn.positions[v] - gathered(frame.origin));
+        const Vec3 normal = to_local(frame, drawn_normals[v]);
+        vertex.normal = dot(normal, normal) > 0.25f ? normalized(normal) : Vec3{0, 0, 1};
+        binding.vertices.push_back(vertex);
+        binding.farthest = std::max(binding.farthest, static_cast<float>(point.distance));
+    }
+    return binding;
+}
+
+void follow(const Binding& binding, std::span<const Vec4> positions, std::span<const Vec4> normals,
+            std::vector<Vec3>& drawn_positions, std::vector<Vec3>& drawn_normals) {
+    drawn_positions.resize(binding.vertices.size());
+    drawn_normals.resize(binding.vertices.size());
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
+        const BoundVertex& vertex = binding.vertices[v];
+        const FollowFrame frame = frame_at(vertex, positions, normals);
+        drawn_positions[v] = gathered(frame.origin + scalar::out_of(frame, spread(vertex.offset)));
+        drawn_normals[v] = gathered(scalar::out_of(frame, spread(vertex.normal)));
+    }
+}
+
+}  // namespace weft

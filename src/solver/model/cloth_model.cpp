@@ -1,0 +1,323 @@
+#include "solver/model/cloth_model.h"
+
+#include "mesh/grouping.h"
+#include "physics/tether/held_places.h"
+#include "scene/problems.h"
+#include "scene/scene_keys.h"
+#include "solver/model/lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft {
+namespace {
+
+std::vector<float> lump_masses(const RestShape& rest, float density) {
+    std::vector<double> sum(rest.topology.particle_count);
+    for (std::size_t t = 0; t < rest.topology.triangles.size(); ++t) {
+        const double third = static_cast<double>(density) * rest.area[t] / 3;
+        for (std::uint32_t p : rest.topology.triangles[t]) sum[p] += third;
+    }
+    return {sum.begin(), sum.end()};
+}
+
+Result<Done> place_particles(ClothModel& model, const Topology& topology, const std::vector<std::uint32_t>& pinned) {
+    model.start.assign(model.capacity(), Vec4{});
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+        const Vec3 x = topology.rest_positions[p];
+        const float weight = 1 / model.mass[p];
+        if (!(std::isfinite(weight) && weight > 0)) {
+            return Error{"particle " + std::to_string(p),
+                         "its mass of " + number_text(model.mass[p]) + " kg has no finite inverse in single precision"};
+        }
+        model.start[p] = {x.x, x.y, x.z, weight};
+    }
+    for (std::uint32_t p : pinned) {
+        if (p >= model.particle_count) {
+            return Error{"pinned particle " + std::to_string(p),
+                         "there are only " + std::to_string(model.particle_count)};
+        }
+        model.pinned_count += model.start[p].w > 0;
+        model.start[p].w = 0;
+    }
+    return Done{};
+}
+
+Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& attachments) {
+    for (std::uint32_t i = 0; i < attachments.size(); ++i) {
+        const auto& [particle, compliance, place] = attachments[i];
+        const std::string where = "attachment " + std::to_string(i);
+        if (particle >= model.particle_count)
+            return Error{where, "there are only " + std::to_string(model.particle_count) + " particles, got number " +
+                                    std::to_string(particle)};
+        if (!(compliance > 0 && std::isfinite(compliance)))
+            return Error{where, "compliance must be > 0 m/N, got " + number_text(compliance)};
+        if (!finite(place)) return Error{where, "place is not finite"};
+        model.start[model.particle_count + i] = {place.x, place.y, place.z, 0};
+    }
+    return Done{};
+}
+
+void lay_out_faces(ClothModel& model, const RestShape& rest) {
+    const Topology& topology = rest.topology;
+    const auto count = model.triangle_count = static_cast<std::uint32_t>(topology.triangles.size());
+    model.face_stride = padded(count);
+    model.faces.resize(std::size_t{3} * model.face_stride);
+    model.around = lay_out_around(topology.particle_triangles, model.face_stride);
+    for (std::uint32_t t = 0; t < model.face_stride; ++t) {
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            model.faces[std::size_t{corner} * model.face_stride + t] =
+                t < count ? topology.triangles[t][corner]
+                          : first_dummy(model.point_count()) + corner * lane_padding + t % lane_padding;
+        }
+    }
+}
+
+// Edges stand in the order of their lower end, and then of the upper one.
+class EdgeIndex {
+  public:
+    explicit EdgeIndex(const Topology& topology) : edges_(topology.edges), first_(topology.particle_count + 1) {
+        for (const Edge& edge : edges_) ++first_[edge.a + 1];
+        for (std::size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
+    }
+    std::size_t find(std::uint32_t a, std::uint32_t b) const {
+        if (a > b) std::swap(a, b);
+        const auto begin = edges_.begin() + first_[a], end = edges_.begin() + first_[a + 1];
+        return static_cast<std::size_t>(std::ranges::lower_bound(begin, end, b, {}, &Edge::b) - edges_.begin());
+    }
+
+  private:
+    std::span<const Edge> edges_;
+    std::vector<std::uint32_t> first_;
+};
+
+void measure_edges(ClothModel& model, const RestShape& rest) {
+    constexpr float cos2_10_degrees = 0.9698463f;
+    const Topology& topology = rest.topology;
+    const std::size_t count = topology.edges.size();
+    std::vector<std::uint8_t> axial(count), has_row(count);
+    double sum = 0;
+    for (std::size_t e = 0; e < count; ++e) {
+        const Edge& edge = topology.edges[e];
+        const float cos2 = rest.cos2_to_warp[e];
+        axial[e] = cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees;
+        sum += length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
+    }
+    model.mean_edge = static_cast<float>(sum / static_cast<double>(count));
+
+    const EdgeIndex index(topology);
+    const ConstraintTable& rows = model.table(ConstraintKind::stretch);
+    model.axial_rows.assign(rows.stride, false);
+    for (std::uint32_t row = 0; row < rows.stride; ++row) {
+        if (!rows.is_real(row)) continue;
+        const std::size_t e = index.find(rows.particles[row], rows.particles[std::size_t{rows.stride} + row]);
+        has_row[e] = 1;
+        model.axial_rows[row] = axial[e];
+    }
+    for (const bool along : {true, false}) {
+        for (std::size_t e = 0; e < count; ++e) {
+            if (!has_row[e] && static_cast<bool>(axial[e]) == along)
+                model.edges_without_row.push_back({topology.edges[e].a, topology.edges[e].b});
+        }
+        if (along) model.axial_without_row = model.edges_without_row.size();
+    }
+}
+
+// Whether every vertex is a particle, and every triangle a face.
+bool is_simulated_as_drawn(const TriangleMesh& mesh, const Topology& topology) {
+    return topology.particle_count == mesh.positions.size() && topology.triangles.size() == mesh.triangles.size();
+}
+
+// A simulated mesh was checked when its topology was built.
+Result<Done> check_drawn(const TriangleMesh& mesh) {
+    const std::size_t count = mesh.positions.size();
+    for (std::size_t v = 0; v < count; ++v) {
+        // Farther out, a vertex that turns with its triangle can leave the range of a float.
+        const Vec3 p = mesh.positions[v];
+        const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        if (!finite(p) || farthest > far_away)
+            return Error{"drawn mesh", "vertex " + std::to_string(v) + ": position must be within 1e6 m of the origin"};
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto [a, b, c] = mesh.triangles[t];
+        if (std::max({a, b, c}) >= count)
+            return Error{"drawn mesh", "triangle " + std::to_string(t) + ": indices must be < " +
+                                           std::to_string(count) + ", the number of vertices"};
+    }
+    if (mesh.triangles.empty()) return Error{"drawn mesh", "must have at least one triangle"};
+    if (!mesh.normals.empty() && mesh.normals.size() != count)
+        return Error{"drawn mesh", "must have one normal per vertex or none"};
+    return Done{};
+}
+
+void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind, const RowList& rows, bool lines,
+               const ColoringOptions& options, BuildClock& clock) {
+    ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
+    clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
+    if (lines) {
+        table = pack_lines(rows, topology.rest_positions, model.point_count(), options);
+    } else {
+        const Coloring coloring = color_rows(kind, rows, model.point_count(), options);
+        clock.spent_on(BuildPart::coloring);
+        table = pack_rows(kind, rows, model.point_count(), coloring);
+    }
+    clock.spent_on(BuildPart::tables);
+}
+
+// Where a cloth hangs by many places, the nearest is near, and coarse levels do as well. What stretches under a load is
+// stiffened by tethers beyond what they allow for.
+void choose_tethers(ClothModel& model, const RestShape& rest) {
+    constexpr std::size_t few = 16;
+    TetherMaterial& tether = model.fabric.tether;
+    if (tether.use != Tethers::automatic) return;
+    const bool pays = !model.hierarchy.empty() && model.fabric.stretch.inextensible && held_places(rest).size() <= few;
+    tether.use = pays ? Tethers::on : Tethers::off;
+}
+
+// Everything that material and pins decide.
+Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
+                     const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout) {
+    const float density = fabric.body.density;
+    if (!(density > 0) || !std::isfinite(density))
+        return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
+    BuildClock clock(model.build_times);
+    model.fabric = fabric;
+    model.particle_count = topology.particle_count;
+    model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
+
+    RestShape rest = make_rest_shape(mesh, topology);
+    model.mass = lump_masses(rest, density);
+    if (auto placed = place_particles(model, topology, pins.particles); !placed) return placed;
+    if (auto placed = place_anchors(model, pins.attachments); !placed) return placed;
+    rest.attachments = pins.attachments;
+    rest.held.assign(model.particle_count, 0);
+    for (std::uint32_t p : pins.particles) rest.held[p] = 1;
+    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, topology);
+    clock.spent_on(BuildPart::rest);
+
+    if (layout.hierarchy)
+        model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
+                                          layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
+    model.pin_spans = find_pin_spans(model.hierarchy, topology.rest_positions);
+    for (CoarseLevel& level : model.hierarchy) level.ways = {};
+    clock.spent_on(BuildPart::hierarchy);
+
+    choose_tethers(model, rest);
+    // The same values for all three; which of them makes rows is one of the values.
+    model.fabric.plate = model.fabric.flexion = model.fabric.bend;
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                              \
+    add_table(model, topology, ConstraintKind::name, build_##name(rest, model.fabric.name), \
+              layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, clock);
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+
+    lay_out_faces(model, rest);
+    measure_edges(model, rest);
+    clock.spent_on(BuildPart::rest);
+    return Done{};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
+    auto model = std::make_shared<ClothModel>();
+    model->name = std::move(desc.name);
+    model->build_times = desc.build_times;
+    if (auto done = lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout); !done)
+        return done.errors();
+    BuildClock clock(model->build_times);
+    if (desc.drawn) {
+        if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
+        model->binding = bind_mesh(*desc.drawn, topology);
+    } else {
+        model->vertex_to_particle = std::move(topology.vertex_to_particle);
+    }
+    if (desc.drawn) {
+        model->set_mesh(std::move(*desc.drawn));
+    } else if (is_simulated_as_drawn(desc.mesh, topology)) {
+        model->set_mesh_of_particles(std::move(desc.mesh.uvs), std::move(desc.mesh.colors));
+    } else {
+        model->set_mesh(std::move(desc.mesh));
+    }
+    clock.spent_on(BuildPart::rest);
+    return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
+                                                             const Topology& topology, const Fabric& fabric,
+                                                             const ClothPins& pins, const ClothLayout& layout) {
+    auto model = std::make_shared<ClothModel>();
+    model->name = from.name;
+    model->binding = from.binding;
+    if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
+        model->set_mesh_of_particles(mesh.uvs, mesh.colors);
+    } else {
+        model->set_mesh(from.mesh());
+    }
+    model->vertex_to_particle = from.vertex_to_particle;
+    if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout); !done) return done.errors();
+    return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+void ClothModel::set_mesh(TriangleMesh mesh) {
+    mesh_ = std::move(mesh);
+    mesh_.normals = {};
+    mesh_of_particles_ = false;
+}
+
+void ClothModel::set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors) {
+    mesh_.uvs = std::move(uvs);
+    mesh_.colors = std::move(colors);
+    mesh_of_particles_ = true;
+}
+
+const TriangleMesh& ClothModel::mesh() const {
+    if (!mesh_of_particles_) return mesh_;
+    std::call_once(mesh_made_, [&] {
+        std::vector<std::uint32_t> vertex(particle_count);
+        mesh_.positions.reserve(particle_count);
+        for (std::uint32_t v = 0; v < particle_count; ++v) {
+            vertex[vertex_to_particle[v]] = v;
+            mesh_.positions.push_back(rest_position(vertex_to_particle[v]));
+        }
+        mesh_.triangles.reserve(triangle_count);
+        for (std::uint32_t t = 0; t < triangle_count; ++t) {
+            const auto [a, b, c] = triangle(t);
+            mesh_.triangles.push_back({vertex[a], vertex[b], vertex[c]});
+        }
+    });
+    return mesh_;
+}
+
+EdgesByDirection edges_by_direction(const ClothModel& model) {
+    const auto grouped = [&](bool wanted) {
+        auto by_lower = group_items<std::uint32_t>(model.particle_count, [&](auto put) {
+            for_each_edge(model, [&](const EdgeEnds& ends, bool axial) {
+                if (axial == wanted) put(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
+            });
+        });
+        std::vector<EdgeEnds> edges;
+        edges.reserve(by_lower.items.size());
+        for (std::uint32_t a = 0; a < model.particle_count; ++a) {
+            const auto begin = by_lower.items.begin() + by_lower.offsets[a];
+            const auto end = by_lower.items.begin() + by_lower.offsets[a + 1];
+            std::sort(begin, end);
+            for (auto b = begin; b != end; ++b) edges.push_back({a, *b});
+        }
+        return edges;
+    };
+    return {grouped(true), grouped(false)};
+}
+
+std::vector<float> face_masses(const ClothModel& model) {
+    std::vector<float> masses(model.face_stride);
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        const auto [a, b, c] = model.triangle(t);
+        masses[t] =
+            model.fabric.body.density * area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
+    }
+    return masses;
+}
+
+}  // namespace weft

@@ -1,0 +1,76 @@
+#include "solver/model/constraint_table.h"
+
+namespace weft {
+namespace {
+
+std::vector<Batch> lay_out(const Coloring& coloring) {
+    std::vector<Batch> batches;
+    std::uint32_t at = 0;
+    const auto append = [&](std::uint32_t rows, bool serial) {
+        if (rows == 0) return;
+        batches.push_back({at, rows, serial});
+        at = batches.back().padded_end();
+    };
+    for (std::uint32_t c = 0; c < coloring.color_count(); ++c) {
+        append(coloring.color_begin[c + 1] - coloring.color_begin[c], false);
+    }
+    append(coloring.overflow, true);
+    return batches;
+}
+
+}  // namespace
+
+Coloring color_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                    const ColoringOptions& options) {
+    const std::uint32_t moved = constraint_info(kind).moved;
+    if (moved == list.arity) return color_rows(list.particles, moved, particle_count, options);
+    std::vector<std::uint32_t> written;  // what a row only reads, rows of one color may share
+    written.reserve(std::size_t{moved} * list.size());
+    for (std::uint32_t row = 0; row < list.size(); ++row) {
+        const auto first = list.particles.begin() + static_cast<std::ptrdiff_t>(row) * list.arity;
+        written.insert(written.end(), first, first + moved);
+    }
+    return color_rows(written, moved, particle_count, options);
+}
+
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                          const ColoringOptions& options) {
+    return pack_rows(kind, list, particle_count, color_rows(kind, list, particle_count, options));
+}
+
+ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
+                          const Coloring& coloring) {
+    ConstraintTable table{.kind = kind,
+                          .arity = list.arity,
+                          .field_count = list.field_count,
+                          .rows = list.size(),
+                          .stride = 0,
+                          .particles = {},
+                          .fields = {},
+                          .first_dummy = first_dummy(particle_count),
+                          .batches = lay_out(coloring),
+                          .blocks = {}};
+    if (table.batches.empty()) return table;
+
+    table.stride = table.batches.back().padded_end();
+    table.particles.resize(std::size_t{table.arity} * table.stride);
+    table.fields.resize(std::size_t{table.field_count} * table.stride);
+
+    std::uint32_t next = 0;
+    for (const Batch& batch : table.batches) {
+        for (std::uint32_t row = batch.begin; row < batch.padded_end(); ++row) {
+            const bool real_row = row < batch.begin + batch.rows;
+            const std::size_t source = real_row ? coloring.order[next++] : 0;
+            for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
+                table.particles[std::size_t{slot} * table.stride + row] =
+                    real_row ? list.particles[source * table.arity + slot] : dummy(particle_count, slot, row);
+            }
+            for (std::uint32_t field = 0; real_row && field < table.field_count; ++field) {
+                table.fields[std::size_t{field} * table.stride + row] = list.fields[source * table.field_count + field];
+            }
+        }
+    }
+    return table;
+}
+
+}  // namespace weft

@@ -1,0 +1,412 @@
+#include "solver/model/hierarchy.h"
+
+#include "mesh/grouping.h"
+#include "physics/rest_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace weft {
+namespace {
+
+// A level with fewer nodes brings nothing that the one before has not done.
+constexpr std::uint32_t least_nodes = 12;
+
+// Of the mean length of a level's rows. On a square grid the nodes of the next level are then every second one along
+// warp and weft: two rows apart, but not across one diagonal.
+constexpr double spacing = 1.6;
+// How far a node's influence goes, likewise: on a square grid to the middle of four.
+constexpr double influence = 2.25;
+
+// Likewise, of a first level that leaves all nearer to the fine rows: four edges on a square grid.
+constexpr double far = 2;
+
+// By how much the means of two nodes may be nearer to one another than the nodes at most, for a row to be as much
+// shorter. What carries the one lies beyond what carries the other, and no bending of the cloth brings them farther
+// apart. Of means that nearly coincide that is not so; nor of a pin, from which a pull draws all that lies to both
+// sides.
+constexpr double closest = 0.9;
+
+constexpr double unreached = LocalWays::unreached;
+
+// Per finer node, the nodes that it follows: up to four, the nearest first.
+struct Parents {
+    std::array<std::uint32_t, Carry::parents> node;
+    std::array<double, Carry::parents> weight, distance;
+    std::uint32_t count = 0;
+
+    /// Among equal ones those come first that were added first.
+    void add(std::uint32_t new_node, double new_weight, double new_distance) {
+        std::uint32_t at = count;
+        while (at > 0 && weight[at - 1] < new_weight) --at;
+        if (at == Carry::parents) return;
+        count = std::min(count + 1, Carry::parents);
+        for (std::uint32_t i = count - 1; i > at; --i) {
+            node[i] = node[i - 1], weight[i] = weight[i - 1], distance[i] = distance[i - 1];
+        }
+        node[at] = new_node, weight[at] = new_weight, distance[at] = new_distance;
+    }
+    /// Four nodes are at least as near: whoever comes by now can do nothing for this one, nor for those behind it,
+    /// which the four reach in no longer a way. So a search may stop here, and searches around many nodes stay linear.
+    bool complete_within(double d) const { return count == Carry::parents && std::ranges::max(distance) <= d; }
+};
+
+// Nodes that keep a distance from one another and leave no gap; pinned ones come first, as everything hangs on them.
+// Each leaves its mark on those around it.
+struct Selection {
+    std::vector<std::uint32_t> chosen;
+    std::vector<Parents> parents;  // of every node
+};
+
+Selection select_nodes(const LinkGraph& graph, double unit, const std::vector<std::uint8_t>& pinned) {
+    Selection selection;
+    selection.parents.resize(graph.size());
+    auto& parents = selection.parents;
+    LocalSearch search(graph);
+    std::vector<std::uint8_t> taken(graph.size());
+    const auto choose = [&](std::uint32_t from) {
+        if (taken[from]) return;
+        const auto node = static_cast<std::uint32_t>(selection.chosen.size());
+        selection.chosen.push_back(from);
+        search.run<&Link::length>(from, influence * unit, [&](std::uint32_t other, double distance) {
+            if (parents[other].complete_within(distance)) return LocalSearch::Go::back;
+            if (distance < spacing * unit) taken[other] = 1;
+            parents[other].add(node, 1 - distance / (influence * unit * 1.001), distance);
+            return LocalSearch::Go::on;
+        });
+    };
+    for (const bool first : {true, false}) {
+        for (std::uint32_t node = 0; node < graph.size(); ++node) {
+            if (static_cast<bool>(pinned[node]) == first) choose(node);
+        }
+    }
+    for (std::uint32_t node = 0; node < selection.chosen.size(); ++node) {
+        Parents& own = parents[selection.chosen[node]];
+        own.count = 1, own.node[0] = node, own.weight[0] = 1, own.distance[0] = 0;
+    }
+    for (Parents& of : parents) {
+        double sum = 0;
+        for (std::uint32_t k = 0; k < of.count; ++k) sum += of.weight[k];
+        for (std::uint32_t k = 0; k < of.count; ++k) of.weight[k] /= sum;
+    }
+    return selection;
+}
+
+struct Neighbors {
+    Adjacency of;               // every node, ascending
+    std::vector<double> limit;  // m, per node: by length no neighbor is farther than that
+};
+
+// Two nodes are neighbors if a node between them follows both, or if nodes that follow them most are linked.
+Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) {
+    constexpr double clearly = 0.15;
+    const auto count = static_cast<std::uint32_t>(selection.chosen.size());
+    const auto followers = group_items<std::uint32_t>(count, [&](auto put) {
+        for (std::uint32_t i = 0; i < fine.size(); ++i) {
+            const Parents& parents = selection.parents[i];
+            for (std::uint32_t k = 0; k < parents.count; ++k) {
+                if (k == 0 || parents.weight[k] > clearly) put(parents.node[k], i);
+            }
+        }
+    });
+    Neighbors result{.of = {.offsets = {0}, .items = {}}, .limit = {}};
+    Adjacency& neighbors = result.of;
+    struct Nearest {
+        double distance;
+        std::uint32_t node;
+    };
+    std::vector<Nearest> nearest(fine.size());  // whom it follows most
+    for (std::uint32_t i = 0; i < fine.size(); ++i)
+        nearest[i] = {selection.parents[i].distance[0], selection.parents[i].node[0]};
+    std::vector<std::uint32_t> seen(count, none);  // by which node last
+    std::vector<double> way(count);                // to that node, as far as it is known
+    for (std::uint32_t node = 0; node < count; ++node) {
+        const auto add = [&](std::uint32_t other, double length) {
+            if (other == node) return;
+            if (seen[other] == node) {
+                way[other] = std::min(way[other], length);
+                return;
+            }
+            seen[other] = node, way[other] = length;
+            neighbors.items.push_back(other);
+        };
+        for (std::uint32_t f = followers.offsets[node]; f < followers.offsets[node + 1]; ++f) {
+            const std::uint32_t follower = followers.items[f];
+            const Parents& parents = selection.parents[follower];
+            double weight = 0, to_node = 0;
+            for (std::uint32_t k = 0; k < parents.count; ++k) {
+                if (parents.node[k] == node) weight = parents.weight[k], to_node = parents.distance[k];
+            }
+            for (std::uint32_t k = 0; k < parents.count && weight > clearly; ++k) {
+                if (parents.weight[k] > clearly) add(parents.node[k], to_node + parents.distance[k]);
+            }
+            if (parents.node[0] != node) continue;
+            for (const Link& link : fine[follower]) {
+                add(nearest[link.to].node, to_node + link.length + nearest[link.to].distance);
+            }
+        }
+        std::sort(neighbors.items.begin() + neighbors.offsets.back(), neighbors.items.end());
+        double limit = 0;
+        for (std::size_t i = neighbors.offsets.back(); i < neighbors.items.size(); ++i) {
+            limit = std::max(limit, way[neighbors.items[i]]);
+        }
+        result.limit.push_back(limit);
+        neighbors.offsets.push_back(static_cast<std::uint32_t>(neighbors.items.size()));
+    }
+    return result;
+}
+
+// Where the cloth is flat, a way need not have the corners that edges give it.
+void straighten(Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
+    if (!follows(link.length, straight)) return;
+    link.length = std::min(link.length, straight.length);
+    if (!turns) {
+        link.reach = link.length;
+        return;
+    }
+    const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
+    link.reach = std::min(link.reach, limit.length);
+}
+
+// Of a row between two nodes. Where the fabric turns, its link allows for elasticity already.
+Limit limit_of(const Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
+    if (!turns) return limit_any_way(elasticity, link.reach);
+    if (follows(link.length, straight)) {
+        const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
+        return {link.reach, limit.give};
+    }
+    // What its way is longer by under the tension of `reach`, and no more than the softest way would be.
+    const double give = (link.reach - link.length) / elasticity.tension;
+    return {link.reach, std::min(give, limit_any_way(elasticity, link.length).give)};
+}
+
+// Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough
+// searches pass: each of its thousands of neighbors would visit all the others. What is lost there is a row that helps,
+// or it is longer than it could be. `frames` and `place`: of the finer nodes.
+LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection,
+                         std::span<const RestFrame> frames, std::span<const Vec3> place, const Elasticity& elasticity) {
+    const Neighbors neighbors = neighbors_of_nodes(fine, selection);
+    LinkGraph graph{.offsets = {0}, .links = {}, .turns = fine.turns};
+    graph.links.reserve(neighbors.of.items.size());
+    LocalWays ways(fine);
+    std::vector<Link> found;
+    std::vector<std::uint32_t> goals;
+    constexpr std::size_t hub_links = 64, hub_passes = 64;
+    std::vector<std::uint8_t> passes(fine.size());
+    const auto is_closed = [&](std::uint32_t at) {
+        if (fine[at].size() <= hub_links) return false;
+        if (passes[at] == hub_passes) return true;
+        ++passes[at];
+        return false;
+    };
+    for (std::uint32_t node = 0; node < neighbors.of.size(); ++node) {
+        found.clear(), goals.clear();
+        for (const std::uint32_t other : neighbors.of[node]) {
+            found.push_back({other, unreached, unreached});
+            goals.push_back(selection.chosen[other]);
+        }
+        const double limit = 1.000001 * neighbors.limit[node];  // a little more, for rounding
+        const auto measure = [&]<double Link::*Measure>(double farthest) {
+            const auto keep = [&](std::size_t i, double distance) { found[i].*Measure = distance; };
+            ways.run<Measure>(selection.chosen[node], goals, std::min(farthest, 4 * spacing * unit), keep, is_closed);
+        };
+        // What turns reaches at most as far as two sides of a square do along its diagonal.
+        measure.template operator()<&Link::reach>(fine.turns ? std::numbers::sqrt2 * (1 + elasticity.reserve()) * limit
+                                                             : limit);
+        if (fine.turns) measure.template operator()<&Link::length>(limit);
+        for (const Link& link : found) {
+            if (!(link.reach < unreached)) continue;
+            const std::uint32_t a = selection.chosen[node], b = selection.chosen[link.to];
+            Link& kept = graph.links.emplace_back(Link{link.to, std::min(link.length, link.reach), link.reach});
+            straighten(kept, straight_line(frames[a], frames[b], place[b] - place[a]), elasticity, fine.turns);
+        }
+        graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
+    }
+    return graph;
+}
+
+// A link that says no more than two others together do. The search runs over the links of the end with fewer of them:
+// a hub's are then not gone through again for each of them.
+bool is_implied(const LinkGraph& graph, std::uint32_t from, const Link& link) {
+    std::uint32_t few = from, many = link.to;
+    if (graph[few].size() > graph[many].size()) std::swap(few, many);
+    return std::ranges::any_of(graph[few], [&](const Link& first) {
+        const Link* second = find_link(graph, many, first.to);
+        return second && first.reach + second->reach <= 1.001 * link.reach;
+    });
+}
+
+// `count`: of the nodes that carry.
+Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> pinned, std::uint32_t count) {
+    Carry carry;
+    carry.stride = padded(static_cast<std::uint32_t>(parents.size()));
+    carry.weight.resize(std::size_t{Carry::parents} * carry.stride);
+    const auto write = [&]<class Node>(AlignedVector<Node>& nodes) {
+        nodes.resize(carry.weight.size());
+        for (std::uint32_t i = 0; i < parents.size(); ++i) {
+            for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
+                const std::size_t at = std::size_t{k} * carry.stride + i;
+                nodes[at] = static_cast<Node>(parents[i].node[k]);
+                carry.weight[at] = static_cast<float>(parents[i].weight[k]);
+            }
+        }
+    };
+    constexpr std::uint32_t most_narrow = std::uint32_t{1} << 16;
+    count <= most_narrow ? write(carry.narrow) : write(carry.wide);
+    return carry;
+}
+
+// A hub may carry thousands. The heaviest of them tell where it is well enough.
+constexpr std::size_t most_members = 256;
+
+struct Member {
+    std::uint32_t node;
+    double weight;
+};
+
+// What a node takes its place from, weighted: of all that it carries; nothing where that weighs nothing.
+std::span<const Member> members_of(std::span<Member> carried) {
+    if (carried.size() > most_members) {
+        std::ranges::stable_sort(carried, std::ranges::greater{}, &Member::weight);
+        carried = carried.first(most_members);
+        std::ranges::sort(carried, {}, &Member::node);
+    }
+    double sum = 0;
+    for (const Member& member : carried) sum += member.weight;
+    if (!(sum > 0)) return {};
+    for (Member& member : carried) member.weight /= sum;
+    return carried;
+}
+
+// `mass`: of the finer nodes; pinned ones are carried by none.
+Restriction restriction_of(std::span<const Parents> parents, std::span<const std::uint32_t> chosen,
+                           std::span<const double> mass, std::span<const std::uint8_t> pinned) {
+    const auto count = static_cast<std::uint32_t>(chosen.size());
+    auto carried = group_items<Member>(count, [&](auto put) {
+        for (std::uint32_t i = 0; i < parents.size(); ++i) {
+            for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
+                if (pinned[chosen[parents[i].node[k]]]) continue;  // its own place
+                put(parents[i].node[k], {i, parents[i].weight[k] * mass[i]});
+            }
+        }
+    });
+    std::vector<Member> itself(count);  // where a node carries nothing
+    std::vector<std::span<const Member>> lists(count);
+    for (std::uint32_t node = 0; node < count; ++node) {
+        itself[node] = {chosen[node], 1};
+        const std::uint32_t begin = carried.offsets[node], end = carried.offsets[node + 1];
+        lists[node] = members_of(std::span(carried.items).subspan(begin, end - begin));
+        if (lists[node].empty()) lists[node] = std::span(itself).subspan(node, 1);
+    }
+    Restriction restriction;
+    restriction.begin.reserve(padded(count) / lane_padding + 1);
+    restriction.begin.push_back(0);
+    for (std::uint32_t first = 0; first < count; first += lane_padding) {
+        std::size_t longest = 0;
+        for (std::uint32_t node = first; node < std::min(first + lane_padding, count); ++node)
+            longest = std::max(longest, lists[node].size());
+        restriction.begin.push_back(restriction.begin.back() + static_cast<std::uint32_t>(longest));
+    }
+    restriction.node.resize(std::size_t{restriction.begin.back()} * lane_padding);
+    restriction.weight.resize(restriction.node.size());
+    for (std::uint32_t node = 0; node < count; ++node) {
+        const std::uint32_t packet = node / lane_padding, begin = restriction.begin[packet];
+        for (std::size_t k = 0; k < restriction.begin[packet + 1] - begin; ++k) {
+            const Member member = k < lists[node].size() ? lists[node][k] : Member{lists[node][0].node, 0};
+            const std::size_t at = (begin + k) * lane_padding + node % lane_padding;
+            restriction.node[at] = member.node;
+            restriction.weight[at] = static_cast<float>(member.weight);
+        }
+    }
+    return restriction;
+}
+
+// Where each node is at rest, by the finer ones that it carries.
+std::vector<Vec3> means_of(const Restriction& restriction, std::span<const Vec3> finer, std::uint32_t count) {
+    std::vector<Vec3> means(count);
+    for (std::uint32_t node = 0; node < count; ++node) {
+        const std::uint32_t packet = node / lane_padding;
+        for (std::uint32_t k = restriction.begin[packet]; k < restriction.begin[packet + 1]; ++k) {
+            const std::size_t at = std::size_t{k} * lane_padding + node % lane_padding;
+            means[node] += finer[restriction.node[at]] * restriction.weight[at];
+        }
+    }
+    return means;
+}
+
+}  // namespace
+
+std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
+                                         FinestLevel finest) {
+    std::vector<CoarseLevel> levels;
+    if (rest.elasticity.reserve() > useless_reserve) return levels;
+
+    LinkGraph graph = graph_of_edges(rest, fabric);
+    std::vector<RestFrame> frames = rest.frames;
+    std::vector<std::uint32_t> particle(graph.size());
+    std::vector<std::uint8_t> pinned(graph.size());
+    std::vector<double> mass(graph.size());
+    std::vector<Vec3> place = rest.topology.rest_positions, mean = place;
+    for (std::uint32_t p = 0; p < graph.size(); ++p) {
+        particle[p] = p;
+        pinned[p] = !(start[p].w > 0);
+        mass[p] = pinned[p] ? 0 : 1.0 / static_cast<double>(start[p].w);
+    }
+    while (true) {
+        const bool far_apart = levels.empty() && finest == FinestLevel::every_fourth;
+        const double unit = mean_length(graph) * (far_apart ? far : 1);
+        const Selection selection = select_nodes(graph, unit, pinned);
+        const auto count = static_cast<std::uint32_t>(selection.chosen.size());
+        if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
+        CoarseLevel level{
+            .count = count, .particle = {}, .restriction = {}, .weight = {}, .reach = {}, .carry = {}, .ways = {}};
+        level.carry = carry_to(selection.parents, pinned, count);
+        level.restriction = restriction_of(selection.parents, selection.chosen, mass, pinned);
+        std::vector<Vec3> means = means_of(level.restriction, mean, count);
+
+        std::vector<double> carried(count);
+        for (std::uint32_t i = 0; i < graph.size(); ++i) {
+            const Parents& parents = selection.parents[i];
+            for (std::uint32_t k = 0; k < parents.count; ++k) carried[parents.node[k]] += parents.weight[k] * mass[i];
+        }
+        std::vector<std::uint8_t> held(count);
+        std::vector<std::uint32_t> nodes(count);
+        std::vector<Vec3> places(count);
+        level.particle.resize(padded(count));
+        level.weight.resize(padded(count));
+        for (std::uint32_t node = 0; node < count; ++node) {
+            places[node] = place[selection.chosen[node]];
+            held[node] = pinned[selection.chosen[node]];
+            nodes[node] = level.particle[node] = particle[selection.chosen[node]];
+            level.weight[node] = held[node] || !(carried[node] > 0) ? 0 : static_cast<float>(1 / carried[node]);
+        }
+        LinkGraph coarse = graph_of_nodes(graph, unit, selection, frames, place, rest.elasticity);
+        std::vector<RestFrame> kept_frames;
+        for (const std::uint32_t node : selection.chosen) kept_frames.push_back(frames[node]);
+        RowList rows = make_rows(ConstraintKind::reach);
+        for (std::uint32_t node = 0; node < count; ++node) {
+            for (const Link& link : coarse[node]) {
+                if (link.to < node || is_implied(coarse, node, link)) continue;
+                // Means lie nearer to one another than their nodes or farther apart, near borders and on irregular
+                // meshes. What they are off by must not pull at the cloth at rest, nor take from it what it may stretch
+                // by.
+                const double apart = length(means[node] - means[link.to]);
+                const StraightLine line =
+                    straight_line(kept_frames[node], kept_frames[link.to], places[link.to] - places[node]);
+                const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
+                const double least = held[node] || held[link.to] ? 1 : closest;
+                const double reach = link.length > 0 ? limit.length * std::max(least, apart / link.length) : apart;
+                rows.add({node, link.to}, {static_cast<float>(reach), static_cast<float>(limit.give)});
+            }
+        }
+        level.reach = pack_rows(ConstraintKind::reach, rows, count);
+        level.ways = coarse;
+        levels.push_back(std::move(level));
+        graph = std::move(coarse);
+        particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places),
+        mean = std::move(means), frames = std::move(kept_frames);
+    }
+}
+
+}  // namespace weft

@@ -1,0 +1,53 @@
+#include "solver/plan/frame_numbers.h"
+
+#include "solver/plan/tension.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+// The cap lets a particle pass this many edges (or thicknesses, if those are longer) in a substep. Beyond, no contact
+// could catch it and no constraint could tell which way back is.
+constexpr float capped_edges_per_substep = 10;
+
+}  // namespace
+
+FrameNumbers frame_numbers(const ClothModel& model, const StepPlan& plan, double dt) {
+    const double h = dt / plan.substeps;
+    const double reach = std::max(model.fabric.contact.thickness, model.mean_edge);
+    return {.h = static_cast<float>(h),
+            .max_speed = static_cast<float>(std::min(capped_edges_per_substep * reach / h, 1e18)),
+            .viscous = std::max(static_cast<float>(model.fabric.body.damping * dt), 1e-30f),
+            .half_thickness = 0.5f * model.fabric.contact.thickness,
+            .depenetration = depenetration_speed * static_cast<float>(h)};
+}
+
+std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider) {
+    const ContactMaterial& cloth = model.fabric.contact;
+    return {std::sqrt(cloth.friction[0] * collider.friction[0]), std::sqrt(cloth.friction[1] * collider.friction[1])};
+}
+
+double lambda_seconds(const StepPlan& plan, double dt) {
+    return plan.method == Method::pbd ? 0 : static_cast<double>(static_cast<float>(dt / plan.substeps));
+}
+
+FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda, double substep_seconds,
+                         std::span<const Vec4> positions) {
+    const float tension = tension_in(model.table(ConstraintKind::stretch), lambda, substep_seconds, model.fabric);
+    // Limits have room for the model's tension at all times. What pins stretch is part of what the tension does.
+    const Elasticity& elastic = model.elasticity;
+    FrameLimits limits;
+    limits.tension = std::max(0.0f, tension - static_cast<float>(elastic.tension));
+    const float stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)) * limits.tension;
+    limits.allowed = std::max(1.0f, (1 + strain_between(model.pin_spans, positions)) / (1 + stretched));
+    return limits;
+}
+
+bool has_limits(const ClothModel& model, const StepPlan& plan) {
+    const bool levels = std::ranges::find(plan.substep, PassKind::spread, &Pass::kind) != plan.substep.end();
+    return levels || model.table(ConstraintKind::tether).rows > 0;
+}
+
+}  // namespace weft

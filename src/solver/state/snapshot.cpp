@@ -1,0 +1,184 @@
+#include "solver/state/snapshot.h"
+
+#include "base/hash.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+namespace weft {
+namespace {
+
+// "weft" and a version; on a machine of the other byte order it reads as neither.
+constexpr std::uint32_t magic = 0x74666577, version = 2;
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+    StateHash hash;
+    for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) {
+        std::uint32_t word;
+        std::memcpy(&word, bytes.data() + i, 4);
+        hash.add(word);
+    }
+    return hash.value();
+}
+
+class Writer {
+  public:
+    template <class T>
+    void one(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
+        const auto* from = reinterpret_cast<const std::byte*>(&value);
+        bytes.insert(bytes.end(), from, from + sizeof(T));
+    }
+    template <class T>
+    void list(const std::vector<T>& values) {
+        one<std::uint64_t>(values.size());
+        const auto raw = std::as_bytes(std::span(values));
+        bytes.insert(bytes.end(), raw.begin(), raw.end());
+    }
+
+    std::vector<std::byte> bytes;
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+    template <class T>
+    T one() {
+        T value{};
+        if (!take(&value, sizeof(T))) return {};
+        return value;
+    }
+    template <class T>
+    std::vector<T> list() {
+        const auto count = one<std::uint64_t>();
+        if (count > rest_.size() / sizeof(T)) return short_ = true, std::vector<T>{};
+        std::vector<T> values(count);
+        take(values.data(), count * sizeof(T));
+        return values;
+    }
+    bool ended_well() const { return !short_ && rest_.empty(); }
+    bool too_short() const { return short_; }
+
+  private:
+    bool take(void* to, std::size_t size) {
+        if (short_ || size > rest_.size()) return !(short_ = true);
+        if (size > 0) std::memcpy(to, rest_.data(), size);
+        rest_ = rest_.subspan(size);
+        return true;
+    }
+
+    std::span<const std::byte> rest_;
+    bool short_ = false;
+};
+
+}  // namespace
+
+std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
+    Writer out;
+    out.one(snapshot.frame);
+    out.one(snapshot.time);
+    out.list(snapshot.colliders);
+    out.one<std::uint64_t>(snapshot.cloths.size());
+    for (const ClothSnapshot& cloth : snapshot.cloths) {
+        out.list(cloth.position);
+        out.list(cloth.start);
+        out.list(cloth.velocity);
+        out.list(cloth.carry);
+        out.list(cloth.lambda);
+        out.one(cloth.substep_seconds);
+    }
+    Writer file;
+    file.one(magic);
+    file.one(version);
+    file.one(checksum(out.bytes));
+    file.bytes.insert(file.bytes.end(), out.bytes.begin(), out.bytes.end());
+    return std::move(file.bytes);
+}
+
+Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
+    Reader in(bytes);
+    if (in.one<std::uint32_t>() != magic) return Error{"state", "is no saved state of weft"};
+    if (const auto found = in.one<std::uint32_t>(); found != version)
+        return Error{"state", "has version " + std::to_string(found) + ", this weft reads " + std::to_string(version)};
+    const auto sum = in.one<std::uint64_t>();
+    if (in.too_short() || sum != checksum(bytes.subspan(16)))
+        return Error{"state", "is damaged: its checksum does not fit"};
+
+    Snapshot snapshot;
+    snapshot.frame = in.one<std::uint64_t>();
+    snapshot.time = in.one<double>();
+    snapshot.colliders = in.list<Pose>();
+    const auto cloths = in.one<std::uint64_t>();
+    for (std::uint64_t i = 0; i < cloths && !in.too_short(); ++i) {
+        ClothSnapshot& cloth = snapshot.cloths.emplace_back();
+        cloth.position = in.list<Vec4>();
+        cloth.start = in.list<Vec4>();
+        cloth.velocity = in.list<Vec4>();
+        cloth.carry = in.list<Vec4>();
+        cloth.lambda = in.list<float>();
+        cloth.substep_seconds = in.one<double>();
+    }
+    if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};
+    return snapshot;
+}
+
+namespace {
+
+// Their squares still fit a float.
+constexpr float largest = 1e18f;
+
+bool sound(const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= largest && finite(v);
+}
+bool sound(const Vec4& v) {
+    return sound(v.xyz()) && std::abs(v.w) <= largest;  // false for what is not finite
+}
+// Of heavy cloth they are larger than any place or speed, and nothing squares them.
+bool sound(float lambda) {
+    return std::isfinite(lambda);
+}
+bool is_unit(const Vec3& v) {
+    return std::abs(dot(v, v) - 1) < 1e-3f;
+}
+bool sound(const Pose& pose) {
+    return sound(pose.position) && is_unit(pose.rotation.x) && is_unit(pose.rotation.y) && is_unit(pose.rotation.z);
+}
+bool sound_time(double seconds) {
+    return seconds >= 0 && std::isfinite(seconds);
+}
+
+template <class T>
+std::optional<std::size_t> first_unsound(const std::vector<T>& values) {
+    const auto it = std::ranges::find_if(values, [](const T& value) { return !sound(value); });
+    if (it == values.end()) return std::nullopt;
+    return static_cast<std::size_t>(it - values.begin());
+}
+
+}  // namespace
+
+Result<Done> check_numbers(const Snapshot& snapshot) {
+    if (!sound_time(snapshot.time)) return Error{"state", "its time must be finite and ≥ 0 s"};
+    if (const auto i = first_unsound(snapshot.colliders))
+        return Error{"state", "collider " + std::to_string(*i) + " must have a rotation and a finite position"};
+    for (std::size_t c = 0; c < snapshot.cloths.size(); ++c) {
+        const ClothSnapshot& cloth = snapshot.cloths[c];
+        const std::string of_cloth = "cloth " + std::to_string(c) + ": ";
+        for (const auto* array : {&cloth.position, &cloth.start, &cloth.velocity, &cloth.carry}) {
+            if (const auto i = first_unsound(*array))
+                return Error{"state",
+                             of_cloth + "particle " + std::to_string(*i) + " must have finite numbers of at most 1e18"};
+        }
+        if (const auto i = first_unsound(cloth.lambda))
+            return Error{"state", of_cloth + "row " + std::to_string(*i) + " must be finite"};
+        if (!sound_time(cloth.substep_seconds))
+            return Error{"state", of_cloth + "its substep must be finite and ≥ 0 s"};
+    }
+    return Done{};
+}
+
+}  // namespace weft

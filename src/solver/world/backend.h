@@ -1,0 +1,88 @@
+// What runs a StepPlan: the CPU with its lanes and threads, a GPU with its passes.
+#pragma once
+
+#include "base/hash.h"
+#include "solver/measures/measures.h"
+#include "solver/state/feedback.h"
+#include "solver/state/frame.h"
+#include "solver/state/holds.h"
+#include "solver/state/snapshot.h"
+#include "solver/world/air.h"
+#include "solver/world/collider.h"
+
+#include <weft/result.h>
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace weft {
+
+/// One cloth as a backend knows it. Kept by the world, which gives out ids.
+struct ClothHandle {
+    std::uint32_t value = 0;
+};
+
+struct StepInput {
+    double dt = 0;                        ///< s, > 0: length of the frame
+    Vec3 gravity;                         ///< m/s²
+    float air_density = 0;                ///< kg/m³
+    std::span<const WindNow> winds = {};  ///< in the middle of the frame
+    std::span<const Collider> colliders;
+    /// Where each collider is at the start of the frame and after every substep: [substep · colliders + collider],
+    /// substeps + 1 times.
+    std::span<const Pose> poses;
+    std::span<const HeldParticle> held = {};
+    /// Likewise for what carries the held particles: [substep · movers + mover].
+    std::span<const Pose> mover_poses = {};
+    std::uint32_t movers = 0;
+    bool feedback = false;  ///< keep account of contacts
+};
+
+/// One cloth's part of a frame.
+struct ClothStep {
+    ClothHandle cloth;
+    const StepPlan* plan = nullptr;
+    StepInput input;
+    ClothFrame* frame = nullptr;        ///< what comes of it
+    ClothFeedback* feedback = nullptr;  ///< likewise, where the input asks for it
+};
+
+class Backend {
+  public:
+    virtual ~Backend() = default;
+
+    virtual std::string_view name() const = 0;  ///< as on the command line
+    virtual std::string device() const = 0;     ///< for a human
+    virtual unsigned threads() const = 0;
+    /// Of a device's memory, taken for cloths beside what the program has of its own.
+    virtual std::uint64_t device_bytes() const { return 0; }
+
+    /// Fails where the device has no room for it.
+    virtual Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) = 0;
+    virtual void remove_cloth(ClothHandle cloth) = 0;
+    /// Another model for the same particles: other rows, other masses, other pins. What moved goes on moving.
+    /// Where it fails, all is as it was.
+    virtual Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
+    /// Advances cloths by a frame, each once. They have nothing to do with one another, and may run side by side: times
+    /// are then shares of the time that passes. A device may be at work still when this returns: the steps, and what
+    /// they point to, must stay until finish(), which comes before any other call.
+    virtual void step(std::span<const ClothStep> cloths) = 0;
+    /// Ends the frame that step() began, if there is one. Adds its times, and leaves reports, details and feedback with
+    /// its steps; the rest is for read().
+    virtual void finish(std::array<double, stage_count>& stage_ms) = 0;
+    /// The cloth as it is, in arrays that stay until the next call of anything. False if the device cannot tell any
+    /// more: then as it was when it was last read.
+    virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;
+    /// Adds the cloth as it is, and what the last substep left of stretch; as read() has it if the device cannot tell
+    /// any more.
+    virtual void measure(ClothHandle cloth, MeasureSums& sums) const = 0;
+    /// Empty if the device cannot tell any more.
+    virtual ClothSnapshot save(ClothHandle cloth) const = 0;
+    /// `snapshot` has the sizes that save() gives for this cloth.
+    virtual Result<Done> restore(ClothHandle cloth, const ClothSnapshot& snapshot) = 0;
+    /// Adds everything that decides what the cloth does next.
+    virtual void hash(ClothHandle cloth, StateHash& hash) const = 0;
+};
+
+}  // namespace weft

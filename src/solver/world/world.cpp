@@ -1,0 +1,315 @@
+#include "solver/world/world.h"
+
+#include "base/hash.h"
+
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+namespace weft {
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
+    : backend_(std::move(backend)), settings_(std::move(settings)) {
+    assert(settings_.substeps > 0 && settings_.iterations > 0);
+}
+
+Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
+    settle();
+    const auto handle = backend_->add_cloth(model);
+    if (!handle) return handle.errors();
+    const ClothId id = cloths_.add({*handle, std::move(model), std::move(holds), {}, {}});
+    list_cloths();
+    replan();
+    return id;
+}
+
+ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
+    auto id = try_add(std::move(model), std::move(holds));
+    if (!id) throw std::runtime_error(id.error().message());
+    return *id;
+}
+
+void World::remove(ClothId id) {
+    assert(contains(id));
+    settle();
+    backend_->remove_cloth(cloths_[cloths_.find(id)].handle);
+    cloths_.remove(id);
+    list_cloths();
+}
+
+Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
+    assert(contains(id));
+    settle();
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    assert(model->particle_count == cloth.model->particle_count);
+    if (auto set = backend_->set_model(cloth.handle, model); !set) return set;
+    cloth.model = std::move(model);
+    cloth.holds = std::move(holds);
+    list_cloths();
+    replan();
+    return Done{};
+}
+
+ColliderId World::add(Collider collider) {
+    settle();
+    const ColliderId id = colliders_.add(std::move(collider));
+    replan();
+    return id;
+}
+
+void World::remove(ColliderId id) {
+    assert(contains(id));
+    settle();
+    const Pose last = collider(id).pose;
+    for (Cloth& cloth : cloths_) {
+        for (std::uint32_t m = 0; m < cloth.holds.movers.size(); ++m) {
+            if (cloth.holds.movers[m].collider != id) continue;
+            cloth.holds.movers[m] = {};
+            for (HeldParticle& held : cloth.holds.particles) {
+                if (held.mover == m) held.local = to_world(last, held.local);
+            }
+        }
+    }
+    colliders_.remove(id);
+    replan();
+}
+
+void World::set_friction(ColliderId id, std::array<float, 2> friction) {
+    assert(contains(id));
+    colliders_[colliders_.find(id)].friction = friction;
+}
+
+void World::move(ColliderId id, const Pose& to) {
+    assert(contains(id));
+    Collider& collider = colliders_[colliders_.find(id)];
+    collider.motion.clear();
+    collider.next_pose = to;
+}
+
+void World::configure(WorldSettings settings) {
+    assert(settings.substeps > 0 && settings.iterations > 0);
+    settle();
+    settings_ = std::move(settings);
+    if (!settings_.feedback) {
+        felt_ = {};
+        feedback_ = {};
+    }
+    replan();
+}
+
+void World::list_cloths() {
+    frame_.cloths.resize(cloths_.size());
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        frame_.cloths[i].id = cloths_.id_of(i);
+        frame_.cloths[i].model = cloths_[i].model.get();
+    }
+    unread_ = true;
+}
+
+const Frame& World::frame() const {
+    complete();
+    if (!unread_) return frame_;
+    for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->read(cloths_[i].handle, frame_.cloths[i]);
+    unread_ = false;
+    return frame_;
+}
+
+void World::replan() {
+    const bool air = settings_.air && settings_.air->density > 0;
+    StepSettings settings{.substeps = settings_.substeps,
+                          .iterations = settings_.iterations,
+                          .contacts = !colliders_.empty(),
+                          .holds = false,
+                          .air = air,
+                          .wind = air && !settings_.air->wind.empty(),
+                          .surface = settings_.surface,
+                          .hierarchy = settings_.hierarchy,
+                          .method = settings_.method,
+                          .projection = settings_.projection,
+                          .accumulate = settings_.accumulate};
+    const std::size_t places = std::size_t{settings_.substeps} + 1;
+    for (Cloth& cloth : cloths_) {
+        settings.holds = !cloth.holds.particles.empty();
+        cloth.plan = plan_step(*cloth.model, settings);
+        cloth.mover_poses.resize(places * cloth.holds.movers.size());
+    }
+    poses_.resize(places * colliders_.size());
+    winds_.resize(air ? settings_.air->wind.size() : 0);
+}
+
+// Where every collider is at the start of the frame and after each substep.
+void World::place_colliders(double dt) {
+    const std::size_t count = colliders_.size();
+    for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
+        const double time = frame_.time + dt * substep / settings_.substeps;
+        const float fraction = static_cast<float>(substep) / static_cast<float>(settings_.substeps);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Collider& collider = colliders_[i];
+            poses_[substep * count + i] =
+                collider.next_pose ? between(collider.pose, *collider.next_pose, fraction) : pose_at(collider, time);
+        }
+    }
+}
+
+void World::place_movers(Cloth& cloth, double dt) const {
+    const std::size_t count = cloth.holds.movers.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Mover& mover = cloth.holds.movers[i];
+        const std::size_t collider = colliders_.find(mover.collider);
+        for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
+            const double time = frame_.time + dt * substep / settings_.substeps;
+            cloth.mover_poses[substep * count + i] = collider < colliders_.size()
+                                                         ? poses_[substep * colliders_.size() + collider]
+                                                         : Pose{{}, offset_at(mover.offsets, time)};
+        }
+    }
+}
+
+void World::advance(double dt) {
+    assert(dt > 0 && std::isfinite(dt));
+    complete();
+    place_colliders(dt);
+    for (Cloth& cloth : cloths_) place_movers(cloth, dt);
+    for (std::size_t i = 0; i < winds_.size(); ++i) {
+        winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    frame_.index += 1;
+    frame_.time += dt;
+    frame_.reports = report_none;
+    frame_.stage_ms.fill(0);
+    FrameFeedback& felt = begin_feedback(dt);
+    steps_.clear();
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        const Cloth& cloth = cloths_[i];
+        steps_.push_back({.cloth = cloth.handle,
+                          .plan = &cloth.plan,
+                          .input = {.dt = dt,
+                                    .gravity = settings_.gravity,
+                                    .air_density = settings_.air ? settings_.air->density : 0,
+                                    .winds = winds_,
+                                    .colliders = colliders_.values(),
+                                    .poses = poses_,
+                                    .held = cloth.holds.particles,
+                                    .mover_poses = cloth.mover_poses,
+                                    .movers = static_cast<std::uint32_t>(cloth.holds.movers.size()),
+                                    .feedback = settings_.feedback},
+                          .frame = &frame_.cloths[i],
+                          .feedback = settings_.feedback ? &felt.cloths[i].feedback : nullptr});
+    }
+    backend_->step(steps_);
+    running_ = true;
+    for (std::size_t i = 0; i < colliders_.size(); ++i) {
+        colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];
+        colliders_[i].next_pose.reset();
+    }
+    frame_.step_ms = ms_since(begin);
+}
+
+void World::complete() const {
+    if (!running_) return;
+    running_ = false;
+    const auto begin = std::chrono::steady_clock::now();
+    backend_->finish(frame_.stage_ms);
+    unread_ = true;
+    for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
+    if (settings_.feedback) not_made_out_ = static_cast<std::uint32_t>(frame_.index % felt_.size());
+    frame_.step_ms += ms_since(begin);
+}
+
+// Who takes part in the frame that begins.
+FrameFeedback& World::begin_feedback(double dt) {
+    FrameFeedback& felt = felt_[frame_.index % felt_.size()];
+    if (!settings_.feedback) return felt;
+    felt.frame = frame_.index;
+    felt.dt = dt;
+    felt.colliders.clear();
+    for (std::size_t i = 0; i < colliders_.size(); ++i) felt.colliders.push_back(colliders_.id_of(i));
+    felt.cloths.resize(cloths_.size());
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        felt.cloths[i].id = cloths_.id_of(i);
+        felt.cloths[i].model = cloths_[i].model;
+        felt.cloths[i].feedback.contacts = {};
+        felt.cloths[i].feedback.sums.assign(colliders_.size(), {});
+    }
+    return felt;
+}
+
+const Feedback& World::feedback() const {
+    if (not_made_out_) make_out(felt_[*not_made_out_], feedback_, vertices_);
+    not_made_out_.reset();
+    return feedback_;
+}
+
+void World::settle() {
+    complete();
+    (void)feedback();
+}
+
+Snapshot World::save() const {
+    complete();
+    Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
+    for (const Cloth& cloth : cloths_) snapshot.cloths.push_back(backend_->save(cloth.handle));
+    for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
+    return snapshot;
+}
+
+Result<Done> World::restore(const Snapshot& snapshot) {
+    const auto differs = [](const char* what, std::size_t got, std::size_t expected) {
+        return Error{"state",
+                     "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
+    };
+    complete();
+    if (snapshot.cloths.size() != cloths_.size()) return differs("cloths", snapshot.cloths.size(), cloths_.size());
+    if (snapshot.colliders.size() != colliders_.size())
+        return differs("colliders", snapshot.colliders.size(), colliders_.size());
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        const ClothSnapshot& saved = snapshot.cloths[i];
+        const std::size_t points = cloths_[i].model->point_count();
+        const std::size_t rows = cloths_[i].model->table(ConstraintKind::stretch).lambda_count();
+        const std::string of_cloth = "particles in cloth '" + cloths_[i].model->name + "'";
+        for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.carry}) {
+            if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);
+        }
+        if (saved.lambda.size() != rows) return differs("rows of stretch", saved.lambda.size(), rows);
+    }
+    if (auto checked = check_numbers(snapshot); !checked) return checked;
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        if (auto restored = backend_->restore(cloths_[i].handle, snapshot.cloths[i]); !restored) return restored;
+    }
+    for (std::size_t i = 0; i < colliders_.size(); ++i) {
+        colliders_[i].pose = snapshot.colliders[i];
+        colliders_[i].next_pose.reset();
+    }
+    frame_.index = snapshot.frame;
+    frame_.time = snapshot.time;
+    frame_.reports = report_none;
+    not_made_out_.reset();
+    feedback_ = {};
+    list_cloths();
+    return Done{};
+}
+
+ClothMeasures World::measure() const {
+    complete();
+    MeasureSums sums;
+    for (const Cloth& cloth : cloths_) backend_->measure(cloth.handle, sums);
+    return sums.result();
+}
+
+std::string World::state_hash() const {
+    complete();
+    StateHash hash;
+    for (const Cloth& cloth : cloths_) backend_->hash(cloth.handle, hash);
+    return hash.text();
+}
+
+}  // namespace weft

@@ -1,0 +1,137 @@
+// Cloths, colliders and time.
+#pragma once
+
+#include "base/id_list.h"
+#include "solver/world/backend.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace weft {
+
+struct WorldSettings {
+    Vec3 gravity{0, -9.81f, 0};  ///< m/s²
+    std::uint32_t substeps = 20;
+    std::uint32_t iterations = 1;
+    Method method = Method::xpbd;
+    Projection projection = Projection::automatic;
+    Accumulate accumulate = Accumulate::gather;
+    bool hierarchy = false;           ///< coarse levels first, for cloths whose model has them
+    std::optional<AirDesc> air = {};  ///< without, a vacuum
+    bool surface = true;              ///< keep normals up to date
+    bool feedback = false;            ///< keep account of what contacts do
+
+    /// What the models of a world with these settings should have.
+    ClothLayout layout() const {
+        return {.lines = resolve(projection, method) == Projection::lines, .hierarchy = hierarchy};
+    }
+};
+
+/// Everything may be added, removed and changed between two steps. Ids must name what is there.
+class World {
+  public:
+    World(std::unique_ptr<Backend> backend, WorldSettings settings);
+
+    /// `holds` names colliders that are there already. Fails where the backend's device has no room for the cloth.
+    Result<ClothId> try_add(std::shared_ptr<const ClothModel> model, Holds holds = {});
+    /// For backends that have the memory of the program itself, which is there or throws.
+    ClothId add(std::shared_ptr<const ClothModel> model, Holds holds = {});
+    void remove(ClothId id);
+    /// Another model for the same particles, with other material or other pins; what moves goes on moving.
+    Result<Done> set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
+    bool contains(ClothId id) const { return cloths_.contains(id); }
+    const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
+    const Holds& holds(ClothId id) const { return cloths_[cloths_.find(id)].holds; }
+
+    ColliderId add(Collider collider);
+    /// Pins that it carried stay where they are.
+    void remove(ColliderId id);
+    bool contains(ColliderId id) const { return colliders_.contains(id); }
+    const Collider& collider(ColliderId id) const { return colliders_[colliders_.find(id)]; }
+    void set_friction(ColliderId id, std::array<float, 2> friction);
+    /// During the next frame the collider moves there from where it is, and takes cloth along; then it stays. Ends its
+    /// motion by keys.
+    void move(ColliderId id, const Pose& to);
+
+    void configure(WorldSettings settings);
+
+    /// Advances by dt seconds, > 0 and finite. A device may be at work still when this returns: whatever asks what came
+    /// of it waits, and so does the next step. What becomes of the cloths may stay there until frame() is called.
+    void advance(double dt);
+    /// And brings them here. The frame stays valid until the next step or change.
+    const Frame& step(double dt) {
+        advance(dt);
+        return frame();
+    }
+    /// The last frame; before the first step, the start.
+    const Frame& frame() const;
+    /// Of that frame, without the cloths' arrays.
+    const Frame& summary() const {
+        complete();
+        return frame_;
+    }
+    std::uint64_t index() const { return frame_.index; }  ///< of the last frame, without waiting
+    double time() const { return frame_.time; }
+    /// What contacts did, with `settings().feedback`; never waits. After advance() it is that of the frame before, and
+    /// of the last one as soon as anything has waited for that: summary(), frame(), a change. Likewise on the CPU,
+    /// where nothing waits. None in a world that is fresh or restored.
+    const Feedback& feedback() const;
+
+    const WorldSettings& settings() const { return settings_; }
+    const std::vector<Collider>& colliders() const { return colliders_.values(); }
+    ColliderId collider_id(std::size_t place) const { return colliders_.id_of(place); }
+    std::size_t cloth_count() const { return cloths_.size(); }
+    ClothId cloth_id(std::size_t place) const { return cloths_.id_of(place); }  ///< in the order of frames
+    const StepPlan& plan(std::size_t cloth) const { return cloths_[cloth].plan; }
+    const Backend& backend() const { return *backend_; }
+    Backend& backend() { return *backend_; }
+    /// What the backend calls it.
+    ClothHandle handle(ClothId id) const { return cloths_[cloths_.find(id)].handle; }
+
+    Snapshot save() const;
+    /// The same bits come after it as came after save(), as long as cloths, colliders and settings are what they were.
+    /// Fails, and changes nothing, if the cloths or colliders are not as many or as large.
+    Result<Done> restore(const Snapshot& snapshot);
+
+    /// Over all cloths, as they are; what is on a device is measured there.
+    ClothMeasures measure() const;
+    Residual stretch_residual() const { return measure().residual; }
+    /// 16 hexadecimal digits that differ as soon as one bit of the state does.
+    std::string state_hash() const;
+
+  private:
+    struct Cloth {
+        ClothHandle handle;
+        std::shared_ptr<const ClothModel> model;
+        Holds holds;
+        StepPlan plan;
+        std::vector<Pose> mover_poses;
+    };
+
+    void replan();
+    void list_cloths();
+    void complete() const;  ///< waits for the frame that a device is at work on
+    void settle();          ///< and makes out its feedback, before what that lies in goes
+    FrameFeedback& begin_feedback(double dt);
+    void place_colliders(double dt);
+    void place_movers(Cloth& cloth, double dt) const;
+
+    std::unique_ptr<Backend> backend_;
+    WorldSettings settings_;
+    IdList<Cloth, struct ClothTag> cloths_;
+    IdList<Collider, struct ColliderTag> colliders_;
+    std::vector<Pose> poses_;
+    std::vector<WindNow> winds_;
+    std::vector<ClothStep> steps_;  // of a frame
+    mutable Frame frame_;
+    mutable bool unread_ = false;   ///< its arrays are still those of a frame before
+    mutable bool running_ = false;  ///< the backend has not finished it
+    /// In turn: one is read while the next frame writes the other.
+    std::array<FrameFeedback, 2> felt_;
+    mutable std::optional<std::uint32_t> not_made_out_;  ///< of these, the one of the last finished frame
+    mutable Feedback feedback_;
+    mutable std::vector<std::uint32_t> vertices_;
+};
+
+}  // namespace weft
