@@ -17,5 +17,6 @@ struct Id {
 
 using ClothId = Id<struct ClothTag>;
 using ColliderId = Id<struct ColliderTag>;
+using StitchId = Id<struct StitchTag>;  ///< of stitches that were added together
 
 }  // namespace weft

@@ -6,40 +6,45 @@
 #include <cassert>
 
 namespace weft::cpu {
-ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {
-    const std::size_t capacity = model->capacity();
-    now.position = model->start;
-    now.start.resize(capacity);
-    now.velocity.resize(capacity);
-    now.carry.resize(capacity);
+
+ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArrays& arrays, std::uint32_t begin)
+    : model(std::move(cloth_model)), world(arrays), base(begin) {
+    const Particles mine = now();
+    for (const auto& array : {mine.start, mine.velocity, mine.carry, normals()}) std::ranges::fill(array, Vec4{});
+    std::ranges::copy(model->start, mine.position.begin());
+    std::ranges::transform(model->start, weights().begin(), &Vec4::w);
     remember();
     stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
     by_face.resize(std::size_t{model->face_stride} + 1);
-    normals.resize(capacity);
     update_normals();
 }
 
-void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
+void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base) {
     assert(other->particle_count == model->particle_count);
-    const auto keep = [&](AlignedVector<Vec4>& array, const auto& fresh) {
-        AlignedVector<Vec4> next(other->capacity());
-        for (std::uint32_t p = 0; p < other->capacity(); ++p) next[p] = fresh(p);
-        // Of another set of anchors nobody can tell which is which; they start where the model has them.
-        const bool same_anchors = other->anchor_count == model->anchor_count;
-        for (std::uint32_t p = 0; p < (same_anchors ? other->point_count() : other->particle_count); ++p) {
-            const float w = next[p].w;
-            next[p] = array[p];
-            if (&array == &now.position) next[p].w = w;
-        }
-        array = std::move(next);
+    // Of another set of anchors nobody can tell which is which; they start where the model has them.
+    const bool same_anchors = other->anchor_count == model->anchor_count;
+    const std::uint32_t kept = same_anchors ? other->point_count() : other->particle_count;
+    const auto copy_of = [&](std::span<Vec4> array) {
+        return AlignedVector<Vec4>(array.begin(), array.begin() + kept);
     };
-    const auto zero = [](std::uint32_t) { return Vec4{}; };
-    keep(now.position, [&](std::uint32_t p) { return other->start[p]; });
-    keep(now.start, zero);
-    keep(now.velocity, zero);
-    keep(now.carry, zero);
-    remember();
+    const Particles old = now();
+    const auto position = copy_of(old.position), start = copy_of(old.start), velocity = copy_of(old.velocity),
+               carry = copy_of(old.carry);
     model = std::move(other);
+    base = new_base;
+    const Particles mine = now();
+    std::ranges::copy(model->start, mine.position.begin());
+    std::ranges::transform(model->start, weights().begin(), &Vec4::w);
+    for (std::uint32_t p = 0; p < kept; ++p) {
+        const Vec4& x = position[p];
+        mine.position[p] = {x.x, x.y, x.z, weights()[p]};
+    }
+    const auto put = [&](const AlignedVector<Vec4>& from, std::span<Vec4> to) {
+        std::ranges::copy(from, to.begin());
+        std::ranges::fill(to.subspan(kept), Vec4{});
+    };
+    put(start, mine.start), put(velocity, mine.velocity), put(carry, mine.carry);
+    remember();
     for (auto& of_table : lambda) of_table.clear();
     stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
     gather = nullptr;
@@ -48,36 +53,43 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other) {
     contact_sums.clear();
     account = {};
     by_face.assign(std::size_t{model->face_stride} + 1, Vec4{});
-    normals.assign(model->capacity(), Vec4{});
+    std::ranges::fill(normals(), Vec4{});
     update_normals();
 }
 
 ClothSnapshot ClothState::save() const {
-    const auto points = [&](const AlignedVector<Vec4>& array) {
+    const auto points = [&](std::span<const Vec4> array) {
         return std::vector<Vec4>(array.begin(), array.begin() + model->point_count());
     };
-    ClothSnapshot snapshot{.position = points(now.position),
-                           .start = points(now.start),
-                           .velocity = points(now.velocity),
-                           .carry = points(now.carry),
+    const Particles mine = now();
+    ClothSnapshot snapshot{.position = points(mine.position),
+                           .start = points(mine.start),
+                           .velocity = points(mine.velocity),
+                           .carry = points(mine.carry),
                            .lambda = {stretch_lambda().begin(), stretch_lambda().end()},
                            .substep_seconds = substep_seconds};
-    for (Vec4& p : snapshot.position) p.w = 0;
+    for (std::size_t p = 0; p < snapshot.position.size(); ++p) snapshot.position[p].w = weights()[p];
     return snapshot;
 }
 
 void ClothState::restore(const ClothSnapshot& snapshot) {
-    for (std::uint32_t p = 0; p < model->point_count(); ++p) {
-        const Vec4& x = snapshot.position[p];
-        now.position[p] = {x.x, x.y, x.z, model->start[p].w};
-    }
-    std::ranges::copy(snapshot.start, now.start.begin());
-    std::ranges::copy(snapshot.velocity, now.velocity.begin());
-    std::ranges::copy(snapshot.carry, now.carry.begin());
+    const Particles mine = now();
+    std::ranges::copy(snapshot.position, mine.position.begin());
+    std::ranges::transform(snapshot.position, weights().begin(), &Vec4::w);
+    std::ranges::copy(snapshot.start, mine.start.begin());
+    std::ranges::copy(snapshot.velocity, mine.velocity.begin());
+    std::ranges::copy(snapshot.carry, mine.carry.begin());
     std::ranges::copy(snapshot.lambda, stretch_lambda().begin());
     substep_seconds = snapshot.substep_seconds;
     remember();
     update_normals();
+}
+
+void ClothState::set_weights(std::span<const ParticleWeight> changed) {
+    for (const auto& [particle, weight] : changed) {
+        weights()[particle] = weight;
+        now().position[particle].w = weight;
+    }
 }
 
 void ClothState::update_normals() {
@@ -87,30 +99,29 @@ void ClothState::update_normals() {
 }
 
 void ClothState::remember() {
-    for (auto* array : {&last_good.position, &last_good.velocity, &last_good.carry}) array->resize(now.position.size());
-    remember(0, now.position.size());
+    remember(0, model->capacity());
 }
 
 void ClothState::remember(std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-        const Vec4& x = now.position[p];
-        last_good.position[p] = {x.x, x.y, x.z, now.start[p].w};
+    for (std::size_t p = base + begin; p < base + end; ++p) {
+        const Vec4& x = world.position[p];
+        world.good_position[p] = {x.x, x.y, x.z, world.start[p].w};
     }
     const auto copy = [&](const AlignedVector<Vec4>& from, AlignedVector<Vec4>& to) {
-        std::copy(from.data() + begin, from.data() + end, to.data() + begin);
+        std::copy(from.data() + base + begin, from.data() + base + end, to.data() + base + begin);
     };
-    copy(now.velocity, last_good.velocity);
-    copy(now.carry, last_good.carry);
+    copy(world.velocity, world.good_velocity);
+    copy(world.carry, world.good_carry);
 }
 
 void ClothState::roll_back() {
-    for (std::size_t p = 0; p < now.position.size(); ++p) {
-        const Vec4& x = last_good.position[p];
-        now.start[p] = x;
-        now.position[p] = {x.x, x.y, x.z, model->start[p].w};
+    for (std::size_t p = base; p < std::size_t{base} + model->capacity(); ++p) {
+        const Vec4& x = world.good_position[p];
+        world.start[p] = x;
+        world.position[p] = {x.x, x.y, x.z, world.weight[p]};
+        world.velocity[p] = world.good_velocity[p];
+        world.carry[p] = world.good_carry[p];
     }
-    now.velocity = last_good.velocity;
-    now.carry = last_good.carry;
 }
 
 RowView ClothState::rows(ConstraintKind kind) {
@@ -120,8 +131,8 @@ RowView ClothState::rows(ConstraintKind kind) {
 }
 
 SurfaceView ClothState::surface() {
-    return {&now.position[0].x, model->faces.data(),    model->face_stride,
-            &by_face[0].x,      view_of(model->around), &normals[0].x};
+    return {&now().position[0].x, model->faces.data(),    model->face_stride,
+            &by_face[0].x,        view_of(model->around), &normals()[0].x};
 }
 
 LevelView ClothState::level(std::uint32_t i) {
@@ -158,8 +169,9 @@ CarryView ClothState::carry_from(std::uint32_t i) const {
 
 AirView ClothState::air(float density) {
     const AirMaterial& fabric = model->fabric.air;
-    return {.position = &now.position[0].x,
-            .velocity = &now.velocity[0].x,
+    const Particles mine = now();
+    return {.position = &mine.position[0].x,
+            .velocity = &mine.velocity[0].x,
             .faces = model->faces.data(),
             .stride = model->face_stride,
             .mass = face_mass.data(),
@@ -171,30 +183,30 @@ AirView ClothState::air(float density) {
             .around = view_of(model->around)};
 }
 
-GatherView ClothState::gather_view(const StepPlan& plan) const {
+GatherView ClothState::gather_view(const WorldPlan& plan) const {
     return {&corrections[0].x, gather->offsets.data(), gather->items.data(), plan.method == Method::pbd,
             plan.accumulate == Accumulate::fixed_point};
 }
 
-CorrectionView ClothState::correction(ConstraintKind kind, const StepPlan& plan) {
+CorrectionView ClothState::correction(ConstraintKind kind, const WorldPlan& plan, const PlainStiffness& stiffness) {
     const auto index = static_cast<std::uint32_t>(kind);
     return {.blocks = &corrections[gather->first[index]].x,
             .share = plan.method == Method::pbd ? nullptr : gather->share[index].data(),
-            .stiffness = plan.stiffness[index]};
+            .stiffness = stiffness[index]};
 }
 
-void ClothState::end_frame(const StepPlan& plan, double dt) {
+void ClothState::end_frame(const WorldPlan& plan, double dt) {
     substep_seconds = lambda_seconds(plan, dt);
 }
 
-void ClothState::begin_frame(const StepPlan& plan) {
+void ClothState::begin_frame(const WorldPlan& plan) {
     limits = {};
     if (!has_limits(*model, plan)) return;
-    const FrameLimits found = frame_limits(*model, stretch_lambda(), substep_seconds, now.position);
+    const FrameLimits found = frame_limits(*model, stretch_lambda(), substep_seconds, now().position);
     limits = {found.tension, found.allowed};
 }
 
-void ClothState::prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks, bool feedback) {
+void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned ranks, bool feedback) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };

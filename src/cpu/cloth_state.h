@@ -4,9 +4,11 @@
 #include "base/aligned.h"
 #include "cpu/contact_account.h"
 #include "cpu/passes.h"
+#include "cpu/world_arrays.h"
 #include "solver/model/cloth_model.h"
 #include "solver/model/jacobi.h"
-#include "solver/plan/step_plan.h"
+#include "solver/plan/world_plan.h"
+#include "solver/state/particle_weight.h"
 #include "solver/state/snapshot.h"
 
 #include <array>
@@ -15,19 +17,6 @@
 
 namespace weft::cpu {
 
-/// The arrays that a step goes on from; what the state hash covers.
-struct Particles {
-    AlignedVector<Vec4> position, start, velocity, carry;  ///< as in ParticleView
-
-    ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
-};
-
-/// What the current frame found, to go back to. The fourth floats of `position` are those of Particles::start: weights
-/// are the model's, and where the last substep started nobody asks any more.
-struct LastGood {
-    AlignedVector<Vec4> position, velocity, carry;
-};
-
 /// What one coarse level works with in a substep; nothing of it outlives that.
 struct LevelState {
     AlignedVector<Vec4> position, origin, displacement;
@@ -35,16 +24,21 @@ struct LevelState {
 };
 
 struct ClothState {
-    explicit ClothState(std::shared_ptr<const ClothModel> cloth_model);
+    /// The cloth's particles are those from `base` on; the arrays must be large enough.
+    ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArrays& arrays, std::uint32_t base);
 
     std::shared_ptr<const ClothModel> model;
-    Particles now;
-    LastGood last_good;
+    WorldArrays& world;
+    std::uint32_t base;
+
+    Particles now() const { return world.range(base, model->capacity()); }
+    std::span<Vec4> normals() const { return std::span(world.normals).subspan(base, model->capacity()); }
+    std::span<float> weights() const { return std::span(world.weight).subspan(base, model->capacity()); }
+
     /// Those of stretch outlive a frame, the others an iteration: without a second one they are empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
     ContactAccount account;            ///< empty without feedback
-    AlignedVector<Vec4> normals;
     /// What triangles hand to the particles around them: the air's impulse, and at the end of a frame their normals.
     /// One more stays zero.
     AlignedVector<Vec4> by_face;
@@ -57,8 +51,10 @@ struct ClothState {
     double substep_seconds = 0;                      ///< of the last frame, for lambda's scale; 0 before it
     Limits limits;                                   ///< in this frame, of tethers and coarse rows
 
-    /// The same particles; anchors may come or go.
-    void set_model(std::shared_ptr<const ClothModel> other);
+    /// The same particles; anchors may come or go. `base` is where they are now, which may be another place.
+    void set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base);
+    /// Changes inverse masses, nothing else.
+    void set_weights(std::span<const ParticleWeight> changed);
     ClothSnapshot save() const;
     void restore(const ClothSnapshot& snapshot);
 
@@ -75,16 +71,16 @@ struct ClothState {
     CarryView carry_to_level(std::uint32_t i) const;
     CarryView carry_to_particles() const;
     AirView air(float density);
-    GatherView gather_view(const StepPlan& plan) const;
-    CorrectionView correction(ConstraintKind kind, const StepPlan& plan);
+    GatherView gather_view(const WorldPlan& plan) const;
+    CorrectionView correction(ConstraintKind kind, const WorldPlan& plan, const PlainStiffness& stiffness);
     void remember(std::size_t begin, std::size_t end);  ///< particles, as the last good ones
     void remember();                                    ///< all
     void roll_back();
     /// Makes room for what the plan needs beyond the particles; only here memory is asked for.
-    void prepare(const StepPlan& plan, std::size_t colliders, unsigned ranks, bool feedback = false);
+    void prepare(const WorldPlan& plan, std::size_t colliders, unsigned ranks, bool feedback = false);
     /// Lets tethers and coarse levels give way to the tension that the last frame left in the cloth.
-    void begin_frame(const StepPlan& plan);
-    void end_frame(const StepPlan& plan, double dt);
+    void begin_frame(const WorldPlan& plan);
+    void end_frame(const WorldPlan& plan, double dt);
     void update_normals();
 
   private:

@@ -35,7 +35,7 @@ void ContactAccount::prepare(std::size_t colliders, std::size_t capacity, unsign
     }
 }
 
-void ContactAccount::count(unsigned rank, Share mine, const AlignedVector<Vec4>& position, float inv_h) {
+void ContactAccount::count(unsigned rank, Share mine, std::span<const Vec4> position, float inv_h) {
     Part& part = parts_[rank];
     part.contacts.clear();
     for (std::uint32_t c = 0; c < part.sums.size(); ++c) {

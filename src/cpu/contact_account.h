@@ -22,7 +22,7 @@ class ContactAccount {
     float* turned(std::size_t collider) { return &turned_[collider * capacity_].x; }
 
     /// What the rank's own particles did. `mine` has no anchors.
-    void count(unsigned rank, Share mine, const AlignedVector<Vec4>& position, float inv_h);
+    void count(unsigned rank, Share mine, std::span<const Vec4> position, float inv_h);
     /// Of all ranks. What `to` shows stays until the call after the next.
     void collect(ClothFeedback& to);
 

@@ -24,8 +24,9 @@ class CpuBackend final : public Backend {
     }
     unsigned threads() const override { return team_.ranks(); }
 
-    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
-        auto state = std::make_unique<cpu::ClothState>(std::move(model));
+    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+        make_room(*model, base);
+        auto state = std::make_unique<cpu::ClothState>(std::move(model), arrays_, base);
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
         const auto at = static_cast<std::uint32_t>(free - cloths_.begin());
         if (free == cloths_.end()) {
@@ -41,8 +42,14 @@ class CpuBackend final : public Backend {
         cloths_[handle.value] = nullptr;
     }
 
-    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
-        cloth(handle).set_model(std::move(model));
+    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+        make_room(*model, base);
+        cloth(handle).set_model(std::move(model), base);
+        return Done{};
+    }
+
+    Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
+        cloth(handle).set_weights(changed);
         return Done{};
     }
 
@@ -52,26 +59,18 @@ class CpuBackend final : public Backend {
         return Done{};
     }
 
-    void step(std::span<const ClothStep> cloths) override {
-        jobs_.clear();
-        for (const ClothStep& one : cloths) jobs_.push_back({&cloth(one.cloth), one.plan, &one.input});
-        executor_.run(jobs_, stage_ms_);
-        for (std::size_t i = 0; i < cloths.size(); ++i) {
-            cpu::ClothState& state = *jobs_[i].cloth;
-            ClothFrame& frame = *cloths[i].frame;
-            frame.reports = jobs_[i].reports;
-            frame.detail.clear();
-            if (cloths[i].feedback && !state.account.empty()) state.account.collect(*cloths[i].feedback);
-            if (frame.reports & report_non_finite) {
-                if (cloths[i].feedback) cloths[i].feedback->clear();
-                state.roll_back();
-                frame.detail = executor_.find_non_finite(state, *cloths[i].plan, cloths[i].input);
-                state.roll_back();
-                // What was solved was not of this place; a residual and a saved state still read it.
-                for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
-                state.update_normals();
-            }
+    void step(const WorldStep& step) override {
+        jobs_.resize(step.islands.size());
+        links_.resize(std::max(links_.size(), step.islands.size()));
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            cpu::Executor::Job& job = jobs_[i];
+            job.step = &step.islands[i];
+            job.links = job.step->links ? &links_[i] : nullptr;
+            job.cloths.clear();
+            for (const ClothStep& one : job.step->cloths) job.cloths.push_back(&cloth(one.cloth));
         }
+        executor_.run(step, jobs_, stage_ms_);
+        for (const cpu::Executor::Job& job : jobs_) end_island(step, job);
     }
 
     void finish(std::array<double, stage_count>& stage_ms) override {
@@ -82,28 +81,30 @@ class CpuBackend final : public Backend {
     bool read(ClothHandle id, ClothFrame& frame) const override {
         const cpu::ClothState& state = cloth(id);
         const std::uint32_t count = state.model->particle_count;
+        const cpu::Particles now = state.now();
         frame.model = state.model.get();
-        frame.positions = std::span(state.now.position).first(count);
-        frame.velocities = std::span(state.now.velocity).first(count);
-        frame.normals = std::span(state.normals).first(count);
+        frame.positions = now.position.first(count);
+        frame.velocities = now.velocity.first(count);
+        frame.normals = state.normals().first(count);
         return true;
     }
 
     void measure(ClothHandle id, MeasureSums& sums) const override {
         const cpu::ClothState& state = cloth(id);
         const ClothModel& model = *state.model;
-        sums.add(model, state.now.position, state.now.velocity);
-        sums.add_residual(model,
-                          stretch_residual(model, state.now.position, state.stretch_lambda(), state.substep_seconds));
+        const cpu::Particles now = state.now();
+        sums.add(model, now.position, now.velocity);
+        sums.add_residual(model, stretch_residual(model, now.position, state.stretch_lambda(), state.substep_seconds));
     }
 
     void hash(ClothHandle id, StateHash& hash) const override {
         const cpu::ClothState& state = cloth(id);
+        const cpu::Particles now = state.now();
         for (std::uint32_t p = 0; p < state.model->particle_count; ++p) {
-            for (const Vec4& v : {state.now.position[p], state.now.velocity[p], state.now.carry[p]}) {
+            for (const Vec4& v : {now.position[p], now.velocity[p], now.carry[p]}) {
                 hash.add(v.x), hash.add(v.y), hash.add(v.z), hash.add(v.w);
             }
-            hash.add(state.now.start[p].w);
+            hash.add(now.start[p].w);
         }
     }
 
@@ -113,10 +114,43 @@ class CpuBackend final : public Backend {
         return *cloths_[id.value];
     }
 
+    void make_room(const ClothModel& model, std::uint32_t base) {
+        const std::size_t end = std::size_t{base} + model.capacity();
+        if (arrays_.size() < end) arrays_.resize(end);
+    }
+
+    // What happens to one cloth of an island happens to all.
+    void end_island(const WorldStep& step, const cpu::Executor::Job& job) {
+        std::uint32_t all = report_none;
+        for (std::size_t i = 0; i < job.cloths.size(); ++i) {
+            const ClothStep& one = job.step->cloths[i];
+            one.frame->reports = job.reports[i];
+            one.frame->detail.clear();
+            all |= job.reports[i];
+            if (one.feedback && !job.cloths[i]->account.empty()) job.cloths[i]->account.collect(*one.feedback);
+        }
+        if (!(all & report_non_finite)) return;
+        for (cpu::ClothState* state : job.cloths) state->roll_back();
+        const std::string culprit = executor_.find_non_finite(step, job);
+        for (std::size_t i = 0; i < job.cloths.size(); ++i) {
+            const ClothStep& one = job.step->cloths[i];
+            cpu::ClothState& state = *job.cloths[i];
+            if (one.feedback) one.feedback->clear();
+            one.frame->reports |= report_non_finite;
+            one.frame->detail = culprit;
+            state.roll_back();
+            // What was solved was not of this place; a residual and a saved state still read it.
+            for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
+            state.update_normals();
+        }
+    }
+
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
     std::vector<cpu::Executor::Job> jobs_;  // of a frame
+    std::vector<cpu::LinkState> links_;     // by island
+    cpu::WorldArrays arrays_;
     std::array<double, stage_count> stage_ms_{};
     std::vector<std::unique_ptr<cpu::ClothState>> cloths_;
 };

@@ -6,6 +6,7 @@
 #include "solver/model/constraint_table.h"
 #include "solver/model/faces_around.h"
 #include "solver/model/hierarchy.h"
+#include "solver/plan/world_plan.h"
 #include "solver/world/air.h"
 #include "solver/world/collider.h"
 
@@ -44,13 +45,6 @@ struct RowView {
     Limits limits = {};
 };
 
-/// What happens to lambda, which restarts at 0 in every substep.
-enum class LambdaUse {
-    discard,     ///< starts at 0; nobody will ask for it
-    store,       ///< starts at 0 and is kept
-    accumulate,  ///< goes on from where the last iteration left it
-};
-
 struct ContactView {
     std::array<float, 4> numbers;  ///< of the shape
     Pose now, before;              ///< at the end and at the start of the substep
@@ -67,7 +61,7 @@ struct ContactView {
 struct CorrectionView {
     float* blocks;                     ///< of four, [slot · stride + row]
     const float* share;                ///< [row]; nullptr for plain constraints, whose sum is averaged by particle
-    std::array<float, 2> stiffness{};  ///< as StepPlan has it; plain constraints only
+    std::array<float, 2> stiffness{};  ///< plain constraints only
 };
 
 /// How particles find their corrections again.

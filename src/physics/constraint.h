@@ -33,6 +33,9 @@ struct ConstraintInfo {
 
 const ConstraintInfo& constraint_info(ConstraintKind kind);
 
+/// In place of a particle: the row does not use this slot. Its numbers for the slot must be such that nothing moves.
+inline constexpr std::uint32_t no_particle = ~0u;
+
 /// Rows in the order in which they were built.
 struct RowList {
     std::uint32_t arity = 0, field_count = 0;

@@ -10,6 +10,7 @@
 #include "physics/flexion/flexion.data.h"
 #include "physics/plate/plate.data.h"
 #include "physics/reach/reach.data.h"
+#include "physics/stitch/stitch.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 

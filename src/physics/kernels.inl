@@ -23,6 +23,7 @@
 #include "physics/bend/bend.kernel.h"
 #include "physics/plate/plate.kernel.h"
 #include "physics/flexion/flexion.kernel.h"
+#include "physics/stitch/stitch.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/feedback.kernel.h"

@@ -1,9 +1,8 @@
 // Free motion: what no constraint may change.
 
-#include "cpu/cloth_state.h"
-#include "cpu/executor.h"
 #include "physics/testing.h"
 #include "sheet.h"
+#include "specimen.h"
 
 #include <numbers>
 
@@ -60,11 +59,11 @@ struct Momentum {
     double linear[3] = {}, angular[3] = {};
 };
 
-Momentum momentum(const cpu::ClothState& cloth) {
+Momentum momentum(const LoneCloth& cloth) {
     Momentum sum;
-    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
-        const double m = cloth.model->mass[p];
-        const Vec4 &x = cloth.now.position[p], &v = cloth.now.velocity[p];
+    for (std::uint32_t p = 0; p < cloth.model().particle_count; ++p) {
+        const double m = cloth.model().mass[p];
+        const Vec4 &x = cloth.now().position[p], &v = cloth.now().velocity[p];
         const double pos[3] = {x.x, x.y, x.z}, vel[3] = {v.x, v.y, v.z};
         for (int k = 0; k < 3; ++k) {
             const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -80,20 +79,14 @@ TEST(FreeFall, constraints_and_damping_keep_momentum) {
     Fabric fabric;
     fabric.body.damping = 5;
     const auto model = make_sheet({.rotation_degrees = {30, 0, 0}, .fabric = fabric});
-    cpu::ClothState cloth(model);
+    LoneCloth cloth(model, {.substeps = 20, .iterations = 1, .contacts = false});
     for (std::uint32_t p = 0; p < model->particle_count; ++p) {
-        const Vec3 x = cloth.now.position[p].xyz();
+        const Vec3 x = cloth.now().position[p].xyz();
         const Vec3 v = Vec3{0.3f, 0.1f, -0.2f} + cross({0.5f, 2, 1}, x) + Vec3{0, std::abs(x.x), 0};
-        cloth.now.velocity[p] = {v.x, v.y, v.z, 0};
+        cloth.now().velocity[p] = {v.x, v.y, v.z, 0};
     }
     const Momentum before = momentum(cloth);
-    WorkerTeam team;
-    cpu::Executor executor(*cpu::available_passes().front(), team);
-    const StepPlan plan = plan_step(*model, {.substeps = 20, .iterations = 1, .contacts = false});
-    std::array<double, stage_count> stage_ms{};
-    const StepInput input{.dt = 1.0 / 60, .gravity = {}, .colliders = {}, .poses = {}};
-    cpu::Executor::Job job{&cloth, &plan, &input};
-    for (int i = 0; i < 60; ++i) executor.run({&job, 1}, stage_ms);
+    for (int i = 0; i < 60; ++i) cloth.step(1.0 / 60, {});
     const Momentum after = momentum(cloth);
     // Every row conserves momentum exactly, but rounds positions of half a meter to 3e-8 m, which over a substep of
     // 1/1200 s reads as 4e-5 m/s. 1200 substeps of that, averaged over the sheet, are the tolerance.
@@ -111,8 +104,8 @@ TEST(Energy, never_rises_without_something_that_drives) {
     const auto energy = [&] {
         const ClothFrame& cloth = world.frame().cloths[0];
         double potential = 0;
-        for (std::uint32_t i = 0; i < cloth.model->particle_count; ++i) {
-            if (cloth.positions[i].w > 0) potential += 9.81 * cloth.model->mass[i] * cloth.positions[i].y;
+        for (std::uint32_t i = 0; i < cloth.model().particle_count; ++i) {
+            if (cloth.positions[i].w > 0) potential += 9.81 * cloth.model().mass[i] * cloth.positions[i].y;
         }
         return potential + kinetic_energy(world.frame());
     };

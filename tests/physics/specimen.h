@@ -11,6 +11,46 @@
 
 namespace weft::physical {
 
+/// A cloth that is a world of its own on one thread, with its state in reach.
+class LoneCloth {
+  public:
+    LoneCloth(std::shared_ptr<const ClothModel> model, const StepSettings& settings)
+        : arrays_(sized(model->capacity())),
+          state_(std::move(model), arrays_, 0),
+          executor_(*cpu::available_passes().front(), team_),
+          plan_(plan_world(settings, {{{.model = state_.model.get()}}})),
+          passes_(plan_, {{{.model = state_.model.get()}}}, nullptr),
+          stiffness_(plain_stiffness(state_.model->fabric, settings.iterations)) {}
+
+    const ClothModel& model() const { return *state_.model; }
+    cpu::Particles now() const { return state_.now(); }
+    /// Returns report bits. `gravity` in m/s².
+    std::uint32_t step(double dt, Vec3 gravity) {
+        const ClothStep cloth{.cloth = {}, .stiffness = &stiffness_};
+        const IslandStep island{.plan = &passes_, .cloths = {&cloth, 1}};
+        const WorldStep step{.plan = &plan_, .input = {.dt = dt, .gravity = gravity}};
+        cpu::Executor::Job job{.step = &island, .cloths = {&state_}};
+        executor_.run(step, {&job, 1}, stage_ms_);
+        return job.reports.front();
+    }
+
+  private:
+    static cpu::WorldArrays sized(std::size_t count) {
+        cpu::WorldArrays arrays;
+        arrays.resize(count);
+        return arrays;
+    }
+
+    cpu::WorldArrays arrays_;
+    cpu::ClothState state_;
+    WorkerTeam team_;
+    cpu::Executor executor_;
+    WorldPlan plan_;
+    IslandPlan passes_;
+    PlainStiffness stiffness_;
+    std::array<double, stage_count> stage_ms_{};
+};
+
 class Specimen {
   public:
     struct Steps {
@@ -19,35 +59,27 @@ class Specimen {
     };
 
     Specimen(std::shared_ptr<const ClothModel> model, const Steps& steps)
-        : cloth_(std::move(model)),
-          executor_(*cpu::available_passes().front(), team_),
-          plan_(plan_step(
-              *cloth_.model,
-              {.substeps = steps.substeps, .iterations = steps.iterations, .contacts = false, .surface = false})),
+        : cloth_(std::move(model),
+                 {.substeps = steps.substeps, .iterations = steps.iterations, .contacts = false, .surface = false}),
           dt_(steps.dt) {}
 
-    const ClothModel& model() const { return *cloth_.model; }
-    std::uint32_t size() const { return cloth_.model->particle_count; }
-    bool pinned(std::uint32_t p) const { return !(cloth_.now.position[p].w > 0); }
-    Vec3 position(std::uint32_t p) const { return cloth_.now.position[p].xyz(); }
-    Vec3 velocity(std::uint32_t p) const { return cloth_.now.velocity[p].xyz(); }
+    const ClothModel& model() const { return cloth_.model(); }
+    std::uint32_t size() const { return cloth_.model().particle_count; }
+    bool pinned(std::uint32_t p) const { return !(cloth_.now().position[p].w > 0); }
+    Vec3 position(std::uint32_t p) const { return cloth_.now().position[p].xyz(); }
+    Vec3 velocity(std::uint32_t p) const { return cloth_.now().velocity[p].xyz(); }
 
     /// Puts every particle, pinned ones too, where `pose` maps its place at rest. Velocities stay.
     template <class Pose>
     void place(Pose&& pose) {
         for (std::uint32_t p = 0; p < size(); ++p) {
-            const Vec3 x = pose(cloth_.model->rest_position(p));
-            Vec4& now = cloth_.now.position[p];
+            const Vec3 x = pose(cloth_.model().rest_position(p));
+            Vec4& now = cloth_.now().position[p];
             now = {x.x, x.y, x.z, now.w};
         }
     }
 
-    void step() {
-        const StepInput input{.dt = dt_, .gravity = {0, -gravity, 0}, .colliders = {}, .poses = {}};
-        cpu::Executor::Job job{&cloth_, &plan_, &input};
-        executor_.run({&job, 1}, stage_ms_);
-        reports_ |= job.reports;
-    }
+    void step() { reports_ |= cloth_.step(dt_, {0, -gravity, 0}); }
     std::uint32_t reports() const { return reports_; }
 
     /// Lets a drag of `rate` 1/s bring the cloth to rest. Drag acts on velocities alone, so what it leaves is the
@@ -59,7 +91,7 @@ class Specimen {
             float fastest = 0;
             for (std::uint32_t p = 0; p < size(); ++p) {
                 const Vec3 v = velocity(p) * keep;
-                cloth_.now.velocity[p] = {v.x, v.y, v.z, 0};
+                cloth_.now().velocity[p] = {v.x, v.y, v.z, 0};
                 fastest = std::max(fastest, dot(v, v));
             }
             if (frame > 10 && fastest < slow * slow) return true;
@@ -70,13 +102,9 @@ class Specimen {
     static constexpr float gravity = 9.81f;  ///< m/s², along -y
 
   private:
-    cpu::ClothState cloth_;
-    WorkerTeam team_;
-    cpu::Executor executor_;
-    StepPlan plan_;
+    LoneCloth cloth_;
     double dt_;
     std::uint32_t reports_ = report_none;
-    std::array<double, stage_count> stage_ms_{};
 };
 
 /// J. What one row of the plate holds with particle p at `at(p)`.

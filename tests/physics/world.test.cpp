@@ -213,7 +213,7 @@ TEST(World, takes_new_settings_between_steps) {
     const float v = world.frame().cloths[0].velocities[0].y;
     run(world, 0.2);
     EXPECT_NEAR(world.frame().cloths[0].velocities[0].y, v, 1e-3f) << "nothing pulls any more";
-    EXPECT_EQ(world.plan(0).substeps, 3u);
+    EXPECT_EQ(world.plan().substeps, 3u);
 }
 
 }  // namespace

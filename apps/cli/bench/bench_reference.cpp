@@ -21,7 +21,7 @@ struct PassTraffic {
 
 class TrafficCounter {
   public:
-    TrafficCounter(const ClothModel& model, const StepPlan& plan, double colliders)
+    TrafficCounter(const ClothModel& model, const WorldPlan& plan, double colliders)
         : model_(model), plan_(plan), colliders_(colliders), seen_(model.capacity(), 0) {}
 
     /// Lambda not included.
@@ -44,6 +44,7 @@ class TrafficCounter {
     double working_set() {
         std::map<Key, double> own;
         for (const Pass& pass : plan_.substep) {
+            if (!takes_part(PlannedCloth{&model_, false}, pass)) continue;
             const PassTraffic traffic = of(pass);
             double& bytes = own[{pass.kind, pass.constraint, pass.batch, pass.level}];
             bytes = std::max(bytes, traffic.own + std::min(lambda_bytes(pass), traffic.rows * word));
@@ -133,7 +134,8 @@ class TrafficCounter {
                 return {.own = 0, .shared = 8 * block * points};
             case PassKind::velocities:  // four in, two out; all but the last are one pass with the next prediction
                 return {.own = 0, .shared = 6 * block * points / (predicts_first() ? plan_.substeps : 1)};
-            case PassKind::hold:  // few particles are held
+            case PassKind::advance:  // counted where its halves are
+            case PassKind::hold:     // few particles are held
                 return {};
             case PassKind::contact:  // most of a cloth touches nothing: it is read
                 return {.own = 0, .shared = colliders_ * block * points};
@@ -173,7 +175,7 @@ class TrafficCounter {
     }
 
     const ClothModel& model_;
-    const StepPlan& plan_;
+    const WorldPlan& plan_;
     double colliders_;
     std::map<Key, PassTraffic> known_;
     std::vector<std::uint32_t> seen_;  ///< per particle, or node: the last round that touched it
@@ -189,10 +191,11 @@ double FrameTraffic::all() const {
 FrameTraffic frame_traffic(const World& world) {
     FrameTraffic frame;
     for (std::size_t i = 0; i < world.frame().cloths.size(); ++i) {
-        const StepPlan& plan = world.plan(i);
+        const WorldPlan& plan = world.plan();
         TrafficCounter counter(*world.frame().cloths[i].model, plan, static_cast<double>(world.colliders().size()));
         const auto add = [&](const std::vector<Pass>& passes, double times) {
             for (const Pass& pass : passes) {
+                if (!takes_part(PlannedCloth{world.frame().cloths[i].model, false}, pass)) continue;
                 const PassTraffic traffic = counter.of(pass);
                 frame.bytes[stage_of(pass)] += times * (traffic.own + traffic.shared + counter.lambda_bytes(pass));
             }

@@ -35,7 +35,8 @@ std::uint32_t first_non_finite(std::span<const Vec4> positions, std::span<const 
     return none;
 }
 
-std::string name_input(const StepInput& input, std::span<const Vec4> positions, std::span<const Vec4> velocities) {
+std::string name_input(const StepInput& input, std::span<const Pose> mover_poses, std::span<const Vec4> positions,
+                       std::span<const Vec4> velocities) {
     if (!finite(input.gravity)) return "gravity is not finite";
     if (!std::isfinite(input.air_density)) return "the density of the air is not finite";
     for (const WindNow& wind : input.winds) {
@@ -49,7 +50,7 @@ std::string name_input(const StepInput& input, std::span<const Vec4> positions, 
             return "the pose of collider '" + input.colliders[i % input.colliders.size()].name + "' is not finite";
         }
     }
-    for (const Pose& pose : input.mover_poses) {
+    for (const Pose& pose : mover_poses) {
         if (!finite(pose.position)) return "the motion of a pin is not finite";
     }
     const std::uint32_t p = first_non_finite(positions, velocities);
@@ -58,7 +59,7 @@ std::string name_input(const StepInput& input, std::span<const Vec4> positions, 
 
 std::string name_pass(const ClothModel& model, const Pass& pass, std::uint32_t substep, std::uint32_t particle) {
     std::string where(stage_name(stage_of(pass)));
-    if (pass.kind == PassKind::project) where += row_at(model, pass, particle);
+    if (pass.kind == PassKind::project && pass.source == RowSource::model) where += row_at(model, pass, particle);
     return where + " made particle " + std::to_string(particle) + " non-finite in substep " + std::to_string(substep);
 }
 

@@ -12,7 +12,8 @@ namespace weft {
 std::uint32_t first_non_finite(std::span<const Vec4> positions, std::span<const Vec4> velocities);
 
 /// What of a frame's input is not finite; nothing if all is sound. The state is what the frame began with.
-std::string name_input(const StepInput& input, std::span<const Vec4> positions, std::span<const Vec4> velocities);
+std::string name_input(const StepInput& input, std::span<const Pose> mover_poses, std::span<const Vec4> positions,
+                       std::span<const Vec4> velocities);
 
 /// "stretch between particles 3, 4 made particle 3 non-finite in substep 2".
 std::string name_pass(const ClothModel& model, const Pass& pass, std::uint32_t substep, std::uint32_t particle);

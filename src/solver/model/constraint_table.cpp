@@ -40,6 +40,11 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
 
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
                           const Coloring& coloring) {
+    return pack_rows_with_dummies(kind, list, first_dummy(particle_count), coloring);
+}
+
+ConstraintTable pack_rows_with_dummies(ConstraintKind kind, const RowList& list, std::uint32_t first,
+                                       const Coloring& coloring) {
     ConstraintTable table{.kind = kind,
                           .arity = list.arity,
                           .field_count = list.field_count,
@@ -47,7 +52,7 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
                           .stride = 0,
                           .particles = {},
                           .fields = {},
-                          .first_dummy = first_dummy(particle_count),
+                          .first_dummy = first,
                           .batches = lay_out(coloring),
                           .blocks = {}};
     if (table.batches.empty()) return table;
@@ -62,8 +67,9 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& list, std::uint32_
             const bool real_row = row < batch.begin + batch.rows;
             const std::size_t source = real_row ? coloring.order[next++] : 0;
             for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
+                const std::uint32_t particle = real_row ? list.particles[source * table.arity + slot] : no_particle;
                 table.particles[std::size_t{slot} * table.stride + row] =
-                    real_row ? list.particles[source * table.arity + slot] : dummy(particle_count, slot, row);
+                    particle == no_particle ? dummy(first, slot, row) : particle;
             }
             for (std::uint32_t field = 0; real_row && field < table.field_count; ++field) {
                 table.fields[std::size_t{field} * table.stride + row] = list.fields[source * table.field_count + field];

@@ -37,6 +37,10 @@ struct LineBlock {
     std::uint32_t end() const { return begin + length * lane_padding; }
 };
 
+/// Particles that padding acts on: a lane of each of six slots has its own, so that no two lanes of a scatter write to
+/// the same place.
+inline constexpr std::uint32_t dummy_count = 6 * lane_padding;
+
 struct ConstraintTable {
     ConstraintKind kind{};
     std::uint32_t arity = 0, field_count = 0;
@@ -44,32 +48,32 @@ struct ConstraintTable {
     std::uint32_t stride = 0;                ///< rows with padding: length of each array below
     AlignedVector<std::uint32_t> particles;  ///< [slot · stride + row]
     AlignedVector<float> fields;             ///< [field · stride + row]
-    std::uint32_t first_dummy = 0;           ///< particles from here on are for padding alone
+    std::uint32_t first_dummy = 0;           ///< so many particles from here on are for padding alone: dummy_count
     std::vector<Batch> batches;
     std::vector<LineBlock> blocks;  ///< in the order of their rows; empty where rows are laid out one by one
 
     /// Whether a row is more than padding, which acts on dummies or, along lines, on one particle twice.
     bool is_real(std::uint32_t row) const {
-        return particles[row] < first_dummy && !(arity > 1 && particles[row] == particles[std::size_t{stride} + row]);
+        return !is_dummy(particles[row]) && !(arity > 1 && particles[row] == particles[std::size_t{stride} + row]);
     }
+    bool is_dummy(std::uint32_t particle) const { return particle - first_dummy < dummy_count; }
     /// Multipliers of all rows: [multiplier · stride + row].
     std::size_t lambda_count() const { return std::size_t{constraint_info(kind).lambdas} * stride; }
     std::uint32_t overflow() const { return !batches.empty() && batches.back().serial ? batches.back().rows : 0; }
 };
 
-/// Particles that padding rows act on start here; each lane and slot has its own, so that no two lanes of a scatter
-/// write to the same place.
+/// Where they start in the array of a cloth.
 constexpr std::uint32_t first_dummy(std::uint32_t particle_count) {
     return padded(particle_count);
 }
-/// Length of a particle array, dummies included (six slots at most).
+/// Length of a particle array, dummies included.
 constexpr std::uint32_t particle_capacity(std::uint32_t particle_count) {
-    return first_dummy(particle_count) + 6 * lane_padding;
+    return first_dummy(particle_count) + dummy_count;
 }
 
-/// Particles that row `row` of padding acts on.
-inline std::uint32_t dummy(std::uint32_t particle_count, std::uint32_t slot, std::uint32_t row) {
-    return first_dummy(particle_count) + slot * lane_padding + row % lane_padding;
+/// What row `row` of padding acts on, of dummies that start at `first`.
+constexpr std::uint32_t dummy(std::uint32_t first, std::uint32_t slot, std::uint32_t row) {
+    return first + slot * lane_padding + row % lane_padding;
 }
 
 Coloring color_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
@@ -79,5 +83,8 @@ ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_
 /// Both.
 ConstraintTable pack_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
                           const ColoringOptions& options = {});
+/// Rows whose dummies start at `first` and not behind the particles.
+ConstraintTable pack_rows_with_dummies(ConstraintKind kind, const RowList& rows, std::uint32_t first,
+                                       const Coloring& coloring);
 
 }  // namespace weft

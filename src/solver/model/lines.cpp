@@ -194,7 +194,7 @@ class LineWriter {
         place(at, ends[turned], ends[!turned], &rows_.fields[std::size_t{table_.field_count} * row]);
     }
     void write_line(std::uint32_t at, const Paths& paths, std::uint32_t path, std::uint32_t length) {
-        std::uint32_t k = 0, end = dummy(particle_count_, 0, at);
+        std::uint32_t k = 0, end = dummy(first_dummy(particle_count_), 0, at);
         for (std::uint32_t i = paths.offsets[path]; i < paths.offsets[path + 1]; ++i, ++k) {
             write_row(at + k * lane_padding, paths.links[i], paths.turned[i]);
             end = table_.particles[table_.stride + at + k * lane_padding];
@@ -253,7 +253,7 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
                 if (i + lane < color.size()) {
                     writer.write_line(begin + lane, lines.paths, color[i + lane], length);
                 } else {
-                    writer.write_padding(begin + lane, 0, length, dummy(particle_count, 0, lane));
+                    writer.write_padding(begin + lane, 0, length, dummy(first_dummy(particle_count), 0, lane));
                 }
             }
         }
@@ -264,7 +264,7 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
             if (i < batch.rows) {
                 writer.write_row(batch.begin + i, lines.overflow[i], false);
             } else {
-                writer.write_padding(batch.begin + i, 0, 1, dummy(particle_count, 0, i));
+                writer.write_padding(batch.begin + i, 0, 1, dummy(first_dummy(particle_count), 0, i));
             }
         }
     }

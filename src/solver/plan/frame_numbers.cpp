@@ -14,7 +14,7 @@ constexpr float capped_edges_per_substep = 10;
 
 }  // namespace
 
-FrameNumbers frame_numbers(const ClothModel& model, const StepPlan& plan, double dt) {
+FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt) {
     const double h = dt / plan.substeps;
     const double reach = std::max(model.fabric.contact.thickness, model.mean_edge);
     return {.h = static_cast<float>(h),
@@ -29,7 +29,7 @@ std::array<float, 2> friction_between(const ClothModel& model, const Collider& c
     return {std::sqrt(cloth.friction[0] * collider.friction[0]), std::sqrt(cloth.friction[1] * collider.friction[1])};
 }
 
-double lambda_seconds(const StepPlan& plan, double dt) {
+double lambda_seconds(const WorldPlan& plan, double dt) {
     return plan.method == Method::pbd ? 0 : static_cast<double>(static_cast<float>(dt / plan.substeps));
 }
 
@@ -45,9 +45,9 @@ FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda,
     return limits;
 }
 
-bool has_limits(const ClothModel& model, const StepPlan& plan) {
+bool has_limits(const ClothModel& model, const WorldPlan& plan) {
     const bool levels = std::ranges::find(plan.substep, PassKind::spread, &Pass::kind) != plan.substep.end();
-    return levels || model.table(ConstraintKind::tether).rows > 0;
+    return (levels && !model.hierarchy.empty()) || model.table(ConstraintKind::tether).rows > 0;
 }
 
 }  // namespace weft

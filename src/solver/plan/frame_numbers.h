@@ -1,7 +1,8 @@
 // What a frame's settings come to for one cloth, the same for every backend.
 #pragma once
 
-#include "solver/world/backend.h"
+#include "solver/plan/world_plan.h"
+#include "solver/world/collider.h"
 
 namespace weft {
 
@@ -17,14 +18,14 @@ struct FrameNumbers {
     float depenetration;   ///< m, of a substep
 };
 
-FrameNumbers frame_numbers(const ClothModel& model, const StepPlan& plan, double dt);
+FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt);
 
 /// Static and kinetic friction of a cloth and a collider.
 std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider);
 
 /// s: a substep, as the lambda of stretch that it leaves is to be read; 0 for plain constraints, which have no
 /// compliance: what they leave is C itself.
-double lambda_seconds(const StepPlan& plan, double dt);
+double lambda_seconds(const WorldPlan& plan, double dt);
 
 /// What makes the cloth stretch in this frame, beyond what its limits have room for: the tension that the last frame
 /// left in it, and pins that are held too far apart.
@@ -38,6 +39,6 @@ FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda,
                          std::span<const Vec4> positions);
 
 /// Whether anything asks for them.
-bool has_limits(const ClothModel& model, const StepPlan& plan);
+bool has_limits(const ClothModel& model, const WorldPlan& plan);
 
 }  // namespace weft

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/model/cloth_model.h"
-#include "solver/plan/step_plan.h"
+#include "solver/plan/pass.h"
 
 #include <weft/ids.h>
 

@@ -2,9 +2,12 @@
 
 #include "base/hash.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace weft {
@@ -12,6 +15,13 @@ namespace {
 
 double ms_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::vector<std::uint32_t> pinned_in(const ClothModel& model) {
+    std::vector<std::uint32_t> pinned;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p)
+        if (!(model.start[p].w > 0)) pinned.push_back(p);
+    return pinned;
 }
 
 }  // namespace
@@ -23,9 +33,19 @@ World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
 
 Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
     settle();
-    const auto handle = backend_->add_cloth(model);
-    if (!handle) return handle.errors();
-    const ClothId id = cloths_.add({*handle, std::move(model), std::move(holds), {}, {}});
+    const std::uint32_t base = space_.take(model->capacity());
+    const auto handle = backend_->add_cloth(model, base);
+    if (!handle) {
+        space_.give_back(base, model->capacity());
+        return handle.errors();
+    }
+    Cloth cloth;
+    cloth.handle = *handle;
+    cloth.pinned = pinned_in(*model);
+    cloth.model = std::move(model);
+    cloth.holds = std::move(holds);
+    cloth.base = base;
+    const ClothId id = cloths_.add(std::move(cloth));
     list_cloths();
     replan();
     return id;
@@ -40,9 +60,16 @@ ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
 void World::remove(ClothId id) {
     assert(contains(id));
     settle();
-    backend_->remove_cloth(cloths_[cloths_.find(id)].handle);
+    const Cloth& cloth = cloths_[cloths_.find(id)];
+    backend_->remove_cloth(cloth.handle);
+    space_.give_back(cloth.base, cloth.model->capacity());
     cloths_.remove(id);
+    for (std::size_t i = stitches_.size(); i-- > 0;) {
+        const auto of_cloth = [&](const Stitch& stitch) { return stitch.a == id || stitch.b == id; };
+        if (std::ranges::any_of(stitches_[i], of_cloth)) stitches_.remove(stitches_.id_of(i));
+    }
     list_cloths();
+    replan();
 }
 
 Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
@@ -50,12 +77,59 @@ Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> mode
     settle();
     Cloth& cloth = cloths_[cloths_.find(id)];
     assert(model->particle_count == cloth.model->particle_count);
-    if (auto set = backend_->set_model(cloth.handle, model); !set) return set;
+    const std::uint32_t before = cloth.model->capacity(), after = model->capacity();
+    const std::uint32_t base = after == before ? cloth.base : space_.take(after);
+    if (auto set = backend_->set_model(cloth.handle, model, base); !set) {
+        if (base != cloth.base) space_.give_back(base, after);
+        return set;
+    }
+    if (base != cloth.base) space_.give_back(cloth.base, before);
+    cloth.base = base;
     cloth.model = std::move(model);
     cloth.holds = std::move(holds);
+    cloth.pinned = pinned_in(*cloth.model);
     list_cloths();
     replan();
     return Done{};
+}
+
+Result<Done> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds) {
+    assert(contains(id));
+    settle();
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    std::ranges::sort(pinned);
+    pinned.erase(std::ranges::unique(pinned).begin(), pinned.end());
+    std::vector<ParticleWeight> changed;
+    const auto visit = [&](const auto& from, const auto& other, auto&& weight_of) {
+        std::vector<std::uint32_t> only;
+        std::ranges::set_difference(from, other, std::back_inserter(only));
+        for (const std::uint32_t p : only) changed.push_back({p, weight_of(p)});
+    };
+    visit(pinned, cloth.pinned, [](std::uint32_t) { return 0.0f; });
+    visit(cloth.pinned, pinned, [&](std::uint32_t p) { return 1 / cloth.model->mass[p]; });
+    if (auto set = backend_->set_weights(cloth.handle, changed); !set) return set;
+    cloth.pinned = std::move(pinned);
+    const bool replanned = cloth.holds.particles.empty() != holds.particles.empty();
+    cloth.holds = std::move(holds);
+    cloth.mover_poses.resize((std::size_t{settings_.substeps} + 1) * cloth.holds.movers.size());
+    unread_ = true;
+    ++plan_serial_;  // how many are held may have changed
+    if (replanned) replan();
+    return Done{};
+}
+
+StitchId World::add(std::vector<Stitch> stitches) {
+    settle();
+    const StitchId id = stitches_.add(std::move(stitches));
+    replan();
+    return id;
+}
+
+void World::remove(StitchId id) {
+    assert(contains(id));
+    settle();
+    stitches_.remove(id);
+    replan();
 }
 
 ColliderId World::add(Collider collider) {
@@ -124,25 +198,68 @@ const Frame& World::frame() const {
 
 void World::replan() {
     const bool air = settings_.air && settings_.air->density > 0;
-    StepSettings settings{.substeps = settings_.substeps,
-                          .iterations = settings_.iterations,
-                          .contacts = !colliders_.empty(),
-                          .holds = false,
-                          .air = air,
-                          .wind = air && !settings_.air->wind.empty(),
-                          .surface = settings_.surface,
-                          .hierarchy = settings_.hierarchy,
-                          .method = settings_.method,
-                          .projection = settings_.projection,
-                          .accumulate = settings_.accumulate};
+    const StepSettings settings{.substeps = settings_.substeps,
+                                .iterations = settings_.iterations,
+                                .contacts = !colliders_.empty(),
+                                .air = air,
+                                .wind = air && !settings_.air->wind.empty(),
+                                .surface = settings_.surface,
+                                .hierarchy = settings_.hierarchy,
+                                .method = settings_.method,
+                                .projection = settings_.projection,
+                                .accumulate = settings_.accumulate};
     const std::size_t places = std::size_t{settings_.substeps} + 1;
+    std::vector<PlannedCloth> planned;
     for (Cloth& cloth : cloths_) {
-        settings.holds = !cloth.holds.particles.empty();
-        cloth.plan = plan_step(*cloth.model, settings);
+        planned.push_back({cloth.model.get(), !cloth.holds.particles.empty()});
+        if (settings_.method == Method::pbd)
+            cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.iterations);
         cloth.mover_poses.resize(places * cloth.holds.movers.size());
     }
     poses_.resize(places * colliders_.size());
     winds_.resize(air ? settings_.air->wind.size() : 0);
+
+    make_islands();
+    std::vector<const LinkTables*> links;
+    for (const Island& island : islands_)
+        if (island.linked) links.push_back(&island.links);
+    plan_ = plan_world(settings, planned, links);
+    std::vector<PlannedCloth> members;
+    for (Island& island : islands_) {
+        members.clear();
+        for (const std::uint32_t place : island.cloths) members.push_back(planned[place]);
+        island.plan = IslandPlan(plan_, members, island.linked ? &island.links : nullptr);
+    }
+    ++plan_serial_;
+}
+
+// Cloths that stitches tie together, and their stitches with particles numbered over the world.
+void World::make_islands() {
+    std::vector<std::array<std::uint32_t, 2>> ties;
+    const auto place_of = [&](ClothId id) { return static_cast<std::uint32_t>(cloths_.find(id)); };
+    for (const auto& group : stitches_)
+        for (const Stitch& stitch : group) ties.push_back({place_of(stitch.a), place_of(stitch.b)});
+    islands_.clear();
+    std::vector<std::size_t> island_of(cloths_.size());
+    for (auto& cloths : group_islands(static_cast<std::uint32_t>(cloths_.size()), ties)) {
+        for (const std::uint32_t place : cloths) island_of[place] = islands_.size();
+        islands_.push_back({.cloths = std::move(cloths), .links = {}, .linked = false, .plan = {}, .steps = {}});
+    }
+    if (ties.empty()) return;
+    std::vector<std::vector<PlacedStitch>> placed(islands_.size());
+    const auto in_world = [&](StitchPoint point, ClothId id) {
+        for (std::uint32_t& p : point.particles) p += cloths_[cloths_.find(id)].base;
+        return point;
+    };
+    for (const auto& group : stitches_) {
+        for (const Stitch& stitch : group)
+            placed[island_of[place_of(stitch.a)]].push_back(
+                {in_world(stitch.from, stitch.a), in_world(stitch.to, stitch.b), stitch.gap, stitch.compliance});
+    }
+    for (std::size_t i = 0; i < islands_.size(); ++i) {
+        islands_[i].links = make_links(placed[i]);
+        islands_[i].linked = !placed[i].empty();
+    }
 }
 
 // Where every collider is at the start of the frame and after each substep.
@@ -188,24 +305,34 @@ void World::advance(double dt) {
     frame_.stage_ms.fill(0);
     FrameFeedback& felt = begin_feedback(dt);
     steps_.clear();
-    for (std::size_t i = 0; i < cloths_.size(); ++i) {
-        const Cloth& cloth = cloths_[i];
-        steps_.push_back({.cloth = cloth.handle,
-                          .plan = &cloth.plan,
-                          .input = {.dt = dt,
-                                    .gravity = settings_.gravity,
-                                    .air_density = settings_.air ? settings_.air->density : 0,
-                                    .winds = winds_,
-                                    .colliders = colliders_.values(),
-                                    .poses = poses_,
+    for (Island& island : islands_) {
+        island.steps.clear();
+        for (const std::uint32_t place : island.cloths) {
+            const Cloth& cloth = cloths_[place];
+            island.steps.push_back({.cloth = cloth.handle,
+                                    .stiffness = &cloth.stiffness,
                                     .held = cloth.holds.particles,
                                     .mover_poses = cloth.mover_poses,
                                     .movers = static_cast<std::uint32_t>(cloth.holds.movers.size()),
-                                    .feedback = settings_.feedback},
-                          .frame = &frame_.cloths[i],
-                          .feedback = settings_.feedback ? &felt.cloths[i].feedback : nullptr});
+                                    .frame = &frame_.cloths[place],
+                                    .feedback = settings_.feedback ? &felt.cloths[place].feedback : nullptr});
+        }
+        steps_.push_back({.plan = &island.plan,
+                          .cloths = island.steps,
+                          .links = island.linked ? &island.links : nullptr,
+                          .links_serial = plan_serial_});
     }
-    backend_->step(steps_);
+    step_ = {.plan = &plan_,
+             .plan_serial = plan_serial_,
+             .input = {.dt = dt,
+                       .gravity = settings_.gravity,
+                       .air_density = settings_.air ? settings_.air->density : 0,
+                       .winds = winds_,
+                       .colliders = colliders_.values(),
+                       .poses = poses_,
+                       .feedback = settings_.feedback},
+             .islands = steps_};
+    backend_->step(step_);
     running_ = true;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "base/id_list.h"
+#include "solver/state/address_space.h"
 #include "solver/world/backend.h"
+#include "solver/world/islands.h"
 
 #include <memory>
 #include <optional>
@@ -40,9 +42,18 @@ class World {
     void remove(ClothId id);
     /// Another model for the same particles, with other material or other pins; what moves goes on moving.
     Result<Done> set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
+    /// Other pins for what is there: touches the particles concerned alone. Particles that are pinned stay where they
+    /// are, those that are let go get their weight back. `pinned`: in any order, repetitions allowed. Tethers and
+    /// coarse levels stay those of the model until set_model().
+    Result<Done> set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds);
     bool contains(ClothId id) const { return cloths_.contains(id); }
     const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
     const Holds& holds(ClothId id) const { return cloths_[cloths_.find(id)].holds; }
+
+    /// Ties points on cloth together, which makes one island of their cloths. Gone with any of its cloths.
+    StitchId add(std::vector<Stitch> stitches);
+    void remove(StitchId id);
+    bool contains(StitchId id) const { return stitches_.contains(id); }
 
     ColliderId add(Collider collider);
     /// Pins that it carried stay where they are.
@@ -83,7 +94,10 @@ class World {
     ColliderId collider_id(std::size_t place) const { return colliders_.id_of(place); }
     std::size_t cloth_count() const { return cloths_.size(); }
     ClothId cloth_id(std::size_t place) const { return cloths_.id_of(place); }  ///< in the order of frames
-    const StepPlan& plan(std::size_t cloth) const { return cloths_[cloth].plan; }
+    const WorldPlan& plan() const { return plan_; }
+    std::size_t island_count() const { return islands_.size(); }
+    /// Places of an island's cloths, in the order of frames.
+    std::span<const std::uint32_t> island(std::size_t i) const { return islands_[i].cloths; }
     const Backend& backend() const { return *backend_; }
     Backend& backend() { return *backend_; }
     /// What the backend calls it.
@@ -105,11 +119,21 @@ class World {
         ClothHandle handle;
         std::shared_ptr<const ClothModel> model;
         Holds holds;
-        StepPlan plan;
+        std::uint32_t base = 0;             ///< of its particles in the address space
+        std::vector<std::uint32_t> pinned;  ///< ascending
+        PlainStiffness stiffness{};
         std::vector<Pose> mover_poses;
+    };
+    struct Island {
+        std::vector<std::uint32_t> cloths;  ///< places
+        LinkTables links;
+        bool linked = false;
+        IslandPlan plan;
+        std::vector<ClothStep> steps;  ///< of a frame
     };
 
     void replan();
+    void make_islands();
     void list_cloths();
     void complete() const;  ///< waits for the frame that a device is at work on
     void settle();          ///< and makes out its feedback, before what that lies in goes
@@ -123,7 +147,13 @@ class World {
     IdList<Collider, struct ColliderTag> colliders_;
     std::vector<Pose> poses_;
     std::vector<WindNow> winds_;
-    std::vector<ClothStep> steps_;  // of a frame
+    AddressSpace space_;
+    IdList<std::vector<Stitch>, struct StitchTag> stitches_;
+    WorldPlan plan_;
+    std::uint64_t plan_serial_ = 0;
+    std::vector<Island> islands_;
+    std::vector<IslandStep> steps_;  // of a frame
+    WorldStep step_;                 // likewise
     mutable Frame frame_;
     mutable bool unread_ = false;   ///< its arrays are still those of a frame before
     mutable bool running_ = false;  ///< the backend has not finished it

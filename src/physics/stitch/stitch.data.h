@@ -1,0 +1,27 @@
+// Stitch: two points on cloth, of two cloths or of one, kept a gap apart. Read by C++ and by GLSL (stitch.md has the law).
+#ifndef WEFT_STITCH_DATA_H
+#define WEFT_STITCH_DATA_H
+
+// The numbers of one constraint.
+//   c0 … c5     1    share of each particle: those of the first point sum to 1, those of the second to -1
+//   gap         m    distance of the points at rest
+//   compliance  m/N  inverse stiffness
+#define WEFT_ROW_stitch(FIELD) FIELD(c0) FIELD(c1) FIELD(c2) FIELD(c3) FIELD(c4) FIELD(c5) FIELD(gap) FIELD(compliance)
+
+#ifdef __cplusplus
+#include "base/parameter.h"
+
+#include <array>
+
+namespace weft {
+
+struct StitchMaterial {
+    static constexpr int plain[2] = {-1, -1};
+};
+
+// A scene says this of each stitch, not of a fabric.
+inline constexpr std::array<Parameter, 0> stitch_parameters{};
+
+}  // namespace weft
+#endif
+#endif

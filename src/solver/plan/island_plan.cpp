@@ -1,0 +1,48 @@
+#include "solver/plan/island_plan.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+// Levels are solved by one thread where sharing them out costs more than it saves.
+bool is_single(std::span<const PlannedCloth> cloths, const Pass& pass) {
+    if (pass.source != RowSource::level || pass.kind == PassKind::spread) return false;
+    std::size_t nodes = 0;
+    for (const PlannedCloth& cloth : cloths)
+        nodes += takes_part(cloth, pass) ? cloth.model->hierarchy[pass.level].count : 0;
+    return nodes < nodes_for_many_threads;
+}
+
+}  // namespace
+
+IslandPlan::IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> cloths, const LinkTables* links,
+                       Sharing sharing)
+    : substeps_(plan.substeps) {
+    Barriers barriers(sharing);
+    const auto add = [&](std::vector<IslandPass>& list, const Pass& pass) {
+        const bool work = (links && takes_part(*links, pass)) ||
+                          std::ranges::any_of(cloths, [&](const PlannedCloth& one) { return takes_part(one, pass); });
+        if (!work) return;
+        const bool single = is_single(cloths, pass);
+        list.push_back({pass, barriers.before(pass, single), single});
+    };
+    const auto add_substep = [&](std::vector<IslandPass>& list, std::uint32_t substep) {
+        const SubstepPasses now = passes_of(plan, substep);
+        for (const Pass& pass : now.passes) add(list, pass);
+        if (now.advance) add(list, {.kind = PassKind::advance});
+    };
+    for (const Pass& pass : plan.frame_begin) add(frame_begin_, pass);
+    add_substep(first_, 0);
+    if (plan.substeps > 2) {
+        // The second one may have other barriers than those that follow it: one list for all has those of both.
+        add_substep(middle_, 1);
+        std::vector<IslandPass> again;
+        add_substep(again, 1);
+        for (std::size_t i = 0; i < middle_.size(); ++i) middle_[i].barrier |= again[i].barrier;
+    }
+    if (plan.substeps > 1) add_substep(last_, plan.substeps - 1);
+    for (const Pass& pass : plan.frame_end) add(frame_end_, pass);
+}
+
+}  // namespace weft

@@ -1,0 +1,257 @@
+#include "solver/plan/world_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+// Sweeps over the rows of a level. A level is small, and the more of its error is gone the less is left to the finer
+// one.
+constexpr std::uint32_t sweeps = 4;
+
+class Planner {
+  public:
+    Planner(const StepSettings& settings, std::span<const PlannedCloth> cloths,
+            std::span<const LinkTables* const> links)
+        : settings_(settings), cloths_(cloths), links_(links) {}
+
+    WorldPlan run() {
+        WorldPlan plan{.substeps = settings_.substeps,
+                       .iterations = settings_.iterations,
+                       .method = settings_.method,
+                       .projection = resolve(settings_.projection, settings_.method),
+                       .accumulate = settings_.accumulate,
+                       .frame_begin = {},
+                       .substep = {},
+                       .frame_end = {}};
+        // The wind changes little within a frame; what the cloth makes of it does.
+        if (settings_.air && settings_.wind) plan.frame_begin.push_back({.kind = PassKind::wind});
+
+        if (settings_.air) plan.substep.push_back({.kind = PassKind::air});
+        if (settings_.air) plan.substep.push_back({.kind = PassKind::push});
+        plan.substep.push_back({.kind = PassKind::predict});
+        if (std::ranges::any_of(cloths_, &PlannedCloth::held)) plan.substep.push_back({.kind = PassKind::hold});
+        for (std::uint32_t i = 0; i < settings_.iterations; ++i) add_iteration(i == 0, plan.substep);
+        plan.substep.push_back({.kind = PassKind::velocities});
+
+        add_damping(plan.frame_end);
+        if (settings_.surface) {
+            plan.frame_end.push_back({.kind = PassKind::faces});
+            plan.frame_end.push_back({.kind = PassKind::normals});
+        }
+        return plan;
+    }
+
+  private:
+    using Passes = std::vector<Pass>;
+
+    // The largest number over all cloths: who has less has no work in the rest.
+    template <class Count>
+    std::uint32_t most(Count&& count) const {
+        std::size_t largest = 0;
+        for (const PlannedCloth& cloth : cloths_) largest = std::max(largest, std::size_t{count(*cloth.model)});
+        return static_cast<std::uint32_t>(largest);
+    }
+    static std::size_t batches_of(const ClothModel& model, ConstraintKind kind) {
+        return model.table(kind).batches.size();
+    }
+    template <class Visit>
+    void for_each_kind(Visit&& visit) const {
+        for (std::uint32_t k = 0; k < constraint_kind_count; ++k) visit(static_cast<ConstraintKind>(k));
+    }
+    std::uint32_t link_batches(ConstraintKind kind) const {
+        std::size_t largest = 0;
+        for (const LinkTables* tables : links_)
+            largest = std::max(largest, (*tables)[static_cast<std::uint32_t>(kind)].batches.size());
+        return static_cast<std::uint32_t>(largest);
+    }
+
+    void add_hierarchy(bool first, Passes& passes) const {
+        const std::uint32_t levels = most([](const ClothModel& model) { return model.hierarchy.size(); });
+        for (std::uint32_t i = 0; i < levels; ++i)
+            passes.push_back({.kind = PassKind::collect, .level = i, .source = RowSource::level});
+        for (std::uint32_t i = levels; i-- > 0;) {
+            const std::uint32_t batches = most([&](const ClothModel& model) {
+                return i < model.hierarchy.size() ? model.hierarchy[i].reach.batches.size() : 0;
+            });
+            passes.push_back({.kind = PassKind::lift, .level = i, .source = RowSource::level});
+            for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+                for (std::uint32_t batch = 0; batch < batches; ++batch)
+                    passes.push_back({.kind = PassKind::reach,
+                                      .constraint = ConstraintKind::reach,
+                                      .batch = batch,
+                                      .first_iteration = first && sweep == 0,
+                                      .level = i,
+                                      .source = RowSource::level});
+            }
+            passes.push_back({.kind = PassKind::settle, .level = i, .source = RowSource::level});
+        }
+        if (levels > 0) passes.push_back({.kind = PassKind::spread, .source = RowSource::level});
+    }
+
+    void add_iteration(bool first, Passes& passes) const {
+        if (settings_.hierarchy) add_hierarchy(first, passes);
+        if (settings_.projection == Projection::jacobi) {
+            bool any = false;
+            for_each_kind([&](ConstraintKind kind) {
+                if (most([&](const ClothModel& model) { return model.table(kind).rows; }) == 0) return;
+                passes.push_back({.kind = PassKind::correct, .constraint = kind, .first_iteration = first});
+                any = true;
+            });
+            if (any) passes.push_back({.kind = PassKind::average});
+        } else {
+            for_each_kind([&](ConstraintKind kind) {
+                const std::uint32_t batches = most([&](const ClothModel& model) { return batches_of(model, kind); });
+                for (std::uint32_t batch = 0; batch < batches; ++batch)
+                    passes.push_back({PassKind::project, kind, batch, first});
+            });
+        }
+        // What ties cloths together has seen what each cloth wants, and leaves the gap that it should.
+        for_each_kind([&](ConstraintKind kind) {
+            for (std::uint32_t batch = 0; batch < link_batches(kind); ++batch)
+                passes.push_back({.kind = PassKind::project,
+                                  .constraint = kind,
+                                  .batch = batch,
+                                  .first_iteration = first,
+                                  .source = RowSource::links});
+        });
+        // Last, so that an iteration ends with nothing inside a collider.
+        if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
+    }
+
+    // Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
+    void add_damping(Passes& passes) const {
+        for_each_kind([&](ConstraintKind kind) {
+            const ConstraintInfo& info = constraint_info(kind);
+            if (info.moved != info.arity) return;
+            const std::uint32_t batches = most(
+                [&](const ClothModel& model) { return model.fabric.body.damping > 0 ? batches_of(model, kind) : 0; });
+            for (std::uint32_t batch = 0; batch < batches; ++batch)
+                passes.push_back({.kind = PassKind::damp, .constraint = kind, .batch = batch});
+        });
+    }
+
+    const StepSettings& settings_;
+    std::span<const PlannedCloth> cloths_;
+    std::span<const LinkTables* const> links_;
+};
+
+// x^(1/n) for x in [0, 1], by halving an interval: products alone, so every machine has the same bits. (pow() differs
+// from one C library to another.)
+double root(double x, std::uint32_t n) {
+    const auto power = [n](double base) {
+        double result = 1;
+        for (std::uint32_t left = n; left > 0; left /= 2, base *= base)
+            if (left % 2 == 1) result *= base;
+        return result;
+    };
+    double low = 0, high = 1;
+    for (int i = 0; i < 64; ++i) {
+        const double middle = 0.5 * (low + high);
+        (power(middle) < x ? low : high) = middle;
+    }
+    return high;
+}
+
+// Undoing the part s of an error in k iterations takes the part 1 - (1 - s)^(1/k) in each (Müller et al. 2007,
+// "Position Based Dynamics", section 3.3).
+float per_iteration(float stiffness, std::uint32_t iterations) {
+    return static_cast<float>(1 - root(1 - static_cast<double>(stiffness), iterations));
+}
+
+template <class Material>
+std::array<float, 2> stiffness_of(const Fabric& fabric, std::uint32_t iterations) {
+    const auto of = [&](int which) {
+        return which < 0 ? 1.0f : per_iteration(fabric.body.stiffness[which], iterations);
+    };
+    return {of(Material::plain[0]), of(Material::plain[1])};
+}
+
+}  // namespace
+
+PlainStiffness plain_stiffness(const Fabric& fabric, std::uint32_t iterations) {
+    PlainStiffness stiffness{};
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
+    stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = stiffness_of<Name##Material>(fabric, iterations);
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+    return stiffness;
+}
+
+WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth> cloths,
+                     std::span<const LinkTables* const> links) {
+    return Planner(settings, cloths, links).run();
+}
+
+bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
+    const ClothModel& model = *cloth.model;
+    if (pass.source == RowSource::links) return false;
+    switch (pass.kind) {
+        case PassKind::hold:
+            return cloth.held;
+        case PassKind::project:
+            return pass.batch < model.table(pass.constraint).batches.size();
+        case PassKind::damp:
+            return model.fabric.body.damping > 0 && pass.batch < model.table(pass.constraint).batches.size();
+        case PassKind::correct:
+            return model.table(pass.constraint).rows > 0;
+        case PassKind::collect:
+        case PassKind::lift:
+        case PassKind::settle:
+            return pass.level < model.hierarchy.size();
+        case PassKind::reach:
+            return pass.level < model.hierarchy.size() && pass.batch < model.hierarchy[pass.level].reach.batches.size();
+        case PassKind::spread:
+            return !model.hierarchy.empty();
+        default:
+            return true;
+    }
+}
+
+bool takes_part(const LinkTables& links, const Pass& pass) {
+    return pass.source == RowSource::links &&
+           pass.batch < links[static_cast<std::uint32_t>(pass.constraint)].batches.size();
+}
+
+SubstepPasses passes_of(const WorldPlan& plan, std::uint32_t substep) {
+    const std::span<const Pass> passes(plan.substep);
+    const bool together =
+        passes.size() > 1 && passes.front().kind == PassKind::predict && passes.back().kind == PassKind::velocities;
+    const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan.substeps;
+    return {passes.subspan(begun, passes.size() - begun - goes_on), goes_on};
+}
+
+LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep) {
+    if (!pass.first_iteration) return LambdaUse::accumulate;
+    if (pass.source == RowSource::level) return LambdaUse::store;
+    const bool read_later =
+        pass.source == RowSource::model && pass.constraint == ConstraintKind::stretch && substep + 1 == plan.substeps;
+    return plan.iterations > 1 || read_later ? LambdaUse::store : LambdaUse::discard;
+}
+
+std::string describe(const WorldPlan& plan) {
+    std::string text;
+    const auto name_of = [](const Pass& pass) {
+        std::string name(stage_name(stage_of(pass)));
+        return pass.source == RowSource::links ? name + " between cloths" : name;
+    };
+    const auto list = [&](const std::vector<Pass>& passes) {
+        for (std::size_t i = 0, end = 0; i < passes.size(); i = end) {
+            const std::string name = name_of(passes[i]);
+            for (end = i; end < passes.size() && name_of(passes[end]) == name;) ++end;
+            text += "  " + name;
+            if (end - i > 1) text += " x" + std::to_string(end - i);
+            text += '\n';
+        }
+    };
+    if (!plan.frame_begin.empty()) text += "first:\n";
+    list(plan.frame_begin);
+    text += std::to_string(plan.substeps) + " times:\n";
+    list(plan.substep);
+    text += "once a frame:\n";
+    list(plan.frame_end);
+    return text;
+}
+
+}  // namespace weft

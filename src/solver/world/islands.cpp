@@ -1,0 +1,55 @@
+#include "solver/world/islands.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace weft {
+
+std::vector<std::vector<std::uint32_t>> group_islands(std::uint32_t count,
+                                                      std::span<const std::array<std::uint32_t, 2>> ties) {
+    std::vector<std::uint32_t> parent(count);
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root_of = [&](std::uint32_t i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    // The smaller root wins, so that a group's root is its first number.
+    for (const auto& [a, b] : ties) {
+        const std::uint32_t ra = root_of(a), rb = root_of(b);
+        parent[std::max(ra, rb)] = std::min(ra, rb);
+    }
+    std::vector<std::vector<std::uint32_t>> groups;
+    std::vector<std::uint32_t> group_of(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t root = root_of(i);
+        if (root == i) group_of[i] = static_cast<std::uint32_t>(groups.size()), groups.emplace_back();
+        groups[group_of[root]].push_back(i);
+    }
+    return groups;
+}
+
+LinkTables make_links(std::span<const PlacedStitch> stitches) {
+    LinkTables tables;
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
+        tables[kind].kind = static_cast<ConstraintKind>(kind);
+    RowList rows = make_rows(ConstraintKind::stitch);
+    for (const PlacedStitch& stitch : stitches) add_stitch(rows, stitch.from, stitch.to, stitch.gap, stitch.compliance);
+    if (rows.size() == 0) return tables;
+
+    // Colors are found on particles in a numbering of the island's own: the world's may be large. An unused slot counts
+    // as the row's first particle, which a row may name twice.
+    std::vector<std::uint32_t> particles = rows.particles;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (particles[i] == no_particle) particles[i] = particles[i - i % rows.arity];
+    std::vector<std::uint32_t> numbers = particles;
+    std::ranges::sort(numbers);
+    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+    for (std::uint32_t& p : particles)
+        p = static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, p) - numbers.begin());
+    const Coloring coloring = color_rows(particles, rows.arity, static_cast<std::uint32_t>(numbers.size()));
+    tables[static_cast<std::uint32_t>(ConstraintKind::stitch)] =
+        pack_rows_with_dummies(ConstraintKind::stitch, rows, 0, coloring);
+    return tables;
+}
+
+}  // namespace weft
