@@ -70,4 +70,18 @@ void WorkerTeam::work(unsigned rank) {
     }
 }
 
+void LaterWork::run() {
+    work_();
+    done_.store(true, std::memory_order_release);
+}
+
+void LaterWork::start() {
+    thread_ = std::jthread([this] { run(); });
+}
+
+void LaterWork::wait() {
+    if (thread_.joinable()) thread_.join();
+    if (!done()) run();
+}
+
 }  // namespace weft

@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -72,6 +74,28 @@ class WorkerTeam {
     alignas(64) std::atomic<std::uint32_t> arrived_{0};
     alignas(64) std::atomic<std::uint32_t> generation_{0};  // a new value opens the barrier
     std::vector<std::jthread> threads_;
+};
+
+/// Work that is needed later: done on a thread of its own in the meantime or, if that was not started, when it is
+/// waited for.
+class LaterWork {
+  public:
+    explicit LaterWork(std::function<void()> work) : work_(std::move(work)) {}
+    LaterWork(const LaterWork&) = delete;
+    LaterWork& operator=(const LaterWork&) = delete;
+
+    void start();
+    bool started() const { return thread_.joinable() || done(); }
+    bool done() const { return done_.load(std::memory_order_acquire); }
+    /// The work is done when this returns.
+    void wait();
+
+  private:
+    void run();
+
+    std::function<void()> work_;
+    std::atomic<bool> done_{false};
+    std::jthread thread_;  // ends before the rest goes
 };
 
 }  // namespace weft

@@ -274,7 +274,9 @@ inline void spread_pass(float* particle_position, const CarryView& carry, Range 
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w;
         const vec3 x = load_blocks(particle_position + 4 * i, w);
-        store_blocks(x + carried(carry, i), w, particle_position + 4 * i);
+        // The levels may not know yet of a particle that was pinned a moment ago.
+        const real moves = select(w > real(0.0f), real(1.0f), real(0.0f));
+        store_blocks(x + carried(carry, i) * moves, w, particle_position + 4 * i);
     }
 }
 

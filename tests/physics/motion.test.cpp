@@ -104,8 +104,8 @@ TEST(Energy, never_rises_without_something_that_drives) {
     const auto energy = [&] {
         const ClothFrame& cloth = world.frame().cloths[0];
         double potential = 0;
-        for (std::uint32_t i = 0; i < cloth.model().particle_count; ++i) {
-            if (cloth.positions[i].w > 0) potential += 9.81 * cloth.model().mass[i] * cloth.positions[i].y;
+        for (std::uint32_t i = 0; i < cloth.model->particle_count; ++i) {
+            if (cloth.positions[i].w > 0) potential += 9.81 * cloth.model->mass[i] * cloth.positions[i].y;
         }
         return potential + kinetic_energy(world.frame());
     };

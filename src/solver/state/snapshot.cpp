@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and a version; on a machine of the other byte order it reads as neither.
-constexpr std::uint32_t magic = 0x74666577, version = 2;
+constexpr std::uint32_t magic = 0x74666577, version = 3;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;
@@ -91,6 +91,12 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
         out.list(cloth.carry);
         out.list(cloth.lambda);
         out.one(cloth.substep_seconds);
+        out.list(cloth.holds.particles);
+        out.one<std::uint64_t>(cloth.holds.movers.size());
+        for (const SavedMover& mover : cloth.holds.movers) {
+            out.one(mover.collider);
+            out.list(mover.offsets);
+        }
     }
     Writer file;
     file.one(magic);
@@ -122,6 +128,13 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
         cloth.carry = in.list<Vec4>();
         cloth.lambda = in.list<float>();
         cloth.substep_seconds = in.one<double>();
+        cloth.holds.particles = in.list<HeldParticle>();
+        const auto movers = in.one<std::uint64_t>();
+        for (std::uint64_t m = 0; m < movers && !in.too_short(); ++m) {
+            SavedMover& mover = cloth.holds.movers.emplace_back();
+            mover.collider = in.one<std::uint32_t>();
+            mover.offsets = in.list<OffsetKey>();
+        }
     }
     if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};
     return snapshot;
@@ -148,6 +161,12 @@ bool is_unit(const Vec3& v) {
 bool sound(const Pose& pose) {
     return sound(pose.position) && is_unit(pose.rotation.x) && is_unit(pose.rotation.y) && is_unit(pose.rotation.z);
 }
+bool sound(const HeldParticle& held) {
+    return sound(held.local);
+}
+bool sound(const OffsetKey& key) {
+    return std::isfinite(key.time) && sound(key.offset);
+}
 bool sound_time(double seconds) {
     return seconds >= 0 && std::isfinite(seconds);
 }
@@ -173,6 +192,13 @@ Result<Done> check_numbers(const Snapshot& snapshot) {
                 return Error{"state",
                              of_cloth + "particle " + std::to_string(*i) + " must have finite numbers of at most 1e18"};
         }
+        for (const Vec4& particle : cloth.position)
+            if (particle.w < 0) return Error{"state", of_cloth + "inverse masses must be ≥ 0"};
+        bool sound_holds = !first_unsound(cloth.holds.particles);
+        for (const SavedMover& mover : cloth.holds.movers)
+            sound_holds = sound_holds && !first_unsound(mover.offsets) &&
+                          std::ranges::is_sorted(mover.offsets, {}, &OffsetKey::time);
+        if (!sound_holds) return Error{"state", of_cloth + "what carries its pins must be finite, keys by time"};
         if (const auto i = first_unsound(cloth.lambda))
             return Error{"state", of_cloth + "row " + std::to_string(*i) + " must be finite"};
         if (!sound_time(cloth.substep_seconds))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/transform.h"
+#include "solver/state/holds.h"
 
 #include <weft/result.h>
 #include <weft/vector.h>
@@ -13,12 +14,24 @@
 
 namespace weft {
 
-/// The fourth floats of start, velocity and carry hold what rounding dropped from the velocity, as in a step. The
-/// inverse mass is the model's affair and is not here.
+/// As Mover, with the collider by its place among all; `none` for none.
+struct SavedMover {
+    std::uint32_t collider = none;
+    std::vector<OffsetKey> offsets;
+};
+
+struct SavedHolds {
+    std::vector<SavedMover> movers;
+    std::vector<HeldParticle> particles;
+};
+
+/// The fourth floats of position are inverse masses, 1/kg; those of start, velocity and carry hold what rounding
+/// dropped from the velocity, as in a step.
 struct ClothSnapshot {
     std::vector<Vec4> position, start, velocity, carry;  ///< per particle and anchor
     std::vector<float> lambda;                           ///< of the rows of stretch, which tell how taut the cloth is
     double substep_seconds = 0;                          ///< of the last frame
+    SavedHolds holds = {};                               ///< what carries pinned particles and anchors along
 };
 
 struct Snapshot {

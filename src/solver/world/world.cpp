@@ -64,6 +64,7 @@ void World::remove(ClothId id) {
     backend_->remove_cloth(cloth.handle);
     space_.give_back(cloth.base, cloth.model->capacity());
     cloths_.remove(id);
+    pending_.drop(id);
     for (std::size_t i = stitches_.size(); i-- > 0;) {
         const auto of_cloth = [&](const Stitch& stitch) { return stitch.a == id || stitch.b == id; };
         if (std::ranges::any_of(stitches_[i], of_cloth)) stitches_.remove(stitches_.id_of(i));
@@ -72,10 +73,7 @@ void World::remove(ClothId id) {
     replan();
 }
 
-Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
-    assert(contains(id));
-    settle();
-    Cloth& cloth = cloths_[cloths_.find(id)];
+Result<Done> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model) {
     assert(model->particle_count == cloth.model->particle_count);
     const std::uint32_t before = cloth.model->capacity(), after = model->capacity();
     const std::uint32_t base = after == before ? cloth.base : space_.take(after);
@@ -86,11 +84,34 @@ Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> mode
     if (base != cloth.base) space_.give_back(cloth.base, before);
     cloth.base = base;
     cloth.model = std::move(model);
-    cloth.holds = std::move(holds);
     cloth.pinned = pinned_in(*cloth.model);
+    return Done{};
+}
+
+Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
+    assert(contains(id));
+    settle();
+    pending_.drop(id);
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    if (auto set = exchange_model(cloth, std::move(model)); !set) return set;
+    cloth.holds = std::move(holds);
     list_cloths();
     replan();
     return Done{};
+}
+
+void World::rebuild_later(ClothId id, BuildModel build) {
+    assert(contains(id));
+    const std::uint64_t due = frame_.index + frames_to_build(model(id)->particle_count);
+    pending_.add(id, due, std::move(build));
+}
+
+// A model that cannot be built, or for which a device has no room, is no reason to stop a cloth that moves.
+void World::use_model(const PendingModels::Ready& ready) {
+    settle();
+    if (!ready.model || !exchange_model(cloths_[cloths_.find(ready.cloth)], *ready.model)) return;
+    list_cloths();
+    replan();
 }
 
 Result<Done> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds) {
@@ -293,6 +314,8 @@ void World::place_movers(Cloth& cloth, double dt) const {
 void World::advance(double dt) {
     assert(dt > 0 && std::isfinite(dt));
     complete();
+    while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
+    if (settings_.background) pending_.start_next();
     place_colliders(dt);
     for (Cloth& cloth : cloths_) place_movers(cloth, dt);
     for (std::size_t i = 0; i < winds_.size(); ++i) {
@@ -381,20 +404,42 @@ void World::settle() {
     (void)feedback();
 }
 
-Snapshot World::save() const {
+Snapshot World::save() {
     complete();
+    while (const auto ready = pending_.take_any()) use_model(*ready);
     Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
-    for (const Cloth& cloth : cloths_) snapshot.cloths.push_back(backend_->save(cloth.handle));
+    for (const Cloth& cloth : cloths_) {
+        snapshot.cloths.push_back(backend_->save(cloth.handle));
+        snapshot.cloths.back().holds = save_holds(cloth.holds);
+    }
     for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
     return snapshot;
 }
 
-Result<Done> World::restore(const Snapshot& snapshot) {
+SavedHolds World::save_holds(const Holds& holds) const {
+    SavedHolds saved;
+    saved.particles = holds.particles;
+    for (const Mover& mover : holds.movers) {
+        const std::size_t place = colliders_.find(mover.collider);
+        saved.movers.push_back({place < colliders_.size() ? static_cast<std::uint32_t>(place) : none, mover.offsets});
+    }
+    return saved;
+}
+
+Holds World::restore_holds(const SavedHolds& saved) const {
+    Holds holds;
+    holds.particles = saved.particles;
+    for (const SavedMover& mover : saved.movers)
+        holds.movers.push_back(
+            {mover.collider == none ? ColliderId{} : colliders_.id_of(mover.collider), mover.offsets});
+    return holds;
+}
+
+Result<Done> World::check_fits(const Snapshot& snapshot) const {
     const auto differs = [](const char* what, std::size_t got, std::size_t expected) {
         return Error{"state",
                      "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
     };
-    complete();
     if (snapshot.cloths.size() != cloths_.size()) return differs("cloths", snapshot.cloths.size(), cloths_.size());
     if (snapshot.colliders.size() != colliders_.size())
         return differs("colliders", snapshot.colliders.size(), colliders_.size());
@@ -407,10 +452,30 @@ Result<Done> World::restore(const Snapshot& snapshot) {
             if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);
         }
         if (saved.lambda.size() != rows) return differs("rows of stretch", saved.lambda.size(), rows);
+        for (const SavedMover& mover : saved.holds.movers) {
+            if (mover.collider != none && mover.collider >= colliders_.size())
+                return differs("colliders that carry pins", mover.collider + std::size_t{1}, colliders_.size());
+        }
+        for (const HeldParticle& held : saved.holds.particles) {
+            if (held.particle >= points || held.mover >= saved.holds.movers.size())
+                return Error{"state", "holds particle " + std::to_string(held.particle) + " of cloth '" +
+                                          cloths_[i].model->name + "', which it has not"};
+        }
     }
-    if (auto checked = check_numbers(snapshot); !checked) return checked;
+    return check_numbers(snapshot);
+}
+
+Result<Done> World::restore(const Snapshot& snapshot) {
+    complete();
+    while (const auto ready = pending_.take_any()) use_model(*ready);
+    if (auto fits = check_fits(snapshot); !fits) return fits;
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
-        if (auto restored = backend_->restore(cloths_[i].handle, snapshot.cloths[i]); !restored) return restored;
+        Cloth& cloth = cloths_[i];
+        if (auto restored = backend_->restore(cloth.handle, snapshot.cloths[i]); !restored) return restored;
+        cloth.holds = restore_holds(snapshot.cloths[i].holds);
+        cloth.pinned.clear();
+        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p)
+            if (!(snapshot.cloths[i].position[p].w > 0)) cloth.pinned.push_back(p);
     }
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = snapshot.colliders[i];
@@ -422,6 +487,7 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     not_made_out_.reset();
     feedback_ = {};
     list_cloths();
+    replan();
     return Done{};
 }
 

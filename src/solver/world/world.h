@@ -5,6 +5,7 @@
 #include "solver/state/address_space.h"
 #include "solver/world/backend.h"
 #include "solver/world/islands.h"
+#include "solver/world/pending_models.h"
 
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@ struct WorldSettings {
     std::optional<AirDesc> air = {};  ///< without, a vacuum
     bool surface = true;              ///< keep normals up to date
     bool feedback = false;            ///< keep account of what contacts do
+    bool background = false;          ///< models are rebuilt on a thread of their own, one after another
 
     /// What the models of a world with these settings should have.
     ClothLayout layout() const {
@@ -46,6 +48,10 @@ class World {
     /// are, those that are let go get their weight back. `pinned`: in any order, repetitions allowed. Tethers and
     /// coarse levels stay those of the model until set_model().
     Result<Done> set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds);
+    /// Another model for the same particles and pins in a later frame, frames_to_build() from now: the same one on
+    /// every run. Until then the cloth goes on with the model that it has. Dropped by another call for the same cloth,
+    /// by set_model() and with the cloth. Where building fails, the cloth keeps its model.
+    void rebuild_later(ClothId id, BuildModel build);
     bool contains(ClothId id) const { return cloths_.contains(id); }
     const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
     const Holds& holds(ClothId id) const { return cloths_[cloths_.find(id)].holds; }
@@ -103,7 +109,8 @@ class World {
     /// What the backend calls it.
     ClothHandle handle(ClothId id) const { return cloths_[cloths_.find(id)].handle; }
 
-    Snapshot save() const;
+    /// Models that are still being built are waited for and used from now on.
+    Snapshot save();
     /// The same bits come after it as came after save(), as long as cloths, colliders and settings are what they were.
     /// Fails, and changes nothing, if the cloths or colliders are not as many or as large.
     Result<Done> restore(const Snapshot& snapshot);
@@ -134,6 +141,11 @@ class World {
 
     void replan();
     void make_islands();
+    void use_model(const PendingModels::Ready& ready);
+    Result<Done> exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model);
+    SavedHolds save_holds(const Holds& holds) const;
+    Holds restore_holds(const SavedHolds& saved) const;
+    Result<Done> check_fits(const Snapshot& snapshot) const;
     void list_cloths();
     void complete() const;  ///< waits for the frame that a device is at work on
     void settle();          ///< and makes out its feedback, before what that lies in goes
@@ -147,6 +159,7 @@ class World {
     IdList<Collider, struct ColliderTag> colliders_;
     std::vector<Pose> poses_;
     std::vector<WindNow> winds_;
+    PendingModels pending_;
     AddressSpace space_;
     IdList<std::vector<Stitch>, struct StitchTag> stitches_;
     WorldPlan plan_;

@@ -1,0 +1,169 @@
+// Pins that change while cloth moves, and models that are rebuilt meanwhile.
+
+#include "sheet.h"
+
+#include <atomic>
+#include <cmath>
+
+namespace weft::physical {
+namespace {
+
+SheetDesc hung(const ClothLayout& layout = {}) {
+    return {.resolution = {17, 17}, .rotation_degrees = {90, 0, 0}, .layout = layout, .pinned = [](Vec3 p) {
+                return p.z < -0.49f && std::abs(p.x) > 0.49f;
+            }};
+}
+
+std::vector<std::uint32_t> pinned_of(const ClothModel& model) {
+    std::vector<std::uint32_t> pins;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p)
+        if (!(model.start[p].w > 0)) pins.push_back(p);
+    return pins;
+}
+
+TEST(LivePins, hold_a_particle_where_it_is) {
+    World world = make_world({}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    run(world, 0.5);
+    auto pins = pinned_of(*world.model(id));
+    constexpr std::uint32_t lowest = 8 + 16 * 17;
+    pins.push_back(lowest);
+    const Vec3 before = world.frame().cloths[0].positions[lowest].xyz();
+    ASSERT_TRUE(world.set_pins(id, pins, {}).ok());
+    run(world, 1);
+    EXPECT_EQ(length(world.frame().cloths[0].positions[lowest].xyz() - before), 0);
+    EXPECT_EQ(world.frame().cloths[0].positions[lowest].w, 0);
+}
+
+TEST(LivePins, let_go_with_the_weight_that_the_particle_had) {
+    World world = make_world({}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    ASSERT_TRUE(world.set_pins(id, {}, {}).ok());
+    const ClothModel& model = *world.model(id);
+    for (const std::uint32_t p : pinned_of(model)) EXPECT_EQ(world.frame().cloths[0].positions[p].w, 1 / model.mass[p]);
+    run(world, 0.5);
+    EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y, -0.5 * 9.81 * 0.25, 0.05);
+}
+
+TEST(LivePins, are_carried_by_keys_from_where_they_are) {
+    World world = make_world({}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    run(world, 0.25);
+    const Vec3 at = world.frame().cloths[0].positions[100].xyz();
+    const float now = static_cast<float>(world.time());
+    Holds holds{.movers = {{.offsets = {{now, {0, 0, 0}}, {now + 0.5f, {0, 0.3f, 0}}}}}, .particles = {{100, 0, at}}};
+    ASSERT_TRUE(world.set_pins(id, {100}, holds).ok());
+    run(world, 0.5);
+    EXPECT_NEAR(length(world.frame().cloths[0].positions[100].xyz() - (at + Vec3{0, 0.3f, 0})), 0, 1e-6);
+    ASSERT_TRUE(world.set_pins(id, {}, {}).ok());
+    run(world, 0.25);
+    EXPECT_LT(world.frame().cloths[0].positions[100].y, at.y + 0.25f);
+}
+
+TEST(LivePins, of_coarse_cloth_stay_where_they_are) {
+    World world = make_world({.hierarchy = true}, hung({.lines = true, .hierarchy = true}));
+    const ClothId id = world.frame().cloths[0].id;
+    ASSERT_FALSE(world.model(id)->hierarchy.empty());
+    run(world, 0.25);
+    const Vec3 at = world.frame().cloths[0].positions[150].xyz();
+    ASSERT_TRUE(world.set_pins(id, {150}, {}).ok());
+    run(world, 1);
+    EXPECT_EQ(length(world.frame().cloths[0].positions[150].xyz() - at), 0) << "levels that do not know the pin";
+    EXPECT_EQ(world.frame().reports & report_non_finite, 0u);
+}
+
+TEST(LivePins, are_saved_and_restored) {
+    World world = make_world({}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    const Holds holds{.movers = {{.offsets = {{0, {0, 0, 0}}, {2, {0, 0.5f, 0}}}}},
+                      .particles = {{40, 0, world.frame().cloths[0].positions[40].xyz()}}};
+    ASSERT_TRUE(world.set_pins(id, {40}, holds).ok());
+    run(world, 0.25);
+    const Snapshot saved = world.save();
+    const auto bytes = to_bytes(saved);
+    run(world, 0.25);
+    const std::string hash = world.state_hash();
+    ASSERT_TRUE(world.set_pins(id, {1, 2, 3}, {}).ok());
+    run(world, 0.1);
+    auto read = snapshot_from_bytes(bytes);
+    ASSERT_TRUE(read.ok());
+    ASSERT_TRUE(world.restore(*read).ok());
+    run(world, 0.25);
+    EXPECT_EQ(world.state_hash(), hash);
+}
+
+TEST(LivePins, of_a_frame_that_is_not_finite_stay) {
+    World world = make_world({}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    ASSERT_TRUE(world.set_pins(id, {7}, {}).ok());
+    run(world, 0.1);
+    WorldSettings settings = world.settings();
+    const Vec3 gravity = settings.gravity;
+    settings.gravity.x = std::nanf("");
+    world.configure(settings);
+    EXPECT_TRUE(world.step(1.0 / 60).reports & report_non_finite);
+    EXPECT_EQ(world.frame().cloths[0].positions[7].w, 0);
+    EXPECT_GT(world.frame().cloths[0].positions[0].w, 0);
+    settings.gravity = gravity;
+    world.configure(settings);
+    run(world, 0.2);
+    EXPECT_EQ(world.frame().reports & report_non_finite, 0u);
+}
+
+// Runs a second with a pin added at the start and the model rebuilt for it.
+std::string hash_with_rebuild(bool background, std::atomic<int>& builds, std::uint64_t& used_from) {
+    World world = make_world({.hierarchy = true, .background = background}, hung({.lines = true, .hierarchy = true}));
+    const ClothId id = world.frame().cloths[0].id;
+    SheetDesc with_pin = hung({.lines = true, .hierarchy = true});
+    with_pin.pinned = [](Vec3 p) { return p.z < -0.49f && (std::abs(p.x) > 0.49f || std::abs(p.x) < 0.01f); };
+    const auto next = make_sheet(with_pin);
+    const ClothModel* before = world.model(id).get();
+    EXPECT_TRUE(world.set_pins(id, pinned_of(*next), {}).ok());
+    world.rebuild_later(id, [&builds, next] {
+        ++builds;
+        return Result<std::shared_ptr<const ClothModel>>(next);
+    });
+    for (int i = 0; i < 60; ++i) {
+        world.step(1.0 / 60);
+        if (used_from == 0 && world.model(id).get() != before) used_from = world.index();
+    }
+    return world.state_hash();
+}
+
+TEST(LateModels, are_used_from_the_same_frame_wherever_they_are_built) {
+    std::atomic<int> builds = 0;
+    std::uint64_t here = 0, there = 0;
+    const std::string one = hash_with_rebuild(false, builds, here);
+    EXPECT_EQ(hash_with_rebuild(true, builds, there), one);
+    EXPECT_EQ(here, frames_to_build(17 * 17));
+    EXPECT_EQ(here, there);
+    EXPECT_EQ(builds, 2);
+}
+
+TEST(LateModels, are_dropped_for_newer_ones_and_with_their_cloth) {
+    World world = make_world({.background = true}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    const auto first = make_sheet(hung()), second = make_sheet(hung());
+    world.rebuild_later(id, [first] { return Result<std::shared_ptr<const ClothModel>>(first); });
+    world.step(1.0 / 60);
+    world.rebuild_later(id, [second] { return Result<std::shared_ptr<const ClothModel>>(second); });
+    run(world, 0.5);
+    EXPECT_EQ(world.model(id), second);
+    world.rebuild_later(id, [first] { return Result<std::shared_ptr<const ClothModel>>(first); });
+    world.remove(id);
+    run(world, 0.5);
+    EXPECT_EQ(world.cloth_count(), 0u);
+}
+
+TEST(LateModels, that_fail_leave_the_cloth_as_it_is) {
+    World world = make_world({}, hung());
+    const ClothId id = world.frame().cloths[0].id;
+    const auto before = world.model(id);
+    world.rebuild_later(id, []() -> Result<std::shared_ptr<const ClothModel>> { return Error{"model", "no"}; });
+    world.rebuild_later(id, []() -> Result<std::shared_ptr<const ClothModel>> { throw std::bad_alloc(); });
+    run(world, 0.5);
+    EXPECT_EQ(world.model(id), before);
+}
+
+}  // namespace
+}  // namespace weft::physical
