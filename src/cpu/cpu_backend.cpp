@@ -86,6 +86,8 @@ class CpuBackend final : public Backend {
         frame.positions = now.position.first(count);
         frame.velocities = now.velocity.first(count);
         frame.normals = state.normals().first(count);
+        frame.triangles = state.model->triangles();
+        frame.topology_version = first_topology_version;
         return true;
     }
 

@@ -21,7 +21,8 @@ struct SurfaceBuffers {
     BufferRange uvs;        ///< two floats a vertex; only with UVs
     BufferRange triangles;  ///< three indices a triangle, 32 bits each
     std::uint32_t vertex_count = 0, triangle_count = 0;
-    Moment ready;  ///< from here on they hold what they should
+    std::uint64_t topology_version = 1;  ///< another number whenever the triangles have changed
+    Moment ready;                        ///< from here on they hold what they should
 };
 
 }  // namespace weft::gpu

@@ -4,14 +4,15 @@
 
 namespace weft {
 
-std::array<float, 2> uv_meters(const TriangleMesh& mesh) {
-    if (mesh.uvs.empty()) return {1, 1};
+std::array<float, 2> uv_meters(std::span<const Vec3> positions, std::span<const Vec2> uvs,
+                               std::span<const Triangle> triangles) {
+    if (uvs.empty()) return {1, 1};
     // In UVs a triangle whose height is less than this part of its side is a line, and says nothing of the other way.
     constexpr double flattest = 1e-6;
     double along_u = 0, along_v = 0, area = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec2 d1 = mesh.uvs[b] - mesh.uvs[a], d2 = mesh.uvs[c] - mesh.uvs[a];
-        const Vec3 e1 = mesh.positions[b] - mesh.positions[a], e2 = mesh.positions[c] - mesh.positions[a];
+    for (const auto& [a, b, c] : triangles) {
+        const Vec2 d1 = uvs[b] - uvs[a], d2 = uvs[c] - uvs[a];
+        const Vec3 e1 = positions[b] - positions[a], e2 = positions[c] - positions[a];
         const double determinant = double{d1.x} * d2.y - double{d1.y} * d2.x;
         const double largest = double{d1.x} * d1.x + double{d1.y} * d1.y + double{d2.x} * d2.x + double{d2.y} * d2.y;
         if (!(std::abs(determinant) > flattest * largest)) continue;

@@ -77,8 +77,8 @@ void add_line_on_surface(std::vector<render::Line>& lines, Vec3 from, Vec3 to, V
 
 Bounds bounds_of_cloths(const OverlayInput& input) {
     Bounds bounds;
-    for (const std::vector<Vec3>& positions : input.positions)
-        for (const Vec3 p : positions)
+    for (const ClothFrame& cloth : input.frame.cloths)
+        for (const Vec3 p : cloth.render_mesh().positions)
             if (finite(p)) bounds.include(p);
     return bounds;
 }

@@ -21,8 +21,6 @@ struct OverlayInput {
     const SceneDesc& scene;
     World& world;
     const Frame& frame;
-    /// Of each cloth of the frame, per vertex of its drawn mesh.
-    std::span<const std::vector<Vec3>> positions, normals;
     float size = 1;                            ///< m: radius of the scene, for the length of arrows
     std::uint32_t width = 1280, height = 720;  ///< pixels of the picture
 };

@@ -28,8 +28,7 @@ struct ClothOnDevice {
     std::optional<render::HostMesh> mesh;  // where the simulation has none there, or its overlays want it here
     gpu::Buffer rest;
     std::array<gpu::Buffer, 2> scalars;  // in turn
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec4> tangents;
+    std::uint64_t topology_version = 0;  // of `mesh`
 };
 
 struct ColliderOnDevice {
@@ -97,7 +96,7 @@ struct SceneView::Impl {
     Result<Done> add_cloth(World& world, std::size_t place, const Frame* frame);
     Result<Done> add_collider(const Collider& collider, ColliderId id);
     Result<Done> draw_overlays(World& world, const Frame& frame);
-    Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth);
+    Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth, const ClothFrame& now);
     Result<render::Drawing> draw(World& world, const Camera& camera, std::uint32_t wide, std::uint32_t high);
     gpu::Device& device() { return *renderer.device(); }
 };
@@ -177,17 +176,23 @@ Result<ColliderOnDevice*> SceneView::Impl::collider(const Collider& collider, Co
     return &colliders.back();
 }
 
-Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth) {
-    const TriangleMesh& mesh = cloth.model->mesh();
+Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth, const ClothFrame& now) {
+    const RenderMesh& mesh = now.render_mesh();
+    if (cloth.mesh && cloth.topology_version != now.topology_version) {
+        if (auto idle = device().wait(device().submitted()); !idle) return idle.errors();
+        cloth.mesh.reset();
+    }
     if (!cloth.mesh) {
         auto made = render::HostMesh::create(device(), static_cast<std::uint32_t>(mesh.positions.size()),
                                              mesh.triangles, mesh.uvs, {}, cloth.model->name);
         if (!made) return made.errors();
         cloth.mesh.emplace(std::move(*made));
+        cloth.topology_version = now.topology_version;
     }
-    compute_tangents(mesh, cloth.positions, cloth.normals, cloth.tangents);
-    if (auto moved = cloth.mesh->update(cloth.positions, cloth.normals, cloth.tangents); !moved) return moved.errors();
-    return cloth.mesh->surface();
+    if (auto moved = cloth.mesh->update(mesh.positions, mesh.normals, now.tangents()); !moved) return moved.errors();
+    gpu::SurfaceBuffers surface = cloth.mesh->surface();
+    surface.topology_version = now.topology_version;
+    return surface;
 }
 
 // --- A picture
@@ -196,9 +201,7 @@ Result<Done> SceneView::Impl::add_cloth(World& world, std::size_t place, const F
     auto found = cloth(world, world.cloth_id(place));
     if (!found) return found.errors();
     ClothOnDevice& one = **found;
-    if (one.model->mesh().triangles.empty()) return Done{};
-    if (frame) draw_surface(frame->cloths[place], one.positions, one.normals);
-    auto surface = sources.surface ? sources.surface(one.id) : host_surface(one);
+    auto surface = sources.surface ? sources.surface(one.id) : host_surface(one, frame->cloths[place]);
     if (!surface) return surface.errors();
     render::Object object;
     object.surface = *surface;
@@ -231,7 +234,7 @@ Result<Done> SceneView::Impl::add_collider(const Collider& described, ColliderId
 }
 
 Result<Done> SceneView::Impl::bring(World& world) {
-    // Without overlays nothing needs to come from a device that simulates.
+    // Without overlays nothing needs to come from a device that simulates. A model has triangles: a cloth is an object.
     const bool here = !sources.surface || !overlays.empty();
     const Frame* frame = here ? &world.frame() : nullptr;
     objects.clear();
@@ -248,25 +251,11 @@ Result<Done> SceneView::Impl::bring(World& world) {
 }
 
 Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
-    std::vector<std::vector<Vec3>> positions, normals;
-    for (std::size_t i = 0; i < world.cloth_count(); ++i) {
-        const ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);
-        positions.push_back(one.positions);
-        normals.push_back(one.normals);
-    }
-    shown = weft::draw_overlays(overlays, {.scene = scene,
-                                           .world = world,
-                                           .frame = frame,
-                                           .positions = positions,
-                                           .normals = normals,
-                                           .size = size,
-                                           .width = width,
-                                           .height = height});
+    shown = weft::draw_overlays(
+        overlays, {.scene = scene, .world = world, .frame = frame, .size = size, .width = width, .height = height});
     turn = 1 - turn;
-    std::size_t next = 0;
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
         ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);
-        if (one.model->mesh().triangles.empty()) continue;
         const Scalars& scalars = shown.scalars[i];
         gpu::Buffer& buffer = one.scalars[turn];
         if (!buffer) {
@@ -276,8 +265,7 @@ Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
             buffer = std::move(*made);
         }
         std::ranges::copy(scalars.values, buffer.as<float>().begin());
-        objects[next++].scalars = {render::range_of(buffer, 0, buffer.size()), scalars.least, scalars.most,
-                                   scalars.scale};
+        objects[i].scalars = {render::range_of(buffer, 0, buffer.size()), scalars.least, scalars.most, scalars.scale};
     }
     return Done{};
 }

@@ -108,6 +108,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         frame.positions = one.positions();
         frame.velocities = one.velocities();
         frame.normals = one.normals();
+        frame.triangles = one.model().triangles();
+        frame.topology_version = first_topology_version;
         return read;
     }
 

@@ -122,22 +122,28 @@ Errors apply(const Options& options, SceneDesc& scene) {
     return errors;
 }
 
-const Material* material_of(const ClothModel& cloth, std::span<const SceneLook> looks) {
-    const auto look = std::ranges::find(looks, cloth.name, &SceneLook::object);
+const Material* material_of(const ClothFrame& cloth, std::span<const SceneLook> looks) {
+    const auto look = std::ranges::find(looks, cloth.model->name, &SceneLook::object);
     if (look != looks.end()) return &look->material;
-    return cloth.mesh().colors.empty() ? &find_material("cotton")->material : nullptr;
+    return cloth.render_mesh().colors.empty() ? &find_material("cotton")->material : nullptr;
 }
 
 }  // namespace
 
 void DrawnFrame::update(const Frame& frame, std::span<const SceneLook> looks) {
-    buffers_.resize(frame.cloths.size());
     surfaces_.resize(frame.cloths.size());
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         const ClothFrame& cloth = frame.cloths[i];
-        draw_surface(cloth, buffers_[i].positions, buffers_[i].normals);
-        surfaces_[i] = {cloth.model->name, &cloth.model->mesh(), buffers_[i].positions, buffers_[i].normals,
-                        material_of(*cloth.model, looks)};
+        const RenderMesh& mesh = cloth.render_mesh();
+        surfaces_[i] = {.name = cloth.model->name,
+                        .positions = mesh.positions,
+                        .normals = mesh.normals,
+                        .triangles = mesh.triangles,
+                        .uvs = mesh.uvs,
+                        .colors = mesh.colors,
+                        .rest_positions = mesh.rest_positions,
+                        .topology_version = cloth.topology_version,
+                        .material = material_of(cloth, looks)};
     }
 }
 

@@ -16,18 +16,15 @@
 
 namespace weft {
 
-/// Drawn positions and normals of every cloth in a frame, in buffers that are kept from frame to frame.
+/// The cloths of a frame as exporters see them.
 class DrawnFrame {
   public:
-    /// `looks` must stay while surfaces are in use. A cloth without one is of cotton, or of the colors of its mesh.
+    /// What the surfaces show is the frame's own, and is gone with it. `looks` must stay while surfaces are in use. A
+    /// cloth without one is of cotton, or of the colors of its mesh.
     void update(const Frame& frame, std::span<const SceneLook> looks = {});
     std::span<const ExportSurface> surfaces() const { return surfaces_; }
 
   private:
-    struct Buffers {
-        std::vector<Vec3> positions, normals;
-    };
-    std::vector<Buffers> buffers_;
     std::vector<ExportSurface> surfaces_;
 };
 

@@ -63,7 +63,7 @@ Result<Done> checked(Check&& check) {
 }
 
 Surface view(const ExportSurface& surface) {
-    return {surface.name, surface.positions, surface.normals, surface.mesh->uvs, surface.mesh->triangles};
+    return {surface.name, surface.positions, surface.normals, surface.uvs, surface.triangles};
 }
 
 std::size_t place_of(const World& world, ClothId id) {
@@ -295,9 +295,7 @@ Surface Simulation::surface(ClothId id) const {
 std::span<const Vec4> Simulation::tangents(ClothId id) const {
     const std::size_t place = place_of(impl_->world(), id);
     if (place >= cloth_count()) return {};
-    const ExportSurface& surface = impl_->surfaces()[place];
-    compute_tangents(*surface.mesh, surface.positions, surface.normals, impl_->tangents);
-    return impl_->tangents;
+    return impl_->world().frame().cloths[place].tangents();
 }
 
 Measures Simulation::measure() const {

@@ -13,7 +13,6 @@ struct Simulation::Impl {
     Session session;
     mutable DrawnFrame drawn = {};
     mutable bool drawn_is_old = true;
-    mutable std::vector<Vec4> tangents = {};
 
     World& world() { return session.world(); }
     const World& world() const { return session.world(); }

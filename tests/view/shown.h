@@ -43,28 +43,23 @@ class Shown {
                        std::uint32_t height = 720) {
         std::vector<const Overlay*> chosen;
         for (const std::string_view name : names) chosen.push_back(find_overlay(name).value());
-        return draw_overlays(chosen, {.scene = scene_,
-                                      .world = world_,
-                                      .frame = frame_,
-                                      .positions = positions_,
-                                      .normals = normals_,
-                                      .size = size_,
-                                      .width = width,
-                                      .height = height});
+        return draw_overlays(
+            chosen,
+            {.scene = scene_, .world = world_, .frame = frame_, .size = size_, .width = width, .height = height});
     }
 
     const Frame& frame() const { return frame_; }
-    const std::vector<Vec3>& positions(std::size_t cloth = 0) const { return positions_[cloth]; }
-    const std::vector<Vec3>& normals(std::size_t cloth = 0) const { return normals_[cloth]; }
+    const std::vector<Vec3>& positions(std::size_t cloth = 0) const {
+        return frame_.cloths[cloth].render_mesh().positions;
+    }
+    const std::vector<Vec3>& normals(std::size_t cloth = 0) const { return frame_.cloths[cloth].render_mesh().normals; }
 
   private:
     void follow() {
-        positions_.resize(particles_.size());
-        normals_.resize(particles_.size());
         for (std::size_t i = 0; i < particles_.size(); ++i) {
             frame_.cloths[i].positions = particles_[i];
             frame_.cloths[i].normals = particle_normals_[i];
-            draw_surface(frame_.cloths[i], positions_[i], normals_[i]);
+            frame_.cloths[i].invalidate();
         }
     }
 
@@ -73,7 +68,6 @@ class Shown {
     Frame frame_;
     float size_;
     std::vector<std::vector<Vec4>> particles_, particle_normals_;
-    std::vector<std::vector<Vec3>> positions_, normals_;
 };
 
 /// The text of an entry of the first legend.

@@ -21,10 +21,9 @@ Off waved(std::uint32_t side, GridDiagonal diagonal) {
     for (Vec4& p : state.cloths[0].position) p.y = height * std::sin(k * p.x) * std::cos(k * p.z);
     EXPECT_TRUE(world.restore(state).ok());
     const ClothFrame& cloth = world.frame().cloths[0];
-    std::vector<Vec3> positions, normals;
-    std::vector<Vec4> tangents;
-    draw_surface(cloth, positions, normals);
-    compute_tangents(cloth.model->mesh(), positions, normals, tangents);
+    const auto& positions = cloth.render_mesh().positions;
+    const auto& normals = cloth.render_mesh().normals;
+    const std::span<const Vec4> tangents = cloth.tangents();
     Off off;
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const Vec3 p = positions[v];

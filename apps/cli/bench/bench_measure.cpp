@@ -165,7 +165,7 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     }
     for (const ClothFrame& cloth : world.frame().cloths) {
         figures.particles += cloth.model->particle_count;
-        figures.triangles += cloth.model->triangle_count;
+        figures.triangles += cloth.triangles.size();
         for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
             figures.constraints[kind].rows += cloth.model->constraints[kind].rows;
         }

@@ -38,8 +38,8 @@ Command add_check(CLI::App& program) {
         for (const ClothFrame& cloth : session->world().frame().cloths) {
             const ClothModel& model = *cloth.model;
             std::cout << *scene << ": cloth '" << model.name << "': " << model.particle_count << " particles ("
-                      << model.pinned_count << " pinned), " << model.triangle_count << " triangles";
-            if (!model.binding.empty()) std::cout << ", drawn with " << model.mesh().triangles.size();
+                      << model.pinned_count << " pinned), " << cloth.triangles.size() << " triangles";
+            if (!model.binding.empty()) std::cout << ", drawn with " << cloth.render_mesh().triangles.size();
             for (const ConstraintTable& table : model.constraints) {
                 std::cout << ", " << table.rows << ' ' << constraint_info(table.kind).name << " rows in "
                           << table.batches.size() << " batches";

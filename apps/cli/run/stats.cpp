@@ -84,7 +84,7 @@ Json RunStatistics::gather(const Session& session, const std::string& scene_file
     Json constraints = Json::object();
     for (const ClothFrame& cloth : frame.cloths) {
         particles += cloth.model->particle_count;
-        triangles += cloth.model->triangle_count;
+        triangles += cloth.triangles.size();
         for (const ConstraintTable& table : cloth.model->constraints) {
             const std::string name(constraint_info(table.kind).name);
             constraints[name] = constraints.value(name, std::uint64_t{0}) + table.rows;

@@ -11,19 +11,19 @@ namespace {
 constexpr float unit_tolerance = 1e-5f;
 
 std::string problem_of(const ExportSurface& surface) {
-    if (surface.mesh == nullptr) return "has no mesh";
-    const TriangleMesh& mesh = *surface.mesh;
     const std::size_t count = surface.positions.size();
-    if (mesh.triangles.empty()) return "has no triangles";
+    if (surface.triangles.empty()) return "has no triangles";
     if (surface.normals.size() != count) {
         return "has " + std::to_string(count) + " positions but " + std::to_string(surface.normals.size()) + " normals";
     }
-    if (!mesh.uvs.empty() && mesh.uvs.size() != count) return "does not have one UV per vertex";
-    if (!mesh.colors.empty() && mesh.colors.size() != count) return "does not have one color per vertex";
+    if (!surface.rest_positions.empty() && surface.rest_positions.size() != count)
+        return "does not have one rest position per vertex";
+    if (!surface.uvs.empty() && surface.uvs.size() != count) return "does not have one UV per vertex";
+    if (!surface.colors.empty() && surface.colors.size() != count) return "does not have one color per vertex";
     for (std::size_t i = 0; i < count; ++i) {
         if (!finite(surface.positions[i])) return "has a position that is not finite at vertex " + std::to_string(i);
     }
-    for (const Triangle& triangle : mesh.triangles) {
+    for (const Triangle& triangle : surface.triangles) {
         const std::uint32_t highest = std::ranges::max(triangle);
         if (highest >= count) {
             return "has a triangle on vertex " + std::to_string(highest) + " of " + std::to_string(count);

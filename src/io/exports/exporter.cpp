@@ -71,25 +71,41 @@ class LastFrameExporter : public Exporter {
         surfaces_.resize(frame.surfaces.size());
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const ExportSurface& from = frame.surfaces[i];
-            surfaces_[i].name = from.name;
-            surfaces_[i].mesh = from.mesh;
-            surfaces_[i].positions.assign(from.positions.begin(), from.positions.end());
-            surfaces_[i].normals.assign(from.normals.begin(), from.normals.end());
+            Surface& to = surfaces_[i];
+            to.name = from.name;
+            to.positions.assign(from.positions.begin(), from.positions.end());
+            to.normals.assign(from.normals.begin(), from.normals.end());
+            if (to.topology_version == from.topology_version) continue;
+            to.topology_version = from.topology_version;
+            to.triangles.assign(from.triangles.begin(), from.triangles.end());
+            to.uvs.assign(from.uvs.begin(), from.uvs.end());
+            to.colors.assign(from.colors.begin(), from.colors.end());
         }
         return Done{};
     }
 
     Result<Done> finish() override {
         std::vector<ExportSurface> views;
-        for (const Surface& s : surfaces_) views.push_back({s.name, s.mesh, s.positions, s.normals});
+        for (const Surface& s : surfaces_) {
+            views.push_back({.name = s.name,
+                             .positions = s.positions,
+                             .normals = s.normals,
+                             .triangles = s.triangles,
+                             .uvs = s.uvs,
+                             .colors = s.colors,
+                             .rest_positions = {}});
+        }
         return write_still(writer_, {index_, time_, views}, path_);
     }
 
   private:
     struct Surface {
         std::string name;
-        const TriangleMesh* mesh = nullptr;
         std::vector<Vec3> positions, normals;
+        std::vector<Triangle> triangles;
+        std::vector<Vec2> uvs;
+        std::vector<Vec4> colors;
+        std::uint64_t topology_version = 0;  ///< of the triangles, UVs and colors; none yet
     };
 
     StillWriter writer_;

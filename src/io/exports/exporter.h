@@ -15,17 +15,33 @@
 
 namespace weft {
 
-/// One cloth as it is drawn: topology, UVs and colors from `mesh`, everything that moves from the spans (one entry per
-/// vertex of `mesh`). The mesh must stay as it is until finish; all else is read during write alone.
+/// One cloth as it is drawn: the render mesh of a ClothFrame. Spans are read during write alone.
 struct ExportSurface {
     std::string_view name;
-    const TriangleMesh* mesh = nullptr;
-    std::span<const Vec3> positions;     ///< m
-    std::span<const Vec3> normals;       ///< unit
-    const Material* material = nullptr;  ///< where a format has materials; without one, light gray and matte
+    std::span<const Vec3> positions;  ///< m
+    std::span<const Vec3> normals;    ///< unit
+    std::span<const Triangle> triangles;
+    std::span<const Vec2> uvs;             ///< one per vertex, or none
+    std::span<const Vec4> colors;          ///< likewise
+    std::span<const Vec3> rest_positions;  ///< m, one per vertex: materials scale with them; without, `positions`
+    std::uint64_t topology_version = 1;    ///< another number whenever `triangles` have changed
+    const Material* material = nullptr;    ///< where a format has materials; without one, light gray and matte
 };
 
-/// Everything at one instant. The same cloths in the same order in every frame of a run.
+/// A mesh as a surface, in its place or with other positions and normals.
+inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh, std::span<const Vec3> positions,
+                                std::span<const Vec3> normals) {
+    return {.name = name,
+            .positions = positions,
+            .normals = normals,
+            .triangles = mesh.triangles,
+            .uvs = mesh.uvs,
+            .colors = mesh.colors,
+            .rest_positions = mesh.positions};
+}
+
+/// Everything at one instant. The same cloths in the same order in every frame of a run. Formats that hold a whole film
+/// in one file hold one topology: they fail on a frame whose topology versions are not those of the first one.
 struct ExportFrame {
     std::uint64_t index = 0;
     double time = 0;  ///< s

@@ -69,7 +69,7 @@ class Instant {
         data_.reserve(cloths.size());
         for (const Cloth& cloth : cloths) {
             const auto& [positions, normals] = data_.emplace_back(cloth.at(time));
-            surfaces.push_back({cloth.name, &cloth.mesh, positions, normals});
+            surfaces.push_back(surface_of(cloth.name, cloth.mesh, positions, normals));
         }
     }
     Instant(const Instant&) = delete;

@@ -46,6 +46,7 @@ constexpr double json_bytes_per_target = 700;
 struct FirstFrame {
     std::vector<Vec3> positions, normals;
     std::size_t triangles = 0;
+    std::uint64_t topology_version = 0;
 };
 
 // The highest value of either type restarts a primitive and is not allowed as an index (3.7.2.1).
@@ -65,15 +66,15 @@ FilmSize film_size(std::span<const ExportSurface> surfaces, const std::filesyste
     FilmSize size;
     size.base += static_cast<double>(GltfMaterials::most_picture_bytes(surfaces, folder));
     for (const ExportSurface& surface : surfaces) {
-        const TriangleMesh& mesh = *surface.mesh;
         const auto vertices = static_cast<double>(surface.positions.size());
         const bool tangents = surface.material != nullptr &&
                               (surface.material->weave != Weave::smooth || !surface.material->normal_map.empty());
-        const double vertex = 2 * sizeof(Vec3) + (mesh.uvs.empty() ? 0 : sizeof(Vec2) + (tangents ? sizeof(Vec4) : 0)) +
-                              (mesh.colors.empty() ? 0 : sizeof(Vec4));
+        const double vertex = 2 * sizeof(Vec3) +
+                              (surface.uvs.empty() ? 0 : sizeof(Vec2) + (tangents ? sizeof(Vec4) : 0)) +
+                              (surface.colors.empty() ? 0 : sizeof(Vec4));
         const double index = has_short_indices(surface.positions.size()) ? 2 : 4;
         // The names stand in JSON, where a character may take six; the rest of the JSON of a cloth is a few lines.
-        size.base += vertices * vertex + static_cast<double>(mesh.triangles.size()) * 3 * index + 4096 +
+        size.base += vertices * vertex + static_cast<double>(surface.triangles.size()) * 3 * index + 4096 +
                      6 * static_cast<double>(surface.name.size());
         size.target += vertices * 2 * sizeof(Vec3) + json_bytes_per_target;
     }
@@ -119,9 +120,9 @@ class GlbExporter : public Exporter {
   private:
     Result<Done> add_first_frame(const ExportFrame& frame);
     Result<Done> add_base(const ExportSurface& surface);
-    Result<Done> add_colors(const TriangleMesh& mesh, tinygltf::Primitive& primitive);
+    Result<Done> add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive);
     Result<Done> add_material(const ExportSurface& surface, tinygltf::Primitive& primitive);
-    Result<Done> add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive);
+    Result<Done> add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive);
     Result<Done> add_target(std::size_t cloth, const ExportSurface& surface);
     Result<Done> add_animation();
     Result<Done> write_container(std::string json);
@@ -191,8 +192,8 @@ Result<Done> GlbExporter::check_order(const ExportFrame& frame) const {
     if (frame.surfaces.size() != first_.size()) return error(which + "it does not hold the cloths of the first frame");
     for (std::size_t i = 0; i < first_.size(); ++i) {
         const ExportSurface& surface = frame.surfaces[i];
-        if (surface.positions.size() == first_[i].positions.size() &&
-            surface.mesh->triangles.size() == first_[i].triangles) {
+        if (surface.positions.size() == first_[i].positions.size() && surface.triangles.size() == first_[i].triangles &&
+            surface.topology_version == first_[i].topology_version) {
             continue;
         }
         return error(which + "cloth \"" + std::string(surface.name) +
@@ -223,7 +224,8 @@ Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
         first.positions.assign(surface.positions.begin(), surface.positions.end());
         first.normals.reserve(surface.normals.size());
         for (const Vec3& normal : surface.normals) first.normals.push_back(unit_normal(normal));
-        first.triangles = surface.mesh->triangles.size();
+        first.triangles = surface.triangles.size();
+        first.topology_version = surface.topology_version;
     }
     size_ = film_size(frame.surfaces, info_.folder);
     if (Result<Done> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
@@ -236,14 +238,13 @@ Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
 }
 
 Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
-    const TriangleMesh& mesh = *surface.mesh;
     const FirstFrame& first = first_[model_.meshes.size()];
     const std::size_t count = first.positions.size();
     const std::string name(surface.name);
 
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    if (Result<Done> r = add_indices(mesh, count, primitive); !r) return r;
+    if (Result<Done> r = add_indices(surface, primitive); !r) return r;
     const Result<int> positions = add_vectors(first.positions, true);
     if (!positions) return positions.errors();
     primitive.attributes["POSITION"] = *positions;
@@ -251,15 +252,15 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
     if (!normals) return normals.errors();
     primitive.attributes["NORMAL"] = *normals;
 
-    if (!mesh.uvs.empty()) {
+    if (!surface.uvs.empty()) {
         std::vector<Vec2> uvs;
         uvs.reserve(count);
-        for (const Vec2& uv : mesh.uvs) uvs.push_back({uv.x, 1 - uv.y});  // v runs downward (3.8.3)
+        for (const Vec2& uv : surface.uvs) uvs.push_back({uv.x, 1 - uv.y});  // v runs downward (3.8.3)
         open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, count, TINYGLTF_TARGET_ARRAY_BUFFER);
         primitive.attributes["TEXCOORD_0"] = newest_accessor();
         if (Result<Done> r = append(std::as_bytes(std::span(uvs))); !r) return r;
     }
-    if (Result<Done> r = add_colors(mesh, primitive); !r) return r;
+    if (Result<Done> r = add_colors(surface, primitive); !r) return r;
     if (Result<Done> r = add_material(surface, primitive); !r) return r;
 
     tinygltf::Node& node = model_.nodes.emplace_back();
@@ -272,12 +273,12 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
     return Done{};
 }
 
-Result<Done> GlbExporter::add_colors(const TriangleMesh& mesh, tinygltf::Primitive& primitive) {
-    if (mesh.colors.empty()) return Done{};
+Result<Done> GlbExporter::add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive) {
+    if (surface.colors.empty()) return Done{};
     const auto clamped = [](float c) { return std::isnan(c) ? 0.0f : std::clamp(c, 0.0f, 1.0f); };
     std::vector<Vec4> colors;
-    colors.reserve(mesh.colors.size());
-    for (const Vec4& c : mesh.colors) colors.push_back({clamped(c.x), clamped(c.y), clamped(c.z), clamped(c.w)});
+    colors.reserve(surface.colors.size());
+    for (const Vec4& c : surface.colors) colors.push_back({clamped(c.x), clamped(c.y), clamped(c.z), clamped(c.w)});
     open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, colors.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.attributes["COLOR_0"] = newest_accessor();
     return append(std::as_bytes(std::span(colors)));
@@ -287,26 +288,25 @@ Result<Done> GlbExporter::add_colors(const TriangleMesh& mesh, tinygltf::Primiti
 /// they would be half as much again, and some readers that know tangents do not morph them; without, all of them find
 /// the tangents of each frame from its UVs.
 Result<Done> GlbExporter::add_material(const ExportSurface& surface, tinygltf::Primitive& primitive) {
-    const TriangleMesh& mesh = *surface.mesh;
     const std::string name(surface.name);
     primitive.material = as_int(model_.materials.size());
     if (!surface.material) {
-        model_.materials.push_back(fabric_material(name, !mesh.colors.empty()));
+        model_.materials.push_back(fabric_material(name, !surface.colors.empty()));
         return Done{};
     }
-    if (Result<Done> r = materials_.add(name, *surface.material, mesh); !r) return r;
+    if (Result<Done> r = materials_.add(name, *surface.material, surface); !r) return r;
     if (info_.frame_count != 1 || model_.materials.back().normalTexture.index < 0) return Done{};
     const FirstFrame& first = first_[model_.meshes.size()];
     std::vector<Vec4> tangents;
-    compute_tangents(mesh, first.positions, first.normals, tangents);
+    compute_tangents(surface.triangles, surface.uvs, first.positions, first.normals, tangents);
     open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, tangents.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
     primitive.attributes["TANGENT"] = newest_accessor();
     return append(std::as_bytes(std::span(tangents)));
 }
 
-Result<Done> GlbExporter::add_indices(const TriangleMesh& mesh, std::size_t vertices, tinygltf::Primitive& primitive) {
-    const std::span<const std::uint32_t> indices(mesh.triangles.front().data(), mesh.triangles.size() * 3);
-    const bool is_short = has_short_indices(vertices);
+Result<Done> GlbExporter::add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive) {
+    const std::span<const std::uint32_t> indices(surface.triangles.front().data(), surface.triangles.size() * 3);
+    const bool is_short = has_short_indices(surface.positions.size());
     open_accessor(is_short ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                   TINYGLTF_TYPE_SCALAR, indices.size(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     primitive.indices = newest_accessor();

@@ -219,6 +219,12 @@ TEST(GlbExport, RefusesFramesThatAreNoFilm) {
     EXPECT_THAT(problem(more, 1), HasSubstr("other vertices"));
     EXPECT_THAT(problem({cloths[0], cloths[0]}, 1), HasSubstr("cloths of the first frame"));
     EXPECT_EQ(problem(cloths, 1), "none");
+    Instant torn(cloths, 2, 2);
+    torn.surfaces[0].topology_version = 2;  // as many triangles, and others
+    const Result<Done> written = (*exporter)->write(torn.frame());
+    ASSERT_FALSE(written.ok());
+    EXPECT_THAT(written.error().what, HasSubstr("frame 2: cloth \"c\" has other vertices or triangles"));
+    EXPECT_THAT(written.error().what, HasSubstr("write a sequence instead"));
     EXPECT_TRUE((*exporter)->finish().ok());
 }
 

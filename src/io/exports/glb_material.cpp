@@ -231,11 +231,12 @@ void GltfMaterials::add_fuzz(const Material& material, tinygltf::Material& to) {
            {{"sheenColorFactor", numbers({color.x, color.y, color.z})}, {"sheenRoughnessFactor", number(roughness)}});
 }
 
-Result<Done> GltfMaterials::add(const std::string& name, const Material& material, const TriangleMesh& mesh) {
-    const Textures textures = mesh.uvs.empty() ? Textures::without : Textures::with;
+Result<Done> GltfMaterials::add(const std::string& name, const Material& material, const ExportSurface& surface) {
+    const Textures textures = surface.uvs.empty() ? Textures::without : Textures::with;
     const Result<Tile> tile = tile_of(material, textures);
     if (!tile) return tile.errors();
-    const std::array<float, 2> meters = uv_meters(mesh);
+    const std::array<float, 2> meters = uv_meters(
+        surface.rest_positions.empty() ? surface.positions : surface.rest_positions, surface.uvs, surface.triangles);
     std::array<double, 2> repeat;
     for (std::size_t i = 0; i < 2; ++i) repeat[i] = meters[i] / (tile->threads[i] * (material.thread * 1e-3));
 
@@ -260,7 +261,7 @@ std::uint64_t GltfMaterials::most_picture_bytes(std::span<const ExportSurface> s
                                                 const std::filesystem::path& folder) {
     std::uint64_t bytes = 0;
     for (const ExportSurface& surface : surfaces) {
-        if (!surface.material || surface.mesh->uvs.empty()) continue;
+        if (!surface.material || surface.uvs.empty()) continue;
         bytes += (surface.material->weave != Weave::smooth) * most_tile_bytes;
         bytes += shows_weave_colors(*surface.material) * most_tile_bytes;
         for (const std::string& file : {surface.material->color_map, surface.material->normal_map}) {

@@ -37,7 +37,7 @@ class GltfMaterials {
     void look_in(std::filesystem::path folder) { folder_ = std::move(folder); }
 
     /// At the end of the model's materials. A picture that cannot be read is left out.
-    Result<Done> add(const std::string& name, const Material& material, const TriangleMesh& mesh);
+    Result<Done> add(const std::string& name, const Material& material, const ExportSurface& surface);
 
     /// What pictures of these surfaces take together; rather too much than too little.
     static std::uint64_t most_picture_bytes(std::span<const ExportSurface> surfaces,

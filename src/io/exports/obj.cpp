@@ -53,7 +53,7 @@ Result<Done> write_vertices(const ExportSurface& surface, AtomicFile& file) {
     for (const Vec3& p : surface.positions) {
         if (Result<Done> r = file.write(Line("v").add(p.x).add(p.y).add(p.z).end()); !r) return r;
     }
-    for (const Vec2& uv : surface.mesh->uvs) {
+    for (const Vec2& uv : surface.uvs) {
         if (Result<Done> r = file.write(Line("vt").add(uv.x).add(uv.y).end()); !r) return r;
     }
     for (const Vec3& given : surface.normals) {
@@ -64,8 +64,8 @@ Result<Done> write_vertices(const ExportSurface& surface, AtomicFile& file) {
 }
 
 Result<Done> write_triangles(const ExportSurface& surface, FirstIndex first, AtomicFile& file) {
-    const bool has_uvs = !surface.mesh->uvs.empty();
-    for (const Triangle& triangle : surface.mesh->triangles) {
+    const bool has_uvs = !surface.uvs.empty();
+    for (const Triangle& triangle : surface.triangles) {
         Line line("f");
         for (const std::uint32_t vertex : triangle) {
             line.add(first.position + vertex);
@@ -88,8 +88,8 @@ std::uint64_t size_obj(std::span<const ExportSurface> surfaces) {
     for (const ExportSurface& surface : surfaces) {
         bytes += keyword + surface.name.size();
         bytes += surface.positions.size() * 2 * (keyword + 3 * number);
-        bytes += surface.mesh->uvs.size() * (keyword + 2 * number);
-        bytes += surface.mesh->triangles.size() * (keyword + 3 * 3 * index);
+        bytes += surface.uvs.size() * (keyword + 2 * number);
+        bytes += surface.triangles.size() * (keyword + 3 * 3 * index);
     }
     return bytes;
 }
@@ -101,7 +101,7 @@ Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file) {
         if (Result<Done> r = write_vertices(surface, file); !r) return r;
         if (Result<Done> r = write_triangles(surface, first, file); !r) return r;
         first.position += surface.positions.size();
-        first.uv += surface.mesh->uvs.size();
+        first.uv += surface.uvs.size();
     }
     return Done{};
 }

@@ -43,9 +43,10 @@ bool is_face(const Triangle& t) {
 }
 
 /// The vertices that faces use, ascending.
-std::vector<std::uint32_t> used_vertices(const TriangleMesh& mesh, std::size_t vertex_count) {
+std::vector<std::uint32_t> used_vertices(const ExportSurface& surface) {
+    const std::size_t vertex_count = surface.positions.size();
     std::vector<bool> used(vertex_count);
-    for (const Triangle& triangle : mesh.triangles) {
+    for (const Triangle& triangle : surface.triangles) {
         if (!is_face(triangle)) continue;
         for (const std::uint32_t vertex : triangle) used[vertex] = true;
     }
@@ -56,27 +57,31 @@ std::vector<std::uint32_t> used_vertices(const TriangleMesh& mesh, std::size_t v
     return vertices;
 }
 
+/// Vertices, triangles, and which ones.
+std::array<std::uint64_t, 3> shape_of(const ExportSurface& surface) {
+    return {surface.positions.size(), surface.triangles.size(), surface.topology_version};
+}
+
 /// All cloths as one, without what no reader keeps.
 struct RestMesh {
     TriangleMesh mesh;
-    std::vector<std::vector<std::uint32_t>> kept;   ///< per cloth: its vertices that are in `mesh`, ascending
-    std::vector<std::array<std::size_t, 2>> shape;  ///< per cloth: vertices and triangles
+    std::vector<std::vector<std::uint32_t>> kept;     ///< per cloth: its vertices that are in `mesh`, ascending
+    std::vector<std::array<std::uint64_t, 3>> shape;  ///< per cloth
 
     void add(const ExportSurface& surface, bool with_uvs);
 };
 
 void RestMesh::add(const ExportSurface& surface, bool with_uvs) {
-    const TriangleMesh& from = *surface.mesh;
-    const std::vector<std::uint32_t>& vertices = kept.emplace_back(used_vertices(from, surface.positions.size()));
-    shape.push_back({surface.positions.size(), from.triangles.size()});
+    const std::vector<std::uint32_t>& vertices = kept.emplace_back(used_vertices(surface));
+    shape.push_back(shape_of(surface));
     std::vector<std::uint32_t> renumbered(surface.positions.size(), none);
     for (const std::uint32_t v : vertices) {
         renumbered[v] = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.push_back(surface.positions[v]);
         mesh.normals.push_back(surface.normals[v]);
-        if (with_uvs) mesh.uvs.push_back(from.uvs.empty() ? Vec2{} : from.uvs[v]);
+        if (with_uvs) mesh.uvs.push_back(surface.uvs.empty() ? Vec2{} : surface.uvs[v]);
     }
-    for (const Triangle& t : from.triangles) {
+    for (const Triangle& t : surface.triangles) {
         if (is_face(t)) mesh.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
     }
 }
@@ -138,7 +143,7 @@ Result<Done> Pc2Exporter::check_shape(const ExportFrame& frame) const {
     }
     for (std::size_t i = 0; i < rest_.shape.size(); ++i) {
         const ExportSurface& surface = frame.surfaces[i];
-        if (rest_.shape[i] == std::array{surface.positions.size(), surface.mesh->triangles.size()}) continue;
+        if (rest_.shape[i] == shape_of(surface)) continue;
         return error(which + "cloth \"" + std::string(surface.name) +
                      "\" has other vertices or triangles than in the first frame, which a .pc2 cannot hold; " +
                      "write a sequence instead");
@@ -148,7 +153,7 @@ Result<Done> Pc2Exporter::check_shape(const ExportFrame& frame) const {
 
 void Pc2Exporter::keep_rest_mesh(const ExportFrame& frame) {
     const bool with_uvs =
-        std::ranges::any_of(frame.surfaces, [](const ExportSurface& surface) { return !surface.mesh->uvs.empty(); });
+        std::ranges::any_of(frame.surfaces, [](const ExportSurface& surface) { return !surface.uvs.empty(); });
     for (const ExportSurface& surface : frame.surfaces) rest_.add(surface, with_uvs);
     if (name_.empty()) name_ = frame.surfaces.front().name;
 }
@@ -168,7 +173,7 @@ Result<Done> Pc2Exporter::write(const ExportFrame& frame) {
 }
 
 Result<Done> Pc2Exporter::write_rest_mesh(AtomicFile& file) const {
-    const ExportSurface surface{name_, &rest_.mesh, rest_.mesh.positions, rest_.mesh.normals};
+    const ExportSurface surface = surface_of(name_, rest_.mesh, rest_.mesh.positions, rest_.mesh.normals);
     return write_obj({0, 0, std::span(&surface, 1)}, file);
 }
 

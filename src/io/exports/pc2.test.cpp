@@ -118,16 +118,19 @@ TEST(Pc2Export, VerticesThatNoFaceUsesAreInNeitherFile) {
 TEST(Pc2Export, AFrameOfAnotherShapeIsRefused) {
     const TestFolder folder;
     const std::vector<Cloth> cloths = {make_cloth("a", 3, 0), make_cloth("b", 3, 1)};
-    const auto second_frame = [&](const std::vector<Cloth>& later) {
+    const auto second_frame = [&](const std::vector<Cloth>& later, std::uint64_t topology_version = 1) {
         const auto made = make_exporter(folder / "film.pc2");
         EXPECT_TRUE(made.ok() && (*made)->begin({"s", 60, 2}).ok());
         EXPECT_TRUE((*made)->write(Instant(cloths, 0, 0).frame()).ok());
-        const Result<Done> written = (*made)->write(Instant(later, 1, 0.1).frame());
+        Instant second(later, 1, 0.1);
+        second.surfaces.back().topology_version = topology_version;
+        const Result<Done> written = (*made)->write(second.frame());
         return written ? std::string("none") : written.error().message();
     };
     EXPECT_EQ(second_frame(cloths), "none");
     EXPECT_THAT(second_frame({cloths[0]}), HasSubstr("film.pc2: frame 1: it does not hold the cloths"));
     EXPECT_THAT(second_frame({cloths[0], make_cloth("b", 4, 1)}), HasSubstr("cloth \"b\" has other vertices"));
+    EXPECT_THAT(second_frame(cloths, 2), HasSubstr("cloth \"b\" has other vertices or triangles"));
     EXPECT_THAT(folder.names(), IsEmpty());
 }
 
@@ -157,10 +160,9 @@ TEST(Pc2Export, BothFilesAppearOrNeither) {
 TEST(Pc2Export, MoreVerticesThanItCountsAreRefused) {
     const auto made = make_exporter("film.pc2");
     ASSERT_TRUE(made.ok());
-    const TriangleMesh mesh;
     // Never read: only their number counts.
     const std::span<const Vec3> many(reinterpret_cast<const Vec3*>(0x1000), std::size_t{1} << 31);
-    const ExportSurface surface{"huge", &mesh, many, many};
+    const ExportSurface surface = surface_of("huge", {}, many, many);
     const auto estimate = (*made)->estimate({"s", 60, 1}, std::span(&surface, 1));
     ASSERT_FALSE(estimate.ok());
     EXPECT_THAT(estimate.error().message(), HasSubstr("2147483648 vertices"));

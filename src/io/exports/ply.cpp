@@ -25,9 +25,9 @@ Contents contents_of(std::span<const ExportSurface> surfaces) {
     Contents contents;
     for (const ExportSurface& surface : surfaces) {
         contents.vertices += surface.positions.size();
-        contents.triangles += surface.mesh->triangles.size();
-        contents.uvs |= !surface.mesh->uvs.empty();
-        contents.colors |= !surface.mesh->colors.empty();
+        contents.triangles += surface.triangles.size();
+        contents.uvs |= !surface.uvs.empty();
+        contents.colors |= !surface.colors.empty();
     }
     return contents;
 }
@@ -57,15 +57,14 @@ std::uint8_t byte_color(float value) {
 }
 
 Result<Done> write_vertices(const ExportSurface& surface, const Contents& contents, AtomicFile& file) {
-    const TriangleMesh& mesh = *surface.mesh;
     std::vector<std::byte> record;
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {
         record.clear();
         append(record, surface.positions[i]);
         append(record, unit_normal(surface.normals[i]));
-        if (contents.uvs) append(record, mesh.uvs.empty() ? Vec2{} : mesh.uvs[i]);
+        if (contents.uvs) append(record, surface.uvs.empty() ? Vec2{} : surface.uvs[i]);
         if (contents.colors) {
-            const Vec4 color = mesh.colors.empty() ? Vec4{1, 1, 1, 1} : mesh.colors[i];
+            const Vec4 color = surface.colors.empty() ? Vec4{1, 1, 1, 1} : surface.colors[i];
             for (const float channel : {color.x, color.y, color.z, color.w}) append(record, byte_color(channel));
         }
         if (Result<Done> r = file.write(record); !r) return r;
@@ -75,7 +74,7 @@ Result<Done> write_vertices(const ExportSurface& surface, const Contents& conten
 
 Result<Done> write_triangles(const ExportSurface& surface, std::uint32_t first_vertex, AtomicFile& file) {
     std::vector<std::byte> record;
-    for (const Triangle& triangle : surface.mesh->triangles) {
+    for (const Triangle& triangle : surface.triangles) {
         record.clear();
         append(record, std::uint8_t{3});
         for (const std::uint32_t vertex : triangle) append(record, first_vertex + vertex);

@@ -32,8 +32,7 @@ Penetration measure_penetration(const Frame& frame, std::span<const Collider> co
     constexpr double tolerance = 1e-6;  // m: rounding of float positions a few meters from the origin
     Penetration result;
     for (const ClothFrame& cloth : frame.cloths) {
-        for (std::uint32_t t = 0; t < cloth.model->triangle_count; ++t) {
-            const auto [ia, ib, ic] = cloth.model->triangle(t);
+        for (const auto& [ia, ib, ic] : cloth.triangles) {
             const Vec3 a = cloth.positions[ia].xyz(), b = cloth.positions[ib].xyz(), c = cloth.positions[ic].xyz();
             const Vec3 samples[] = {a, b, c, (a + b) * 0.5f, (b + c) * 0.5f, (c + a) * 0.5f, (a + b + c) / 3.0f};
             double deepest = 0;
@@ -53,10 +52,7 @@ Intersections count_intersections(const Frame& frame) {
     for (const ClothFrame& cloth : frame.cloths) {
         const auto first = static_cast<std::uint32_t>(positions.size());
         for (const Vec4& p : cloth.positions) positions.push_back(p.xyz());
-        for (std::uint32_t t = 0; t < cloth.model->triangle_count; ++t) {
-            const auto [a, b, c] = cloth.model->triangle(t);
-            triangles.push_back({a + first, b + first, c + first});
-        }
+        for (const auto& [a, b, c] : cloth.triangles) triangles.push_back({a + first, b + first, c + first});
     }
     const Crossings crossings = count_crossings(positions, triangles);
     return {crossings.triangles, crossings.edges};

@@ -283,7 +283,7 @@ const TriangleMesh& ClothModel::mesh() const {
         }
         mesh_.triangles.reserve(triangle_count);
         for (std::uint32_t t = 0; t < triangle_count; ++t) {
-            const auto [a, b, c] = triangle(t);
+            const auto [a, b, c] = triangles()[t];
             mesh_.triangles.push_back({vertex[a], vertex[b], vertex[c]});
         }
     });
@@ -313,7 +313,7 @@ EdgesByDirection edges_by_direction(const ClothModel& model) {
 std::vector<float> face_masses(const ClothModel& model) {
     std::vector<float> masses(model.face_stride);
     for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
-        const auto [a, b, c] = model.triangle(t);
+        const auto [a, b, c] = model.triangles()[t];
         masses[t] =
             model.fabric.body.density * area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
     }

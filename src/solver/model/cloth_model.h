@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/topology.h"
+#include "mesh/triangle_view.h"
 #include "scene/fabric.h"
 #include "solver/model/binding.h"
 #include "solver/model/build_times.h"
@@ -89,9 +90,8 @@ struct ClothModel {
     std::uint32_t point_count() const { return particle_count + anchor_count; }
     std::uint32_t capacity() const { return particle_capacity(point_count()); }
     Vec3 rest_position(std::uint32_t particle) const { return start[particle].xyz(); }
-    Triangle triangle(std::uint32_t t) const {
-        return {faces[t], faces[std::size_t{face_stride} + t], faces[2 * std::size_t{face_stride} + t]};
-    }
+    /// Of particles, as the cloth starts; what they are later stands in ClothFrame.
+    TriangleView triangles() const { return {faces.data(), face_stride, triangle_count}; }
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
 
   private:

@@ -28,15 +28,36 @@ void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::ve
     }
 }
 
-void compute_tangents(const TriangleMesh& mesh, std::span<const Vec3> positions, std::span<const Vec3> normals,
-                      std::vector<Vec4>& tangents) {
+const RenderMesh& ClothFrame::render_mesh() const {
+    if (has_render_mesh_) return render_mesh_;
+    const TriangleMesh& mesh = model->mesh();
+    draw_surface(*this, render_mesh_.positions, render_mesh_.normals);
+    render_mesh_.triangles = mesh.triangles;
+    render_mesh_.uvs = mesh.uvs;
+    render_mesh_.colors = mesh.colors;
+    render_mesh_.rest_positions = mesh.positions;
+    has_render_mesh_ = true;
+    return render_mesh_;
+}
+
+std::span<const Vec4> ClothFrame::tangents() const {
+    if (!has_tangents_) {
+        const RenderMesh& mesh = render_mesh();
+        compute_tangents(mesh.triangles, mesh.uvs, mesh.positions, mesh.normals, tangents_);
+        has_tangents_ = true;
+    }
+    return tangents_;
+}
+
+void compute_tangents(std::span<const Triangle> triangles, std::span<const Vec2> uvs, std::span<const Vec3> positions,
+                      std::span<const Vec3> normals, std::vector<Vec4>& tangents) {
     using namespace scalar;
     tangents.clear();
-    if (mesh.uvs.empty()) return;
+    if (uvs.empty()) return;
     const auto spread = [](Vec3 v) { return scalar::vec3(v.x, v.y, v.z); };
     std::vector<TangentFrame> sums(positions.size(), {scalar::vec3(0.0f), scalar::vec3(0.0f)});
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec2 first = mesh.uvs[b] - mesh.uvs[a], second = mesh.uvs[c] - mesh.uvs[a];
+    for (const auto& [a, b, c] : triangles) {
+        const Vec2 first = uvs[b] - uvs[a], second = uvs[c] - uvs[a];
         const TangentFrame face = face_tangents(spread(positions[a]), spread(positions[b]), spread(positions[c]),
                                                 first.x, first.y, second.x, second.y);
         for (const std::uint32_t v : {a, b, c}) {

@@ -212,7 +212,10 @@ void World::list_cloths() {
 const Frame& World::frame() const {
     complete();
     if (!unread_) return frame_;
-    for (std::size_t i = 0; i < cloths_.size(); ++i) backend_->read(cloths_[i].handle, frame_.cloths[i]);
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        backend_->read(cloths_[i].handle, frame_.cloths[i]);
+        frame_.cloths[i].invalidate();
+    }
     unread_ = false;
     return frame_;
 }

@@ -87,8 +87,7 @@ std::vector<Curvature> curvature_of(const ClothFrame& cloth, const std::vector<T
 // 1/m, of each particle. At a border there is an angle missing; triangles that have all three tell more.
 std::vector<float> bending_of(const ClothFrame& cloth) {
     const ClothModel& model = *cloth.model;
-    std::vector<Triangle> triangles(model.triangle_count);
-    for (std::uint32_t t = 0; t < model.triangle_count; ++t) triangles[t] = model.triangle(t);
+    const std::vector<Triangle> triangles(cloth.triangles.begin(), cloth.triangles.end());
     const std::vector<Curvature> curvatures = curvature_of(cloth, triangles);
     std::vector<std::uint8_t> inside(model.particle_count);
     for (std::size_t t = 0; t < triangles.size(); ++t)

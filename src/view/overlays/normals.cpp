@@ -13,23 +13,23 @@ constexpr Vec4 color{0.15f, 0.55f, 1.0f, 1};
 constexpr double wanted = 1500;
 
 // m: the side of the squares that so many of would cover the cloth.
-float spacing_of(const TriangleMesh& mesh) {
+float spacing_of(const RenderMesh& mesh) {
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles)
-        area += area_of(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+        area += area_of(mesh.rest_positions[a], mesh.rest_positions[b], mesh.rest_positions[c]);
     return static_cast<float>(std::sqrt(area / wanted));
 }
 
 // The first vertex in every cube of that size, of the mesh at rest: the same ones in every frame.
-std::vector<std::uint32_t> thinned_out(const TriangleMesh& mesh, float spacing) {
+std::vector<std::uint32_t> thinned_out(const RenderMesh& mesh, float spacing) {
     std::set<std::array<std::int64_t, 3>> taken;
     std::vector<std::uint32_t> vertices;
-    std::vector<std::uint8_t> used(mesh.positions.size());
+    std::vector<std::uint8_t> used(mesh.rest_positions.size());
     for (const Triangle& triangle : mesh.triangles)
         for (const std::uint32_t v : triangle) used[v] = 1;
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    for (std::uint32_t v = 0; v < mesh.rest_positions.size(); ++v) {
         if (!used[v]) continue;
-        const Vec3 p = mesh.positions[v] / spacing;
+        const Vec3 p = mesh.rest_positions[v] / spacing;
         // Not at 0, where the vertices of a sheet lie that is centered there: half of one side, half of the other.
         const auto cell = [](float x) { return static_cast<std::int64_t>(std::floor(x + 0.25f)); };
         if (taken.insert({cell(p.x), cell(p.y), cell(p.z)}).second) vertices.push_back(v);
@@ -40,14 +40,14 @@ std::vector<std::uint32_t> thinned_out(const TriangleMesh& mesh, float spacing) 
 }  // namespace
 
 void normals(const OverlayInput& input, OverlayOutput& output) {
-    for (std::size_t i = 0; i < input.frame.cloths.size(); ++i) {
-        const ClothModel& model = *input.frame.cloths[i].model;
-        const float spacing = spacing_of(model.mesh());
+    for (const ClothFrame& cloth : input.frame.cloths) {
+        const RenderMesh& mesh = cloth.render_mesh();
+        const float spacing = spacing_of(mesh);
         if (!(spacing > 0)) continue;
-        const float reach = std::min(std::max(spacing, model.mean_edge) * 0.9f, 0.1f * input.size);
-        for (const std::uint32_t v : thinned_out(model.mesh(), spacing)) {
-            const Vec3 from = input.positions[i][v];
-            add_line(output.lines, from, from + input.normals[i][v] * reach, color, pixels(input, 1.3f));
+        const float reach = std::min(std::max(spacing, cloth.model->mean_edge) * 0.9f, 0.1f * input.size);
+        for (const std::uint32_t v : thinned_out(mesh, spacing)) {
+            const Vec3 from = mesh.positions[v];
+            add_line(output.lines, from, from + mesh.normals[v] * reach, color, pixels(input, 1.3f));
         }
     }
 }

@@ -20,33 +20,36 @@ Vec4 color_on(const ClothModel& model, float pixel) {
 
 using Ends = std::array<std::uint32_t, 2>;
 
-// The edges of a drawn mesh, as vertices, each once: of those that several triangles have, and of those along seams.
-std::vector<Ends> unique_edges(const TriangleMesh& mesh) {
-    const Weld weld = weld_vertices(mesh.positions, 0);
+// Each edge once, ends ascending, whichever triangles have it; `welded` says which point a corner is.
+template <class Triangles, class Welded>
+std::vector<Ends> unique_edges(const Triangles& triangles, Welded&& welded) {
     std::vector<Ends> edges;
-    edges.reserve(mesh.triangles.size() * 3);
-    for (const Triangle& triangle : mesh.triangles) {
+    edges.reserve(std::size_t{3} * triangles.size());
+    for (const Triangle& triangle : triangles) {
         for (int side = 0; side < 3; ++side) {
-            const std::uint32_t a = weld.vertex_to_welded[triangle[side]];
-            const std::uint32_t b = weld.vertex_to_welded[triangle[(side + 1) % 3]];
+            const std::uint32_t a = welded(triangle[side]), b = welded(triangle[(side + 1) % 3]);
             if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
         }
     }
     std::ranges::sort(edges);
     edges.erase(std::ranges::unique(edges).begin(), edges.end());
-    for (Ends& edge : edges) edge = {weld.first_vertex[edge[0]], weld.first_vertex[edge[1]]};
     return edges;
 }
 
-// A mesh that is simulated itself has them already.
-std::vector<Ends> drawn_edges(const ClothModel& model) {
-    if (!model.binding.empty()) return unique_edges(model.mesh());
-    const std::vector<std::uint32_t> vertex = first_vertices(model);
-    std::vector<Ends> edges;
-    for_each_edge(model, [&](const EdgeEnds& ends, bool) {
-        const auto [a, b] = ends;
-        if (vertex[a] != none && vertex[b] != none) edges.push_back({vertex[a], vertex[b]});
-    });
+// The edges of the render mesh, as vertices: of those along a seam, one.
+std::vector<Ends> drawn_edges(const ClothFrame& cloth) {
+    if (!cloth.model->binding.empty()) {
+        const RenderMesh& mesh = cloth.render_mesh();
+        const Weld weld = weld_vertices(mesh.rest_positions, 0);
+        std::vector<Ends> edges = unique_edges(mesh.triangles, [&](auto v) { return weld.vertex_to_welded[v]; });
+        for (Ends& edge : edges) edge = {weld.first_vertex[edge[0]], weld.first_vertex[edge[1]]};
+        return edges;
+    }
+    // The simulated mesh is the render mesh, and welded already.
+    const std::vector<std::uint32_t> vertex = first_vertices(*cloth.model);
+    std::vector<Ends> edges = unique_edges(cloth.triangles, [](std::uint32_t particle) { return particle; });
+    std::erase_if(edges, [&](const Ends& edge) { return vertex[edge[0]] == none || vertex[edge[1]] == none; });
+    for (Ends& edge : edges) edge = {vertex[edge[0]], vertex[edge[1]]};
     return edges;
 }
 
@@ -54,13 +57,12 @@ std::vector<Ends> drawn_edges(const ClothModel& model) {
 
 void wireframe(const OverlayInput& input, OverlayOutput& output) {
     const float width = pixels(input, 1.2f);
-    for (std::size_t i = 0; i < input.frame.cloths.size(); ++i) {
-        const ClothModel& model = *input.frame.cloths[i].model;
-        const auto& positions = input.positions[i];
-        const auto& normals = input.normals[i];
-        const float lifted = lift(input, model);
-        const Vec4 faded = color_on(model, pixel_size(input));
-        for (const auto& [a, b] : drawn_edges(model))
+    for (const ClothFrame& cloth : input.frame.cloths) {
+        const auto& positions = cloth.render_mesh().positions;
+        const auto& normals = cloth.render_mesh().normals;
+        const float lifted = lift(input, *cloth.model);
+        const Vec4 faded = color_on(*cloth.model, pixel_size(input));
+        for (const auto& [a, b] : drawn_edges(cloth))
             add_line_on_surface(output.lines, positions[a], positions[b], normals[a], normals[b], lifted, faded, width);
     }
 }
