@@ -1,6 +1,7 @@
 #include "view/collider_mesh.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace weft {
@@ -84,7 +85,44 @@ TriangleMesh mesh_of_box(const Numbers& numbers) {
     return mesh;
 }
 
+// And a function `extent_of_<name>`: how far it reaches from its center along a unit vector in its own frame, m.
+// Infinite where it has no end.
+
+float extent_of_plane(const Numbers&, Vec3) {
+    return std::numeric_limits<float>::infinity();
+}
+
+float extent_of_capsule(const Numbers& numbers, Vec3 along) {
+    return numbers[0] + numbers[1] * std::abs(along.y);
+}
+
+float extent_of_sphere(const Numbers& numbers, Vec3) {
+    return numbers[0];
+}
+
+float extent_of_box(const Numbers& numbers, Vec3 along) {
+    return numbers[0] * std::abs(along.x) + numbers[1] * std::abs(along.y) + numbers[2] * std::abs(along.z);
+}
+
+float extent_of(const Collider& collider, Vec3 along) {
+    switch (collider.shape) {
+#define WEFT_SHAPE(name, Name) \
+    case ShapeKind::name:      \
+        return extent_of_##name(collider.numbers, along);
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+    }
+    return 0;
+}
+
 }  // namespace
+
+Bounds bounds_of(const Collider& collider) {
+    const Mat3 to_own = transposed(collider.pose.rotation);
+    const Vec3 half{extent_of(collider, to_own.x), extent_of(collider, to_own.y), extent_of(collider, to_own.z)};
+    if (!finite(half)) return {};
+    return {collider.pose.position - half, collider.pose.position + half};
+}
 
 TriangleMesh mesh_of(const Collider& collider) {
     switch (collider.shape) {
