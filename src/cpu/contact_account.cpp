@@ -1,5 +1,6 @@
 #include "cpu/contact_account.h"
 
+#include "base/flush_subnormals.h"
 #include "physics/scalar.h"
 
 namespace weft::cpu {
@@ -37,30 +38,52 @@ void ContactAccount::prepare(std::size_t colliders, std::size_t capacity, unsign
 
 void ContactAccount::count(unsigned rank, Share mine, std::span<const Vec4> position, float inv_h) {
     Part& part = parts_[rank];
+    part.mine = mine;
+    part.position = position;
+    part.inv_h = inv_h;
+    list(part);
+}
+
+// The places of all contacts, and of these as many contacts as there is room for.
+void ContactAccount::list(Part& part) const {
+    const std::span<const Vec4> position = part.position;
+    std::size_t found = 0;
     part.contacts.clear();
     for (std::uint32_t c = 0; c < part.sums.size(); ++c) {
-        part.begin[c] = part.contacts.size();
+        part.begin[c] = found;
         part.sums[c] = {};
-        for (std::uint32_t p = mine.begin; p < mine.end; ++p) {
+        for (std::uint32_t p = part.mine.begin; p < part.mine.end; ++p) {
             const Vec4& moved = moved_[c * capacity_ + p];
             if (moved.x == 0 && moved.y == 0 && moved.z == 0) continue;  // most of a cloth touches nothing
-            const float momentum = scalar::contact_momentum(position[p].w, inv_h);
+            const float momentum = scalar::contact_momentum(position[p].w, part.inv_h);
             const Quanta linear = quanta_of(moved, momentum);
             if (linear == Quanta{}) continue;
             add(part.sums[c].linear, linear);
             add(part.sums[c].angular, quanta_of(turned_[c * capacity_ + p], momentum));
             part.sums[c].contacts += 1;
+            ++found;
+            if (part.contacts.size() == part.contacts.capacity()) continue;
             const auto axis = [&](int k) { return scalar::from_impulse_quanta(linear[k]); };
             part.contacts.push_back({position[p].xyz(), p, {axis(0), axis(1), axis(2)}, c});
         }
     }
-    part.begin[part.sums.size()] = part.contacts.size();
+    part.begin[part.sums.size()] = found;
 }
 
 void ContactAccount::collect(ClothFeedback& to) {
+    std::size_t all = 0;
+    for (Part& part : parts_) {
+        const std::size_t found = part.begin.back();
+        all += found;
+        if (found == part.contacts.size()) continue;
+        part.contacts.reserve(found + found / 2);  // a cloth that settles touches a little more in every frame
+        const FlushSubnormals flush;               // as in the step
+        list(part);
+    }
     turn_ ^= 1;
     std::vector<ContactRecord>& list = lists_[turn_];
     list.clear();
+    if (list.capacity() < all) list.reserve(all + all / 2);
     to.clear();
     for (std::size_t c = 0; c < to.sums.size(); ++c) {
         for (const Part& part : parts_) {

@@ -1,10 +1,12 @@
-// A step that has run before asks for no memory: counted, for every way to project, with air, pins and colliders.
+// A step that has run before asks for no memory: counted, for every way to project, with air, pins and colliders. Where
+// an account of contacts grows, the calling thread asks for it.
 
 #include "sheet.h"
 
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <thread>
 
 // The sanitizers have an operator new of their own, and keep books about it.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -16,11 +18,13 @@
 #endif
 
 namespace {
-std::atomic<std::uint64_t> allocations{0};
+std::atomic<std::uint64_t> allocations{0}, on_workers{0};
+thread_local bool is_worker = true;  // until a test says that it is its own thread
 #if WEFT_COUNTS
 
 void* counted(std::size_t size, std::size_t alignment) {
     ++allocations;
+    if (is_worker) ++on_workers;
     void* memory = alignment > alignof(std::max_align_t)
                        ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
                        : std::malloc(size > 0 ? size : 1);
@@ -87,6 +91,34 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
     int* volatile one = new int;
     delete one;
     EXPECT_GT(allocations, before) << "it does count";
+}
+
+TEST(Allocation, of_an_account_of_contacts_is_the_calling_threads) {
+    if (!WEFT_COUNTS) GTEST_SKIP() << "a sanitizer counts here";
+    is_worker = false;
+    for (const auto& [workers, cloths] : {std::pair(1u, 1u), {2u, 5u}}) {  // all threads on one, and one thread each
+        World world = make_world({.substeps = 2, .feedback = true}, {.workers = workers});
+        world.add(make_collider({.shape = SphereDesc{0.3f}}));
+        world.add(make_collider({.shape = PlaneDesc{.offset = -0.3f}}));
+        const auto model = make_sheet({.resolution = {32, 32}, .position = {0, 0.35f, 0}});
+        for (unsigned cloth = 0; cloth < cloths; ++cloth) world.add(model);
+        world.step(1.0 / 60);  // the runtime's own, at a thread's first task
+        const std::uint64_t before = on_workers;
+        std::size_t least = world.feedback().contacts.size(), most = least;
+        for (int i = 0; i < 30; ++i) {
+            world.step(1.0 / 60);
+            most = std::max(most, world.feedback().contacts.size());
+        }
+        EXPECT_EQ(on_workers - before, 0u) << cloths << " cloths";
+        EXPECT_EQ(least, 0u) << "it has not fallen yet";
+        EXPECT_GT(most, 200u * cloths) << "all that it touches has been listed";
+    }
+    std::jthread([] {
+        const std::uint64_t before = on_workers;
+        int* volatile one = new int;
+        delete one;
+        EXPECT_GT(on_workers, before) << "it does count";
+    }).join();
 }
 
 }  // namespace
