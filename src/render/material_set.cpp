@@ -115,8 +115,19 @@ Result<std::uint32_t> MaterialSet::add(const Material& material, const MaterialM
     auto set = gpu::DescriptorSet::create(device_, layout, images);
     if (!set) return set.errors();
     entry.images = std::move(*set);
-    entries_.push_back(std::move(entry));
-    return static_cast<std::uint32_t>(entries_.size() - 1);
+    if (free_.empty()) {
+        entries_.push_back(std::move(entry));
+        return static_cast<std::uint32_t>(entries_.size() - 1);
+    }
+    const std::uint32_t id = free_.back();
+    free_.pop_back();
+    entries_[id] = std::move(entry);
+    return id;
+}
+
+void MaterialSet::remove(std::uint32_t id) {
+    entries_[id] = {};
+    free_.push_back(id);
 }
 
 }  // namespace weft::render

@@ -26,6 +26,8 @@ class MaterialSet {
 
     /// `layout`: of the set with the material's pictures.
     Result<std::uint32_t> add(const Material& material, const MaterialMaps& maps, VkDescriptorSetLayout layout);
+    /// Frees what it has; add() gives its number out again.
+    void remove(std::uint32_t id);
     std::uint64_t address(std::uint32_t id) const { return entries_[id].data.address(); }
     const gpu::DescriptorSet& images(std::uint32_t id) const { return entries_[id].images; }
     bool sheer(std::uint32_t id) const { return entries_[id].sheer; }
@@ -56,6 +58,7 @@ class MaterialSet {
     gpu::Image white_;
     std::array<std::optional<Tile>, 8> tiles_;  // by weave
     std::deque<Entry> entries_;
+    std::vector<std::uint32_t> free_;  // of entries, those that are gone
 };
 
 }  // namespace weft::render

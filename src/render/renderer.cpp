@@ -506,6 +506,10 @@ Result<MaterialId> Renderer::add(const Material& material, const Image8* color_m
     return impl_->materials.add(material, {color_map, normal_map}, impl_->pipelines.lit[0].set_layout(1));
 }
 
+void Renderer::remove(MaterialId material) {
+    impl_->materials.remove(material);
+}
+
 Result<Done> Renderer::surround(const Lighting& light, const ImageF* environment) {
     Impl& self = *impl_;
     self.surroundings = surroundings_of(light, environment);

@@ -38,6 +38,8 @@ class Renderer {
     /// Pictures that it names are read by the caller; without, it is as if it named none.
     Result<MaterialId> add(const Material& material, const Image8* color_map = nullptr,
                            const Image8* normal_map = nullptr);
+    /// Nothing under way may be drawn with it. Its number is given out again.
+    void remove(MaterialId material);
     /// What is around from now on, and what it lights. Waits for the frames under way.
     Result<Done> surround(const Lighting& light, const ImageF* environment = nullptr);
 

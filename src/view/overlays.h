@@ -3,7 +3,6 @@
 #pragma once
 
 #include "render/drawing.h"
-#include "scene/scene_desc.h"
 #include "solver/world/world.h"
 #include "view/legend.h"
 
@@ -18,7 +17,6 @@ namespace weft {
 
 /// What overlays are made from.
 struct OverlayInput {
-    const SceneDesc& scene;
     World& world;
     const Frame& frame;
     float size = 1;                            ///< m: radius of the scene, for the length of arrows

@@ -1,5 +1,7 @@
 #include "view/scene_materials.h"
 
+#include <algorithm>
+
 namespace weft {
 
 Image8 checkered() {
@@ -14,7 +16,7 @@ Image8 checkered() {
     return image;
 }
 
-const Image8* SceneMaterials::picture(const std::string& file, const std::string& name,
+const Image8* SceneMaterials::picture(const std::string& file, const std::string& name, const std::string& instead,
                                       std::vector<std::string>& notes) {
     if (file.empty()) return nullptr;
     const auto [entry, fresh] = pictures_.try_emplace(file);
@@ -23,7 +25,7 @@ const Image8* SceneMaterials::picture(const std::string& file, const std::string
         if (read) {
             entry->second = std::move(*read);
         } else {
-            notes.push_back("look of '" + name + "': " + read.error().message());
+            notes.push_back("look of '" + name + "': " + read.error().message() + instead);
         }
     }
     return entry->second ? &*entry->second : nullptr;
@@ -32,18 +34,22 @@ const Image8* SceneMaterials::picture(const std::string& file, const std::string
 Result<render::MaterialId> SceneMaterials::find(render::Renderer& renderer, const std::string& name,
                                                 const Material& material, std::vector<std::string>& notes) {
     if (const auto known = ids_.find(name); known != ids_.end()) return known->second;
-    const Image8* color = picture(material.color_map, name, notes);
-    const Image8* normal = picture(material.normal_map, name, notes);
+    const Image8* color = picture(material.color_map, name, "; it is checkered instead", notes);
+    const Image8* normal = picture(material.normal_map, name, "; its weave stands in for it", notes);
     const Image8 checker = checkered();
-    if (!material.color_map.empty() && color == nullptr) {
-        notes.back() += "; it is checkered instead";
-        color = &checker;
-    }
-    if (!material.normal_map.empty() && normal == nullptr) notes.back() += "; its weave stands in for it";
+    if (!material.color_map.empty() && color == nullptr) color = &checker;
     auto id = renderer.add(material, color, normal);
     if (!id) return id;
     ids_.emplace(name, *id);
     return id;
+}
+
+void SceneMaterials::keep(render::Renderer& renderer, std::span<const render::MaterialId> used) {
+    std::erase_if(ids_, [&](const auto& entry) {
+        if (std::ranges::find(used, entry.second) != used.end()) return false;
+        renderer.remove(entry.second);
+        return true;
+    });
 }
 
 }  // namespace weft

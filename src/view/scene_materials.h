@@ -6,6 +6,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,13 @@ class SceneMaterials {
     Result<render::MaterialId> find(render::Renderer& renderer, const std::string& name, const Material& material,
                                     std::vector<std::string>& notes);
 
+    /// Frees the others. Nothing is being drawn.
+    void keep(render::Renderer& renderer, std::span<const render::MaterialId> used);
+
   private:
-    const Image8* picture(const std::string& file, const std::string& name, std::vector<std::string>& notes);
+    /// Null if there is none. Of a file that cannot be read there is one note, which ends in `instead`.
+    const Image8* picture(const std::string& file, const std::string& name, const std::string& instead,
+                          std::vector<std::string>& notes);
 
     ReadPicture read_;
     std::map<std::string, render::MaterialId> ids_;

@@ -5,6 +5,7 @@
 #include "render/renderer.h"
 #include "scene/looks.h"
 #include "view/collider_mesh.h"
+#include "view/framing.h"
 #include "view/overlays.h"
 #include "view/scene_materials.h"
 
@@ -18,11 +19,9 @@
 namespace weft {
 namespace {
 
-constexpr float framing_fov = 32;  // degrees: a short telephoto lens, as for portraits
-
 struct ClothOnDevice {
     ClothId id;
-    const ClothModel* model = nullptr;
+    std::shared_ptr<const ClothModel> model;
     render::MaterialId material = 0;
     std::array<float, 2> uv_meters{1, 1};
     std::optional<render::HostMesh> mesh;  // where the simulation has none there, or its overlays want it here
@@ -37,35 +36,27 @@ struct ColliderOnDevice {
     std::optional<render::HostMesh> mesh;  // none of a plane
 };
 
-/// Everything but planes, as it is at the start.
-Bounds bounds_of(const World& world) {
+/// m: half the diagonal of everything but planes, cloths as they start. Overlays go by it, and it stays.
+float size_of(const World& world) {
     Bounds bounds;
-    for (std::size_t i = 0; i < world.cloth_count(); ++i)
-        bounds.include(weft::bounds_of(world.model(world.cloth_id(i))->mesh().positions));
-    for (const Collider& collider : world.colliders())
-        for (const Vec3 p : mesh_of(collider).positions) bounds.include(to_world(collider.pose, p));
+    for (std::size_t i = 0; i < world.cloth_count(); ++i) {
+        const ClothModel& model = *world.model(world.cloth_id(i));
+        for (std::uint32_t p = 0; p < model.particle_count; ++p) bounds.include(model.rest_position(p));
+    }
+    for (const Collider& collider : world.colliders()) {
+        if (const Bounds solid = bounds_of(collider); !solid.empty()) bounds.include(solid);
+    }
     if (bounds.empty()) bounds.include(Bounds{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}});
-    return bounds;
-}
-
-/// From the front, a little from the right and above, so far away that all is in the picture.
-Camera framing(const Bounds& bounds, float aspect) {
-    const float radius = std::max(0.5f * length(bounds.size()), 1e-3f);
-    const float half = framing_fov / 360 * std::numbers::pi_v<float>;
-    const float narrow = std::atan(std::tan(half) * std::min(1.0f, aspect));
-    const Vec3 from = normalized(Vec3{0.45f, 0.35f, 1});
-    return {bounds.center() + from * (radius / std::sin(narrow)), bounds.center(), framing_fov};
+    return 0.5f * length(bounds.size());
 }
 
 }  // namespace
 
 struct SceneView::Impl {
-    const SceneDesc& scene;
     ViewOptions options;
     ViewSources sources;
     render::Renderer renderer;
     SceneMaterials materials;
-    Camera camera;
     float size = 1;  // m
     std::vector<const Overlay*> overlays;
     std::vector<std::string> notes;
@@ -81,54 +72,49 @@ struct SceneView::Impl {
     std::vector<render::Ground> grounds;
     OverlayOutput shown;
 
-    Impl(const SceneDesc& s, ViewOptions o, ViewSources from, render::Renderer r)
-        : scene(s),
-          options(std::move(o)),
-          sources(std::move(from)),
-          renderer(std::move(r)),
-          materials(sources.read_picture) {}
+    Impl(ViewOptions o, ViewSources from, render::Renderer r)
+        : options(std::move(o)), sources(std::move(from)), renderer(std::move(r)), materials(sources.read_picture) {}
 
-    Result<Done> open(World& world);
-    Result<Done> surround();
-    Result<ClothOnDevice*> cloth(World& world, ClothId id);
-    Result<ColliderOnDevice*> collider(const Collider& collider, ColliderId id);
-    Result<Done> bring(World& world);
-    Result<Done> add_cloth(World& world, std::size_t place, const Frame* frame);
-    Result<Done> add_collider(const Collider& collider, ColliderId id);
+    Result<Done> open(const SceneDesc& scene, World& world);
+    Result<Done> surround(const Lighting& light);
+    Result<ClothOnDevice*> cloth(const SceneDesc& scene, World& world, ClothId id);
+    Result<ColliderOnDevice*> collider(const SceneDesc& scene, const Collider& collider, ColliderId id);
+    Result<Done> drop_what_left(const World& world);
+    Result<Done> bring(const SceneDesc& scene, World& world);
+    Result<Done> add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame);
+    Result<Done> add_collider(const SceneDesc& scene, const Collider& collider, ColliderId id);
     Result<Done> draw_overlays(World& world, const Frame& frame);
     Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth, const ClothFrame& now);
-    Result<render::Drawing> draw(World& world, const Camera& camera, std::uint32_t wide, std::uint32_t high);
+    Result<render::Drawing> draw(const SceneDesc& scene, World& world, const Camera& camera, std::uint32_t wide,
+                                 std::uint32_t high);
     gpu::Device& device() { return *renderer.device(); }
 };
 
-Result<Done> SceneView::Impl::open(World& world) {
+Result<Done> SceneView::Impl::open(const SceneDesc& scene, World& world) {
     for (const std::string& name : options.overlays) {
         const auto overlay = find_overlay(name);
         if (!overlay) return overlay.errors();
         overlays.push_back(*overlay);
     }
-    const Bounds bounds = bounds_of(world);
-    size = 0.5f * length(bounds.size());
-    const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-    camera = scene.camera.value_or(framing(bounds, aspect));
-    if (auto surrounded = surround(); !surrounded) return surrounded;
-    return bring(world);  // what cannot be brought there is told now
+    size = size_of(world);
+    if (auto surrounded = surround(scene.light); !surrounded) return surrounded;
+    return bring(scene, world);  // what cannot be brought there is told now
 }
 
-Result<Done> SceneView::Impl::surround() {
-    const std::string& file = scene.light.environment.file;
-    if (file.empty()) return renderer.surround(scene.light);
+Result<Done> SceneView::Impl::surround(const Lighting& light) {
+    const std::string& file = light.environment.file;
+    if (file.empty()) return renderer.surround(light);
     auto read =
         sources.read_light ? sources.read_light(file) : Result<ImageF>(Error{file, "there is nobody to read it"});
-    if (read) return renderer.surround(scene.light, &*read);
+    if (read) return renderer.surround(light, &*read);
     notes.push_back("light: " + read.error().message() + "; the sky stands in for it");
-    return renderer.surround(scene.light);
+    return renderer.surround(light);
 }
 
 // --- What there is, on the device
 
-Result<ClothOnDevice*> SceneView::Impl::cloth(World& world, ClothId id) {
-    const ClothModel* model = world.model(id).get();
+Result<ClothOnDevice*> SceneView::Impl::cloth(const SceneDesc& scene, World& world, ClothId id) {
+    const std::shared_ptr<const ClothModel>& model = world.model(id);
     const auto known = std::ranges::find(cloths, id, &ClothOnDevice::id);
     if (known != cloths.end() && known->model == model) return &*known;
     if (known != cloths.end()) {
@@ -153,7 +139,7 @@ Result<ClothOnDevice*> SceneView::Impl::cloth(World& world, ClothId id) {
     return &cloths.back();
 }
 
-Result<ColliderOnDevice*> SceneView::Impl::collider(const Collider& collider, ColliderId id) {
+Result<ColliderOnDevice*> SceneView::Impl::collider(const SceneDesc& scene, const Collider& collider, ColliderId id) {
     const auto known = std::ranges::find(colliders, id, &ColliderOnDevice::id);
     if (known != colliders.end()) return &*known;
     ColliderOnDevice made;
@@ -174,6 +160,20 @@ Result<ColliderOnDevice*> SceneView::Impl::collider(const Collider& collider, Co
     }
     colliders.push_back(std::move(made));
     return &colliders.back();
+}
+
+// Frames under way may be drawn from what goes. Of materials, those that nothing has any more go with it.
+Result<Done> SceneView::Impl::drop_what_left(const World& world) {
+    const auto is_gone = [&](const auto& one) { return !world.contains(one.id); };
+    if (std::ranges::none_of(cloths, is_gone) && std::ranges::none_of(colliders, is_gone)) return Done{};
+    if (auto idle = device().wait(device().submitted()); !idle) return idle;
+    std::erase_if(cloths, is_gone);
+    std::erase_if(colliders, is_gone);
+    std::vector<render::MaterialId> used;
+    for (const ClothOnDevice& one : cloths) used.push_back(one.material);
+    for (const ColliderOnDevice& one : colliders) used.push_back(one.material);
+    materials.keep(renderer, used);
+    return Done{};
 }
 
 Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth, const ClothFrame& now) {
@@ -197,8 +197,8 @@ Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth, 
 
 // --- A picture
 
-Result<Done> SceneView::Impl::add_cloth(World& world, std::size_t place, const Frame* frame) {
-    auto found = cloth(world, world.cloth_id(place));
+Result<Done> SceneView::Impl::add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame) {
+    auto found = cloth(scene, world, world.cloth_id(place));
     if (!found) return found.errors();
     ClothOnDevice& one = **found;
     auto surface = sources.surface ? sources.surface(one.id) : host_surface(one, frame->cloths[place]);
@@ -213,8 +213,8 @@ Result<Done> SceneView::Impl::add_cloth(World& world, std::size_t place, const F
     return Done{};
 }
 
-Result<Done> SceneView::Impl::add_collider(const Collider& described, ColliderId id) {
-    auto found = collider(described, id);
+Result<Done> SceneView::Impl::add_collider(const SceneDesc& scene, const Collider& described, ColliderId id) {
+    auto found = collider(scene, described, id);
     if (!found) return found.errors();
     const ColliderOnDevice& one = **found;
     if (!one.mesh) {
@@ -233,7 +233,8 @@ Result<Done> SceneView::Impl::add_collider(const Collider& described, ColliderId
     return Done{};
 }
 
-Result<Done> SceneView::Impl::bring(World& world) {
+Result<Done> SceneView::Impl::bring(const SceneDesc& scene, World& world) {
+    if (auto dropped = drop_what_left(world); !dropped) return dropped;
     // Without overlays nothing needs to come from a device that simulates. A model has triangles: a cloth is an object.
     const bool here = !sources.surface || !overlays.empty();
     const Frame* frame = here ? &world.frame() : nullptr;
@@ -241,18 +242,18 @@ Result<Done> SceneView::Impl::bring(World& world) {
     grounds.clear();
     shown = {};
     for (std::size_t i = 0; i < world.cloth_count(); ++i)
-        if (auto added = add_cloth(world, i, frame); !added) return added;
+        if (auto added = add_cloth(scene, world, i, frame); !added) return added;
     if (!overlays.empty()) {
         if (auto drawn = draw_overlays(world, *frame); !drawn) return drawn;
     }
     for (std::size_t i = 0; i < world.colliders().size(); ++i)
-        if (auto added = add_collider(world.colliders()[i], world.collider_id(i)); !added) return added;
+        if (auto added = add_collider(scene, world.colliders()[i], world.collider_id(i)); !added) return added;
     return Done{};
 }
 
 Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
-    shown = weft::draw_overlays(
-        overlays, {.scene = scene, .world = world, .frame = frame, .size = size, .width = width, .height = height});
+    shown =
+        weft::draw_overlays(overlays, {.world = world, .frame = frame, .size = size, .width = width, .height = height});
     turn = 1 - turn;
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
         ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);
@@ -270,11 +271,11 @@ Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
     return Done{};
 }
 
-Result<render::Drawing> SceneView::Impl::draw(World& world, const Camera& from, std::uint32_t wide,
-                                              std::uint32_t high) {
+Result<render::Drawing> SceneView::Impl::draw(const SceneDesc& scene, World& world, const Camera& from,
+                                              std::uint32_t wide, std::uint32_t high) {
     width = wide;
     height = high;
-    if (auto brought = bring(world); !brought) return brought.errors();
+    if (auto brought = bring(scene, world); !brought) return brought.errors();
     render::Drawing drawing;
     drawing.camera = from;
     drawing.lighting = scene.light;
@@ -300,13 +301,14 @@ Result<SceneView> SceneView::create(std::shared_ptr<gpu::Device> device, const S
                                     const ViewOptions& options, const ViewSources& sources) {
     auto renderer = render::Renderer::create(std::move(device), {.samples = options.samples});
     if (!renderer) return renderer.errors();
-    auto impl = std::make_unique<Impl>(scene, options, sources, std::move(*renderer));
-    if (auto opened = impl->open(world); !opened) return opened.errors();
+    auto impl = std::make_unique<Impl>(options, sources, std::move(*renderer));
+    if (auto opened = impl->open(scene, world); !opened) return opened.errors();
     return SceneView(std::move(impl));
 }
 
-const Camera& SceneView::camera() const {
-    return impl_->camera;
+Camera SceneView::camera(const SceneDesc& scene, const World& world) const {
+    if (scene.camera) return *scene.camera;
+    return framing(subject_of(world).all, impl_->options.aspect());
 }
 
 const std::vector<std::string>& SceneView::notes() const {
@@ -317,19 +319,19 @@ void SceneView::set_overlays(std::vector<const Overlay*> overlays) {
     impl_->overlays = std::move(overlays);
 }
 
-Result<Image8> SceneView::picture(World& world, const Camera& camera) {
+Result<Image8> SceneView::picture(const SceneDesc& scene, World& world, const Camera& camera) {
     Impl& self = *impl_;
-    const auto drawing = self.draw(world, camera, self.options.width, self.options.height);
+    const auto drawing = self.draw(scene, world, camera, self.options.width, self.options.height);
     if (!drawing) return drawing.errors();
     return self.renderer.picture(*drawing, self.options.width, self.options.height);
 }
 
-Result<std::uint64_t> SceneView::draw(World& world, const Camera& camera, const render::Target& target,
-                                      gpu::BinarySemaphores window) {
+Result<std::uint64_t> SceneView::draw(const SceneDesc& scene, World& world, const Camera& camera,
+                                      const render::Target& target, gpu::BinarySemaphores window) {
     Impl& self = *impl_;
     // What is written for this frame was read by the one before the last.
     if (auto waited = self.device().wait(self.frames[0]); !waited) return waited.errors();
-    const auto drawing = self.draw(world, camera, target.width, target.height);
+    const auto drawing = self.draw(scene, world, camera, target.width, target.height);
     if (!drawing) return drawing.errors();
     const auto done = self.renderer.draw(*drawing, target, window);
     if (done) self.frames = {self.frames[1], *done};

@@ -26,6 +26,8 @@ struct ViewOptions {
     bool transparent = false;                  ///< no background; the ground is there by its shadows alone
     bool two_passes = false;                   ///< render/drawing.h
     std::vector<std::string> overlays;         ///< names of view/overlays.h
+
+    float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
 
 /// The drawn surface of a cloth on the device, where the simulation has it there; otherwise the view brings it there.
@@ -43,21 +45,21 @@ struct ViewSources {
 
 class SceneView {
   public:
-    /// On the simulation's device, or one of its own. The scene is only read here. A map that cannot be read is a
-    /// checkered one, and a note says so.
+    /// On the simulation's device, or one of its own. Scene and world are read during calls alone and may move between
+    /// them. A map that cannot be read is a checkered one, and a note says so.
     static Result<SceneView> create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene, World& world,
                                     const ViewOptions& options, const ViewSources& sources = {});
     SceneView(SceneView&&) noexcept;
     SceneView& operator=(SceneView&&) noexcept;
     ~SceneView();
 
-    /// The scene's camera; where it has none, one from which everything at the start is seen.
-    const Camera& camera() const;
-    /// The world as it is now.
-    Result<Image8> picture(World& world, const Camera& camera);
+    /// The scene's camera; where it has none, one from which everything is seen as it is now (framing.h).
+    Camera camera(const SceneDesc& scene, const World& world) const;
+    /// The world as it is now. What has left it since the picture before is freed on the device.
+    Result<Image8> picture(const SceneDesc& scene, World& world, const Camera& camera);
     /// The same into a target of any size; returns when it is there, on the device's timeline. `window`: of a window's
     /// image.
-    Result<std::uint64_t> draw(World& world, const Camera& camera, const render::Target& target,
+    Result<std::uint64_t> draw(const SceneDesc& scene, World& world, const Camera& camera, const render::Target& target,
                                gpu::BinarySemaphores window = {});
     /// From now on, in place of those before.
     void set_overlays(std::vector<const Overlay*> overlays);

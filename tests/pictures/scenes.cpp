@@ -126,7 +126,7 @@ Image8 PictureTest::drawn(const PictureScene& scene) {
     EXPECT_TRUE(view.ok()) << view.error().message();
     if (!view) return {};
     EXPECT_TRUE(view->notes().empty());
-    auto image = view->picture(session->world(), view->camera());
+    auto image = view->picture(session->scene(), session->world(), view->camera(session->scene(), session->world()));
     EXPECT_TRUE(image.ok()) << image.error().message();
     return image ? std::move(*image) : Image8{};
 }

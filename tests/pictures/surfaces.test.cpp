@@ -32,7 +32,8 @@ class VulkanPicturesOfSurfaces : public testing::Test {
                                       {.width = 160, .height = 90, .two_passes = two_passes, .overlays = {}}, sources);
         EXPECT_TRUE(view.ok()) << view.error().message();
         if (!view) return {};
-        auto image = view->picture(session->world(), view->camera());
+        auto image =
+            view->picture(session->scene(), session->world(), view->camera(session->scene(), session->world()));
         EXPECT_TRUE(image.ok()) << image.error().message();
         return image ? std::move(*image) : Image8{};
     }

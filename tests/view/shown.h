@@ -43,9 +43,8 @@ class Shown {
                        std::uint32_t height = 720) {
         std::vector<const Overlay*> chosen;
         for (const std::string_view name : names) chosen.push_back(find_overlay(name).value());
-        return draw_overlays(
-            chosen,
-            {.scene = scene_, .world = world_, .frame = frame_, .size = size_, .width = width, .height = height});
+        return draw_overlays(chosen,
+                             {.world = world_, .frame = frame_, .size = size_, .width = width, .height = height});
     }
 
     const Frame& frame() const { return frame_; }
@@ -63,7 +62,6 @@ class Shown {
         }
     }
 
-    SceneDesc scene_;
     World& world_;
     Frame frame_;
     float size_;

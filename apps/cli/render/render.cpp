@@ -6,6 +6,7 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress.h"
 #include "io/images/picture_writer.h"
+#include "view/framing.h"
 #include "view/overlays.h"
 #include "view/scene_view.h"
 #include "weft/drawing_device.h"
@@ -29,11 +30,16 @@ struct Job {
     Session& session;
     SceneView& view;
     Writers& writers;
-    Camera camera;
+    std::optional<Camera> camera;  ///< of the command line or the scene; without one:
+    bool films = false;            ///< it follows what moves; otherwise it is placed for the last frame
+    float aspect = 1;
     double orbit = 0;  ///< degrees, from the first frame to the last
     std::uint64_t frames = 0;
     FilmFrames film;
     bool quiet = false;
+
+    std::optional<FollowingCamera> following = {};
+    std::uint64_t followed = 0;  ///< the frame that it has come to
 };
 
 Result<Writers> make_writers(const RenderOptions& options) {
@@ -79,9 +85,24 @@ Result<std::shared_ptr<gpu::Device>> find_device(World& world, const std::string
     return errors;
 }
 
+Camera camera_at(Job& job, std::uint64_t frame) {
+    if (job.camera) return *job.camera;
+    const World& world = job.session.world();
+    if (!job.films) return job.view.camera(job.session.scene(), world);
+    const auto passed = static_cast<double>(frame - job.followed);
+    if (job.following) {
+        job.following->follow(subject_of(world), static_cast<float>(passed * job.session.frame_seconds()));
+    } else {
+        job.following.emplace(subject_of(world), job.aspect);
+    }
+    job.followed = frame;
+    return job.following->camera();
+}
+
 Result<Done> draw(Job& job, std::uint64_t frame, bool in_film) {
     const double part = job.frames == 0 ? 1 : static_cast<double>(frame) / static_cast<double>(job.frames);
-    auto picture = job.view.picture(job.session.world(), orbited(job.camera, static_cast<float>(job.orbit * part)));
+    auto picture = job.view.picture(job.session.scene(), job.session.world(),
+                                    orbited(camera_at(job, frame), static_cast<float>(job.orbit * part)));
     if (!picture) return picture.errors();
     for (auto& writer : job.writers) {
         if (!(writer->last_alone() ? frame == job.frames : in_film)) continue;
@@ -91,10 +112,9 @@ Result<Done> draw(Job& job, std::uint64_t frame, bool in_film) {
 }
 
 Result<Done> simulate_and_draw(Job& job) {
-    const bool films = !std::ranges::all_of(job.writers, [](const auto& writer) { return writer->last_alone(); });
     const bool stills = std::ranges::any_of(job.writers, [](const auto& writer) { return writer->last_alone(); });
     const EndOnSignal end_on_signal;
-    Progress progress(films ? "rendering" : "simulating", job.frames, job.quiet);
+    Progress progress(job.films ? "rendering" : "simulating", job.frames, job.quiet);
     std::uint64_t picture = 0;
     bool warned = false;
     for (std::uint64_t i = 0; i <= job.frames; ++i) {
@@ -102,7 +122,7 @@ Result<Done> simulate_and_draw(Job& job) {
             job.session.advance();
             if (auto went = check_step(job.session.world().summary(), warned); !went) return went;
         }
-        const bool in_film = films && picture < job.film.count() && job.film.frame(picture) == i;
+        const bool in_film = job.films && picture < job.film.count() && job.film.frame(picture) == i;
         if (in_film || (stills && i == job.frames)) {
             if (auto drawn = draw(job, i, in_film); !drawn) return drawn;
         }
@@ -190,7 +210,9 @@ int render(const RenderOptions& options) {
     Job job{.session = *session,
             .view = *view,
             .writers = *writers,
-            .camera = plan->camera.value_or(view->camera()),
+            .camera = plan->camera ? plan->camera : session->scene().camera,
+            .films = !std::ranges::all_of(*writers, [](const auto& writer) { return writer->last_alone(); }),
+            .aspect = static_cast<float>(plan->size.width) / static_cast<float>(plan->size.height),
             .orbit = options.orbit,
             .frames = *frames,
             .film = film,

@@ -4,6 +4,7 @@
 #include "cli/render/view_sources.h"
 #include "render/orbit.h"
 #include "render/window.h"
+#include "view/framing.h"
 #include "view/overlays.h"
 #include "view/pace.h"
 #include "view/scene_view.h"
@@ -59,13 +60,17 @@ class Show {
           view_(view),
           window_(window),
           frames_(frames),
-          camera_(options.camera.value_or(view.camera())),
+          camera_(options.camera.value_or(view.camera(session.scene(), session.world()))),
           start_(session.world().save()),
           pace_(session.frame_seconds()) {
         for (const std::string& name : options.overlays) {
             const auto it = std::ranges::find(overlays(), name, &Overlay::name);
             if (it != overlays().end()) shown_.push_back(&*it);
         }
+        if (options.camera || session.scene().camera) return;
+        const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+        following_.emplace(subject_of(session.world()), aspect);
+        camera_ = following_->camera();
     }
 
     Result<Done> run() {
@@ -91,6 +96,11 @@ class Show {
         if (pressed(input, ' ')) paused_ = !paused_;
         if (pressed(input, 'R')) {
             if (auto restored = session_.world().restore(start_); !restored) return restored;
+            if (following_) {
+                following_->cut_to(subject_of(session_.world()));
+                camera_ = following_->carried(camera_);
+                followed_ = session_.world().time();
+            }
         }
         bool changed = false;
         for (std::size_t i = 0; i < std::min(overlays().size(), most_keys); ++i) {
@@ -124,7 +134,16 @@ class Show {
         return Done{};
     }
 
+    // Where the scene has no camera. Hands steer relative to what it follows.
+    void follow() {
+        if (!following_) return;
+        const double now = session_.world().time();
+        following_->follow(subject_of(session_.world()), static_cast<float>(now - std::exchange(followed_, now)));
+        camera_ = following_->carried(camera_);
+    }
+
     Result<Done> draw() {
+        follow();
         const auto image = window_.next();
         if (!image) return image.errors();
         drawn_ = image->state == gpu::Acquired::image;
@@ -134,7 +153,7 @@ class Show {
                                     .width = image->extent.width,
                                     .height = image->extent.height,
                                     .after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR};
-        const auto done = view_.draw(session_.world(), camera_, target, image->semaphores);
+        const auto done = view_.draw(session_.scene(), session_.world(), camera_, target, image->semaphores);
         if (!done) return done.errors();
         ++pictures_;
         return window_.show(*image, *done);
@@ -156,6 +175,8 @@ class Show {
     render::Window& window_;
     std::optional<std::uint64_t> frames_;
     Camera camera_;
+    std::optional<FollowingCamera> following_;
+    double followed_ = 0;  // s: the time that it has come to
     Snapshot start_;
     Pace pace_;
     std::vector<const Overlay*> shown_;
