@@ -147,6 +147,22 @@ TEST_F(CliPictures, the_cloth_is_seen_and_moves) {
     EXPECT_EQ(read_file(folder_ / "all/00.png"), read_file(folder_ / "start.png"));
 }
 
+TEST_F(CliPictures, without_a_camera_what_falls_stays_in_the_picture) {
+    write("falls.json", R"({ "weft": 1, "cloths": [{ "name": "sheet", "transform": { "rotation": [50, 20, 0] },
+        "mesh": { "grid": { "size": [1, 1], "resolution": [9, 9] } } }] })");
+    const std::string render = "render falls.json --quiet --seconds 1.5 --size 64x36 --samples 1 --transparent --out ";
+    ASSERT_EQ(weft(render + "last.png").status, 0);
+    ASSERT_EQ(weft(render + "film/%d.png --out film_last.png --fps 2").status, 0);
+    for (const char* name : {"last.png", "film/0.png", "film/1.png", "film/2.png", "film/3.png"}) {
+        const Image8 image = picture(name);
+        std::size_t covered = 0;
+        for (std::size_t i = 3; i < image.rgba.size(); i += 4) covered += image.rgba[i] > 127;
+        EXPECT_GT(covered, 64u * 36 / 12) << name;
+        EXPECT_LT(covered, 64u * 36 / 2) << name;
+    }
+    EXPECT_EQ(read_file(folder_ / "film/3.png"), read_file(folder_ / "film_last.png")) << "one camera for a run";
+}
+
 TEST_F(CliPictures, fewer_pictures_a_second_are_those_nearest_in_time) {
     render("--frames 6 --out all/%d.png");
     render("--frames 6 --fps 30 --out half/%d.png");

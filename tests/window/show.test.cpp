@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -75,8 +77,8 @@ const std::string scene = WEFT_SOURCE_DIR "/scenes/hanging_sheet.json";
 
 class ShowTest : public testing::Test {
   protected:
-    void begin(std::vector<std::string> more = {}) {
-        std::vector<std::string> arguments = {"render", scene, "--window", "--size", "320x200", "--samples", "1"};
+    void begin(std::vector<std::string> more = {}, const std::string& shown = scene) {
+        std::vector<std::string> arguments = {"render", shown, "--window", "--size", "320x200", "--samples", "1"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         program.emplace(arguments);
     }
@@ -127,6 +129,25 @@ TEST_F(ShowTest, closes_when_so_much_is_simulated) {
     begin({"--frames", "5"});
     ASSERT_TRUE(until([&] { return program->ended(); }));
     EXPECT_EQ(program->exit(), 0);
+}
+
+TEST_F(ShowTest, follows_where_the_scene_has_no_camera) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "weft_show_falls.json";
+    std::ofstream(file) << R"({ "weft": 1, "cloths": [{ "name": "sheet",
+        "mesh": { "grid": { "size": [1, 1], "resolution": [9, 9] } } }] })";
+    begin({}, file);
+    hands = hands_at("weft: ");
+    ASSERT_TRUE(hands);
+    EXPECT_TRUE(titled(" fps, ")) << hands->title();
+    hands->button(1, true);
+    hands->point_at(50, 60);
+    hands->button(1, false);
+    press("r");
+    EXPECT_FALSE(program->ended());
+    press("Escape");
+    ASSERT_TRUE(until([&] { return program->ended(); }));
+    EXPECT_EQ(program->exit(), 0);
+    std::filesystem::remove(file);
 }
 
 TEST_F(ShowTest, goes_on_with_every_overlay_from_the_start) {
