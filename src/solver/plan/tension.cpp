@@ -5,17 +5,40 @@
 #include <cmath>
 
 namespace weft {
+namespace {
+
+// Four bins to a doubling; the first one holds everything below the least strain. Found from exponent and thresholds,
+// as logarithms of the math library may round otherwise on another machine.
+constexpr int bins_per_doubling = 4;
+constexpr std::array<double, bins_per_doubling> bin_starts{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
+constexpr double least = 1e-5, most = 100;  // the last bin begins at 9
+constexpr std::size_t bin_count = 80;
+
+std::size_t bin_of(double strain) {
+    if (!(strain > least)) return 0;
+    if (!(strain < most)) return bin_count - 1;
+    int exponent = 0;
+    const double mantissa = 2 * std::frexp(strain / least, &exponent);  // 1 to 2
+    std::size_t part = bins_per_doubling - 1;
+    while (mantissa < bin_starts[part]) --part;
+    return std::min(1 + bins_per_doubling * static_cast<std::size_t>(exponent - 1) + part, bin_count - 1);
+}
+
+double start_of(std::size_t bin) {
+    const int steps = static_cast<int>(bin) - 1;
+    return least *
+           std::ldexp(bin_starts[static_cast<std::size_t>(steps % bins_per_doubling)], steps / bins_per_doubling);
+}
+
+}  // namespace
 
 float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
                  const Fabric& fabric) {
     const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
     if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
     // A row stands for a strip about as wide as it is long, so its tension over its length is a tension per width.
-    // Counted in bins of the strain that it makes, as that gives the same bits in whatever order; the first holds all
-    // that is below 1/1000.
-    constexpr int bins_per_doubling = 4;
-    constexpr double least = 1e-5;
-    std::array<std::uint32_t, 80> bins{};
+    // Counted in bins of the strain that it makes, as that gives the same bits in whatever order.
+    std::array<std::uint32_t, bin_count> bins{};
     std::uint32_t count = 0;
     const double scale = -1 / (substep_seconds * substep_seconds * softest);
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
@@ -23,19 +46,14 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
             if (!stretch.is_real(row)) continue;
             const double strain = scale * static_cast<double>(lambda[row]) / static_cast<double>(stretch.fields[row]);
             ++count;
-            if (!(strain > least)) {
-                ++bins[0];
-                continue;
-            }
-            const double bin = 1 + std::floor(bins_per_doubling * std::log2(strain / least));
-            ++bins[static_cast<std::size_t>(std::min(bin, static_cast<double>(bins.size() - 1)))];
+            ++bins[bin_of(strain)];
         }
     }
     std::uint32_t above = 0;
     std::size_t bin = bins.size();
     while (bin > 1 && 20 * (above + bins[bin - 1]) <= count) above += bins[--bin];
     // The upper end of the bin.
-    const double strain = bin <= 1 ? 0 : least * std::exp2(static_cast<double>(bin - 1) / bins_per_doubling);
+    const double strain = bin <= 1 ? 0 : start_of(bin);
     return static_cast<float>(strain * softest);
 }
 
