@@ -159,7 +159,6 @@ TEST_F(CliBench, builds_sheets_with_tethers_and_coarse_levels) {
         EXPECT_GT(s["stage_ms"]["hierarchy"], 0);
     }
     expect_usage_error("bench --build 4", "--build: must be from 8 to 2048, got 4");
-    expect_usage_error("bench --build 20 --curves 8", "does not go with --curves");
 }
 
 #ifdef WEFT_VULKAN
@@ -237,55 +236,6 @@ TEST_F(CliBench, compares_with_a_former_report) {
     EXPECT_EQ(other.status, 0) << other.err;
     EXPECT_NE(other.out.find("new.json: nothing to compare with: not in b.json"), std::string::npos) << other.out;
     EXPECT_NE(other.out.find("sheet.json: not measured now: in b.json only"), std::string::npos) << other.out;
-}
-
-TEST_F(CliBench, draws_curves_of_error_against_time) {
-    const Outcome outcome = weft("bench --curves 8 --frames 2 --warmup 0 --repeat 1 --json c.json --plot c.svg");
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const Json report = Json::parse(read_file(folder_ / "c.json"));
-    EXPECT_GE(report["scenes"].size(), 14u) << "seven methods, a grid and its irregular twin, once at least";
-    EXPECT_LE(report["scenes"].size(), 70u) << "and five numbers of substeps";
-    for (const Json& s : report["scenes"]) {
-        EXPECT_EQ(s["frames"], 2);
-        EXPECT_EQ(s["timed_frames"], 10);
-        EXPECT_GT(s["ms_per_frame"]["median"], 0);
-        EXPECT_GT(s["ratio"], 0);
-        EXPECT_EQ(s["run_medians_ms"].size(), 1u);
-    }
-    EXPECT_NE(outcome.out.find("error over the last 0.03 s"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("irregular 8², lines, hierarchy, tethers"), std::string::npos);
-    EXPECT_NE(outcome.out.find('*'), std::string::npos) << "something is always best";
-    const std::string svg = read_file(folder_ / "c.svg");
-    EXPECT_EQ(std::count(svg.begin(), svg.end(), '\n') > 100, true);
-    EXPECT_NE(svg.find("</svg>"), std::string::npos);
-    for (const char* text : {"nan", "inf"}) EXPECT_EQ(svg.find(text), std::string::npos);
-    for (const char* text : {">8²<", ">irregular 8²<", ">jacobi<", "ms a frame", "mean stretch, %"})
-        EXPECT_NE(svg.find(text), std::string::npos) << text;
-    expect_usage_error("bench --curves 4", "must be from 8 to 1024, got 4");
-    expect_usage_error("bench sheet.json --curves 8", "takes no scenes");
-    expect_usage_error("bench sheet.json --plot c.svg", "needs --curves");
-    expect_usage_error("bench --curves 8 --substeps 3", "--substeps: is what the curves go through");
-}
-
-TEST_F(CliBench, leaves_out_points_that_would_take_too_long) {
-    const Outcome outcome =
-        weft("bench --curves 8 --frames 2 --warmup 0 --repeat 1 --point-seconds 0 --json c.json --plot c.svg");
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(Json::parse(read_file(folder_ / "c.json"))["scenes"].size(), 14u) << "the first of each method";
-    EXPECT_NE(outcome.out.find("8² jacobi 5 and more: would take some 0 s, more than --point-seconds"),
-              std::string::npos)
-        << outcome.out;
-    EXPECT_NE(read_file(folder_ / "c.svg").find("</svg>"), std::string::npos);
-}
-
-TEST_F(CliBench, gives_the_curves_that_it_has_when_interrupted) {
-    const Outcome outcome =
-        weft("bench --curves 24 --seconds 120 --quiet --json c.json", "timeout --preserve-status 2");
-    EXPECT_EQ(outcome.status, 1);
-    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
-    if (outcome.err.find("before anything") == std::string::npos) {
-        EXPECT_GE(Json::parse(read_file(folder_ / "c.json"))["scenes"].size(), 1u);
-    }
 }
 
 TEST_F(CliBench, refuses_what_is_no_report) {

@@ -1,4 +1,4 @@
-#include "cli/bench/bench_curves.h"
+#include "curves.h"
 
 #include "cli/bench/bench_report.h"
 #include "cli/shell/interrupt.h"
@@ -12,7 +12,10 @@
 #include <random>
 #include <span>
 
-namespace weft::cli {
+namespace weft::bench {
+
+using namespace cli;
+
 namespace {
 
 struct MethodSettings {
@@ -221,4 +224,4 @@ std::string curves_table(const Curves& curves) {
     return text;
 }
 
-}  // namespace weft::cli
+}  // namespace weft::bench

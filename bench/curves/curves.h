@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-namespace weft::cli {
+namespace weft::bench {
 
 struct CurveSettings {
     std::vector<std::uint32_t> sides;
     double most_seconds = 30;  ///< what a point may take
-    BenchSettings bench;
+    cli::BenchSettings bench;
 };
 
 /// One point of a curve.
@@ -20,7 +20,7 @@ struct CurvePoint {
     std::string mesh;        ///< "64²", "irregular 64²": points of one mesh are compared
     std::string method;      ///< points of one method make a curve
     std::uint32_t substeps;  ///< along it
-    SceneFigures figures;
+    cli::SceneFigures figures;
 };
 
 struct Curves {
@@ -30,7 +30,7 @@ struct Curves {
 };
 
 /// One of each mesh, to see whether settings are valid.
-std::vector<BenchSubject> curve_meshes(const std::vector<std::uint32_t>& sides);
+std::vector<cli::BenchSubject> curve_meshes(const std::vector<std::uint32_t>& sides);
 
 /// A sheet of cotton, 1 m by 1 m, hung by two corners, for each side; of the smaller ones an irregular twin too: its
 /// vertices moved by up to a quarter of a cell, its diagonals by chance. Every method, with more and more substeps
@@ -43,4 +43,4 @@ std::string curves_table(const Curves& curves);
 /// A picture of it: stretch over time a frame, both logarithmic, one panel per mesh.
 Result<Done> write_curves(const std::vector<CurvePoint>& points, const std::filesystem::path& svg);
 
-}  // namespace weft::cli
+}  // namespace weft::bench

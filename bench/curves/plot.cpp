@@ -1,5 +1,6 @@
 // The picture of error against time.
-#include "cli/bench/bench_curves.h"
+#include "curves.h"
+
 #include "cli/shell/table.h"
 #include "io/files/atomic_file.h"
 
@@ -8,7 +9,10 @@
 #include <cmath>
 #include <utility>
 
-namespace weft::cli {
+namespace weft::bench {
+
+using namespace cli;
+
 namespace {
 
 constexpr double panel_width = 440, panel_height = 340;
@@ -218,4 +222,4 @@ Result<Done> write_curves(const std::vector<CurvePoint>& points, const std::file
     return out->commit();
 }
 
-}  // namespace weft::cli
+}  // namespace weft::bench

@@ -1,5 +1,6 @@
 #include "cli/bench/bench_report.h"
 
+#include "cli/bench/bench_reference.h"
 #include "cli/shell/table.h"
 
 #include <weft/weft.h>
@@ -178,6 +179,11 @@ std::string quality_window(const std::vector<SceneFigures>& scenes) {
 
 std::string spread_text(std::optional<double> spread) {
     return spread ? fixed(100 * *spread, 1) + " %" : "-";
+}
+
+MemoryFigures measure_memory(std::uint64_t threads) {
+    const std::size_t bytes = beyond_caches();
+    return {threads, bytes, copy_bandwidth(static_cast<unsigned>(threads), bytes)};
 }
 
 BenchReport empty_report() {

@@ -26,6 +26,9 @@ struct BenchReport {
     std::vector<EdgeFigures> edges;  ///< of --build on a device
 };
 
+/// Takes some tens of milliseconds.
+MemoryFigures measure_memory(std::uint64_t threads);
+
 /// This program on this machine, no scenes yet.
 BenchReport empty_report();
 

@@ -11,7 +11,8 @@
 
 namespace CLI {
 class App;
-}
+class ParseError;
+}  // namespace CLI
 
 namespace weft {
 struct Frame;
@@ -26,6 +27,8 @@ int exit_code(const Errors& errors);
 /// `weft: error: …`, a line each, on stderr.
 void print_errors(const Errors& errors);
 void print_warning(const std::string& text);
+/// `weft: error: …; see weft … --help` for words that the program does not know. Returns the exit status.
+int usage_error(const CLI::App& program, const CLI::ParseError& error);
 
 /// --backend, --threads, … with their checks.
 void add_common_options(CLI::App& command, Options& options);

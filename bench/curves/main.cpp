@@ -1,0 +1,123 @@
+// weft_bench_curves: error against time, method by method.
+#include "cli/bench/bench_report.h"
+#include "cli/run/stats.h"
+#include "curves.h"
+#include "io/files/atomic_file.h"
+#include "weft/session.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <exception>
+
+namespace weft::bench {
+namespace {
+
+using namespace cli;
+
+struct Request {
+    CurveSettings curves;
+    std::string json, plot;
+};
+
+// What is wrong with the input, known before the first run rather than after the last: the curves may take minutes.
+Errors check(const Request& request) {
+    Errors errors;
+    const auto range = [&](const char* name, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
+        if (value >= least && value <= most) return;
+        errors.push_back({name, "must be from " + std::to_string(least) + " to " + std::to_string(most) + ", got " +
+                                    std::to_string(value)});
+    };
+    const BenchSettings& settings = request.curves.bench;
+    range("--repeat", settings.repeat, 1, 1000);
+    range("--warmup", settings.warmup, 0, 1000000);
+    for (const std::uint32_t side : request.curves.sides) range("side", side, 8, 1024);
+    const auto own = [&](const char* name, bool given) {
+        if (given) errors.push_back({name, "is what the curves go through"});
+    };
+    own("--substeps", settings.common.substeps.has_value());
+    own("--projection", !settings.common.projection.empty());
+    own("--hierarchy", settings.common.hierarchy.has_value());
+    if (!errors.empty()) return errors;  // what is out of range need not be tried
+    for (const BenchSubject& mesh : curve_meshes(request.curves.sides)) {
+        if (const auto session = mesh.open(settings.common); !session) return session.errors();
+    }
+    if (const auto frames = frame_count(settings.length, 1.0 / SceneDesc{}.frame_rate); !frames) return frames.errors();
+    for (const std::string& file : {request.json, request.plot}) {  // made and gone again
+        if (file.empty()) continue;
+        if (const auto made = AtomicFile::create(file); !made) return made.errors();
+    }
+    return errors;
+}
+
+Result<Done> write_files(const Request& request, const Curves& curves) {
+    if (!request.json.empty()) {
+        BenchReport report = empty_report();
+        for (const CurvePoint& point : curves.points) report.scenes.push_back(point.figures);
+        report.memory = measure_memory(report.scenes.front().threads);
+        if (auto written = write_stats(to_json(report), request.json); !written) return written;
+    }
+    if (!request.plot.empty()) return write_curves(curves.points, request.plot);
+    return Done{};
+}
+
+int run(Request request) {
+    const auto failed = [](const Errors& errors, ExitCode code) {
+        print_errors(errors);
+        return code;
+    };
+    request.curves.bench.common.stage_timings = true;
+    if (const Errors errors = check(request); !errors.empty()) return failed(errors, exit_usage);
+    const auto curves = measure_curves(request.curves);
+    if (!curves) return failed(curves.errors(), exit_failed);
+    if (curves->points.empty()) return failed({{"", "interrupted before anything was measured"}}, exit_failed);
+    if (const auto written = write_files(request, *curves); !written) return failed(written.errors(), exit_failed);
+
+    if (!request.curves.bench.quiet) {
+        std::fputs(curves_table(*curves).c_str(), stdout);
+        for (const std::string& file : {request.json, request.plot}) {
+            if (!file.empty()) std::printf("\nwrote %s\n", file.c_str());
+        }
+    }
+    if (curves->interrupted) return failed({{"", "interrupted: there are more curves than these"}}, exit_failed);
+    return exit_done;
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App program{"Error against time: hung sheets, every method, 3 to 40 substeps.", "weft_bench_curves"};
+    Request request;
+    BenchSettings& settings = request.curves.bench;
+    settings.warmup = 180;  // 5 s with the default length: the sheets have come to rest as far as they will
+    program.add_option("side", request.curves.sides, "particles along a side of the sheets, 8 to 1024")->required();
+    add_length_options(program, settings.length, "measure");
+    program.add_option("--warmup", settings.warmup, "frames before those, not counted")->capture_default_str();
+    program.add_option("--repeat", settings.repeat, "how often 10 frames are timed")->capture_default_str();
+    program
+        .add_option("--point-seconds", request.curves.most_seconds,
+                    "leave out points of the curves that would take longer")
+        ->capture_default_str();
+    program.add_option("--json", request.json, "write all figures to this file");
+    program.add_option("--plot", request.plot, "draw the curves into this SVG file");
+    program.add_flag("--quiet", settings.quiet, "no progress, no figures");
+    add_common_options(program, settings.common);
+    program.footer("Example:\n  weft_bench_curves 32 64 128 --json curves.json --plot curves.svg");
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return error.get_exit_code() == 0 ? program.exit(error) : usage_error(program, error);
+    }
+    return run(std::move(request));
+}
+
+}  // namespace
+}  // namespace weft::bench
+
+int main(int argc, char** argv) {
+    try {
+        return weft::bench::run_program(argc, argv);
+    } catch (const std::exception& error) {
+        weft::cli::print_errors({{"", error.what()}});
+    }
+    return weft::cli::exit_failed;
+}
