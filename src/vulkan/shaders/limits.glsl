@@ -5,12 +5,34 @@
 #define WEFT_LIMITS_GLSL
 
 #define WEFT_BINS 80u
-#define WEFT_BINS_PER_DOUBLING 4.0
+#define WEFT_BINS_PER_DOUBLING 4u
 #define WEFT_LEAST 1e-5
+#define WEFT_MOST 100.0  // the last bin begins at 9
 #define WEFT_ROWS_LOOKED_AT 16u  // of four times as many
 
 shared uint bins[WEFT_BINS];
 shared uint strain_bits;  // the largest one between pins; as bits, positive floats are in order
+
+// Bins of strain, found from exponent and thresholds: drivers round logarithms each in their own way.
+const float bin_starts[WEFT_BINS_PER_DOUBLING] = float[](1.0, 1.18920712, 1.41421356, 1.68179283);
+
+uint bin_of(float strain)
+{
+    if (!(strain > WEFT_LEAST)) return 0u;
+    if (!(strain < WEFT_MOST)) return WEFT_BINS - 1u;
+    uint bits = floatBitsToUint(max(strain / WEFT_LEAST, 1.0));
+    float mantissa = uintBitsToFloat((bits & 0x7fffffu) | 0x3f800000u);  // 1 to 2
+    uint part = WEFT_BINS_PER_DOUBLING - 1u;
+    while (mantissa < bin_starts[part]) --part;
+    return min(1u + WEFT_BINS_PER_DOUBLING * ((bits >> 23) - 127u) + part, WEFT_BINS - 1u);
+}
+
+float start_of(uint bin)
+{
+    uint steps = bin - 1u;
+    return WEFT_LEAST * bin_starts[steps % WEFT_BINS_PER_DOUBLING] *
+           uintBitsToFloat((127u + steps / WEFT_BINS_PER_DOUBLING) << 23);
+}
 
 void run_limits(LimitArgs args)
 {
@@ -28,10 +50,7 @@ void run_limits(LimitArgs args)
         uint a = args.particles.at[r];
         if (a >= args.first_dummy || a == args.particles.at[args.stride + r]) continue;
         float strain = scale * args.lambda.at[r] / args.rest.at[r];
-        uint bin = 0u;
-        if (strain > WEFT_LEAST)
-            bin = uint(min(1.0 + floor(WEFT_BINS_PER_DOUBLING * log2(strain / WEFT_LEAST)), float(WEFT_BINS - 1u)));
-        atomicAdd(bins[bin], 1u);
+        atomicAdd(bins[bin_of(strain)], 1u);
     }
     for (uint i = me; i < args.spans; i += all) {
         vec3 a = load_point(args.position, args.span_ends.at[2u * i]).xyz;
@@ -45,7 +64,7 @@ void run_limits(LimitArgs args)
         uint above = 0u, bin = WEFT_BINS;
         while (bin > 1u && 20u * (above + bins[bin - 1u]) <= count) above += bins[--bin];
         // The upper end of the bin.
-        float strain = bin <= 1u ? 0.0 : WEFT_LEAST * exp2(float(bin - 1u) / WEFT_BINS_PER_DOUBLING);
+        float strain = bin <= 1u ? 0.0 : start_of(bin);
         float tension = max(0.0, strain * args.softest - args.model_tension);
         args.limits.at.tension = tension;
         args.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + args.stretched * tension));
