@@ -82,6 +82,7 @@ TEST_F(Cli, feedback_is_the_force_on_each_collider) {
     EXPECT_NE(said.out.find("64 contacts"), std::string::npos) << said.out;
 }
 
+// Labels: slow no-asan
 TEST_F(Cli, the_state_does_not_depend_on_threads_or_instruction_set_but_on_substeps) {
     const Json one = stats("--frames 30"), four = stats("--frames 30 --threads 4"),
                scalar = stats("--frames 30 --isa scalar");

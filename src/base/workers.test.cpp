@@ -1,3 +1,5 @@
+// Labels of this file: threads
+
 #include "base/workers.h"
 
 #include <gtest/gtest.h>

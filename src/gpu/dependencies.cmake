@@ -4,7 +4,7 @@ target_link_libraries(weft_gpu PUBLIC Vulkan::Headers)
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
 target_include_directories(weft_gpu SYSTEM PUBLIC ${VOLK_INCLUDE_DIR})
 target_link_libraries(weft_gpu PRIVATE ${CMAKE_DL_LIBS})
-set_source_files_properties(${folder}/volk.cpp PROPERTIES COMPILE_OPTIONS "-w")
+set_source_files_properties(${folder}/volk.cpp PROPERTIES COMPILE_OPTIONS "-w" SKIP_PRECOMPILE_HEADERS ON)
 
 # What a shader declares.
 find_package(spirv_cross_c_shared REQUIRED)

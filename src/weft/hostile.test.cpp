@@ -245,11 +245,13 @@ class MillionVertices : public HostileScene {
     }
 };
 
+// Labels: slow
 TEST_F(MillionVertices, of_a_file) {
     folder.write("large.ply", large_ply());
     expect_to_run(R"("file": "large.ply")");
 }
 
+// Labels: slow
 TEST_F(MillionVertices, of_a_grid) {
     expect_to_run(R"("grid": {"resolution": [)" + std::to_string(side) + ", " + std::to_string(side) + "]}");
 }

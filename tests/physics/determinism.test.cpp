@@ -1,4 +1,5 @@
 // The same scene gives the same bits, whatever the number of threads and the instruction set.
+// Labels of this file: threads
 
 #include "sheet.h"
 
@@ -39,6 +40,7 @@ TEST(Determinism, threads_and_instruction_sets_give_the_golden_bits) {
     }
 }
 
+// Labels: slow no-asan
 TEST(Determinism, holds_with_iterations_too) {
     const std::string expected = drape({0, "scalar"}, 3);
     EXPECT_NE(expected, golden);
@@ -48,6 +50,7 @@ TEST(Determinism, holds_with_iterations_too) {
 }
 
 // More cloths than threads run side by side, one alone by all threads: nobody can tell from the result.
+// Labels: slow no-asan
 TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
     const auto sheet = [](int i) {
         return make_sheet({.size = {0.5f, 0.5f},
@@ -93,6 +96,7 @@ TEST(Determinism, does_not_tell_which_cloths_are_shared) {
     }
 }
 
+// Labels: slow no-asan
 TEST(Determinism, holds_for_all_that_bends) {
     for (const BendModel model : {BendModel::plate, BendModel::distance}) {
         const std::string expected = drape({0, "scalar"}, 2, model);
@@ -101,6 +105,55 @@ TEST(Determinism, holds_for_all_that_bends) {
             EXPECT_EQ(drape({0, std::string(isa)}, 2, model), expected) << isa;
         }
         EXPECT_EQ(drape({1, ""}, 2, model), expected) << "two threads";
+    }
+}
+
+/// The state after some time is the same on every instruction set, with one thread, two and four.
+void expect_same_bits(const std::function<World(const CpuOptions&)>& make, double seconds) {
+    std::string first;
+    for (const std::string_view isa : cpu_instruction_sets()) {
+        for (const unsigned workers : {0u, 1u, 3u}) {
+            World world = make({.workers = workers, .isa = std::string(isa)});
+            run(world, seconds);
+            if (first.empty()) first = world.state_hash();
+            EXPECT_EQ(world.state_hash(), first) << isa << ' ' << workers;
+        }
+    }
+}
+
+// Labels: slow no-asan
+TEST(Determinism, holds_along_lines) {
+    for (const std::uint32_t iterations : {1u, 3u}) {
+        const WorldSettings settings{.substeps = 3, .iterations = iterations, .hierarchy = true};
+        SheetDesc sheet = hung_by_corners(40, settings.layout());
+        sheet.fabric.body.density = 0.2f;
+        expect_same_bits([&](const CpuOptions& options) { return make_world(settings, sheet, options); }, 0.3);
+    }
+}
+
+// Labels: slow
+TEST(Determinism, holds_with_coarse_levels) {
+    SheetDesc sheet = hung_by_corners(40, {.hierarchy = true});
+    sheet.fabric.tether.use = Tethers::off;
+    const WorldSettings settings{.substeps = 3, .hierarchy = true};
+    expect_same_bits([&](const CpuOptions& options) { return make_world(settings, sheet, options); }, 0.3);
+}
+
+// Labels: slow no-asan
+TEST(Determinism, holds_for_averaged_jacobi) {
+    for (const Method method : {Method::xpbd, Method::pbd}) {
+        const WorldSettings settings{.substeps = 4,
+                                     .iterations = 3,
+                                     .method = method,
+                                     .projection = Projection::jacobi,
+                                     .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .turbulence = {0.4f}}}}};
+        const auto make = [&](const CpuOptions& options) {
+            World world = make_world(settings, options);
+            world.add(make_sheet({.resolution = {20, 21}, .pinned = [](Vec3 p) { return p.x < -0.49f; }}));
+            world.add(make_collider({.shape = SphereDesc{0.3f}, .transform = {.position = {0, -0.4f, 0}}}));
+            return world;
+        };
+        expect_same_bits(make, 0.5);
     }
 }
 

@@ -7,10 +7,10 @@
 namespace weft::physical {
 namespace {
 
-World hung(std::uint32_t side, const WorldSettings& settings, const CpuOptions& options = {}) {
+World hung(std::uint32_t side, const WorldSettings& settings) {
     SheetDesc sheet = hung_by_corners(side, {.hierarchy = true});
     sheet.fabric.tether.use = Tethers::off;
-    return make_world(settings, sheet, options);
+    return make_world(settings, sheet);
 }
 
 double mean_stretch(World& world, double seconds) {
@@ -23,8 +23,8 @@ double mean_stretch(World& world, double seconds) {
     return sum;
 }
 
+// Labels: slow no-asan
 TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const std::uint32_t substeps : {5u, 10u}) {
         World with = hung(64, {.substeps = substeps, .hierarchy = true}), without = hung(64, {.substeps = substeps});
         const double a = mean_stretch(with, 4), b = mean_stretch(without, 4);
@@ -34,8 +34,8 @@ TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
 }
 
 // Where the rows are solved, levels have nothing to say: the sheet hangs as far as its fabric lets it.
+// Labels: slow no-asan
 TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const float stiffness : {300.0f, 4000.0f}) {
         SheetDesc sheet = hanging_strip({9, 33}, stiffness, 40);
         sheet.layout.hierarchy = true;
@@ -52,8 +52,8 @@ TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
 }
 
 // Between two corners cotton hangs a centimeter lower in the middle than rigid cloth would, since it shears.
+// Labels: slow no-asan
 TEST(HierarchyOf, a_sheet_that_gives_way_along_the_bias_leaves_it_hanging) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     constexpr std::uint32_t side = 33;
     const auto hang = [](Tethers tethers, const WorldSettings& settings) {
         SheetDesc sheet = hung_by_corners(side, {.lines = true, .hierarchy = true});
@@ -81,8 +81,8 @@ TEST(HierarchyOf, a_sheet_that_gives_way_along_the_bias_leaves_it_hanging) {
 
 // Taut between its pins, where every level has work to do at all times. Levels whose nodes follow other particles than
 // those they move shake such a sheet at 0.2 to 0.7 m/s for ever.
+// Labels: slow no-asan
 TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     constexpr std::uint32_t side = 32;
     for (const bool rigid : {false, true}) {
         for (const std::uint32_t substeps : {5u, 20u}) {
@@ -111,8 +111,8 @@ TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
 
 // Of an interlock T-shirt, which its own weight would stretch by a fifth. Fine rows alone leave it a quarter of a meter
 // too long with so few substeps, and shake it.
+// Labels: slow no-asan
 TEST(HierarchyOf, a_soft_sheet_between_four_corners_bounds_what_it_stretches_by) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     constexpr std::uint32_t side = 65;
     const auto middle_of = [](const WorldSettings& settings) {
         SheetDesc sheet{.resolution = {side, side}, .layout = {.lines = true, .hierarchy = settings.hierarchy}};
@@ -149,18 +149,6 @@ TEST(HierarchyOf, a_falling_sheet_does_not_disturb_its_fall) {
     run(world, 1);
     const double h = 1.0 / 1200;
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);
-}
-
-TEST(HierarchyOf, a_sheet_has_the_same_bits_on_every_thread_count_and_instruction_set) {
-    std::string first;
-    for (const std::string_view isa : cpu_instruction_sets()) {
-        for (const unsigned workers : {0u, 1u, 3u}) {
-            World world = hung(40, {.substeps = 3, .hierarchy = true}, {.workers = workers, .isa = std::string(isa)});
-            run(world, 0.3);
-            if (first.empty()) first = world.state_hash();
-            EXPECT_EQ(world.state_hash(), first) << isa << ' ' << workers;
-        }
-    }
 }
 
 }  // namespace

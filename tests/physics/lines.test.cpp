@@ -7,11 +7,11 @@
 namespace weft::physical {
 namespace {
 
-World hung(std::uint32_t side, const WorldSettings& settings, GridDiagonal diagonal, const CpuOptions& options = {}) {
+World hung(std::uint32_t side, const WorldSettings& settings, GridDiagonal diagonal) {
     SheetDesc sheet = hung_by_corners(side, settings.layout());
     sheet.diagonal = diagonal;
     sheet.fabric.body.density = 0.2f;
-    return make_world(settings, sheet, options);
+    return make_world(settings, sheet);
 }
 
 double residual_after(World world, double seconds) {
@@ -24,8 +24,8 @@ double residual_after(World world, double seconds) {
     return sum;
 }
 
+// Labels: slow no-asan
 TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
         const auto error = [&](Projection projection, std::uint32_t substeps, bool hierarchy) {
             return residual_after(
@@ -43,8 +43,8 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
 }
 
 // Solved or not solved by lines, the sheet hangs as far as its fabric lets it: ρ g L²/2K (docs/validation.md).
+// Labels: slow no-asan
 TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     SheetDesc sheet = hanging_strip({9, 33}, 300, 40);
     double sags[2] = {};
     for (const Projection projection : {Projection::gauss_seidel, Projection::lines}) {
@@ -84,8 +84,8 @@ double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
     return fastest;
 }
 
+// Labels: slow no-asan
 TEST(LinesOf, a_sheet_held_too_far_apart_do_not_crumple_it) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     Fabric rigid;
     rigid.stretch.inextensible = true;
     double cotton_stretch = 0, rigid_stretch = 0;
@@ -105,6 +105,7 @@ TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
 }
 
 // Short steps turn what rounding leaves of lengths into speed; nothing may feed on that.
+// Labels: slow no-asan
 TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
     World world = make_world({.substeps = 200, .projection = Projection::lines, .hierarchy = true},
                              {.resolution = {64, 64}, .layout = {.lines = true, .hierarchy = true}});
@@ -114,21 +115,6 @@ TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
     for (const Vec4& p : positions) low = std::min(low, p.y), high = std::max(high, p.y);
     EXPECT_LT(high - low, 1e-5f);
     EXPECT_LT(measure_strain(world.frame()).stretch.max, 1e-4);
-}
-
-TEST(LinesOf, a_sheet_have_the_same_bits_on_every_thread_count_and_instruction_set) {
-    for (const std::uint32_t iterations : {1u, 3u}) {
-        std::string first;
-        for (const std::string_view isa : cpu_instruction_sets()) {
-            for (const unsigned workers : {0u, 1u, 3u}) {
-                World world = hung(40, {.substeps = 3, .iterations = iterations, .hierarchy = true},
-                                   GridDiagonal::alternating, {.workers = workers, .isa = std::string(isa)});
-                run(world, 0.3);
-                if (first.empty()) first = world.state_hash();
-                EXPECT_EQ(world.state_hash(), first) << isa << ' ' << workers;
-            }
-        }
-    }
 }
 
 // Rows laid out along lines serve the other projections too, as before a change of settings builds new ones.

@@ -81,6 +81,7 @@ Holds hold_all(const ClothModel& model, Mover mover, const Pose& frame) {
 const SheetDesc hung{
     .resolution = {17, 17}, .rotation_degrees = {90, 0, 0}, .pinned = [](Vec3 p) { return p.z < -0.49f; }};
 
+// Labels: slow no-asan
 TEST(Pins, follow_their_offsets_and_take_the_cloth_along) {
     for (const unsigned workers : {0u, 2u}) {
         World world = make_world({.substeps = 20}, {.workers = workers});
@@ -129,6 +130,7 @@ double hanging_stretch(bool tethers) {
     return measure_strain(world.frame()).stretch.mean;
 }
 
+// Labels: slow no-asan
 TEST(Tethers, cut_what_the_solver_leaves_of_stretch) {
     const double without = hanging_stretch(false), with = hanging_stretch(true);
     EXPECT_GT(without, 0.01);

@@ -7,6 +7,7 @@ namespace {
 
 // A sheet hung by its whole upper edge. Strain at a depth is the weight below over the tensile stiffness; the tip sinks
 // by ρ_A g L²/(2K).
+// Labels: slow no-asan
 TEST(HangingSheet, stretches_under_its_own_weight_as_its_stiffness_says) {
     constexpr float density = 0.2f, stiffness = 60, side = 1;
     constexpr std::uint32_t n = 17;
@@ -90,6 +91,7 @@ TEST_P(Incline, kinetic_friction_rules_once_it_slides) {
 INSTANTIATE_TEST_SUITE_P(Iterations, Incline, testing::Values(1u, 4u));
 
 // Dropped onto a ball: it lies still, does not sink in, does not slide off.
+// Labels: slow no-asan
 TEST(Drape, on_a_sphere_comes_to_rest_outside_of_it) {
     World world = make_world({.substeps = 20}, {.size = {1, 1}, .resolution = {33, 33}, .position = {0, 0.45f, 0}});
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {.position = {0, 0.1f, 0}}}));

@@ -18,13 +18,6 @@
 #include <stdexcept>
 #include <string_view>
 
-// For tests that a sanitizer makes last for minutes, and that take no way through the code that no other test takes.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define WEFT_TOO_LONG_FOR_SANITIZERS() GTEST_SKIP() << "minutes under a sanitizer, and nothing new"
-#else
-#define WEFT_TOO_LONG_FOR_SANITIZERS() static_assert(true)
-#endif
-
 namespace weft::physical {
 
 struct SheetDesc {

@@ -102,6 +102,7 @@ double asymmetry(GridDiagonal diagonal, bool by_x, std::uint32_t substeps, std::
 
 // Rows are projected one color after another, and the mirror image of a row may have another color. That matters as far
 // as a projection is left unfinished, and no further.
+// Labels: slow no-asan
 TEST(Symmetry, a_sheet_hung_by_two_corners_is_its_own_mirror_image) {
     for (const GridDiagonal diagonal : {GridDiagonal::alternating, GridDiagonal::cross}) {
         for (const bool by_x : {true, false}) {

@@ -95,6 +95,7 @@ class Cantilever : public testing::TestWithParam<Strip> {};
 // alternating diagonals, every second vertex lifts) or twists (with uniform ones), and then needs 4/5 of the energy. So
 // the strip sags too far, and most where stiffness decides. The bounds are what was measured, so that nothing gets
 // worse unnoticed.
+// Labels: slow no-asan
 TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
     for (const Case& one : cases) {
         const double error = cantilever_error(GetParam(), BendModel::hinges, one.point, one.resolution);
@@ -105,8 +106,8 @@ TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
 
 // A strip as limp as Γ = 50 turns by its 90° close to the clamp, which ten cells are too few for: they measure chords,
 // and 3 % less of the drop.
+// Labels: slow no-asan
 TEST_P(Cantilever, of_plate_follows_the_curve_within_two_percent) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     for (const Case& one : cases) {
         const bool too_coarse = one.point.gamma > 20 && one.resolution.cells < 14;
         const double error = cantilever_error(GetParam(), BendModel::plate, one.point, one.resolution);
@@ -120,15 +121,28 @@ INSTANTIATE_TEST_SUITE_P(Strips, Cantilever,
                                          Strip{Cut::weft, GridDiagonal::uniform},
                                          Strip{Cut::weft, GridDiagonal::alternating}));
 
-// Printed rather than judged: neither model promises anything here.
-TEST(CantileverElsewhere, prints_its_errors) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
-    for (const BendModel bend : {BendModel::hinges, BendModel::plate}) {
-        for (const Strip& strip :
-             {Strip{Cut::warp, GridDiagonal::cross}, Strip{Cut::bias_along, GridDiagonal::uniform},
-              Strip{Cut::bias_across, GridDiagonal::uniform}, Strip{Cut::irregular, GridDiagonal::alternating}}) {
-            cantilever_error(strip, bend, cantilever_curve[1], {14, coarse, 15});
-            cantilever_error(strip, bend, cantilever_curve[2], {14, coarse, 15});
+// Neither model promises anything on these meshes. What they were measured to be off by, with 14 cells, at Γ = 10 and
+// Γ = 50, is in docs/validation.md; one percent either side lets a solver that converges a little better or worse pass,
+// and nothing that the table would have to say differently.
+struct Elsewhere {
+    Strip strip;
+    double hinges[2], plate[2];
+};
+constexpr Elsewhere elsewhere[] = {
+    {{Cut::warp, GridDiagonal::cross}, {-0.102, -0.164}, {-0.263, -0.271}},
+    {{Cut::bias_along, GridDiagonal::uniform}, {-0.527, -0.517}, {-0.069, -0.113}},
+    {{Cut::bias_across, GridDiagonal::uniform}, {0.166, 0.006}, {-0.071, -0.109}},
+    {{Cut::irregular, GridDiagonal::alternating}, {0.011, -0.028}, {-0.058, -0.049}},
+};
+
+// Labels: slow no-asan
+TEST(CantileverElsewhere, is_off_by_what_was_measured) {
+    for (const auto& [strip, hinges, plate] : elsewhere) {
+        for (const int i : {0, 1}) {
+            const Resolution resolution{14, coarse, 15};
+            const CurvePoint& point = cantilever_curve[1 + i];
+            EXPECT_NEAR(cantilever_error(strip, BendModel::hinges, point, resolution), hinges[i], 0.01);
+            EXPECT_NEAR(cantilever_error(strip, BendModel::plate, point, resolution), plate[i], 0.01);
         }
     }
 }
@@ -221,8 +235,8 @@ double sag_over_span(double ratio) {
     return depth / count / span;
 }
 
+// Labels: slow no-asan
 TEST(Catenary, hangs_as_deep_as_its_length_says) {
-    WEFT_TOO_LONG_FOR_SANITIZERS();
     // y = c cosh(x/c) with L = 2c sinh(d/2c), solved for sag = c (cosh(d/2c) - 1).
     constexpr double table[][2] = {{1.05, .13930}, {1.1, .20030}, {1.2, .29234}, {1.5, .50263}, {2, .79639}};
     for (const auto& [ratio, expected] : table) {

@@ -81,9 +81,11 @@ class VulkanGoldenCatches : public PictureTest {
     }
 };
 
+// Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, brighter_by_5_percent) {
     expect_caught({.name = "as_it_is"}, {.name = "brighter", .light = R"({ "exposure": 0.0704 })"});
 }
+// Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, other_normals) {
     const auto knit = [](const std::string& relief) {
         return PictureScene{.name = "knit",
@@ -91,13 +93,16 @@ TEST_F(VulkanGoldenCatches, other_normals) {
     };
     expect_caught(knit("1"), knit("0.5"));
 }
+// Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, light_from_elsewhere) {
     expect_caught({.name = "as_it_is"}, {.name = "elsewhere", .light = R"({ "sun": { "azimuth": -30 } })"});
 }
+// Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, no_occlusion) {
     expect_caught({.name = "sky_alone", .light = R"({ "sun": { "strength": 0 } })"},
                   {.name = "not_occluded", .light = R"({ "sun": { "strength": 0 }, "occlusion": 0 })"});
 }
+// Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, another_material) {
     expect_caught({.name = "silk", .look = "\"silk\""},
                   {.name = "rougher_silk", .look = R"({ "material": "silk", "roughness": [0.4, 0.5] })"});

@@ -97,6 +97,7 @@ void expect_same(const WorldSettings& settings, const std::vector<const char*>& 
     }
 }
 
+// Labels: slow no-asan
 TEST(VulkanFeedback, has_the_bits_of_the_cpu_however_a_frame_is_executed) {
     expect_same({.substeps = 4, .feedback = true}, {"streamed"});
     expect_same({.substeps = 5, .iterations = 3, .hierarchy = true, .air = AirDesc{}, .feedback = true},

@@ -43,6 +43,7 @@ Outcome simulate(const std::filesystem::path& scene, const std::string& backend,
     return outcome;
 }
 
+// Labels: slow no-asan
 TEST(VulkanScenes, are_as_on_the_cpu) {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(WEFT_SOURCE_DIR) / "scenes")) {
@@ -122,6 +123,7 @@ TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
 }
 
 // Iterations on patches, with contacts, tethers and holds around them: the bits of one dispatch per pass.
+// Labels: slow no-asan
 TEST(VulkanScenes, do_not_tell_that_they_are_cut_into_patches) {
     struct Way {
         const char *scene, *method, *accumulate;

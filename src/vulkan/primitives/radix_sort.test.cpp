@@ -90,6 +90,7 @@ TEST_F(RadixSort, knows_how_many_bits_numbers_need) {
 }
 
 // As many as a mesh of 3.3 million triangles has sides, and as many bits as its vertices need.
+// Labels: slow no-asan
 TEST_F(RadixSort, sorts_ten_million_keys) {
     expect_sorted(random_keys(10000000, 21), 21);
 }

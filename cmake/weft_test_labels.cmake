@@ -1,0 +1,62 @@
+# Labels for the tests of one program. CTest reads this file when it starts, after the list of that program's tests, so a
+# changed label needs no build.
+#
+# A comment in the line before a test gives it labels, words separated by spaces:
+#
+#     // Labels: slow no-asan
+#     TEST(Suite, name) {
+#
+# `// Labels of this file: …` gives them to every test of the file; `// Labels on Vulkan: …` to a test in the run on the
+# other backend alone. docs/architecture.md says what each label means. A test that is not `slow` gets `quick`.
+#
+# In: weft_discovered (names of tests), weft_prefix (of these names), weft_labels (of all of them), weft_sources.
+
+cmake_policy(VERSION 3.25)
+set(test_macro "TEST(_F|_P)?\\([ \n]*([A-Za-z0-9_]+),[ \n]*([A-Za-z0-9_]+)\\)")
+set(labelled)
+foreach(source IN LISTS weft_sources)
+    file(READ ${source} text)
+    set(of_file)
+    if(text MATCHES "// Labels of this file: ([a-z -]+)\n")
+        string(REPLACE " " ";" of_file "${CMAKE_MATCH_1}")
+    endif()
+    string(REGEX MATCHALL "(// Labels[^\n]*\n)*${test_macro}" tests "${text}")
+    foreach(test IN LISTS tests)
+        set(labels ${of_file})
+        string(REGEX MATCHALL "// Labels[^\n]*" comments "${test}")
+        foreach(comment IN LISTS comments)
+            if(comment MATCHES "^// Labels: (.*)" OR
+                    (weft_prefix STREQUAL "Vulkan." AND comment MATCHES "^// Labels on Vulkan: (.*)"))
+                string(REPLACE " " ";" own "${CMAKE_MATCH_1}")
+                list(APPEND labels ${own})
+            endif()
+        endforeach()
+        if(labels AND test MATCHES "${test_macro}")
+            set(name ${CMAKE_MATCH_2}.${CMAKE_MATCH_3})
+            set(labels_of_${name} ${labels})
+            list(APPEND labelled ${name})
+        endif()
+    endforeach()
+endforeach()
+
+foreach(test IN LISTS weft_discovered)
+    # [prefix][instantiation/]suite.name[/parameter]
+    string(LENGTH "${weft_prefix}" start)
+    string(SUBSTRING "${test}" ${start} -1 name)
+    if(name MATCHES "^([^/.]+/)?([^/.]+\\.[^/]+)")
+        set(name ${CMAKE_MATCH_2})
+    endif()
+    set(labels ${weft_labels})
+    if(name IN_LIST labelled)
+        list(APPEND labels ${labels_of_${name}})
+    endif()
+    if(NOT "slow" IN_LIST labels)
+        list(APPEND labels quick)
+    endif()
+    set_tests_properties("${test}" PROPERTIES LABELS "${labels}")
+endforeach()
+
+foreach(name IN LISTS labelled)
+    unset(labels_of_${name})
+endforeach()
+unset(weft_discovered)
