@@ -31,6 +31,7 @@ struct Bounds {
     }
     Vec3 size() const { return empty() ? Vec3{} : max - min; }
     Vec3 center() const { return empty() ? Vec3{} : (min + max) * 0.5f; }
+    friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
 inline Bounds bounds_of(std::span<const Vec3> points) {

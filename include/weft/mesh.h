@@ -21,6 +21,7 @@ struct TriangleMesh {
     std::vector<Vec3> normals{};    ///< empty, or one unit vector per position
     std::vector<Vec4> colors{};     ///< empty, or one linear RGBA per position, 0…1
     std::vector<Triangle> triangles{};
+    friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
 };
 
 }  // namespace weft

@@ -32,6 +32,7 @@ struct SolverDesc {
     Projection projection = Projection::automatic;
     Accumulate accumulate = Accumulate::gather;
     bool hierarchy = true;  ///< coarse levels first: large cloths stretch less
+    friend bool operator==(const SolverDesc&, const SolverDesc&) = default;
 };
 
 /// Particles held within their way over the cloth from where it is pinned. `automatic`: where coarse levels are on, the
@@ -49,12 +50,14 @@ struct GustDesc {
     float frequency = 0.5f;  ///< 1/s
     float scale = 4;         ///< m: distance over which gusts fall out of step
     GustPhase phase = GustPhase::smooth;
+    friend bool operator==(const GustDesc&, const GustDesc&) = default;
 };
 
 struct TurbulenceDesc {
     float strength = 0;  ///< of the velocity
     float scale = 0.5f;  ///< m: size of an eddy, across the wind
     float period = 1;    ///< s: how long an eddy lives; 0 keeps them still
+    friend bool operator==(const TurbulenceDesc&, const TurbulenceDesc&) = default;
 };
 
 struct WindDesc {
@@ -63,11 +66,13 @@ struct WindDesc {
     GustDesc gust = {};
     TurbulenceDesc turbulence = {};
     std::uint32_t seed = 0;
+    friend bool operator==(const WindDesc&, const WindDesc&) = default;
 };
 
 struct AirDesc {
     float density = 1.225f;           ///< kg/m³
     std::vector<WindDesc> wind = {};  ///< the sum acts
+    friend bool operator==(const AirDesc&, const AirDesc&) = default;
 };
 
 /// How the cells of a grid are cut. `uniform`: all along +x+z. `alternating`: a checkerboard of both directions.
@@ -80,16 +85,19 @@ struct GridDesc {
     std::array<float, 2> size{1, 1};                  ///< m along x and z
     std::array<std::uint32_t, 2> resolution{64, 64};  ///< particles along x and z
     GridDiagonal diagonal = GridDiagonal::alternating;
+    friend bool operator==(const GridDesc&, const GridDesc&) = default;
 };
 
 struct SphereMeshDesc {
     float radius = 0.5f;             ///< m
     std::uint32_t subdivisions = 4;  ///< 0…7
+    friend bool operator==(const SphereMeshDesc&, const SphereMeshDesc&) = default;
 };
 
 struct BoxMeshDesc {
     std::array<float, 3> size{1, 1, 1};                   ///< m along x, y and z
     std::array<std::uint32_t, 3> resolution{32, 32, 32};  ///< particles along x, y and z
+    friend bool operator==(const BoxMeshDesc&, const BoxMeshDesc&) = default;
 };
 
 enum class UpAxis { x, y, z };
@@ -98,6 +106,7 @@ struct MeshFileDesc {
     std::string file = {};  ///< looked for beside the scene, then in WEFT_ASSETS, then where packages put models
     float scale = 1;        ///< m per unit of the file
     UpAxis up = UpAxis::y;
+    friend bool operator==(const MeshFileDesc&, const MeshFileDesc&) = default;
 };
 
 /// Made from numbers, read from a file, or given as it is.
@@ -107,23 +116,28 @@ struct TransformDesc {
     Vec3 position = {};          ///< m
     Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
     float scale = 1;
+    friend bool operator==(const TransformDesc&, const TransformDesc&) = default;
 };
 
 struct VertexPins {
     std::vector<std::uint32_t> vertices = {};  ///< welded vertices, numbered in order of first appearance in the file
+    friend bool operator==(const VertexPins&, const VertexPins&) = default;
 };
 struct BoxPins {
     Bounds box = {};  ///< world space, after the transform
+    friend bool operator==(const BoxPins&, const BoxPins&) = default;
 };
 struct ColorPins {
     Vec3 color = {};         ///< linear RGB
     float threshold = 0.5f;  ///< largest distance from `color`, per channel
+    friend bool operator==(const ColorPins&, const ColorPins&) = default;
 };
 
 /// Where a pin is, relative to where it started.
 struct OffsetKey {
     float time = 0;    ///< s
     Vec3 offset = {};  ///< m
+    friend bool operator==(const OffsetKey&, const OffsetKey&) = default;
 };
 
 struct PinDesc {
@@ -131,6 +145,7 @@ struct PinDesc {
     std::string attach = {};             ///< name of the collider that the particles follow; empty: none
     std::vector<OffsetKey> motion = {};  ///< by ascending time; empty: they stay
     float compliance = 0;                ///< m/N: of the spring between particle and place; 0: the particle is there
+    friend bool operator==(const PinDesc&, const PinDesc&) = default;
 };
 
 /// A value of a fabric: a number, several, true or false, or a word.
@@ -180,17 +195,21 @@ struct ClothDesc {
 struct PlaneDesc {
     Vec3 normal{0, 1, 0};
     float offset = 0;  ///< m
+    friend bool operator==(const PlaneDesc&, const PlaneDesc&) = default;
 };
 struct SphereDesc {
     float radius = 0.5f;  ///< m
+    friend bool operator==(const SphereDesc&, const SphereDesc&) = default;
 };
 struct BoxDesc {
     Vec3 half_extents{0.5f, 0.5f, 0.5f};  ///< m
+    friend bool operator==(const BoxDesc&, const BoxDesc&) = default;
 };
 /// Along the collider's own y axis.
 struct CapsuleDesc {
     float radius = 0.1f;       ///< m
     float half_height = 0.5f;  ///< m: half the length between the centers of its two ends
+    friend bool operator==(const CapsuleDesc&, const CapsuleDesc&) = default;
 };
 
 /// Where a collider is at a time, in place of its transform.
@@ -198,6 +217,7 @@ struct PoseKey {
     float time = 0;              ///< s
     Vec3 position = {};          ///< m
     Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
+    friend bool operator==(const PoseKey&, const PoseKey&) = default;
 };
 
 struct ColliderDesc {
@@ -206,6 +226,7 @@ struct ColliderDesc {
     TransformDesc transform = {};               ///< `scale` unused
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays at `transform`
+    friend bool operator==(const ColliderDesc&, const ColliderDesc&) = default;
 };
 
 }  // namespace weft

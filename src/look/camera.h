@@ -11,6 +11,7 @@ struct Camera {
     Vec3 position{1.5f, 1.2f, 1.5f};  ///< m
     Vec3 target{0, 0.5f, 0};          ///< m
     float fov = 40;                   ///< degrees, from the bottom of the picture to its top
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 // One entry is one key.

@@ -17,6 +17,7 @@ struct Sun {
     float strength = 1.0f;           ///< 0: there is none
     Vec3 color{1.0f, 0.96f, 0.90f};  ///< linear RGB
     float size = 3;                  ///< degrees across; larger ones have softer shadows (the real one: 0.53)
+    friend bool operator==(const Sun&, const Sun&) = default;
 };
 
 /// Light from all around: three colors that flow into one another.
@@ -25,6 +26,7 @@ struct Sky {
     Vec3 zenith{0.80f, 0.88f, 1.0f};  ///< linear RGB, straight above
     Vec3 horizon{1.0f, 0.98f, 0.95f};
     Vec3 ground{0.62f, 0.60f, 0.58f};  ///< what comes from below
+    friend bool operator==(const Sky&, const Sky&) = default;
 };
 
 /// A picture of what is around, in place of the sky: equirectangular, its middle column toward -z.
@@ -33,6 +35,7 @@ struct Environment {
     float rotation = 0;     ///< degrees about +y
     float strength = 1;
     bool visible = true;  ///< as the background; otherwise the sky's colors are behind the scene
+    friend bool operator==(const Environment&, const Environment&) = default;
 };
 
 struct Lighting {
@@ -41,6 +44,7 @@ struct Lighting {
     Environment environment;
     float exposure = 0;   ///< stops: 1 doubles all light
     float occlusion = 1;  ///< how dark folds and corners are in the light from around; 0: not at all
+    friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
 // One entry is one key.

@@ -35,6 +35,7 @@ struct Material {
     std::string color_map = {};    ///< file of a picture that multiplies the color
     std::string normal_map = {};   ///< file of a tangent-space normal map (+y along v) in place of the weave
     float map_repeat[2] = {1, 1};  ///< how often maps go into one unit of u and v
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 // One entry is one key.

@@ -2,25 +2,17 @@
 
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
+#include "scene/values.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <set>
 
 namespace weft {
 namespace {
-
-// Element `index` of a value; memcpy because the struct behind `base` is known by its offsets alone.
-template <class T>
-T element(const Parameter& parameter, const void* base, std::size_t index) {
-    T value;
-    std::memcpy(&value, static_cast<const std::byte*>(base) + parameter.offset + index * sizeof(T), sizeof(T));
-    return value;
-}
 
 template <class T>
 void check_numbers(const Parameter& p, const void* base, const std::string& pointer, Problems& problems) {
@@ -250,8 +242,7 @@ void check_values(std::span<const Parameter> table, const void* base, const std:
                     problems.add(place, "is not one of its enumerators");
                 break;
             case ParameterKind::text:
-                check_text(*reinterpret_cast<const std::string*>(static_cast<const std::byte*>(base) + p.offset), place,
-                           problems);
+                check_text(text_of(p, base), place, problems);
                 break;
             case ParameterKind::flag:
             case ParameterKind::object:
@@ -325,8 +316,8 @@ void check_scene(const SceneDesc& scene, Problems& problems) {
         check_collider(scene.colliders[i], at("/colliders", i), problems);
     check_names(scene.cloths, "/cloths", problems);
     check_names(scene.colliders, "/colliders", problems);
-    std::vector<std::string_view> names;
-    for (const ColliderDesc& collider : scene.colliders) names.push_back(collider.name);
+    const std::vector<std::string> called = collider_names(scene);
+    const std::vector<std::string_view> names(called.begin(), called.end());
     for (std::size_t i = 0; i < scene.cloths.size(); ++i)
         check_attachments(scene.cloths[i].pins, names, at(at("/cloths", i), "pins"), problems);
     check_total(scene, problems);

@@ -1,5 +1,7 @@
 #include "scene/fabric.h"
 
+#include "scene/values.h"
+
 #include <algorithm>
 #include <cstddef>
 
@@ -55,6 +57,15 @@ constexpr FabricTable tables[] = {
 
 std::span<const FabricTable> fabric_tables() {
     return tables;
+}
+
+bool operator==(const Fabric& a, const Fabric& b) {
+    return std::ranges::all_of(tables, [&](const FabricTable& table) {
+        const auto in = [&](const Fabric& fabric) {
+            return reinterpret_cast<const std::byte*>(&fabric) + table.offset;
+        };
+        return std::ranges::all_of(table.parameters, [&](const Parameter& p) { return same_value(p, in(a), in(b)); });
+    });
 }
 
 std::span<const FabricPreset> fabric_presets() {

@@ -43,6 +43,9 @@ struct Fabric {
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) Name##Material name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
+
+    /// Of the values that have a key, bit by bit: an angle that the mesh has is a NaN.
+    friend bool operator==(const Fabric& a, const Fabric& b);
 };
 
 /// One table of parameters and where its struct stands in a Fabric.

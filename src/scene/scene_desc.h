@@ -38,6 +38,7 @@ struct SceneCloth {
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< of the way over the cloth
+    friend bool operator==(const SceneCloth&, const SceneCloth&) = default;
 };
 
 /// How something in the scene looks.
@@ -45,6 +46,7 @@ struct SceneLook {
     std::string object = {};  ///< name of a cloth or a collider
     std::string preset = {};  ///< name of the material whose values stand where none is given
     Material material = {};
+    friend bool operator==(const SceneLook&, const SceneLook&) = default;
 };
 
 struct SceneDesc {
@@ -58,6 +60,7 @@ struct SceneDesc {
     std::optional<Camera> camera = {};  ///< without, one from which everything is seen
     Lighting light = {};
     std::vector<SceneLook> looks = {};  ///< of those that have one
+    friend bool operator==(const SceneDesc&, const SceneDesc&) = default;
 };
 
 }  // namespace weft

@@ -4,11 +4,11 @@
 #include "scene/fabric.h"
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
+#include "scene/values.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -69,13 +69,6 @@ Json limit_json(double limit) {
     return number_json(limit);
 }
 
-template <class T>
-T element(const Parameter& p, const void* defaults, std::size_t index) {
-    T value;
-    std::memcpy(&value, static_cast<const std::byte*>(defaults) + p.offset + index * sizeof(T), sizeof(T));
-    return value;
-}
-
 /// null if there is none to tell.
 Json default_json(const Parameter& p, const void* defaults) {
     if (defaults == nullptr || p.required) return nullptr;
@@ -85,8 +78,8 @@ Json default_json(const Parameter& p, const void* defaults) {
         case ParameterKind::choice:
             return choice_names(p).at(static_cast<std::size_t>(element<int>(p, defaults, 0)));
         case ParameterKind::text: {
-            const auto* text = reinterpret_cast<const std::string*>(static_cast<const std::byte*>(defaults) + p.offset);
-            return text->empty() ? Json() : Json(*text);
+            const std::string& text = text_of(p, defaults);
+            return text.empty() ? Json() : Json(text);
         }
         case ParameterKind::object:
         case ParameterKind::list:

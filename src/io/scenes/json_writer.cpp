@@ -1,0 +1,134 @@
+#include "io/scenes/json_writer.h"
+
+#include "scene/problems.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace weft {
+namespace {
+
+constexpr std::size_t line_width = 110;
+constexpr std::size_t indentation = 4;
+
+float read_back(const std::string& text) {
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return static_cast<float>(value);
+}
+
+std::string in_json(std::string_view text) {
+    return nlohmann::json(text).dump();
+}
+
+}  // namespace
+
+JsonNode JsonNode::number(float value) {
+    JsonNode node(Kind::scalar);
+    // "-0" is a whole number to JSON, and those have no sign of zero.
+    node.scalar_ = value == 0 && std::signbit(value) ? "-0.0" : number_text(value);
+    // The reader goes through double, which may round the other way where a float's digits end at half a step.
+    if (read_back(node.scalar_) != value) node.scalar_ = number_text(static_cast<double>(value));
+    return node;
+}
+
+JsonNode JsonNode::number(std::uint32_t value) {
+    JsonNode node(Kind::scalar);
+    node.scalar_ = std::to_string(value);
+    return node;
+}
+
+JsonNode JsonNode::flag(bool value) {
+    JsonNode node(Kind::scalar);
+    node.scalar_ = value ? "true" : "false";
+    return node;
+}
+
+std::optional<JsonNode> JsonNode::text(std::string_view value) {
+    JsonNode node(Kind::scalar);
+    try {
+        node.scalar_ = in_json(value);
+    } catch (const nlohmann::json::type_error&) {
+        return {};
+    }
+    return node;
+}
+
+std::string JsonNode::pretty() const {
+    std::string out;
+    append(out, 0, line_width);  // the outermost object always has lines of its own
+    return out + '\n';
+}
+
+// Of all in one line; past `limit` whatever is more than that.
+std::size_t JsonNode::line_length(std::size_t limit) const {
+    if (kind_ == Kind::scalar) return scalar_.size();
+    std::size_t length = kind_ == Kind::object ? 4 : 2;
+    for (const JsonNode& child : children_) {
+        if (length > limit) break;
+        length += 2 + child.line_length(limit);
+        if (kind_ == Kind::object) length += in_json(child.key_).size() + 2;
+    }
+    return length;
+}
+
+void JsonNode::append_line(std::string& out) const {
+    if (kind_ == Kind::scalar) {
+        out += scalar_;
+        return;
+    }
+    if (children_.empty()) {
+        out += kind_ == Kind::object ? "{}" : "[]";
+        return;
+    }
+    out += kind_ == Kind::object ? "{ " : "[";
+    for (const JsonNode& child : children_) {
+        if (&child != &children_.front()) out += ", ";
+        if (kind_ == Kind::object) out += in_json(child.key_) + ": ";
+        child.append_line(out);
+    }
+    out += kind_ == Kind::object ? " }" : "]";
+}
+
+// Indices of pins may be thousands.
+void JsonNode::append_filled(std::string& out, std::size_t indent) const {
+    std::size_t column = line_width;
+    for (const JsonNode& child : children_) {
+        if (column + 2 + child.scalar_.size() > line_width) {
+            if (&child != &children_.front()) out += ',';
+            (out += '\n').append(indent, ' ');
+            column = indent;
+        } else {
+            out += ", ";
+            column += 2;
+        }
+        out += child.scalar_;
+        column += child.scalar_.size();
+    }
+}
+
+// `used`: what stands in the line before it.
+void JsonNode::append(std::string& out, std::size_t indent, std::size_t used) const {
+    if (kind_ == Kind::scalar || used + line_length(line_width) <= line_width) return append_line(out);
+    const std::size_t inner = indent + indentation;
+    out += kind_ == Kind::object ? '{' : '[';
+    const bool scalars =
+        std::ranges::all_of(children_, [](const JsonNode& child) { return child.kind_ == Kind::scalar; });
+    if (kind_ == Kind::list && scalars) {
+        append_filled(out, inner);
+    } else {
+        for (const JsonNode& child : children_) {
+            if (&child != &children_.front()) out += ',';
+            (out += '\n').append(inner, ' ');
+            const std::string key = kind_ == Kind::object ? in_json(child.key_) + ": " : "";
+            out += key;
+            child.append(out, inner, inner + key.size() + 1);
+        }
+    }
+    (out += '\n').append(indent, ' ');
+    out += kind_ == Kind::object ? '}' : ']';
+}
+
+}  // namespace weft

@@ -1,0 +1,50 @@
+// JSON values to text that a person can read and edit.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// A value to be written: an object that keeps the order of its keys, a list, or the finished text of anything else.
+class JsonNode {
+  public:
+    static JsonNode object() { return JsonNode(Kind::object); }
+    static JsonNode list() { return JsonNode(Kind::list); }
+    /// In the fewest digits that the reader turns into the same bits. Finite.
+    static JsonNode number(float value);
+    static JsonNode number(std::uint32_t value);
+    static JsonNode flag(bool value);
+    /// Nothing if the bytes are no UTF-8, which JSON demands.
+    static std::optional<JsonNode> text(std::string_view value);
+
+    void add(std::string_view key, JsonNode value) {
+        value.key_ = key;
+        children_.push_back(std::move(value));
+    }
+    void add(JsonNode value) { children_.push_back(std::move(value)); }
+
+    bool empty() const { return children_.empty(); }
+
+    /// What fits into a line stands in one line; longer lists of numbers fill lines. Ends in a newline.
+    std::string pretty() const;
+
+  private:
+    enum class Kind { object, list, scalar };
+    explicit JsonNode(Kind kind) : kind_(kind) {}
+    std::size_t line_length(std::size_t limit) const;
+    void append_line(std::string& out) const;
+    void append(std::string& out, std::size_t indent, std::size_t used) const;
+    void append_filled(std::string& out, std::size_t indent) const;
+
+    Kind kind_;
+    std::string key_ = {};  ///< of an object's member
+    std::string scalar_ = {};
+    std::vector<JsonNode> children_ = {};
+};
+
+}  // namespace weft

@@ -1,0 +1,236 @@
+// Scenes drawn at random over every key that a scene has. Small, and sound by the checks.
+#pragma once
+
+#include "scene/check.h"
+#include "scene/looks.h"
+#include "scene/scene_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace weft {
+
+class RandomScene {
+  public:
+    explicit RandomScene(std::uint64_t seed) : state_(seed) {}
+
+    SceneDesc draw() {
+        SceneDesc scene;
+        fill(scene_keys, &scene);
+        fill(solver_keys, &scene.solver);
+        scene.solver.substeps = 1 + below(3);
+        scene.solver.iterations = 1 + below(2);
+        if (scene.solver.method == Method::pbd) scene.solver.projection = Projection::automatic;  // it has no lines
+        if (maybe()) draw(scene.air.emplace());
+        for (std::uint32_t i = below(3); i > 0; --i) draw(scene.colliders.emplace_back());
+        for (std::uint32_t i = 1 + below(3); i > 0; --i) draw(scene.cloths.emplace_back());
+        name(scene.cloths, "sheet"), name(scene.colliders, "body");
+        name_unnamed(scene);
+        for (SceneCloth& cloth : scene.cloths) {
+            for (PinDesc& pin : cloth.pins) {
+                if (pin.motion.empty() && !scene.colliders.empty() && maybe()) pin.attach = scene.colliders[0].name;
+            }
+        }
+        if (maybe()) {
+            fill(camera_parameters, &scene.camera.emplace());
+            scene.camera->target.x = scene.camera->position.x < 0 ? 1.0f : -1.0f;
+        }
+        fill(lighting_parameters, &scene.light);
+        fill(sun_parameters, &scene.light.sun);
+        fill(sky_parameters, &scene.light.sky);
+        fill(environment_parameters, &scene.light.environment);
+        draw_looks(scene);
+        return scene;
+    }
+
+    // Not <random>: its distributions give other numbers with other libraries.
+    std::uint32_t below(std::uint32_t limit) {
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<std::uint32_t>(state_ >> 33) % limit;
+    }
+
+  private:
+    bool maybe() { return below(2) == 0; }
+
+    float number(const Parameter& p) {
+        const double min = std::max(p.min, -1e30), max = std::min<double>(p.max, 1e30);
+        const auto fits = [&](float x) { return range_problem(p, x).empty() && x >= min && x <= max; };
+        for (int attempt = 0; attempt < 20; ++attempt) {
+            const double part = below(1u << 30) / double(1u << 30);
+            const double choices[] = {min,
+                                      max,
+                                      -0.0,
+                                      static_cast<double>(below(20)) / 10,
+                                      min + (max - min) * part,
+                                      std::ldexp(part, static_cast<int>(below(60)) - 40),
+                                      -std::ldexp(part, static_cast<int>(below(60)) - 40)};
+            const float x = static_cast<float>(choices[below(7)]);
+            if (fits(x)) return x;
+        }
+        return static_cast<float>(min + (std::min(max, min + 1) - min) / 2);
+    }
+
+    std::string text() {
+        static const char* const texts[] = {"a", "b \"c\"", "d/~e\\", "größer\u2026", "x.png"};
+        return texts[below(5)];
+    }
+
+    template <class T>
+    void store(const Parameter& p, void* base, std::size_t index, T value) {
+        std::memcpy(static_cast<std::byte*>(base) + p.offset + index * sizeof(T), &value, sizeof(T));
+    }
+
+    void fill(std::span<const Parameter> table, void* base) {
+        for (const Parameter& p : table)
+            if (below(3) != 0) fill(p, base);
+    }
+
+    void fill(const Parameter& p, void* base) {
+        const bool alike = p.kind == ParameterKind::number && maybe();
+        const float one = p.kind <= ParameterKind::vector ? number(p) : 0;
+        for (unsigned i = 0; i < p.count; ++i) {
+            switch (p.kind) {
+                case ParameterKind::number:
+                case ParameterKind::vector:
+                    store(p, base, i, alike ? one : number(p));
+                    break;
+                case ParameterKind::angle_or_mesh:
+                    store(p, base, i, maybe() ? one : std::numeric_limits<float>::quiet_NaN());
+                    break;
+                case ParameterKind::integer:
+                    store(p, base, i, static_cast<std::uint32_t>(p.min) + below(5));
+                    break;
+                case ParameterKind::flag:
+                    store(p, base, i, maybe());
+                    break;
+                case ParameterKind::choice:
+                    store(p, base, i, static_cast<int>(below(static_cast<std::uint32_t>(choice_names(p).size()))));
+                    break;
+                case ParameterKind::text:
+                    *reinterpret_cast<std::string*>(static_cast<std::byte*>(base) + p.offset) = text();
+                    break;
+                case ParameterKind::object:
+                case ParameterKind::list:
+                    break;
+            }
+        }
+    }
+
+    void draw(AirDesc& air) {
+        fill(air_keys, &air);
+        for (std::uint32_t i = below(3); i > 0; --i) {
+            WindDesc& wind = air.wind.emplace_back();
+            fill(wind_keys, &wind);
+            fill(gust_keys, &wind.gust);
+            fill(turbulence_keys, &wind.turbulence);
+        }
+    }
+
+    MeshDesc mesh(bool of_a_file) {
+        if (of_a_file) {
+            MeshFileDesc file;
+            fill(mesh_file_keys, &file);
+            file.file = text();
+            return file;
+        }
+        switch (below(3)) {
+            case 0: {
+                GridDesc grid{.size = {1, 1}, .resolution = {3, 5}};
+                fill(grid_keys, &grid);
+                if (grid.resolution[0] > 9) grid.resolution = {3, 5};
+                return grid;
+            }
+            case 1: {
+                SphereMeshDesc sphere;
+                fill(sphere_mesh_keys, &sphere);
+                sphere.subdivisions %= 3;
+                return sphere;
+            }
+            default: {
+                BoxMeshDesc box{.size = {1, 1, 1}, .resolution = {2, 3, 4}};
+                fill(box_mesh_keys, &box);
+                return box;
+            }
+        }
+    }
+
+    template <class Key>
+    void draw_keys(std::vector<Key>& keys, std::span<const Parameter> table, const Key& like) {
+        float time = 0;
+        for (std::uint32_t i = below(4); i > 0; --i) {
+            Key& key = keys.emplace_back(like);
+            fill(table, &key);
+            key.time = time;
+            time += 0.01f + static_cast<float>(below(100)) / 7;
+        }
+    }
+
+    void draw(SceneCloth& cloth) {
+        fill(cloth_keys, &cloth);
+        cloth.mesh = mesh(below(4) == 0);
+        const bool of_a_file = std::holds_alternative<MeshFileDesc>(cloth.mesh);
+        if (below(3) == 0) cloth.drawn = mesh(maybe());
+        fill(transform_keys, &cloth.transform);
+        const auto presets = fabric_presets();
+        const FabricPreset& preset = presets[below(static_cast<std::uint32_t>(presets.size()))];
+        cloth.fabric_name = preset.name;
+        cloth.fabric = preset.fabric;
+        if (maybe())
+            for (const FabricTable& table : fabric_tables())
+                fill(table.parameters, reinterpret_cast<std::byte*>(&cloth.fabric) + table.offset);
+        for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.pins.emplace_back(), of_a_file);
+    }
+
+    void draw(PinDesc& pin, bool of_a_file) {
+        fill(pin_motion_keys, &pin);
+        pin.attach.clear();
+        const std::uint32_t kind = below(of_a_file ? 3 : 2);
+        if (kind == 0) pin.select = VertexPins{{below(4), below(4)}};
+        if (kind == 1) pin.select = BoxPins{{{-1e3f, -0.0f, -2.5f}, {1, 0.1f, 1e20f}}};
+        if (kind == 2) fill(color_pin_keys, &pin.select.emplace<ColorPins>());
+        if (maybe()) draw_keys(pin.motion, offset_key_keys, OffsetKey());
+    }
+
+    void draw(ColliderDesc& collider) {
+        fill(collider_keys, &collider);
+        std::uint32_t kind = below(std::size(shape_keys));
+#define WEFT_SHAPE(name, Name) \
+    if (kind-- == 0) fill(name##_parameters, &collider.shape.emplace<Name##Desc>());
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+        if (auto* plane = std::get_if<PlaneDesc>(&collider.shape)) plane->normal.y = 0.3f;
+        fill(pose_keys, &collider.transform);
+        draw_keys(collider.motion, pose_key_keys,
+                  PoseKey{.time = 0,
+                          .position = collider.transform.position,
+                          .rotation_degrees = collider.transform.rotation_degrees});
+    }
+
+    // Some are called by something, each by something else.
+    template <class Named>
+    void name(std::vector<Named>& all, const std::string& word) {
+        for (std::size_t i = 0; i < all.size(); ++i) all[i].name = maybe() ? "" : word + " \"" + std::to_string(9 - i);
+    }
+
+    void draw_looks(SceneDesc& scene) {
+        const auto add = [&](const std::string& name, const MaterialPreset& own) {
+            if (maybe()) return;
+            const auto presets = material_presets();
+            const MaterialPreset& preset = maybe() ? own : presets[below(static_cast<std::uint32_t>(presets.size()))];
+            SceneLook look{.object = name, .preset = std::string(preset.name), .material = preset.material};
+            if (maybe()) fill(material_parameters, &look.material);
+            scene.looks.push_back(look);
+        };
+        for (const SceneCloth& cloth : scene.cloths) add(cloth.name, default_material(cloth));
+        for (const ColliderDesc& collider : scene.colliders) add(collider.name, default_material(collider));
+        std::ranges::sort(scene.looks, {}, &SceneLook::object);  // as the reader comes upon them
+    }
+
+    std::uint64_t state_;
+};
+
+}  // namespace weft

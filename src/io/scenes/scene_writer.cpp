@@ -1,0 +1,325 @@
+#include "io/scenes/scene_writer.h"
+
+#include "io/scenes/json_text.h"
+#include "io/scenes/json_writer.h"
+#include "scene/check.h"
+#include "scene/looks.h"
+#include "scene/scene_keys.h"
+#include "scene/values.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace weft {
+namespace {
+
+/// What an object holds under a key that is an object or a list; nothing where it has nothing to say.
+using Child = std::optional<JsonNode>;
+
+class SceneWriter {
+  public:
+    JsonNode scene(const SceneDesc& scene);
+    Problems& problems() { return problems_; }
+
+  private:
+    using Children = std::function<Child(std::string_view key, const std::string& place)>;
+    /// A key that takes the value of another one, its leader, where the file says the leader alone.
+    struct Following {
+        std::string_view leader, follower;
+    };
+
+    void values(JsonNode& to, std::span<const Parameter> table, const void* base, const void* defaults,
+                const std::string& place, const Children& children = {}, Following following = {});
+    JsonNode value(const Parameter& p, const void* base, const std::string& place);
+    JsonNode text(std::string_view value, const std::string& place);
+    template <class Desc>
+    JsonNode object(std::span<const Parameter> table, const Desc& desc, const Desc& defaults, const std::string& place,
+                    const Children& children = {});
+    template <class Item, class Write>
+    JsonNode list(const std::vector<Item>& items, const std::string& place, Write&& write);
+
+    JsonNode air(const AirDesc& air, const std::string& place);
+    JsonNode mesh(const MeshDesc& mesh, const std::string& place);
+    Child fabric(const SceneCloth& cloth, const std::string& place);
+    JsonNode pin(const PinDesc& pin, const std::string& place);
+    JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
+    Child motion(const ColliderDesc& collider, const std::string& place);
+    JsonNode collider(const ColliderDesc& collider, std::size_t index, const std::string& place);
+    JsonNode light(const Lighting& light, const std::string& place);
+    JsonNode look(const SceneLook& look, const MaterialPreset* otherwise, const std::string& place);
+    JsonNode looks(const SceneDesc& scene, const std::string& place);
+
+    Problems problems_;
+};
+
+// Two values of one struct, of the same kind and count.
+bool same_value_as(const Parameter& leader, const Parameter& follower, const void* base) {
+    return same_value(leader, base, static_cast<const std::byte*>(base) + (follower.offset - leader.offset));
+}
+
+Child unless_empty(JsonNode node) {
+    return node.empty() ? Child() : Child(std::move(node));
+}
+
+template <class Read>
+JsonNode numbers(const Parameter& p, bool one_for_all, Read&& read) {
+    bool alike = true;
+    for (std::size_t i = 1; i < p.count; ++i) alike = alike && read(i).pretty() == read(0).pretty();
+    if (p.count == 1 || (one_for_all && alike)) return read(0);
+    JsonNode list = JsonNode::list();
+    for (std::size_t i = 0; i < p.count; ++i) list.add(read(i));
+    return list;
+}
+
+JsonNode SceneWriter::text(std::string_view value, const std::string& place) {
+    if (auto node = JsonNode::text(value)) return std::move(*node);
+    problems_.add(place, "must be UTF-8 to be written to a file");
+    return JsonNode::object();
+}
+
+JsonNode SceneWriter::value(const Parameter& p, const void* base, const std::string& place) {
+    const auto number = [&](std::size_t i) { return JsonNode::number(element<float>(p, base, i)); };
+    switch (p.kind) {
+        case ParameterKind::number:
+            return numbers(p, true, number);
+        case ParameterKind::vector:
+            return numbers(p, false, number);
+        case ParameterKind::angle_or_mesh:
+            return std::isnan(element<float>(p, base)) ? text("mesh", place) : number(0);
+        case ParameterKind::integer:
+            return numbers(p, false,
+                           [&](std::size_t i) { return JsonNode::number(element<std::uint32_t>(p, base, i)); });
+        case ParameterKind::flag:
+            return JsonNode::flag(element<bool>(p, base));
+        case ParameterKind::choice:
+            return text(choice_names(p).at(static_cast<std::size_t>(element<int>(p, base))), place);
+        case ParameterKind::text:
+            return text(text_of(p, base), place);
+        case ParameterKind::object:
+        case ParameterKind::list:
+            break;
+    }
+    return JsonNode::object();
+}
+
+// `children` writes what is under the keys of objects and lists, in the order of the table too.
+void SceneWriter::values(JsonNode& to, std::span<const Parameter> table, const void* base, const void* defaults,
+                         const std::string& place, const Children& children, Following following) {
+    const Parameter* leader = nullptr;  // if it has been written
+    for (const Parameter& p : table) {
+        const std::string where = at(place, p.key);
+        const bool follows = leader && p.key == following.follower;
+        const bool as_expected = follows ? same_value_as(*leader, p, base) : same_value(p, base, defaults);
+        if (p.kind == ParameterKind::object || p.kind == ParameterKind::list) {
+            if (auto child = children ? children(p.key, where) : Child()) to.add(p.key, std::move(*child));
+        } else if (p.required || !as_expected) {
+            to.add(p.key, value(p, base, where));
+            if (p.key == following.leader) leader = &p;
+        }
+    }
+}
+
+template <class Desc>
+JsonNode SceneWriter::object(std::span<const Parameter> table, const Desc& desc, const Desc& defaults,
+                             const std::string& place, const Children& children) {
+    JsonNode node = JsonNode::object();
+    values(node, table, &desc, &defaults, place, children);
+    return node;
+}
+
+template <class Item, class Write>
+JsonNode SceneWriter::list(const std::vector<Item>& items, const std::string& place, Write&& write) {
+    JsonNode node = JsonNode::list();
+    for (std::size_t i = 0; i < items.size(); ++i) node.add(write(items[i], at(place, i)));
+    return node;
+}
+
+JsonNode SceneWriter::air(const AirDesc& desc, const std::string& place) {
+    const auto wind = [&](const WindDesc& one, const std::string& where) {
+        return object(wind_keys, one, WindDesc(), where, [&](std::string_view key, const std::string& below) -> Child {
+            if (key == "gust") return unless_empty(object(gust_keys, one.gust, GustDesc(), below));
+            assert(key == "turbulence");
+            return unless_empty(object(turbulence_keys, one.turbulence, TurbulenceDesc(), below));
+        });
+    };
+    return object(air_keys, desc, AirDesc(), place, [&](std::string_view, const std::string& where) {
+        return unless_empty(list(desc.wind, where, wind));
+    });
+}
+
+JsonNode SceneWriter::mesh(const MeshDesc& desc, const std::string& place) {
+    if (const auto* file = std::get_if<MeshFileDesc>(&desc)) {
+        return object(mesh_file_keys, *file, MeshFileDesc(), place);
+    }
+    JsonNode node = JsonNode::object();
+    if (const auto* grid = std::get_if<GridDesc>(&desc)) {
+        node.add("grid", object(grid_keys, *grid, GridDesc(), at(place, "grid")));
+    } else if (const auto* sphere = std::get_if<SphereMeshDesc>(&desc)) {
+        node.add("sphere", object(sphere_mesh_keys, *sphere, SphereMeshDesc(), at(place, "sphere")));
+    } else if (const auto* box = std::get_if<BoxMeshDesc>(&desc)) {
+        node.add("box", object(box_mesh_keys, *box, BoxMeshDesc(), at(place, "box")));
+    } else {
+        problems_.add(place, "is a mesh in memory, for which a scene file must name a file");
+    }
+    return node;
+}
+
+Child SceneWriter::fabric(const SceneCloth& cloth, const std::string& place) {
+    const std::string standard = FabricHead().preset;
+    const FabricPreset* known = find_fabric(cloth.fabric_name);
+    const FabricHead head{known ? cloth.fabric_name : standard};
+    const FabricPreset& preset = known ? *known : *find_fabric(standard);
+    const auto in = [](const Fabric& fabric, const FabricTable& table) {
+        return reinterpret_cast<const std::byte*>(&fabric) + table.offset;
+    };
+    JsonNode node = object(fabric_keys, head, FabricHead(), place);
+    const bool named = !node.empty();
+    for (const FabricTable& table : fabric_tables())
+        values(node, table.parameters, in(cloth.fabric, table), in(preset.fabric, table), place, {},
+               {.leader = "stretch", .follower = "compression"});  // as follow_stretch() has it
+    if (named && cloth.fabric == preset.fabric) return text(head.preset, place);
+    return unless_empty(std::move(node));
+}
+
+JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
+    JsonNode node = JsonNode::object();
+    if (const auto* vertices = std::get_if<VertexPins>(&desc.select)) {
+        node.add("vertices", list(vertices->vertices, at(place, "vertices"),
+                                  [](std::uint32_t vertex, const std::string&) { return JsonNode::number(vertex); }));
+    } else if (const auto* box = std::get_if<BoxPins>(&desc.select)) {
+        node.add("box", object(box_keys, box->box, Bounds(), at(place, "box")));
+    } else if (const auto* color = std::get_if<ColorPins>(&desc.select)) {
+        // The color says which kind of pin it is, also where it is the default.
+        node.add("color", value(color_pin_keys[0], color, at(place, "color")));
+        const ColorPins none_said;
+        values(node, std::span(color_pin_keys).subspan(1), color, &none_said, place);
+    }
+    const PinDesc defaults;
+    values(node, pin_motion_keys, &desc, &defaults, place, [&](std::string_view, const std::string& where) {
+        return unless_empty(list(desc.motion, where, [&](const OffsetKey& key, const std::string& below) {
+            return object(offset_key_keys, key, OffsetKey(), below);
+        }));
+    });
+    return node;
+}
+
+JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std::string& place) {
+    SceneCloth defaults;
+    defaults.name = "cloth " + std::to_string(index);
+    return object(cloth_keys, desc, defaults, place, [&](std::string_view key, const std::string& where) -> Child {
+        if (key == "mesh") return desc.mesh == defaults.mesh ? Child() : mesh(desc.mesh, where);
+        if (key == "drawn") return desc.drawn ? Child(mesh(*desc.drawn, where)) : Child();
+        if (key == "transform") return unless_empty(object(transform_keys, desc.transform, defaults.transform, where));
+        if (key == "fabric") return fabric(desc, where);
+        assert(key == "pins");
+        return unless_empty(
+            list(desc.pins, where, [&](const PinDesc& one, const std::string& below) { return pin(one, below); }));
+    });
+}
+
+Child SceneWriter::motion(const ColliderDesc& collider, const std::string& place) {
+    if (collider.motion.empty()) return {};
+    // What a key does not say is as the transform has it.
+    const PoseKey defaults{
+        .time = 0, .position = collider.transform.position, .rotation_degrees = collider.transform.rotation_degrees};
+    JsonNode node = JsonNode::object();
+    node.add("keys", list(collider.motion, at(place, "keys"), [&](const PoseKey& key, const std::string& where) {
+                 return object(pose_key_keys, key, defaults, where);
+             }));
+    return node;
+}
+
+JsonNode SceneWriter::collider(const ColliderDesc& desc, std::size_t index, const std::string& place) {
+    ColliderDesc defaults;
+    defaults.name = "collider " + std::to_string(index);
+    return object(collider_keys, desc, defaults, place, [&](std::string_view key, const std::string& where) -> Child {
+        if (key == "transform") return unless_empty(object(pose_keys, desc.transform, defaults.transform, where));
+        if (key == "motion") return motion(desc, where);
+#define WEFT_SHAPE(name, Name)                                                  \
+    if (const auto* shape = std::get_if<Name##Desc>(&desc.shape); key == #name) \
+        return shape ? Child(object(name##_parameters, *shape, Name##Desc(), where)) : Child();
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+        assert(false);
+        return {};
+    });
+}
+
+JsonNode SceneWriter::light(const Lighting& desc, const std::string& place) {
+    const Lighting defaults;
+    return object(
+        lighting_parameters, desc, defaults, place, [&](std::string_view key, const std::string& where) -> Child {
+            if (key == "sun") return unless_empty(object(sun_parameters, desc.sun, defaults.sun, where));
+            if (key == "sky") return unless_empty(object(sky_parameters, desc.sky, defaults.sky, where));
+            assert(key == "environment");
+            return unless_empty(object(environment_parameters, desc.environment, defaults.environment, where));
+        });
+}
+
+// `otherwise`: the material that the thing has without a look.
+JsonNode SceneWriter::look(const SceneLook& desc, const MaterialPreset* otherwise, const std::string& place) {
+    const MaterialPreset* preset = find_material(desc.preset);
+    const Material defaults = preset ? preset->material : Material();
+    JsonNode node = JsonNode::object();
+    if (preset && preset != otherwise) node.add("material", text(desc.preset, at(place, "material")));
+    const bool named = !node.empty();
+    values(node, material_parameters, &desc.material, &defaults, place, {},
+           {.leader = "color", .follower = "weft_color"});  // as follow_color() has it
+    const bool as_named = node.empty() || (named && desc.material == defaults);
+    return preset && as_named ? text(desc.preset, place) : node;
+}
+
+JsonNode SceneWriter::looks(const SceneDesc& scene, const std::string& place) {
+    const auto materials = default_materials(scene);
+    JsonNode node = JsonNode::object();
+    for (const SceneLook& one : scene.looks) {
+        const auto otherwise = materials.find(one.object);
+        node.add(one.object,
+                 look(one, otherwise == materials.end() ? nullptr : otherwise->second, at(place, one.object)));
+    }
+    return node;
+}
+
+JsonNode SceneWriter::scene(const SceneDesc& desc) {
+    const SceneHead head;
+    const SceneDesc defaults;
+    JsonNode node = JsonNode::object();
+    values(node, head_keys, &head, &head, "");
+    values(node, scene_keys, &desc, &defaults, "", [&](std::string_view key, const std::string& where) -> Child {
+        std::size_t index = 0;
+        if (key == "solver") return unless_empty(object(solver_keys, desc.solver, defaults.solver, where));
+        if (key == "air") return desc.air ? Child(air(*desc.air, where)) : Child();
+        if (key == "cloths")
+            return list(desc.cloths, where,
+                        [&](const SceneCloth& one, const std::string& below) { return cloth(one, index++, below); });
+        if (key == "colliders")
+            return unless_empty(list(desc.colliders, where, [&](const ColliderDesc& one, const std::string& below) {
+                return collider(one, index++, below);
+            }));
+        if (key == "camera")
+            return desc.camera ? Child(object(camera_parameters, *desc.camera, Camera(), where)) : Child();
+        if (key == "light") return unless_empty(light(desc.light, where));
+        assert(key == "look");
+        return unless_empty(looks(desc, where));
+    });
+    return node;
+}
+
+}  // namespace
+
+Result<std::string> write_scene(const SceneDesc& scene) {
+    if (scene.cloths.empty()) return Error{"/cloths", "must hold at least one cloth to be written to a file"};
+    SceneWriter writer;
+    const JsonNode node = writer.scene(scene);
+    if (!writer.problems().none()) return std::move(writer.problems()).take();
+    std::string text = node.pretty();
+    if (text.size() > max_json_bytes)
+        return Error{"", "would be longer than the " + std::to_string(max_json_bytes >> 20) + " MiB of a scene file"};
+    return text;
+}
+
+}  // namespace weft
