@@ -372,4 +372,40 @@ TEST_F(Cli, names_what_vulkan_lacks_with_status_1) {
 
 #endif
 
+TEST_F(Cli, convert_writes_the_scene_that_it_read) {
+    const std::string hash = stats("--frames 3")["state_hash"];
+    const Outcome outcome = weft("convert sheet.json --out copy.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "wrote copy.json\n");
+    const std::string text = read_file(folder_ / "copy.json");
+    EXPECT_EQ(text.find("quick"), std::string::npos) << "comments are not kept";
+    EXPECT_EQ(text.find("\"size\""), std::string::npos) << "nor are values that are the default";
+    // In another folder, over itself.
+    fs::create_directories(folder_ / "sub");
+    EXPECT_EQ(weft("convert copy.json --out sub/sheet.json --quiet").out, "");
+    EXPECT_EQ(read_file(folder_ / "sub/sheet.json"), text);
+    fs::rename(folder_ / "sub/sheet.json", folder_ / "sheet.json");
+    EXPECT_EQ(stats("--frames 3")["state_hash"], hash);
+    EXPECT_EQ(weft("convert sheet.json --out sheet.json").status, 0);
+    EXPECT_EQ(read_file(folder_ / "sheet.json"), text);
+}
+
+TEST_F(Cli, convert_says_what_is_wrong_and_leaves_nothing_behind) {
+    expect_usage_error("convert sheet.json", "--out");
+    expect_usage_error("convert sheet.json --out copy.yaml", "--out: must end in .json, got copy.yaml");
+    expect_usage_error("convert nothing.json --out copy.json", "nothing.json: cannot be opened");
+    write("wrong.json", R"({ "weft": 1, "cloths": [{ "fabrik": 1 }] })");
+    expect_usage_error("convert wrong.json --out copy.json", "did you mean \"fabric\"?");
+    const std::string before = read_file(folder_ / "sheet.json");
+    expect_usage_error("convert sheet.json --out none/copy.json",
+                       "none/copy.json: cannot be written: No such file or directory");
+    for (const char* output : {"copy.json", "sheet.json"})
+        EXPECT_EQ(weft("convert sheet.json --out " + std::string(output), "ulimit -f 0;").status, 1) << output;
+    EXPECT_EQ(read_file(folder_ / "sheet.json"), before);
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+        const std::string name = entry.path().filename();
+        EXPECT_TRUE(name != "copy.json" && name.rfind(".weft", 0) != 0) << name;
+    }
+}
+
 }  // namespace

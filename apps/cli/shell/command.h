@@ -49,6 +49,7 @@ using Command = std::function<int()>;
 Command add_run(CLI::App& program);
 Command add_render(CLI::App& program);
 Command add_check(CLI::App& program);
+Command add_convert(CLI::App& program);
 Command add_bench(CLI::App& program);
 Command add_info(CLI::App& program);
 

@@ -30,6 +30,7 @@ int run_program(int argc, char** argv) {
         "  weft render scenes/hanging_bunny.json --out bunny.mp4\n"
         "  weft bench --json before.json\n"
         "  weft check scenes/hanging_bunny.json\n"
+        "  weft convert scenes/hanging_bunny.json --out bunny.json\n"
         "  weft info\n"
         "Exit status: 0 done, 1 failed while running, 2 wrong input or usage.");
 
@@ -38,6 +39,7 @@ int run_program(int argc, char** argv) {
     commands["render"] = add_render(program);
     commands["bench"] = add_bench(program);
     commands["check"] = add_check(program);
+    commands["convert"] = add_convert(program);
     commands["info"] = add_info(program);
 
     if (argc > 1 && argv[1][0] != '-' && !commands.count(argv[1])) {
