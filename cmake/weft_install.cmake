@@ -1,13 +1,21 @@
-# What `cmake --install` puts in place. Whoever links weft::weft needs no other package: the library's own dependencies
-# are behind it.
+# What `cmake --install` puts in place. Whoever links these libraries needs no other package: their own dependencies are
+# behind them.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS weft_library EXPORT weft
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
+set(components core)
+if(WEFT_IO)
+    list(APPEND components io)
+endif()
+foreach(component ${components})
+    install(TARGETS weft_${component}_library EXPORT weft-${component}
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT weft-${component} FILE weft-${component}-targets.cmake NAMESPACE weft:: DESTINATION ${package})
+endforeach()
 install(DIRECTORY include/weft DESTINATION include PATTERN vulkan.h EXCLUDE)
 if(WEFT_VULKAN)   # the only one that needs Vulkan's headers, for those who include it
     install(FILES include/weft/vulkan.h DESTINATION include/weft)
@@ -16,8 +24,6 @@ if(WEFT_APPS)
     install(TARGETS weft RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-set(package ${CMAKE_INSTALL_LIBDIR}/cmake/weft)
-install(EXPORT weft FILE weft-targets.cmake NAMESPACE weft:: DESTINATION ${package})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/weft-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/weft-config.cmake ${PROJECT_BINARY_DIR}/weft-config-version.cmake DESTINATION ${package})
 

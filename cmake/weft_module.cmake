@@ -1,5 +1,6 @@
 # One static library per folder of src/, from every .cpp in it. Files named *.test.cpp go into that folder's own test
-# program. A new constraint, exporter or shape is therefore a file in its folder and nothing here.
+# program. FOLDER names a folder that is not called as the library; WITHOUT names folders below it that have a library of
+# their own. A new constraint, exporter or shape is therefore a file in its folder and nothing here.
 
 find_package(Threads REQUIRED)
 
@@ -110,20 +111,26 @@ function(weft_test name)
 endfunction()
 
 function(weft_module name)
-    cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
-    set(folder ${PROJECT_SOURCE_DIR}/src/${name})
+    cmake_parse_arguments(ARG "" "FOLDER" "DEPENDS;WITHOUT" ${ARGN})
+    if(NOT ARG_FOLDER)
+        set(ARG_FOLDER ${name})
+    endif()
+    set(folder ${PROJECT_SOURCE_DIR}/src/${ARG_FOLDER})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    foreach(other ${ARG_WITHOUT})
+        list(FILTER sources EXCLUDE REGEX "^${folder}/${other}/")
+    endforeach()
     set(tests ${sources})
     list(FILTER tests INCLUDE REGEX "\\.test\\.cpp$")
     list(FILTER sources EXCLUDE REGEX "\\.test\\.cpp$")
 
     add_library(weft_${name} STATIC ${sources})
-    if(NOT name STREQUAL PROJECT_NAME)   # weft::weft is what others link: all of this as one shared library
+    if(NOT name MATCHES "^(weft|io)$")   # weft::weft and weft::io are what others link (weft_library.cmake)
         add_library(weft::${name} ALIAS weft_${name})
     endif()
     target_link_libraries(weft_${name} PUBLIC weft_options Threads::Threads)
     foreach(floor ${ARG_DEPENDS})
-        target_link_libraries(weft_${name} PUBLIC weft::${floor})
+        target_link_libraries(weft_${name} PUBLIC weft_${floor})
     endforeach()
     if(EXISTS ${folder}/dependencies.cmake)   # third-party packages of this folder alone
         include(${folder}/dependencies.cmake)

@@ -5,7 +5,7 @@
 #include "cli/shell/progress.h"
 #include "cli/shell/table.h"
 #include "mesh/procedural.h"
-#include "weft/session.h"
+#include "weft/scene_world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,7 @@ std::vector<Candidate> candidates(const std::vector<std::uint32_t>& sides) {
             for (const MethodSettings& method : methods) {
                 for (const std::uint32_t substeps : substep_counts) {
                     const auto open = [=, &method](const Options& options) {
-                        return Session::create(hung_sheet(side, irregular, method, substeps), options);
+                        return SceneWorld::create(hung_sheet(side, irregular, method, substeps), options);
                     };
                     const std::string name = mesh + ' ' + method.name + ' ' + std::to_string(substeps);
                     all.push_back({side, mesh, &method, substeps, {name, open}, std::uint64_t{side} * side * substeps});

@@ -2,8 +2,8 @@
 #include "cli/bench/bench_report.h"
 #include "cli/run/stats.h"
 #include "curves.h"
+#include "files/open_scene.h"
 #include "io/files/atomic_file.h"
-#include "weft/session.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

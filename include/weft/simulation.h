@@ -4,6 +4,7 @@
 #include <weft/export.h>
 #include <weft/feedback.h>
 #include <weft/ids.h>
+#include <weft/mesh.h>
 #include <weft/result.h>
 #include <weft/scene.h>
 #include <weft/vector.h>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +22,9 @@
 #include <vector>
 
 namespace weft {
+
+/// Reads the mesh that a cloth names by file (MeshFileDesc). `folder` is that of the scene; empty where there is none.
+using MeshReader = std::function<Result<TriangleMesh>(const std::string& file, const std::filesystem::path& folder)>;
 
 /// Overrides of what the scene says, and where to compute.
 struct Options {
@@ -45,6 +50,9 @@ struct Options {
     bool feedback = false;
     /// Vulkan: time each stage of a frame, which costs a little.
     bool stage_timings = false;
+    /// Without it, a cloth that names a mesh file is refused; Simulation::load then takes read_mesh_file of
+    /// <weft/files.h>.
+    MeshReader read_mesh = {};
 };
 
 /// What holds for everything in a world.
@@ -78,7 +86,8 @@ struct Measures {
 /// used from one thread at a time.
 class WEFT_API Simulation {
   public:
-    /// Reads a scene file and everything it names. Fails with every problem found, each with its place.
+    /// Reads a scene file and everything it names. Fails with every problem found, each with its place. This, save()
+    /// and save_scene() are in the library weft::io, all else is in weft::core.
     static Result<Simulation> load(const std::filesystem::path& scene, const Options& options = {});
     /// An empty world, to be filled.
     static Result<Simulation> create(const WorldDesc& world = {}, const Options& options = {});
@@ -129,7 +138,7 @@ class WEFT_API Simulation {
 
     Surface surface(ClothId id) const;
     std::size_t cloth_count() const;
-    Surface cloth(std::size_t index) const;  ///< in the order of cloths(); index < cloth_count()
+    Surface cloth(std::size_t index) const;  ///< in the order of cloths(); empty from cloth_count() on
     /// Of the surface's vertices, for normal maps: unit tangents along which u grows, and in w the handedness, 1 or −1:
     /// bitangent = w · normal × tangent. Empty if the mesh has no UVs. Valid as long as the surface, and until the next
     /// call.
@@ -155,9 +164,14 @@ class WEFT_API Simulation {
 
     /// Writes the surfaces as they are now: `.obj`, `.ply` or `.glb`.
     Result<Done> save(const std::filesystem::path& file) const;
+    /// Writes what is in the world as a scene file: what was loaded or added, with every change since, but not where
+    /// cloth and colliders have moved. Loading it gives a simulation that starts as one would in which all of it had
+    /// been there from the start. Meshes that were given in memory go into .ply files beside it. Fails for a world
+    /// without a cloth.
+    Result<Done> save_scene(const std::filesystem::path& file) const;
 
   private:
-    friend struct VulkanAccess;  // <weft/vulkan.h>
+    friend struct SimulationAccess;  // of weft::io
     struct Impl;
     explicit Simulation(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;

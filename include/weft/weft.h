@@ -4,6 +4,7 @@
 #include <weft/bounds.h>
 #include <weft/export.h>
 #include <weft/feedback.h>
+#include <weft/files.h>
 #include <weft/ids.h>
 #include <weft/mesh.h>
 #include <weft/result.h>

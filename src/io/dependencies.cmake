@@ -2,11 +2,9 @@
 find_package(TinyGLTF REQUIRED)
 target_link_libraries(weft_io PRIVATE TinyGLTF::TinyGLTF)
 
-# Scene files.
+# Mesh import, and the checks of glTF before it.
 find_package(nlohmann_json REQUIRED)
 target_link_libraries(weft_io PRIVATE nlohmann_json::nlohmann_json)
-
-# Mesh import.
 find_package(assimp REQUIRED)
 target_link_libraries(weft_io PRIVATE assimp::assimp)
 

@@ -307,10 +307,14 @@ void check_collider(const ColliderDesc& collider, const std::string& pointer, Pr
 }
 
 void check_scene(const SceneDesc& scene, Problems& problems) {
+    if (scene.cloths.empty()) problems.add("/cloths", "must hold at least one cloth");
+    check_parts(scene, problems);
+}
+
+void check_parts(const SceneDesc& scene, Problems& problems) {
     check_values(scene_keys, &scene, "", problems);
     check_solver(scene.solver, "/solver", problems);
     if (scene.air) check_air(*scene.air, "/air", problems);
-    if (scene.cloths.empty()) problems.add("/cloths", "must hold at least one cloth");
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) check_cloth(scene.cloths[i], at("/cloths", i), problems);
     for (std::size_t i = 0; i < scene.colliders.size(); ++i)
         check_collider(scene.colliders[i], at("/colliders", i), problems);

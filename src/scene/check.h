@@ -27,6 +27,8 @@ void check_values(std::span<const Parameter> table, const void* base, const std:
 
 /// Checks a whole scene, but for what a mesh file alone can tell.
 void check_scene(const SceneDesc& scene, Problems& problems);
+/// The same, but a world that is to be filled need not have a cloth.
+void check_parts(const SceneDesc& scene, Problems& problems);
 /// The same as a list, each `where` a JSON pointer in the terms of a scene file; empty if the scene can be run.
 Errors check_scene(const SceneDesc& scene);
 

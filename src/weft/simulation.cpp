@@ -3,7 +3,7 @@
 #include "scene/check.h"
 #include "scene/scene_keys.h"
 #include "solver/measures/statistics.h"
-#include "weft/placement.h"
+#include "weft/simulation_access.h"
 
 #include <weft/weft.h>
 
@@ -30,15 +30,10 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .tether_slack = desc.tether_slack};
 }
 
-std::vector<std::string_view> names_of_cloths(const World& world) {
+template <class Named>
+std::vector<std::string_view> names_of(const std::vector<Named>& all) {
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < world.cloth_count(); ++i) names.push_back(world.model(world.cloth_id(i))->name);
-    return names;
-}
-
-std::vector<std::string_view> names_of_colliders(const World& world) {
-    std::vector<std::string_view> names;
-    for (const Collider& collider : world.colliders()) names.push_back(collider.name);
+    for (const Named& one : all) names.push_back(one.name);
     return names;
 }
 
@@ -62,7 +57,7 @@ Result<Done> checked(Check&& check) {
     return Done{};
 }
 
-Surface view(const ExportSurface& surface) {
+Surface view(const DrawnSurface& surface) {
     return {surface.name, surface.positions, surface.normals, surface.uvs, surface.triangles};
 }
 
@@ -83,49 +78,58 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Result<Simulation> Simulation::Impl::load(const std::filesystem::path& scene, const Options& options,
-                                          const Session::MakeBackend& make) {
-    auto session = Session::open(scene, options, make);
-    if (!session) return session.errors();
-    return Simulation(std::make_unique<Impl>(Impl{std::move(*session)}));
+Result<Simulation> SimulationAccess::create(SceneDesc scene, const Options& options,
+                                            const std::filesystem::path& folder, const MakeBackend& make) {
+    auto made = SceneWorld::create(std::move(scene), options, folder, make);
+    if (!made) return made.errors();
+    return Simulation(std::unique_ptr<Simulation::Impl>(new Simulation::Impl{std::move(*made)}));
 }
 
-Result<Simulation> Simulation::Impl::create(const WorldDesc& world, const Options& options,
-                                            const Session::MakeBackend& make) {
-    SceneDesc scene{.name = {},
-                    .gravity = world.gravity,
-                    .frame_rate = world.frame_rate,
-                    .solver = world.solver,
-                    .air = world.air,
-                    .cloths = {},
-                    .colliders = {}};
-    const auto sound = checked([&](Problems& problems) {
-        check_values(scene_keys, &scene, "", problems);
-        check_solver(scene.solver, "/solver", problems);
-        if (scene.air) check_air(*scene.air, "/air", problems);
-    });
+const SceneDesc& SimulationAccess::scene(const Simulation& simulation) {
+    return simulation.impl_->scene.scene();
+}
+
+const std::filesystem::path& SimulationAccess::folder(const Simulation& simulation) {
+    return simulation.impl_->scene.folder();
+}
+
+std::span<const DrawnSurface> SimulationAccess::surfaces(const Simulation& simulation) {
+    return simulation.impl_->surfaces();
+}
+
+World& SimulationAccess::world(Simulation& simulation) {
+    return simulation.impl_->world();
+}
+
+const World& SimulationAccess::world(const Simulation& simulation) {
+    return simulation.impl_->world();
+}
+
+Result<SceneDesc> empty_scene(const WorldDesc& world) {
+    SceneDesc scene;
+    scene.gravity = world.gravity;
+    scene.frame_rate = world.frame_rate;
+    scene.solver = world.solver;
+    scene.air = world.air;
+    const auto sound = checked([&](Problems& problems) { check_parts(scene, problems); });
     if (!sound) return sound.errors();
-    auto session = Session::create(std::move(scene), options, {}, make);
-    if (!session) return session.errors();
-    return Simulation(std::make_unique<Impl>(Impl{std::move(*session)}));
-}
-
-Result<Simulation> Simulation::load(const std::filesystem::path& scene, const Options& options) {
-    return Impl::load(scene, options, {});
+    return scene;
 }
 
 Result<Simulation> Simulation::create(const WorldDesc& world, const Options& options) {
-    return Impl::create(world, options, {});
+    auto scene = empty_scene(world);
+    if (!scene) return scene.errors();
+    return SimulationAccess::create(std::move(*scene), options, {});
 }
 
 void Simulation::step() {
-    impl_->session.advance();
+    impl_->scene.advance();
     impl_->changed();
 }
 
 Result<Done> Simulation::step(double dt) {
     if (!(dt > 0 && dt <= 1000)) return Error{"dt", "must be > 0 s and ≤ 1000 s, got " + number_text(dt)};
-    impl_->session.advance(dt);
+    impl_->scene.advance(dt);
     impl_->changed();
     return Done{};
 }
@@ -139,17 +143,17 @@ double Simulation::time() const {
 
 Result<ClothId> Simulation::add(const ClothDesc& desc) {
     Problems problems;
-    const auto taken = names_of_cloths(impl_->world());
+    const auto taken = names_of(impl_->scene.scene().cloths);
     const std::string name = own_name(desc.name, "cloth", taken, problems);
     auto fabric = make_fabric(desc.fabric);
     SceneCloth cloth = resolved(desc, fabric ? *fabric : Fabric{});
     cloth.name = name;
     check_cloth(cloth, "", problems);
-    check_attachments(cloth.pins, names_of_colliders(impl_->world()), "/pins", problems);
+    check_attachments(cloth.pins, names_of(impl_->scene.scene().colliders), "/pins", problems);
     if (!fabric)
         for (const Error& error : fabric.errors()) problems.add(error.where, error.what);
     if (!problems.none()) return std::move(problems).take();
-    auto id = impl_->session.add(cloth, "");
+    auto id = impl_->scene.add(std::move(cloth));
     if (id) impl_->changed();
     return id;
 }
@@ -157,23 +161,23 @@ Result<ClothId> Simulation::add(const ClothDesc& desc) {
 Result<ColliderId> Simulation::add(const ColliderDesc& desc) {
     Problems problems;
     ColliderDesc collider = desc;
-    const auto taken = names_of_colliders(impl_->world());
+    const auto taken = names_of(impl_->scene.scene().colliders);
     collider.name = own_name(desc.name, "collider", taken, problems);
     check_collider(collider, "", problems);
     if (!problems.none()) return std::move(problems).take();
-    return impl_->world().add(make_collider(collider));
+    return impl_->scene.add(std::move(collider));
 }
 
 Result<Done> Simulation::remove(ClothId id) {
     if (!impl_->world().contains(id)) return no_such("cloth");
-    impl_->session.remove(id);
+    impl_->scene.remove(id);
     impl_->changed();
     return Done{};
 }
 
 Result<Done> Simulation::remove(ColliderId id) {
     if (!impl_->world().contains(id)) return no_such("collider");
-    impl_->world().remove(id);
+    impl_->scene.remove(id);
     return Done{};
 }
 
@@ -206,7 +210,7 @@ Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     const auto fabric = make_fabric(desc);
     if (!fabric) return fabric.errors();
-    auto done = impl_->session.set_fabric(id, *fabric, desc.preset);
+    auto done = impl_->scene.set_fabric(id, *fabric, desc.preset);
     impl_->changed();
     return done;
 }
@@ -215,10 +219,10 @@ Result<Done> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     const auto sound = checked([&](Problems& problems) {
         check_pins(pins, MeshFileDesc(), "/pins", problems);
-        check_attachments(pins, names_of_colliders(impl_->world()), "/pins", problems);
+        check_attachments(pins, names_of(impl_->scene.scene().colliders), "/pins", problems);
     });
     if (!sound) return sound;
-    auto done = impl_->session.set_pins(id, std::move(pins));
+    auto done = impl_->scene.set_pins(id, std::move(pins));
     impl_->changed();
     return done;
 }
@@ -228,7 +232,7 @@ Result<Done> Simulation::move(ColliderId id, Vec3 position, Vec3 rotation_degree
     const TransformDesc transform{.position = position, .rotation_degrees = rotation_degrees};
     const auto sound = checked([&](Problems& problems) { check_values(pose_keys, &transform, "", problems); });
     if (!sound) return sound;
-    impl_->world().move(id, {rotation_from_degrees(rotation_degrees), position});
+    impl_->scene.move(id, position, rotation_degrees);
     return Done{};
 }
 
@@ -238,7 +242,7 @@ Result<Done> Simulation::set_friction(ColliderId id, float static_friction, floa
     desc.friction = {static_friction, kinetic_friction};
     const auto sound = checked([&](Problems& problems) { check_values(collider_keys, &desc, "", problems); });
     if (!sound) return sound;
-    impl_->world().set_friction(id, desc.friction);
+    impl_->scene.set_friction(id, desc.friction);
     return Done{};
 }
 
@@ -247,23 +251,14 @@ Result<Done> Simulation::set_gravity(Vec3 gravity) {
     scene.gravity = gravity;
     const auto sound = checked([&](Problems& problems) { check_values(scene_keys, &scene, "", problems); });
     if (!sound) return sound;
-    WorldSettings settings = impl_->world().settings();
-    settings.gravity = gravity;
-    impl_->world().configure(settings);
+    impl_->scene.set_gravity(gravity);
     return Done{};
 }
 
 Result<Done> Simulation::set_solver(const SolverDesc& solver) {
     const auto sound = checked([&](Problems& problems) { check_solver(solver, "", problems); });
     if (!sound) return sound;
-    WorldSettings settings = impl_->world().settings();
-    settings.substeps = solver.substeps;
-    settings.iterations = solver.iterations;
-    settings.method = solver.method;
-    settings.projection = solver.projection;
-    settings.accumulate = solver.accumulate;
-    settings.hierarchy = solver.hierarchy;
-    auto done = impl_->session.configure(settings);
+    auto done = impl_->scene.set_solver(solver);
     impl_->changed();
     return done;
 }
@@ -273,9 +268,7 @@ Result<Done> Simulation::set_air(const std::optional<AirDesc>& air) {
         if (air) check_air(*air, "", problems);
     });
     if (!sound) return sound;
-    WorldSettings settings = impl_->world().settings();
-    settings.air = air;
-    impl_->world().configure(settings);
+    impl_->scene.set_air(air);
     return Done{};
 }
 
@@ -284,12 +277,11 @@ std::size_t Simulation::cloth_count() const {
 }
 
 Surface Simulation::cloth(std::size_t index) const {
-    return view(impl_->surfaces()[index]);
+    return index < cloth_count() ? view(impl_->surfaces()[index]) : Surface{};
 }
 
 Surface Simulation::surface(ClothId id) const {
-    const std::size_t place = place_of(impl_->world(), id);
-    return place < cloth_count() ? cloth(place) : Surface{};
+    return cloth(place_of(impl_->world(), id));
 }
 
 std::span<const Vec4> Simulation::tangents(ClothId id) const {
@@ -336,17 +328,6 @@ Result<Done> Simulation::restore_state(std::span<const std::byte> state) {
     auto done = impl_->world().restore(*snapshot);
     if (done) impl_->changed();
     return done;
-}
-
-Result<Done> Simulation::save(const std::filesystem::path& file) const {
-    auto exporter = make_exporter(file);
-    if (!exporter) return exporter.errors();
-    const Session& session = impl_->session;
-    if (auto begun = (*exporter)->begin({session.scene().name, session.scene().frame_rate, 1, session.folder()});
-        !begun)
-        return begun;
-    if (auto written = (*exporter)->write({frame(), time(), impl_->surfaces()}); !written) return written;
-    return (*exporter)->finish();
 }
 
 }  // namespace weft

@@ -1,6 +1,4 @@
 // The public interface, as a program uses it.
-#include "io/files/temporary_folder.test.h"
-
 #include <weft/weft.h>
 
 #include <gmock/gmock.h>
@@ -204,6 +202,9 @@ TEST(Simulation, knows_no_id_that_has_been_removed) {
     EXPECT_TRUE(simulation.surface(cloth).positions.empty());
     EXPECT_TRUE(simulation.tangents(cloth).empty());
     EXPECT_FALSE(simulation.find_cloth("nobody"));
+    EXPECT_EQ(simulation.cloth(0).name, "cloth 0");
+    EXPECT_TRUE(simulation.cloth(1).positions.empty()) << "there is one cloth";
+    EXPECT_TRUE(simulation.cloth(static_cast<std::size_t>(-1)).name.empty());
 }
 
 TEST(Simulation, changes_while_it_runs) {
@@ -261,8 +262,48 @@ TEST(Simulation, carries_cloth_that_is_attached_to_a_collider) {
     EXPECT_NEAR(simulation.surface(cloth).positions[0].y, corner.y + 0.3f, 1e-5f);
 }
 
+TEST(Simulation, leaves_cloth_where_a_removed_collider_held_it) {
+    Simulation simulation = make_simulation();
+    const ColliderId hand =
+        *simulation.add(ColliderDesc{.name = "hand", .shape = SphereDesc{0.01f}, .transform = {.position = {4, 3, 0}}});
+    ClothDesc desc = small_sheet({4, 3, 0});
+    desc.pins = {{.select = VertexPins{{0, 8}}, .attach = "hand"}};
+    const ClothId cloth = *simulation.add(desc);
+    for (int i = 1; i <= 5; ++i) {
+        ASSERT_TRUE(simulation.move(hand, {4, 3 + 0.01f * static_cast<float>(i), 0}).ok());
+        simulation.step();
+    }
+    const Vec3 corner = simulation.surface(cloth).positions[0];
+    ASSERT_TRUE(simulation.remove(hand).ok());
+    simulation.step();
+    EXPECT_EQ(simulation.surface(cloth).positions[0], corner);
+    ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("denim")).ok());
+    ASSERT_TRUE(simulation.set_solver({.substeps = 10, .hierarchy = false}).ok());
+    for (int i = 0; i < 5; ++i) simulation.step();
+    EXPECT_LT(length(simulation.surface(cloth).positions[0] - corner), 1e-5f);
+}
+
+TEST(Simulation, reads_meshes_as_it_is_told_to) {
+    Simulation without = make_simulation();
+    EXPECT_THAT(messages(without.add({.mesh = MeshFileDesc{.file = "shirt.obj"}})),
+                ElementsAre("/mesh/file: shirt.obj: cannot be read: this program reads no mesh files "
+                            "(Options::read_mesh is empty)"));
+    Options options;
+    options.read_mesh = [](const std::string& file, const std::filesystem::path& folder) -> Result<TriangleMesh> {
+        EXPECT_TRUE(folder.empty());
+        if (file != "shirt.obj") return Error{file, "is not in the archive"};
+        return TriangleMesh{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, .triangles = {{0, 1, 2}}};
+    };
+    auto with = Simulation::create({}, options);
+    ASSERT_TRUE(with.ok());
+    const auto cloth = with->add({.mesh = MeshFileDesc{.file = "shirt.obj", .scale = 2}});
+    ASSERT_TRUE(cloth.ok());
+    EXPECT_EQ(with->surface(*cloth).positions[2], (Vec3{2, 0, 0}));
+    EXPECT_THAT(messages(with->add({.mesh = MeshFileDesc{.file = "hat.obj"}})),
+                ElementsAre("/mesh/file: hat.obj: is not in the archive"));
+}
+
 TEST(Simulation, comes_back_to_a_saved_state) {
-    TemporaryFolder folder;
     Simulation simulation = make_simulation();
     ASSERT_TRUE(simulation.add(small_sheet({0, 0.3f, 0})).ok());
     ASSERT_TRUE(simulation.add(ColliderDesc{.shape = SphereDesc{0.2f}}).ok());

@@ -1,26 +1,15 @@
 #ifdef WEFT_VULKAN
 // The Vulkan headers of the house come before the public one: without prototypes.
 #include "gpu/device.h"
+#include "solver/world/world.h"
 #include "vulkan/interop.h"
-#include "weft/simulation_impl.h"
+#include "weft/simulation_access.h"
 
 #include <weft/vulkan.h>
 
 #include <string>
 
 namespace weft {
-
-struct VulkanAccess {
-    static Result<Simulation> load(const std::filesystem::path& scene, const Options& options,
-                                   const Session::MakeBackend& make) {
-        return Simulation::Impl::load(scene, options, make);
-    }
-    static Result<Simulation> create(const WorldDesc& world, const Options& options, const Session::MakeBackend& make) {
-        return Simulation::Impl::create(world, options, make);
-    }
-    static World& world(Simulation& simulation) { return simulation.impl_->world(); }
-    static const World& world(const Simulation& simulation) { return simulation.impl_->world(); }
-};
 
 namespace {
 
@@ -62,10 +51,6 @@ Result<std::unique_ptr<Backend>> make_backend_on(const VulkanHost& host, const O
                                {.execution = options.execution, .timings = options.stage_timings});
 }
 
-Session::MakeBackend on(const VulkanHost& host) {
-    return [&host](const Options& options) { return make_backend_on(host, options); };
-}
-
 Error not_on_vulkan(const Backend& backend) {
     return {"backend", "must be vulkan for buffers on a device, is " + std::string(backend.name())};
 }
@@ -82,16 +67,18 @@ VulkanArray array(const gpu::BufferRange& range, VkFormat format, std::uint32_t 
 
 }  // namespace
 
-Result<Simulation> load_on(const VulkanHost& host, const std::filesystem::path& scene, const Options& options) {
-    return VulkanAccess::load(scene, options, on(host));
+MakeBackend SimulationAccess::backend_on(const VulkanHost& host) {
+    return [&host](const Options& options) { return make_backend_on(host, options); };
 }
 
 Result<Simulation> create_on(const VulkanHost& host, const WorldDesc& world, const Options& options) {
-    return VulkanAccess::create(world, options, on(host));
+    auto scene = empty_scene(world);
+    if (!scene) return scene.errors();
+    return SimulationAccess::create(std::move(*scene), options, {}, SimulationAccess::backend_on(host));
 }
 
 Result<VulkanHost> vulkan_device(const Simulation& simulation) {
-    const Backend& backend = VulkanAccess::world(simulation).backend();
+    const Backend& backend = SimulationAccess::world(simulation).backend();
     const auto* interop = dynamic_cast<const VulkanInterop*>(&backend);
     if (!interop) return not_on_vulkan(backend);
     const gpu::Device& device = *interop->shared_device();
@@ -106,7 +93,7 @@ Result<VulkanHost> vulkan_device(const Simulation& simulation) {
 }
 
 Result<VulkanSurface> vulkan_surface(Simulation& simulation, ClothId cloth, VulkanMoment before) {
-    World& world = VulkanAccess::world(simulation);
+    World& world = SimulationAccess::world(simulation);
     auto* interop = dynamic_cast<VulkanInterop*>(&world.backend());
     if (!interop) return not_on_vulkan(world.backend());
     if (!world.contains(cloth)) return Error{"cloth", "names nothing in this simulation"};

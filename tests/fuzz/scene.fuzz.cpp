@@ -1,8 +1,10 @@
-// Any bytes as a scene file: either a scene that passes its own checks, builds a world, if its meshes are at hand, and
-// stays finite, or errors that a user can read.
+// Any bytes as a scene file: either a scene that passes its own checks, comes back when it is written, builds a world,
+// if its meshes are at hand, and stays finite, or errors that a user can read.
 #include "io/scenes/scene_file.h"
+#include "io/scenes/scene_writer.h"
 #include "scene/check.h"
-#include "weft/session.h"
+#include "weft/drawn_frame.h"
+#include "weft/scene_world.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,7 +31,7 @@ void require_readable(const Errors& errors) {
     }
 }
 
-bool is_finite(const ExportSurface& surface) {
+bool is_finite(const DrawnSurface& surface) {
     const auto all = [](std::span<const Vec3> vectors) {
         return std::ranges::all_of(vectors, [](Vec3 v) { return finite(v); });
     };
@@ -57,7 +59,7 @@ bool shrink(SceneDesc& scene) {
 }
 
 void simulate(SceneDesc scene) {
-    auto session = Session::create(std::move(scene), {});
+    auto session = SceneWorld::create(std::move(scene), {});
     if (!session) return require_readable(session.errors());
     DrawnFrame drawn;
     for (int i = 0; i < 2; ++i) {
@@ -77,6 +79,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     require(check_scene(*scene).empty(), "a scene that was read does not pass its checks");
     require(!scene->cloths.empty(), "a scene without cloths was read");
+    const Result<std::string> text = write_scene(*scene);
+    require(text.ok(), "a scene that was read cannot be written");
+    const Result<SceneDesc> again = parse_scene(*text, "written.json");
+    require(again.ok() && *again == *scene, "a scene that was written is another one");
     if (shrink(*scene)) simulate(std::move(*scene));
     return 0;
 }

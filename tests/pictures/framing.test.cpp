@@ -28,7 +28,7 @@ class FramedScenes : public gpu::OnDevice {
         std::ofstream(file) << R"({ "weft": 1, )" << body << " }";
         Options options;
         options.backend = "cpu";
-        auto session = Session::open(file, options);
+        auto session = open_scene(file, options);
         EXPECT_TRUE(session.ok()) << session.error().message();
         if (!session) return {};
         World& world = session->world();

@@ -24,19 +24,19 @@ TEST_F(SceneViewTest, draws_the_same_when_the_owner_of_the_scene_has_moved) {
     std::ofstream(file) << scene_text({.name = "moved", .look = "\"satin\""});
     Options options;
     options.backend = "cpu";
-    auto opened = Session::open(file, options);
+    auto opened = open_scene(file, options);
     ASSERT_TRUE(opened.ok()) << opened.error().message();
-    auto first = std::make_unique<Session>(std::move(*opened));
+    auto first = std::make_unique<SceneWorld>(std::move(*opened));
     auto view = SceneView::create(device, first->scene(), first->world(),
                                   {.width = 64, .height = 36, .samples = 1, .overlays = {}});
     ASSERT_TRUE(view.ok()) << view.error().message();
-    const auto picture_of = [&](Session& session) {
+    const auto picture_of = [&](SceneWorld& session) {
         auto image = view->picture(session.scene(), session.world(), view->camera(session.scene(), session.world()));
         EXPECT_TRUE(image.ok()) << image.error().message();
         return image ? image->rgba : std::vector<std::uint8_t>{};
     };
     const auto before = picture_of(*first);
-    Session second(std::move(*first));
+    SceneWorld second(std::move(*first));
     first.reset();
     EXPECT_EQ(picture_of(second), before);
     EXPECT_FALSE(before.empty());

@@ -109,7 +109,7 @@ Image8 PictureTest::drawn(const PictureScene& scene) {
     Options options;
     options.backend = "cpu";
     options.feedback = true;
-    auto session = Session::open(file, options);
+    auto session = open_scene(file, options);
     EXPECT_TRUE(session.ok()) << session.error().message();
     if (!session) return {};
     for (int i = 0; i < (scene.hung ? frames_hung : frames_laid); ++i) session->advance();

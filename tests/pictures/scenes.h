@@ -2,9 +2,9 @@
 #pragma once
 
 #include "base/image.h"
+#include "files/open_scene.h"
 #include "gpu/test_device.h"
 #include "view/scene_view.h"
-#include "weft/session.h"
 
 #include <gtest/gtest.h>
 

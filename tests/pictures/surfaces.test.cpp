@@ -20,7 +20,7 @@ class VulkanPicturesOfSurfaces : public testing::Test {
         std::ofstream(file) << scene_text({.name = "surfaces", .look = "\"denim\"", .hung = true});
         Options options;
         options.backend = backend;
-        auto opened = Session::open(file, options);
+        auto opened = open_scene(file, options);
         ASSERT_TRUE(opened.ok()) << opened.error().message();
         session.emplace(std::move(*opened));
         for (int i = 0; i < 8; ++i) session->advance();
@@ -38,7 +38,7 @@ class VulkanPicturesOfSurfaces : public testing::Test {
         return image ? std::move(*image) : Image8{};
     }
 
-    std::optional<Session> session;
+    std::optional<SceneWorld> session;
 };
 
 TEST_F(VulkanPicturesOfSurfaces, from_the_device_and_from_the_host_are_the_same) {

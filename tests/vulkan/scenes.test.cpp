@@ -2,8 +2,8 @@
 
 #include "vulkan_fixture.h"
 
+#include "files/open_scene.h"
 #include "solver/measures/statistics.h"
-#include "weft/session.h"
 
 #include <weft/weft.h>
 
@@ -19,7 +19,7 @@ struct Outcome {
 };
 
 Outcome simulate(const std::filesystem::path& scene, const std::string& backend, int frames) {
-    auto session = Session::open(scene, {.backend = backend});
+    auto session = open_scene(scene, {.backend = backend});
     if (!session) {
         ADD_FAILURE() << session.error().message();
         return {};
@@ -65,7 +65,7 @@ TEST(VulkanScenes, are_as_on_the_cpu) {
 TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / "sheet_on_sphere.json";
     const auto run = [&](const char* execution, std::uint32_t substeps) {
-        auto session = Session::open(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
+        auto session = open_scene(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
         if (!session) {
             ADD_FAILURE() << session.error().message();
             return std::string();
@@ -108,8 +108,7 @@ TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
         const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
         for (const std::uint32_t substeps : {4u, 7u}) {
             const auto run = [&](const char* execution) {
-                auto session =
-                    Session::open(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
+                auto session = open_scene(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
                 if (!session) {
                     ADD_FAILURE() << session.error().message();
                     return std::string();
@@ -136,15 +135,15 @@ TEST(VulkanScenes, do_not_tell_that_they_are_cut_into_patches) {
         SCOPED_TRACE(std::string(name) + ", " + method + ", " + accumulate);
         const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
         const auto run = [&](const char* execution) {
-            auto session = Session::open(scene, {.backend = "vulkan",
-                                                 .execution = execution,
-                                                 .substeps = 2,
-                                                 .iterations = 5,
-                                                 .method = method,
-                                                 .projection = "jacobi",
-                                                 .accumulate = accumulate,
-                                                 .hierarchy = false,
-                                                 .stage_timings = true});
+            auto session = open_scene(scene, {.backend = "vulkan",
+                                              .execution = execution,
+                                              .substeps = 2,
+                                              .iterations = 5,
+                                              .method = method,
+                                              .projection = "jacobi",
+                                              .accumulate = accumulate,
+                                              .hierarchy = false,
+                                              .stage_timings = true});
             if (!session) {
                 ADD_FAILURE() << session.error().message();
                 return std::pair(std::string(), 0.0);

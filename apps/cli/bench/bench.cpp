@@ -1,7 +1,7 @@
 #include "cli/bench/bench_report.h"
 #include "cli/run/stats.h"
 #include "io/files/atomic_file.h"
-#include "weft/session.h"
+#include "weft/scene_world.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

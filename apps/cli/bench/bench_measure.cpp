@@ -4,7 +4,7 @@
 #include "cli/run/stats.h"
 #include "cli/shell/progress.h"
 #include "cpu/cpu_backend.h"
-#include "weft/session.h"
+#include "files/open_scene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -60,7 +60,7 @@ struct Average {
 // A sheet that swings is stretched by turns more and less, and a window of a second tells where the swing is.
 constexpr double longest_quality_seconds = 2;
 
-std::uint64_t quality_frames(const Session& session, const Plan& plan) {
+std::uint64_t quality_frames(const SceneWorld& session, const Plan& plan) {
     const auto frames = static_cast<std::uint64_t>(longest_quality_seconds / session.frame_seconds() + 0.5);
     return std::clamp<std::uint64_t>(frames, 1, plan.all());
 }
@@ -69,7 +69,8 @@ using GoOn = std::function<bool(std::uint64_t frames)>;
 
 // The run without a clock. `heap_before` is what the heap held before the session was opened. Whether it came to its
 // end.
-bool run_for_quality(Session& session, const Plan& plan, double heap_before, const GoOn& go_on, SceneFigures& figures) {
+bool run_for_quality(SceneWorld& session, const Plan& plan, double heap_before, const GoOn& go_on,
+                     SceneFigures& figures) {
     const std::uint64_t window = quality_frames(session, plan);
     Average stretch, shear, residual;
     std::uint32_t reports = report_none;
@@ -121,7 +122,7 @@ struct Timings {
     }
 };
 
-void add_build_times(const Session& session, Timings& timings) {
+void add_build_times(const SceneWorld& session, Timings& timings) {
     BuildTimes sum;
     for (const ClothFrame& cloth : session.world().frame().cloths) {
         for (std::uint32_t part = 0; part < build_part_count; ++part) sum.ms[part] += cloth.model->build_times.ms[part];
@@ -150,7 +151,7 @@ Result<std::string> run_for_time(const BenchSubject& subject, const Options& opt
 
 // --- Figures
 
-void describe(const Session& session, const Options& options, SceneFigures& figures) {
+void describe(const SceneWorld& session, const Options& options, SceneFigures& figures) {
     const World& world = session.world();
     figures.backend = world.backend().name();
     figures.device = world.backend().device();
@@ -172,7 +173,7 @@ void describe(const Session& session, const Options& options, SceneFigures& figu
     }
 }
 
-Result<Plan> plan_runs(const BenchSubject& subject, const BenchSettings& settings, const Session& session,
+Result<Plan> plan_runs(const BenchSubject& subject, const BenchSettings& settings, const SceneWorld& session,
                        SceneFigures& figures) {
     const auto frames = frame_count(settings.length, session.frame_seconds());
     if (!frames) return frames.errors();
@@ -235,14 +236,14 @@ void sum_up(Timings timings, const FrameTraffic& traffic, SceneFigures& figures)
 }  // namespace
 
 BenchSubject scene_subject(const std::string& file) {
-    return {file, [file](const Options& options) { return Session::open(file, options); }};
+    return {file, [file](const Options& options) { return open_scene(file, options); }};
 }
 
 std::vector<BenchSubject> built_in_subjects() {
     std::vector<BenchSubject> subjects;
     for (const std::uint32_t side : {32u, 64u, 128u, 256u}) {
         subjects.push_back({"sheet " + std::to_string(side),
-                            [side](const Options& options) { return Session::create(sheet_scene(side), options); }});
+                            [side](const Options& options) { return SceneWorld::create(sheet_scene(side), options); }});
     }
     return subjects;
 }
@@ -254,7 +255,7 @@ std::vector<BenchSubject> build_subjects(const std::vector<std::uint32_t>& sides
                                 SceneDesc scene = sheet_scene(side);
                                 scene.cloths.front().tethers = Tethers::on;
                                 scene.solver.hierarchy = true;
-                                return Session::create(std::move(scene), options);
+                                return SceneWorld::create(std::move(scene), options);
                             }});
     }
     return subjects;
@@ -290,7 +291,7 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
         return true;
     };
     run_for_quality(*session, plan, heap_before, on_frame, figures);
-    { const Session gone = std::move(*session); }  // two at once would share the caches
+    { const SceneWorld gone = std::move(*session); }  // two at once would share the caches
 
     Timings timings;
     for (std::uint32_t run = 1; run <= settings.repeat; ++run) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace weft {
-class Session;
+class SceneWorld;
 }
 
 namespace weft::cli {
@@ -27,7 +27,7 @@ struct BenchSettings {
 /// Something to measure.
 struct BenchSubject {
     std::string name;
-    std::function<Result<Session>(const Options&)> open;
+    std::function<Result<SceneWorld>(const Options&)> open;
 };
 
 /// A scene file.

@@ -1,8 +1,8 @@
 #include "cli/shell/command.h"
 
+#include "files/open_scene.h"
 #include "io/meshes/mesh_file.h"
 #include "scene/looks.h"
-#include "weft/session.h"
 
 #include <CLI/CLI.hpp>
 
@@ -28,7 +28,7 @@ Command add_check(CLI::App& program) {
     command->add_option("scene", *scene, "scene file")->required();
     command->footer("Example:\n  weft check scenes/hanging_bunny.json");
     return [scene] {
-        auto session = Session::open(*scene, {});
+        auto session = open_scene(*scene, {});
         if (!session) {
             print_errors(session.errors());
             return exit_usage;

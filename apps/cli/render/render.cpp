@@ -5,12 +5,12 @@
 #include "cli/render/view_sources.h"
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress.h"
+#include "files/open_scene.h"
 #include "io/images/picture_writer.h"
 #include "view/framing.h"
 #include "view/overlays.h"
 #include "view/scene_view.h"
 #include "weft/drawing_device.h"
-#include "weft/session.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +27,7 @@ using Writers = std::vector<std::unique_ptr<PictureWriter>>;
 
 /// A run and what is drawn of it.
 struct Job {
-    Session& session;
+    SceneWorld& session;
     SceneView& view;
     Writers& writers;
     std::optional<Camera> camera;  ///< of the command line or the scene; without one:
@@ -177,7 +177,7 @@ int render(const RenderOptions& options) {
     Options common = options.common;
     common.feedback = *feedback;
     if (common.backend == "cpu") common.device.clear();  // it names the one that draws
-    auto session = Session::open(options.scene, common);
+    auto session = open_scene(options.scene, common);
     if (!session) return wrong(session.errors());
     const auto frames = frame_count(options.length, session->frame_seconds(), 0);
     if (!frames) return wrong(frames.errors());

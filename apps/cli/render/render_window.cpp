@@ -2,6 +2,7 @@
 
 #ifdef WEFT_VULKAN
 #include "cli/render/view_sources.h"
+#include "files/open_scene.h"
 #include "render/orbit.h"
 #include "render/window.h"
 #include "view/framing.h"
@@ -10,7 +11,6 @@
 #include "view/scene_view.h"
 #include "vulkan/interop.h"
 #include "weft/backends.h"
-#include "weft/session.h"
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ struct Machine {
 /// A scene that runs, and the window in which that is seen.
 class Show {
   public:
-    Show(Session& session, SceneView& view, render::Window& window, const ShowOptions& options,
+    Show(SceneWorld& session, SceneView& view, render::Window& window, const ShowOptions& options,
          std::optional<std::uint64_t> frames)
         : session_(session),
           view_(view),
@@ -114,10 +114,7 @@ class Show {
 
     Result<Done> set_overlays() {
         const bool feedback = std::ranges::any_of(shown_, &Overlay::needs_feedback);
-        WorldSettings settings = session_.world().settings();
-        if (std::exchange(settings.feedback, feedback) != feedback) {
-            if (auto done = session_.configure(settings); !done) return done;
-        }
+        session_.set_feedback(feedback);
         view_.set_overlays(shown_);
         return Done{};
     }
@@ -170,7 +167,7 @@ class Show {
         pictures_ = steps_ = 0;
     }
 
-    Session& session_;
+    SceneWorld& session_;
     SceneView& view_;
     render::Window& window_;
     std::optional<std::uint64_t> frames_;
@@ -191,7 +188,7 @@ Result<Done> open_and_run(const ShowOptions& options) {
     const auto machine = Machine::open(options.common);
     if (!machine) return machine.errors();
     auto session =
-        Session::open(options.scene, options.common, [&](const Options& common) { return machine->backend(common); });
+        open_scene(options.scene, options.common, [&](const Options& common) { return machine->backend(common); });
     if (!session) return session.errors();
     std::optional<std::uint64_t> frames;
     if (options.length.frames || options.length.seconds) {

@@ -2,9 +2,10 @@
 
 #include "cli/run/stats.h"
 #include "cli/shell/progress.h"
+#include "files/open_scene.h"
 #include "io/exports/export_plan.h"
 #include "io/files/atomic_file.h"
-#include "weft/session.h"
+#include "weft/drawn_frame.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -40,18 +41,18 @@ Result<Exporters> open_exporters(const RunOptions& options) {
     return exporters;
 }
 
-ExportInfo export_info(const Session& session, std::uint64_t frames) {
+ExportInfo export_info(const SceneWorld& session, std::uint64_t frames) {
     // The start is a frame too.
     return {session.scene().name, session.scene().frame_rate, frames + 1, session.folder()};
 }
 
-Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const Session& session, std::uint64_t frames) {
+Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const SceneWorld& session, std::uint64_t frames) {
     DrawnFrame drawn;
     if (!exporters.empty()) drawn.update(session.world().frame(), session.scene().looks);
     return plan_exports(exporters, export_info(session, frames), drawn.surfaces());
 }
 
-Result<Done> simulate(Session& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
+Result<Done> simulate(SceneWorld& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
                       bool quiet) {
     for (auto& exporter : exporters) {
         if (auto begun = exporter->begin(export_info(session, frames)); !begun) return begun;
@@ -93,7 +94,7 @@ int run(const RunOptions& options) {
     if (!exporters) return wrong(exporters.errors());
     Options common = options.common;
     common.stage_timings = !options.stats.empty();
-    auto session = Session::open(options.scene, common);
+    auto session = open_scene(options.scene, common);
     if (!session) return wrong(session.errors());
     const auto frames = frame_count(options.length, session->frame_seconds());
     if (!frames) return wrong(frames.errors());

@@ -52,7 +52,8 @@ double median(const std::vector<double>& sorted) {
     return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
 
-RunStatistics::RunStatistics(const Session& session, std::uint64_t frames) : frame_seconds_(session.frame_seconds()) {
+RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames)
+    : frame_seconds_(session.frame_seconds()) {
     const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);
     snapshot_frame_ = frames - static_cast<std::uint64_t>(last_second + 0.5);
     if (snapshot_frame_ == 0) collect_positions(session.world().frame(), snapshot_);
@@ -77,7 +78,7 @@ double RunStatistics::mean_speed(const Frame& frame) const {
     return elapsed > 0 ? mean_displacement(snapshot_, now) / elapsed : 0;
 }
 
-Json RunStatistics::gather(const Session& session, const std::string& scene_file) const {
+Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_file) const {
     const World& world = session.world();
     const Frame& frame = world.frame();
     std::uint64_t particles = 0, triangles = 0;

@@ -1,7 +1,7 @@
 // The figures of a run: gathered frame by frame, written as JSON, summed up for a human.
 #pragma once
 
-#include "weft/session.h"
+#include "weft/scene_world.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,13 +18,13 @@ double percentile(const std::vector<double>& sorted, double fraction);
 class RunStatistics {
   public:
     /// `frames` steps are going to be run.
-    RunStatistics(const Session& session, std::uint64_t frames);
+    RunStatistics(const SceneWorld& session, std::uint64_t frames);
 
     /// After every step.
     void add(const World& world);
 
     /// After the last one: everything that --stats writes. Counting intersections takes a while on large meshes.
-    nlohmann::ordered_json gather(const Session& session, const std::string& scene_file) const;
+    nlohmann::ordered_json gather(const SceneWorld& session, const std::string& scene_file) const;
 
   private:
     double mean_speed(const Frame& frame) const;

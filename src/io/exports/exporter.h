@@ -1,7 +1,7 @@
 // Writing what was simulated: one interface for every format, chosen by a file name's ending.
 #pragma once
 
-#include "look/material.h"
+#include "look/drawn_surface.h"
 #include "mesh/triangle_mesh.h"
 
 #include <weft/result.h>
@@ -15,18 +15,8 @@
 
 namespace weft {
 
-/// One cloth as it is drawn: the render mesh of a ClothFrame. Spans are read during write alone.
-struct ExportSurface {
-    std::string_view name;
-    std::span<const Vec3> positions;  ///< m
-    std::span<const Vec3> normals;    ///< unit
-    std::span<const Triangle> triangles;
-    std::span<const Vec2> uvs;             ///< one per vertex, or none
-    std::span<const Vec4> colors;          ///< likewise
-    std::span<const Vec3> rest_positions;  ///< m, one per vertex: materials scale with them; without, `positions`
-    std::uint64_t topology_version = 1;    ///< another number whenever `triangles` have changed
-    const Material* material = nullptr;    ///< where a format has materials; without one, light gray and matte
-};
+/// Spans are read during write alone.
+using ExportSurface = DrawnSurface;
 
 /// A mesh as a surface, in its place or with other positions and normals.
 inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh, std::span<const Vec3> positions,

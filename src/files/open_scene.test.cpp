@@ -1,4 +1,5 @@
-#include "weft/session.h"
+#include "files/open_scene.h"
+#include "weft/drawn_frame.h"
 
 #include "io/files/temporary_folder.test.h"
 
@@ -16,12 +17,12 @@ using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 /// A scene of one cloth over the ground, with files beside it.
-class SessionOfACloth : public testing::Test {
+class OpenScene : public testing::Test {
   protected:
-    Result<Session> open(const std::string& cloth_keys) {
-        return Session::open(folder.write("s.json", R"({"weft": 1, "cloths": [{"name": "it", )" + cloth_keys +
-                                                        R"(}], "colliders": [{"plane": {"offset": -1}}]})"),
-                             {.substeps = 5});
+    Result<SceneWorld> open(const std::string& cloth_keys) {
+        return open_scene(folder.write("s.json", R"({"weft": 1, "cloths": [{"name": "it", )" + cloth_keys +
+                                                     R"(}], "colliders": [{"plane": {"offset": -1}}]})"),
+                          {.substeps = 5});
     }
     std::vector<std::string> errors_of(const std::string& cloth_keys) {
         std::vector<std::string> messages;
@@ -36,7 +37,7 @@ class SessionOfACloth : public testing::Test {
     TemporaryFolder folder;
 };
 
-void expect_sound(const Session& session) {
+void expect_sound(const SceneWorld& session) {
     for (const ClothFrame& cloth : session.world().frame().cloths) {
         for (const Vec4& p : cloth.positions) ASSERT_TRUE(finite(p.xyz()));
         for (const Vec4& v : cloth.velocities) ASSERT_TRUE(finite(v.xyz()));
@@ -44,7 +45,7 @@ void expect_sound(const Session& session) {
     }
     DrawnFrame drawn;
     drawn.update(session.world().frame());
-    for (const ExportSurface& surface : drawn.surfaces()) {
+    for (const DrawnSurface& surface : drawn.surfaces()) {
         ASSERT_EQ(surface.positions.size(), surface.rest_positions.size());
         for (const Vec3 p : surface.positions) ASSERT_TRUE(finite(p));
         for (const Vec3 n : surface.normals) ASSERT_NEAR(length(n), 1, 1e-4f);
@@ -52,7 +53,7 @@ void expect_sound(const Session& session) {
 }
 
 /// Returns whether something moved.
-bool run(Session& session, int frames = 30) {
+bool run(SceneWorld& session, int frames = 30) {
     const auto positions = [&] { return session.world().frame().cloths[0].render_mesh().positions; };
     const std::vector<Vec3> before = positions();
     for (int i = 0; i < frames; ++i) {
@@ -85,7 +86,7 @@ f 7 8 9
 f 2 3 7
 )";
 
-TEST_F(SessionOfACloth, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
+TEST_F(OpenScene, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
     folder.write("messy.obj", messy_obj);
     for (const char* more : {"", R"(, "fabric": {"hinges": "source", "rest_angle": 0})", R"(, "tethers": "on",
                              "pins": [{"vertices": [0, 8]}])",
@@ -106,7 +107,7 @@ TEST_F(SessionOfACloth, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
     }
 }
 
-TEST_F(SessionOfACloth, says_nothing_of_a_mesh_that_is_fine) {
+TEST_F(OpenScene, says_nothing_of_a_mesh_that_is_fine) {
     for (const char* mesh : {R"("grid": {})", R"("sphere": {})", R"("box": {})"}) {
         const auto session = open(R"("mesh": {)" + std::string(mesh) + "}");
         ASSERT_TRUE(session.ok()) << session.error().message();
@@ -114,30 +115,30 @@ TEST_F(SessionOfACloth, says_nothing_of_a_mesh_that_is_fine) {
     }
 }
 
-TEST_F(SessionOfACloth, refuses_a_mesh_of_nothing_but_rubbish) {
+TEST_F(OpenScene, refuses_a_mesh_of_nothing_but_rubbish) {
     folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n");
     EXPECT_THAT(errors_of(R"("mesh": {"file": "lines.obj"})"),
                 ElementsAre(HasSubstr("must have at least one triangle with an area, got 2 without")));
 }
 
-TEST_F(SessionOfACloth, has_tethers_by_itself_only_with_coarse_levels) {
+TEST_F(OpenScene, has_tethers_by_itself_only_with_coarse_levels) {
     auto session = open(R"("mesh": {"grid": {"resolution": [33, 33]}}, "fabric": {"inextensible": true},
                            "pins": [{"vertices": [0, 32]}])");
     ASSERT_TRUE(session.ok()) << session.error().message();
     const auto tethers = [&] { return session->world().frame().cloths[0].model->table(ConstraintKind::tether).rows; };
     EXPECT_EQ(tethers(), 2u * (33 * 33 - 2));
-    WorldSettings settings = session->world().settings();
-    settings.hierarchy = false;
-    ASSERT_TRUE(session->configure(settings).ok());
+    SolverDesc solver = session->scene().solver;
+    solver.hierarchy = false;
+    ASSERT_TRUE(session->set_solver(solver).ok());
     EXPECT_TRUE(run(*session));
     EXPECT_EQ(tethers(), 0u);
-    settings.hierarchy = true;
-    ASSERT_TRUE(session->configure(settings).ok());
+    solver.hierarchy = true;
+    ASSERT_TRUE(session->set_solver(solver).ok());
     EXPECT_TRUE(run(*session));
     EXPECT_EQ(tethers(), 2u * (33 * 33 - 2));
 }
 
-TEST_F(SessionOfACloth, drops_spheres_and_boxes) {
+TEST_F(OpenScene, drops_spheres_and_boxes) {
     auto sphere = open(R"("mesh": {"sphere": {"radius": 0.25, "subdivisions": 3}}, "transform": {"position": [1, 2, 3]},
                           "pins": [{"vertices": [641]}])");
     ASSERT_TRUE(sphere.ok()) << sphere.error().message();
@@ -154,7 +155,7 @@ TEST_F(SessionOfACloth, drops_spheres_and_boxes) {
     EXPECT_TRUE(run(*box));
 }
 
-TEST_F(SessionOfACloth, draws_a_fine_mesh_over_a_coarse_one) {
+TEST_F(OpenScene, draws_a_fine_mesh_over_a_coarse_one) {
     auto session = open(R"("mesh": {"grid": {"resolution": [9, 9]}}, "drawn": {"grid": {"resolution": [65, 65]}},
                            "transform": {"position": [0, 1, 0], "rotation": [0, 30, 0]}, "pins": [{"vertices": [0, 8]}])");
     ASSERT_TRUE(session.ok()) << session.error().message();
@@ -164,7 +165,7 @@ TEST_F(SessionOfACloth, draws_a_fine_mesh_over_a_coarse_one) {
 
     DrawnFrame drawn;
     drawn.update(session->world().frame());
-    const ExportSurface& surface = drawn.surfaces()[0];
+    const DrawnSurface& surface = drawn.surfaces()[0];
     ASSERT_EQ(surface.positions.size(), 65u * 65u);
     EXPECT_EQ(surface.uvs.size(), 65u * 65u);
     const auto particles = session->world().frame().cloths[0].positions;
@@ -181,7 +182,7 @@ TEST_F(SessionOfACloth, draws_a_fine_mesh_over_a_coarse_one) {
     }
 }
 
-TEST_F(SessionOfACloth, takes_the_drawn_mesh_from_a_file_with_its_own_scale_and_axis) {
+TEST_F(OpenScene, takes_the_drawn_mesh_from_a_file_with_its_own_scale_and_axis) {
     // The same square in centimeters, standing in the file's xy plane, its z up.
     folder.write("fine.obj",
                  "v -50 50 0\nv 50 50 0\nv 50 -50 0\nv -50 -50 0\nv 0 0 1\n"
@@ -203,14 +204,14 @@ TEST_F(SessionOfACloth, takes_the_drawn_mesh_from_a_file_with_its_own_scale_and_
                 ElementsAre(HasSubstr("s.json: /cloths/0/drawn/file")));
 }
 
-TEST_F(SessionOfACloth, pins_the_simulated_mesh_and_not_the_drawn_one) {
+TEST_F(OpenScene, pins_the_simulated_mesh_and_not_the_drawn_one) {
     EXPECT_THAT(
         errors_of(R"("mesh": {"grid": {"resolution": [4, 4]}}, "drawn": {"grid": {"resolution": [40, 40]}},
                              "pins": [{"vertices": [15, 16]}])"),
         ElementsAre("s.json: /cloths/0/pins/0/vertices/1: must be less than 16, the number of particles, got 16"));
 }
 
-TEST_F(SessionOfACloth, DrawsEachClothInItsMaterial) {
+TEST_F(OpenScene, DrawsEachClothInItsMaterial) {
     const auto session = open(R"("mesh": {"grid": {"size": [1, 1], "resolution": [3, 3]}})");
     ASSERT_TRUE(session.ok());
     const auto material_in = [&](std::span<const SceneLook> looks) {
@@ -225,7 +226,7 @@ TEST_F(SessionOfACloth, DrawsEachClothInItsMaterial) {
     EXPECT_EQ(session->folder(), folder.path());
 }
 
-TEST_F(SessionOfACloth, ShowsTheColorsOfAMeshThatHasNoLook) {
+TEST_F(OpenScene, ShowsTheColorsOfAMeshThatHasNoLook) {
     folder.write("a.ply",
                  "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
                  "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"

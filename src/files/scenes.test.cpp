@@ -1,6 +1,6 @@
 // Every scene of the library opens without a note, and its first frames go well.
+#include "files/open_scene.h"
 #include "solver/measures/statistics.h"
-#include "weft/session.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ TEST(Scenes, all_run) {
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(WEFT_SOURCE_DIR) / "scenes")) {
         if (entry.path().extension() != ".json") continue;
         SCOPED_TRACE(entry.path().filename().string());
-        auto session = Session::open(entry.path(), {});
+        auto session = open_scene(entry.path(), {});
         ASSERT_TRUE(session.ok()) << session.error().message();
         EXPECT_TRUE(session->notes().empty()) << session->notes().front();
         EXPECT_FALSE(session->scene().name.empty());

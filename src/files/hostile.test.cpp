@@ -1,7 +1,6 @@
 // What files and programs may ask for, however absurd: one clear error, or cloth that stays finite and a report. What
 // the simulator itself is given is in tests/physics/hostile.test.cpp.
 #include "io/files/temporary_folder.test.h"
-#include "weft/session.h"
 
 #include <weft/weft.h>
 

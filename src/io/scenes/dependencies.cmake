@@ -1,0 +1,3 @@
+# Headers alone.
+find_package(nlohmann_json REQUIRED)
+target_link_libraries(weft_scenes PRIVATE nlohmann_json::nlohmann_json)

@@ -1,0 +1,149 @@
+#include "weft/cloth_building.h"
+
+#include "mesh/procedural.h"
+#include "mesh/topology.h"
+#include "scene/problems.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace weft {
+namespace {
+
+struct LoadedMesh {
+    TriangleMesh mesh;
+    std::string from;  // what errors about it call it
+};
+
+Result<LoadedMesh> load(const GridDesc& grid, const MeshFiles&) {
+    return LoadedMesh{make_grid(grid.size, grid.resolution, grid.diagonal), "grid"};
+}
+Result<LoadedMesh> load(const SphereMeshDesc& sphere, const MeshFiles&) {
+    return LoadedMesh{make_sphere(sphere.radius, sphere.subdivisions), "sphere"};
+}
+Result<LoadedMesh> load(const BoxMeshDesc& box, const MeshFiles&) {
+    return LoadedMesh{make_box(box.size, box.resolution), "box"};
+}
+Result<LoadedMesh> load(const TriangleMesh& mesh, const MeshFiles&) {
+    return LoadedMesh{mesh, "mesh"};
+}
+Result<LoadedMesh> load(const MeshFileDesc& desc, const MeshFiles& files) {
+    if (!files.read)
+        return Error{desc.file, "cannot be read: this program reads no mesh files (Options::read_mesh is empty)"};
+    auto mesh = files.read(desc.file, files.folder);
+    if (!mesh) return mesh.errors();
+    return LoadedMesh{std::move(*mesh), desc.file};
+}
+
+// Placed in the world.
+Result<LoadedMesh> load_placed(const MeshDesc& desc, const TransformDesc& transform, const MeshFiles& files) {
+    auto loaded = std::visit([&](const auto& shape) { return load(shape, files); }, desc);
+    if (loaded) place_mesh(loaded->mesh, desc, transform);
+    return loaded;
+}
+
+// `where` of what lies deeper, put behind the place in the scene.
+Errors within(const std::string& place, const Errors& errors) {
+    Errors placed;
+    for (const Error& error : errors) placed.push_back({place, error.message(), error.fault});
+    return placed;
+}
+
+void note_report(const std::string& cloth, const TopologyReport& report, std::vector<std::string>& notes) {
+    const auto note = [&](std::uint32_t count, std::string_view what) {
+        if (count > 0) notes.push_back("cloth '" + cloth + "': " + std::to_string(count) + ' ' + std::string(what));
+    };
+    note(report.isolated_vertices, "vertices that no triangle uses stay where they are");
+    note(report.degenerate_triangles, "triangles without an area left out");
+    note(report.duplicate_triangles, "doubled triangles left out");
+    note(report.non_manifold_edges, "edges with three or more triangles do not bend");
+    note(report.inconsistent_edges, "edges between triangles of opposite winding");
+}
+
+// Two meshes that do not lie over each other come of a wrong scale or axis more often than of a wish.
+void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
+    constexpr float far_apart = 0.1f;  // of the extent: no lining, trimming or decimated mesh is so far off
+    Bounds bounds;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) bounds.include(model.rest_position(p));
+    const float extent = length(bounds.size());
+    if (model.binding.farthest > far_apart * extent)
+        notes.push_back("cloth '" + model.name + "': the drawn mesh lies up to " + number_text(model.binding.farthest) +
+                        " m away from the simulated one");
+}
+
+// What a scene says of tethers beside the fabric is a material like any other to the solver.
+Fabric fabric_of(const SceneCloth& cloth) {
+    Fabric fabric = cloth.fabric;
+    fabric.tether = {cloth.tethers, cloth.tether_slack};
+    return fabric;
+}
+
+const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source) {
+    return source.simulated ? *source.simulated : model.mesh();
+}
+
+}  // namespace
+
+Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
+                               const std::string& pointer, std::vector<std::string>& notes) {
+    auto loaded = load_placed(cloth.mesh, cloth.transform, files);
+    if (!loaded) return within(pointer + "/mesh/file", loaded.errors());
+    std::optional<TriangleMesh> drawn;
+    if (cloth.drawn) {
+        auto other = load_placed(*cloth.drawn, cloth.transform, files);
+        if (!other) return within(pointer + "/drawn/file", other.errors());
+        drawn = std::move(other->mesh);
+    }
+    BuildTimes build_times;
+    BuildClock clock(build_times);
+    // A generated grid comes in rows, which vector loads like better than any order found afterwards.
+    const TopologyOptions options{.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)};
+    auto topology = build_topology(loaded->mesh, options);
+    if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
+    clock.spent_on(BuildPart::topology);
+    note_report(cloth.name, topology->report, notes);
+
+    auto pinned = select_pins(cloth.pins, {loaded->mesh, *topology, {}}, world, pointer + "/pins");
+    if (!pinned) return pinned.errors();
+    BuiltCloth built;
+    built.source.topology = options;
+    built.source.pins = pinned->pins;
+    if (drawn) built.source.simulated = std::make_unique<TriangleMesh>(loaded->mesh);
+    built.holds = std::move(pinned->holds);
+    auto model = build_cloth_model({.name = cloth.name,
+                                    .mesh = std::move(loaded->mesh),
+                                    .drawn = std::move(drawn),
+                                    .fabric = fabric_of(cloth),
+                                    .pins = std::move(pinned->pins),
+                                    .layout = world.settings().layout(),
+                                    .build_times = build_times},
+                                   std::move(*topology));
+    if (!model) return within(pointer, model.errors());
+    note_binding(**model, notes);
+    built.model = std::move(*model);
+    return built;
+}
+
+Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,
+                                                        const SceneCloth& cloth, const ClothPins& pins,
+                                                        const ClothLayout& layout) {
+    const TriangleMesh& mesh = simulated_mesh(now, source);
+    auto topology = build_topology(mesh, source.topology);
+    if (!topology) return topology.errors();
+    return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout);
+}
+
+Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource& source,
+                               const std::vector<PinDesc>& pins) {
+    const Frame& frame = world.frame();
+    const auto cloth = std::ranges::find(frame.cloths, id, &ClothFrame::id);
+    const TriangleMesh& mesh = simulated_mesh(*world.model(id), source);
+    auto topology = build_topology(mesh, source.topology);
+    if (!topology) return topology.errors();
+    return select_pins(pins, {mesh, *topology, cloth->positions, frame.time}, world, "/pins");
+}
+
+}  // namespace weft

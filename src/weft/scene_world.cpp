@@ -1,0 +1,349 @@
+#include "weft/scene_world.h"
+
+#include "scene/check.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_keys.h"
+
+#include <algorithm>
+#include <cassert>
+#include <type_traits>
+#include <utility>
+
+namespace weft {
+namespace {
+
+Errors apply(const Options& options, SceneDesc& scene) {
+    Errors errors;
+    const auto set = [&](const std::optional<std::uint32_t>& from, std::uint32_t& to, const char* name) {
+        if (!from) return;
+        if (*from < 1 || *from > 10000) {
+            errors.push_back({name, "must be from 1 to 10000, got " + std::to_string(*from)});
+        }
+        to = *from;
+    };
+    const auto choose = [&](const std::string& from, const auto& names, auto& to, const char* name) {
+        if (from.empty()) return;
+        const auto it = std::ranges::find(names, from);
+        if (it == names.end()) {
+            errors.push_back({name, "must be " + alternatives(names) + ", got " + in_quotes(from)});
+        } else {
+            to = static_cast<std::remove_reference_t<decltype(to)>>(it - names.begin());
+        }
+    };
+    const auto names_of = [](std::string_view key) {
+        return choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
+    };
+    choose(options.method, names_of("method"), scene.solver.method, "method");
+    choose(options.projection, names_of("projection"), scene.solver.projection, "projection");
+    choose(options.accumulate, names_of("accumulate"), scene.solver.accumulate, "accumulate");
+    if (options.hierarchy) scene.solver.hierarchy = *options.hierarchy;
+    set(options.substeps, scene.solver.substeps, "substeps");
+    set(options.iterations, scene.solver.iterations, "iterations");
+    if (options.threads < 1 || options.threads > 256) {
+        errors.push_back({"threads", "must be from 1 to 256, got " + std::to_string(options.threads)});
+    }
+    return errors;
+}
+
+WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, bool feedback) {
+    return {.gravity = scene.gravity,
+            .substeps = solver.substeps,
+            .iterations = solver.iterations,
+            .method = solver.method,
+            .projection = solver.projection,
+            .accumulate = solver.accumulate,
+            .hierarchy = solver.hierarchy,
+            .air = scene.air,
+            .feedback = feedback};
+}
+
+template <class Named>
+const Named* find_named(const std::vector<Named>& all, const std::string& name) {
+    const auto it = std::ranges::find(all, name, &Named::name);
+    return it != all.end() ? &*it : nullptr;
+}
+
+/// What of a cloth may change while it moves. Meshes are large, and stay where they are.
+SceneCloth without_meshes(const SceneCloth& cloth) {
+    return {.name = cloth.name,
+            .mesh = {},
+            .drawn = {},
+            .transform = cloth.transform,
+            .fabric = cloth.fabric,
+            .fabric_name = cloth.fabric_name,
+            .pins = cloth.pins,
+            .tethers = cloth.tethers,
+            .tether_slack = cloth.tether_slack};
+}
+
+/// Whether the differences are such as a cloth can take while it moves.
+bool same_particles(const SceneCloth& a, const SceneCloth& b) {
+    return a.mesh == b.mesh && a.drawn == b.drawn && a.transform == b.transform;
+}
+bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
+    return a.shape == b.shape && (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));
+}
+
+}  // namespace
+
+/// Another model for a cloth.
+struct SceneWorld::Change {
+    ClothId id;
+    std::shared_ptr<const ClothModel> model;
+    Holds holds;
+};
+
+SceneWorld::SceneWorld() = default;
+SceneWorld::SceneWorld(SceneWorld&&) noexcept = default;
+SceneWorld& SceneWorld::operator=(SceneWorld&&) noexcept = default;
+SceneWorld::~SceneWorld() = default;
+
+Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
+                                      const MakeBackend& make) {
+    if (Errors errors = apply(options, scene); !errors.empty()) return errors;
+    auto backend = make ? make(options) : make_backend(options);
+    if (!backend) return backend.errors();
+    name_unnamed(scene);
+    SceneWorld made;
+    made.files_ = {options.read_mesh, folder};
+    made.world_ = std::make_unique<World>(std::move(*backend), settings_of(scene, scene.solver, options.feedback));
+    std::vector<SceneCloth> cloths = std::exchange(scene.cloths, {});
+    std::vector<ColliderDesc> colliders = std::exchange(scene.colliders, {});
+    made.scene_ = std::move(scene);
+    for (ColliderDesc& collider : colliders) made.add(std::move(collider));
+    Errors errors;
+    for (std::size_t i = 0; i < cloths.size(); ++i) {
+        auto added = made.add(std::move(cloths[i]), "/cloths/" + std::to_string(i));
+        if (!added) errors.insert(errors.end(), added.errors().begin(), added.errors().end());
+    }
+    if (!errors.empty()) return errors;
+    return made;
+}
+
+std::size_t SceneWorld::place_of(ClothId id) const {
+    assert(world_->contains(id));
+    std::size_t place = 0;
+    while (world_->cloth_id(place) != id) ++place;
+    return place;
+}
+
+std::size_t SceneWorld::place_of(ColliderId id) const {
+    assert(world_->contains(id));
+    std::size_t place = 0;
+    while (world_->collider_id(place) != id) ++place;
+    return place;
+}
+
+Result<ClothId> SceneWorld::add(SceneCloth cloth, const std::string& pointer) {
+    auto built = build_cloth(cloth, files_, *world_, pointer, notes_);
+    if (!built) return built.errors();
+    auto id = world_->try_add(std::move(built->model), std::move(built->holds));
+    if (!id) return id.errors();
+    sources_.push_back(std::move(built->source));
+    scene_.cloths.push_back(std::move(cloth));
+    return *id;
+}
+
+ColliderId SceneWorld::add(ColliderDesc collider) {
+    const ColliderId id = world_->add(make_collider(collider));
+    scene_.colliders.push_back(std::move(collider));
+    return id;
+}
+
+// Looks go by names, which a cloth and a collider may share.
+void SceneWorld::forget_look(const std::string& name) {
+    if (find_named(scene_.cloths, name) || find_named(scene_.colliders, name)) return;
+    std::erase_if(scene_.looks, [&](const SceneLook& look) { return look.object == name; });
+}
+
+void SceneWorld::remove(ClothId id) {
+    const auto place = static_cast<std::ptrdiff_t>(place_of(id));
+    world_->remove(id);
+    sources_.erase(sources_.begin() + place);
+    const std::string name = std::move(scene_.cloths[static_cast<std::size_t>(place)].name);
+    scene_.cloths.erase(scene_.cloths.begin() + place);
+    forget_look(name);
+}
+
+void SceneWorld::remove(ColliderId id) {
+    const auto place = static_cast<std::ptrdiff_t>(place_of(id));
+    world_->remove(id);
+    const std::string name = std::move(scene_.colliders[static_cast<std::size_t>(place)].name);
+    scene_.colliders.erase(scene_.colliders.begin() + place);
+    for (SceneCloth& cloth : scene_.cloths)
+        for (PinDesc& pin : cloth.pins)
+            if (pin.attach == name) pin.attach.clear();
+    forget_look(name);
+}
+
+// All of them or none.
+Result<Done> SceneWorld::set_models(std::span<Change> changes) {
+    std::vector<Change> before;
+    for (Change& change : changes) {
+        Change now{change.id, world_->model(change.id), world_->holds(change.id)};
+        if (auto set = world_->set_model(change.id, std::move(change.model), std::move(change.holds)); !set) {
+            // They fit before, and there is room again for each that goes back.
+            for (Change& earlier : before)
+                (void)world_->set_model(earlier.id, std::move(earlier.model), std::move(earlier.holds));
+            return set;
+        }
+        before.push_back(std::move(now));
+    }
+    return Done{};
+}
+
+// `cloth` comes without its meshes.
+Result<Done> SceneWorld::change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, Holds holds) {
+    const std::size_t place = place_of(id);
+    auto model = rebuild_cloth(*world_->model(id), sources_[place], cloth, pins, world_->settings().layout());
+    if (!model) return model.errors();
+    Change change{id, std::move(*model), std::move(holds)};
+    if (auto set = set_models(std::span(&change, 1)); !set) return set;
+    SceneCloth& document = scene_.cloths[place];
+    cloth.mesh = std::move(document.mesh);
+    cloth.drawn = std::move(document.drawn);
+    document = std::move(cloth);
+    sources_[place].pins = std::move(pins);
+    return Done{};
+}
+
+Result<Done> SceneWorld::set_fabric(ClothId id, const Fabric& fabric, const std::string& preset) {
+    const std::size_t place = place_of(id);
+    SceneCloth cloth = without_meshes(scene_.cloths[place]);
+    cloth.fabric = fabric;
+    cloth.fabric_name = preset;
+    // Not what was held when the pins were made: what carried them may be gone.
+    return change_cloth(id, std::move(cloth), sources_[place].pins, world_->holds(id));
+}
+
+Result<Done> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
+    const std::size_t place = place_of(id);
+    auto pinned = select_pins_now(*world_, id, sources_[place], pins);
+    if (!pinned) return pinned.errors();
+    SceneCloth cloth = without_meshes(scene_.cloths[place]);
+    cloth.pins = std::move(pins);
+    return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->holds));
+}
+
+void SceneWorld::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
+    world_->move(id, {rotation_from_degrees(rotation_degrees), position});
+    ColliderDesc& collider = scene_.colliders[place_of(id)];
+    collider.transform.position = position;
+    collider.transform.rotation_degrees = rotation_degrees;
+    collider.motion.clear();
+}
+
+void SceneWorld::set_friction(ColliderId id, std::array<float, 2> friction) {
+    world_->set_friction(id, friction);
+    scene_.colliders[place_of(id)].friction = friction;
+}
+
+void SceneWorld::set_gravity(Vec3 gravity) {
+    scene_.gravity = gravity;
+    world_->configure(settings_of(scene_, scene_.solver, world_->settings().feedback));
+}
+
+void SceneWorld::set_air(const std::optional<AirDesc>& air) {
+    scene_.air = air;
+    world_->configure(settings_of(scene_, scene_.solver, world_->settings().feedback));
+}
+
+void SceneWorld::set_feedback(bool on) {
+    if (on != world_->settings().feedback) world_->configure(settings_of(scene_, scene_.solver, on));
+}
+
+Result<Done> SceneWorld::set_solver(const SolverDesc& solver) {
+    const WorldSettings settings = settings_of(scene_, solver, world_->settings().feedback);
+    if (const ClothLayout layout = settings.layout(); layout != world_->settings().layout()) {
+        std::vector<Change> changes;
+        for (std::size_t i = 0; i < sources_.size(); ++i) {
+            const ClothId id = world_->cloth_id(i);
+            auto model = rebuild_cloth(*world_->model(id), sources_[i], scene_.cloths[i], sources_[i].pins, layout);
+            if (!model) return model.errors();
+            changes.push_back({id, std::move(*model), world_->holds(id)});
+        }
+        if (auto set = set_models(changes); !set) return set;
+    }
+    world_->configure(settings);
+    scene_.solver = solver;
+    return Done{};
+}
+
+Result<Done> SceneWorld::change_to(SceneDesc next) {
+    name_unnamed(next);
+    Problems problems;
+    check_parts(next, problems);
+    if (!problems.none()) return std::move(problems).take();
+    const SceneDesc before = scene_;
+    auto done = follow(next);
+    // What was there a moment ago fits still.
+    if (!done) (void)follow(before);
+    return done;
+}
+
+Result<Done> SceneWorld::follow(const SceneDesc& next) {
+    remove_what_is_not_in(next);
+    change_colliders(next);
+    scene_.gravity = next.gravity;
+    set_air(next.air);
+    if (next.solver != scene_.solver) {
+        if (auto set = set_solver(next.solver); !set) return set;
+    }
+    if (auto changed = change_cloths(next); !changed) return changed;
+    scene_.name = next.name;
+    scene_.frame_rate = next.frame_rate;
+    scene_.camera = next.camera;
+    scene_.light = next.light;
+    scene_.looks = next.looks;
+    return Done{};
+}
+
+void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
+    for (std::size_t i = scene_.cloths.size(); i-- > 0;) {
+        const SceneCloth* there = find_named(next.cloths, scene_.cloths[i].name);
+        if (!there || !same_particles(scene_.cloths[i], *there)) remove(world_->cloth_id(i));
+    }
+    for (std::size_t i = scene_.colliders.size(); i-- > 0;) {
+        const ColliderDesc* there = find_named(next.colliders, scene_.colliders[i].name);
+        if (!there || !same_body(scene_.colliders[i], *there)) remove(world_->collider_id(i));
+    }
+}
+
+void SceneWorld::change_colliders(const SceneDesc& next) {
+    for (const ColliderDesc& wanted : next.colliders) {
+        const ColliderDesc* there = find_named(scene_.colliders, wanted.name);
+        if (!there) {
+            add(wanted);
+            continue;
+        }
+        const ColliderId id = world_->collider_id(static_cast<std::size_t>(there - scene_.colliders.data()));
+        if (there->friction != wanted.friction) set_friction(id, wanted.friction);
+        if (there->transform != wanted.transform || there->motion != wanted.motion)
+            move(id, wanted.transform.position, wanted.transform.rotation_degrees);
+    }
+}
+
+Result<Done> SceneWorld::change_cloths(const SceneDesc& next) {
+    for (std::size_t i = 0; i < next.cloths.size(); ++i) {
+        const SceneCloth& wanted = next.cloths[i];
+        const SceneCloth* there = find_named(scene_.cloths, wanted.name);
+        if (!there) {
+            if (auto added = add(wanted, "/cloths/" + std::to_string(i)); !added) return added.errors();
+            continue;
+        }
+        if (*there == wanted) continue;
+        const auto place = static_cast<std::size_t>(there - scene_.cloths.data());
+        const ClothId id = world_->cloth_id(place);
+        Pinned pinned{sources_[place].pins, world_->holds(id)};
+        if (there->pins != wanted.pins) {
+            auto selected = select_pins_now(*world_, id, sources_[place], wanted.pins);
+            if (!selected) return selected.errors();
+            pinned = std::move(*selected);
+        }
+        auto changed = change_cloth(id, without_meshes(wanted), std::move(pinned.pins), std::move(pinned.holds));
+        if (!changed) return changed;
+    }
+    return Done{};
+}
+
+}  // namespace weft

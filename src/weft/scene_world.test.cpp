@@ -1,0 +1,218 @@
+// The document and the world agree, whatever is changed and whatever fails.
+#include "weft/scene_world.h"
+
+#include "scene/check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+using testing::HasSubstr;
+
+/// The CPU, until its memory runs out.
+class BackendWithoutRoom final : public Backend {
+  public:
+    BackendWithoutRoom(std::unique_ptr<Backend> inner, const int& room) : inner_(std::move(inner)), room_(room) {}
+
+    std::string_view name() const override { return inner_->name(); }
+    std::string device() const override { return inner_->device(); }
+    unsigned threads() const override { return inner_->threads(); }
+    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
+        return inner_->add_cloth(std::move(model));
+    }
+    void remove_cloth(ClothHandle cloth) override { inner_->remove_cloth(cloth); }
+    Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) override {
+        if (count_++ == room_) return Error::of_machine("device", "has no room");
+        return inner_->set_model(cloth, std::move(model));
+    }
+    void step(std::span<const ClothStep> cloths) override { inner_->step(cloths); }
+    void finish(std::array<double, stage_count>& stage_ms) override { inner_->finish(stage_ms); }
+    bool read(ClothHandle cloth, ClothFrame& frame) const override { return inner_->read(cloth, frame); }
+    void measure(ClothHandle cloth, MeasureSums& sums) const override { inner_->measure(cloth, sums); }
+    ClothSnapshot save(ClothHandle cloth) const override { return inner_->save(cloth); }
+    Result<Done> restore(ClothHandle cloth, const ClothSnapshot& snapshot) override {
+        return inner_->restore(cloth, snapshot);
+    }
+    void hash(ClothHandle cloth, StateHash& hash) const override { inner_->hash(cloth, hash); }
+
+  private:
+    std::unique_ptr<Backend> inner_;
+    const int& room_;  ///< models that it still takes
+    int count_ = 0;
+};
+
+SceneCloth sheet(const std::string& name, Vec3 position, std::uint32_t side = 12) {
+    SceneCloth cloth;
+    cloth.name = name;
+    cloth.mesh = GridDesc{.size = {1, 1}, .resolution = {side, side}};
+    cloth.transform.position = position;
+    cloth.pins = {{.select = VertexPins{{0}}}};
+    return cloth;
+}
+
+SceneDesc two_sheets() {
+    SceneDesc scene;
+    scene.solver.substeps = 4;
+    scene.cloths = {sheet("a", {0, 1, 0}), sheet("b", {0, 2, 0}, 33)};
+    scene.cloths[1].pins[0].attach = "ball";
+    scene.colliders = {{.name = "ball", .shape = SphereDesc{0.2f}}, {.name = "floor"}};
+    scene.looks = {{.object = "ball", .preset = "matte", .material = find_material("matte")->material}};
+    return scene;
+}
+
+SceneWorld open(const SceneDesc& scene, const MakeBackend& make = {}) {
+    auto world = SceneWorld::create(scene, {.backend = "cpu"}, {}, make);
+    EXPECT_TRUE(world.ok()) << world.error().message();
+    return std::move(*world);
+}
+
+std::string hash_after(SceneWorld& world, int frames) {
+    for (int i = 0; i < frames; ++i) world.advance();
+    return world.world().state_hash();
+}
+
+/// What a world starts with comes of its document alone.
+void expect_document_says_all(const SceneWorld& world, int frames = 4) {
+    EXPECT_TRUE(check_scene(world.scene()).empty()) << check_scene(world.scene()).front().message();
+    EXPECT_EQ(world.scene().cloths.size(), world.world().cloth_count());
+    EXPECT_EQ(world.scene().colliders.size(), world.world().colliders().size());
+    for (std::size_t i = 0; i < world.scene().cloths.size(); ++i)
+        EXPECT_EQ(world.scene().cloths[i].name, world.world().model(world.world().cloth_id(i))->name);
+    SceneWorld once = open(world.scene()), again = open(once.scene());
+    EXPECT_EQ(hash_after(once, frames), hash_after(again, frames));
+    EXPECT_TRUE(once.scene() == world.scene());
+}
+
+TEST(SceneWorld, starts_from_its_document_after_any_change) {
+    SceneWorld world = open(two_sheets());
+    expect_document_says_all(world);
+    for (int i = 0; i < 3; ++i) world.advance();
+    const ClothId a = world.world().cloth_id(0);
+    const ColliderId ball = world.world().collider_id(0), floor = world.world().collider_id(1);
+    const Fabric denim = find_fabric("denim")->fabric;
+    ASSERT_TRUE(world.set_fabric(a, denim, "denim").ok());
+    ASSERT_TRUE(world.set_pins(a, {{.select = VertexPins{{5}}}}).ok());
+    world.move(floor, {0, -1, 0}, {0, 90, 0});
+    world.set_friction(floor, {0.1f, 0.05f});
+    world.set_gravity({0, -1, 0});
+    world.set_air(AirDesc{.density = 2});
+    ASSERT_TRUE(world.set_solver({.substeps = 3, .hierarchy = false}).ok());
+    const SceneDesc& scene = world.scene();
+    EXPECT_EQ(scene.cloths[0].fabric_name, "denim");
+    EXPECT_TRUE(scene.cloths[0].fabric == denim);
+    EXPECT_EQ(std::get<VertexPins>(scene.cloths[0].pins[0].select).vertices[0], 5u);
+    EXPECT_EQ(std::get<GridDesc>(scene.cloths[0].mesh).resolution[0], 12u);
+    EXPECT_EQ(scene.colliders[1].transform.rotation_degrees, (Vec3{0, 90, 0}));
+    EXPECT_EQ(scene.colliders[1].friction[0], 0.1f);
+    EXPECT_EQ(scene.gravity, (Vec3{0, -1, 0}));
+    EXPECT_EQ(scene.air->density, 2);
+    EXPECT_EQ(scene.solver.substeps, 3u);
+    expect_document_says_all(world);
+
+    world.remove(ball);
+    EXPECT_EQ(scene.cloths[1].pins[0].attach, "") << "what is gone carries nothing";
+    EXPECT_TRUE(scene.looks.empty());
+    expect_document_says_all(world);
+    world.remove(a);
+    ASSERT_TRUE(world.add(sheet("c", {1, 1, 1})).ok());
+    world.add({.name = "box", .shape = BoxDesc{}});
+    EXPECT_EQ(scene.cloths[1].name, "c");
+    expect_document_says_all(world);
+}
+
+TEST(SceneWorld, takes_all_of_a_change_or_nothing) {
+    int room = 100;
+    SceneWorld world = open(two_sheets(), [&](const Options& options) -> Result<std::unique_ptr<Backend>> {
+        auto inner = make_backend(options);
+        if (!inner) return inner.errors();
+        return std::unique_ptr<Backend>(std::make_unique<BackendWithoutRoom>(std::move(*inner), room));
+    });
+    SceneWorld same = open(two_sheets());
+    hash_after(world, 3), hash_after(same, 3);
+
+    SolverDesc coarse = world.scene().solver;
+    coarse.hierarchy = false;
+    room = 1;  // for the first of the two
+    const auto set = world.set_solver(coarse);
+    ASSERT_FALSE(set.ok());
+    EXPECT_THAT(set.error().message(), HasSubstr("has no room"));
+    EXPECT_TRUE(world.scene() == same.scene());
+    EXPECT_TRUE(world.world().settings().hierarchy);
+    EXPECT_EQ(hash_after(world, 5), hash_after(same, 5)) << "as if nobody had asked";
+
+    room = 3;  // one for each sheet has been refused or taken back
+    EXPECT_FALSE(world.set_fabric(world.world().cloth_id(0), find_fabric("silk")->fabric, "silk").ok());
+    EXPECT_TRUE(world.scene() == same.scene());
+    EXPECT_EQ(hash_after(world, 5), hash_after(same, 5));
+    EXPECT_FALSE(world.set_pins(world.world().cloth_id(0), {{.select = BoxPins{{{8, 8, 8}, {9, 9, 9}}}}}).ok());
+    EXPECT_TRUE(world.scene() == same.scene());
+    EXPECT_EQ(hash_after(world, 5), hash_after(same, 5));
+}
+
+TEST(SceneWorld, follows_another_document_and_back) {
+    SceneWorld world = open(two_sheets());
+    const SceneDesc before = world.scene();
+    SceneDesc next = before;
+    next.name = "next";
+    next.gravity = {0, -2, 0};
+    next.solver.hierarchy = false;
+    next.air = AirDesc{};
+    next.cloths[0].fabric = find_fabric("silk")->fabric;
+    next.cloths[0].fabric_name = "silk";
+    next.cloths[0].tethers = Tethers::on;
+    next.cloths[1].mesh = GridDesc{.size = {1, 1}, .resolution = {5, 5}};
+    next.cloths.push_back(sheet("c", {3, 0, 0}));
+    next.colliders[0].shape = BoxDesc{};
+    next.colliders[1].friction = {0, 0};
+    next.looks.clear();
+    hash_after(world, 2);
+    const ClothId a = world.world().cloth_id(0), b = world.world().cloth_id(1);
+    const float height = world.world().frame().cloths[0].positions[143].y;
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_TRUE(world.world().contains(a)) << "it goes on as it was";
+    EXPECT_EQ(world.world().frame().cloths[0].positions[143].y, height);
+    EXPECT_FALSE(world.world().contains(b));
+    EXPECT_EQ(world.scene().cloths.size(), 3u);
+    for (const SceneCloth& cloth : next.cloths)
+        EXPECT_TRUE(*std::ranges::find(world.scene().cloths, cloth.name, &SceneCloth::name) == cloth);
+    for (const ColliderDesc& collider : next.colliders)
+        EXPECT_TRUE(*std::ranges::find(world.scene().colliders, collider.name, &ColliderDesc::name) == collider);
+    EXPECT_TRUE(world.scene().looks.empty());
+    expect_document_says_all(world);
+    EXPECT_EQ(world.world().settings().gravity.y, -2);
+
+    ASSERT_TRUE(world.change_to(before).ok());
+    EXPECT_EQ(world.scene().cloths.size(), 2u);
+    EXPECT_TRUE(world.scene().cloths == before.cloths);
+    EXPECT_TRUE(world.world().contains(a));
+    EXPECT_EQ(world.scene().looks, before.looks);
+    expect_document_says_all(world);
+}
+
+TEST(SceneWorld, keeps_to_its_document_where_another_is_wrong) {
+    SceneWorld world = open(two_sheets());
+    const SceneDesc before = world.scene();
+    SceneDesc next = before;
+    next.cloths[0].name = "b";
+    next.gravity.x = 1e9f;
+    const auto refused = world.change_to(next);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.errors().size(), 2u);
+    EXPECT_TRUE(world.scene() == before);
+    // This is seen only when the cloth is built.
+    next = before;
+    next.colliders.clear();
+    next.cloths[1].pins[0].attach.clear();
+    next.cloths.push_back(sheet("c", {}));
+    next.cloths[2].mesh = MeshFileDesc{.file = "none.obj"};
+    EXPECT_FALSE(world.change_to(next).ok());
+    EXPECT_TRUE(world.scene() == before);
+    expect_document_says_all(world);
+    ASSERT_TRUE(world.change_to({}).ok()) << "a world may be empty";
+    EXPECT_EQ(world.world().cloth_count(), 0u);
+}
+
+}  // namespace
+}  // namespace weft
