@@ -1,6 +1,8 @@
 #include "gpu/device.h"
 
 #include "gpu/host_device.test.h"
+#include "gpu/image.h"
+#include "gpu/memory.h"
 #include "gpu/test_device.h"
 
 #include <gmock/gmock.h>
@@ -136,6 +138,39 @@ TEST_F(DeviceTest, what_cannot_be_shared_is_an_error) {
     ASSERT_FALSE(made.ok());
     EXPECT_THAT(made.error().what, HasSubstr("queue family 1000 does not compute"));
     destroy(host);
+}
+
+VKAPI_ATTR void VKAPI_CALL properties_of_another(VkPhysicalDevice, VkPhysicalDeviceProperties* properties) {
+    ADD_FAILURE() << "asked through another instance";
+    *properties = {};
+}
+VKAPI_ATTR void VKAPI_CALL memory_of_another(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* properties) {
+    ADD_FAILURE() << "asked through another instance";
+    *properties = {};
+}
+VKAPI_ATTR VkResult VKAPI_CALL formats_of_another(VkPhysicalDevice, VkFormat, VkImageType, VkImageTiling,
+                                                  VkImageUsageFlags, VkImageCreateFlags, VkImageFormatProperties*) {
+    ADD_FAILURE() << "asked through another instance";
+    return VK_ERROR_FORMAT_NOT_SUPPORTED;
+}
+
+// volk's variables are those of the instance that was made last, which may come of another loader.
+TEST_F(DeviceTest, asks_its_own_instance_whoever_has_made_the_last_one) {
+    open();
+    if (!device) return;
+    const auto disturb = [] {
+        const auto lock = lock_loader();
+        vkGetPhysicalDeviceProperties = properties_of_another;
+        vkGetPhysicalDeviceMemoryProperties = memory_of_another;
+        vkGetPhysicalDeviceImageFormatProperties = formats_of_another;
+    };
+    disturb();
+    EXPECT_GE(supported_samples(*device, 1), 1u);
+    disturb();
+    EXPECT_TRUE(Image::create(*device, {}, "one").ok());
+    disturb();
+    const Memory memory(*device, 1 << 20);
+    instance->take_functions();
 }
 
 // An instance of a host's, without the extension for messages, must not take that of another away.

@@ -1,5 +1,6 @@
 #include "gpu/image.h"
 
+#include "gpu/borrowed_functions.h"
 #include "gpu/device.h"
 
 #include <algorithm>
@@ -35,8 +36,12 @@ Result<Image> Image::create(Device& device, const ImageDesc& desc, const std::st
                              std::to_string(desc.height) +
                              (desc.samples > 1 ? " with " + std::to_string(desc.samples) + " samples" : "");
     VkImageFormatProperties most{};
-    VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), info.format, info.imageType,
-                                                               info.tiling, info.usage, 0, &most);
+    VkResult result = VK_SUCCESS;
+    {
+        const BorrowedFunctions functions(device);
+        result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), info.format, info.imageType, info.tiling,
+                                                          info.usage, 0, &most);
+    }
     if (result == VK_SUCCESS && (desc.width > most.maxExtent.width || desc.height > most.maxExtent.height))
         return Error::of_machine(device.info().name, "cannot make " + what + ": at most " +
                                                          std::to_string(most.maxExtent.width) + "x" +
@@ -122,7 +127,10 @@ void Sampler::swap(Sampler& other) {
 
 std::uint32_t supported_samples(const Device& device, std::uint32_t wanted) {
     VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(device.physical(), &properties);
+    {
+        const BorrowedFunctions functions(device);
+        vkGetPhysicalDeviceProperties(device.physical(), &properties);
+    }
     const VkSampleCountFlags both = properties.limits.framebufferColorSampleCounts &
                                     properties.limits.framebufferDepthSampleCounts &
                                     properties.limits.sampledImageColorSampleCounts;

@@ -1,5 +1,6 @@
 #include "gpu/memory.h"
 
+#include "gpu/borrowed_functions.h"
 #include "gpu/device.h"
 
 #include <algorithm>
@@ -98,7 +99,10 @@ void Buffer::swap(Buffer& other) {
 }
 
 Memory::Memory(const Device& device, std::uint64_t limit) : device_(device), limit_(limit) {
-    vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties_);
+    {
+        const BorrowedFunctions functions(device);
+        vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties_);
+    }
     for (const MemoryKind kind : {MemoryKind::device, MemoryKind::upload, MemoryKind::readback}) {
         pools_.push_back(std::make_unique<Pool>());
         pools_.back()->kind = kind;

@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include "gpu/borrowed_functions.h"
 #include "render/frame_data.h"
 #include "render/frame_slot.h"
 #include "render/host_mesh.h"
@@ -41,6 +42,7 @@ bool encodes_srgb(VkFormat format) {
 
 bool blends(const gpu::Device& device, VkFormat format) {
     VkFormatProperties properties{};
+    const gpu::BorrowedFunctions functions(device);
     vkGetPhysicalDeviceFormatProperties(device.physical(), format, &properties);
     return (properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0;
 }
