@@ -229,4 +229,28 @@ struct ColliderDesc {
     friend bool operator==(const ColliderDesc&, const ColliderDesc&) = default;
 };
 
+/// A point in a triangle of a cloth's simulated mesh.
+struct MeshPoint {
+    std::uint32_t triangle = 0;  ///< in the order of the mesh
+    Vec3 weights{1, 0, 0};       ///< of its three corners, each 0…1; their sum is 1
+    friend bool operator==(const MeshPoint&, const MeshPoint&) = default;
+};
+
+/// One side of a row of stitches: either of the two lists, the other one empty.
+struct StitchEnd {
+    std::string cloth = {};                    ///< by its name
+    std::vector<std::uint32_t> vertices = {};  ///< numbered as for pins
+    std::vector<MeshPoint> points = {};
+    friend bool operator==(const StitchEnd&, const StitchEnd&) = default;
+};
+
+/// A row of stitches: point i of one side is tied to point i of the other. Both sides may be of one cloth.
+struct StitchDesc {
+    std::string name = {};
+    StitchEnd a = {}, b = {};
+    float gap = 0;         ///< m, ≥ 0: distance at which tied points are kept
+    float compliance = 0;  ///< m/N, ≥ 0: how far each stitch gives way per newton
+    friend bool operator==(const StitchDesc&, const StitchDesc&) = default;
+};
+
 }  // namespace weft

@@ -112,12 +112,16 @@ class WEFT_API Simulation {
     /// those of colliders; what has none gets one.
     Result<ClothId> add(const ClothDesc& cloth);
     Result<ColliderId> add(const ColliderDesc& collider);
+    /// Ties cloths together that are there already, from where they are now. Stitches go with either of their cloths.
+    Result<StitchId> add(const StitchDesc& stitches);
     Result<Done> remove(ClothId id);
     /// Pins that it carried stay where they are.
     Result<Done> remove(ColliderId id);
+    Result<Done> remove(StitchId id);
 
     std::vector<ClothId> cloths() const;  ///< in the order in which they were added
     std::vector<ColliderId> colliders() const;
+    std::vector<StitchId> stitches() const;
     ClothId find_cloth(std::string_view name) const;  ///< no id if there is none of that name
     ColliderId find_collider(std::string_view name) const;
 

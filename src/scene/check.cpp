@@ -306,6 +306,39 @@ void check_collider(const ColliderDesc& collider, const std::string& pointer, Pr
     check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
 }
 
+namespace {
+
+void check_stitch_end(const StitchEnd& end, std::span<const std::string_view> names, const std::string& pointer,
+                      Problems& problems) {
+    check_values(stitch_end_keys, &end, pointer, problems);
+    if (std::ranges::find(names, end.cloth) == names.end() && !problems.concern(at(pointer, "cloth")))
+        problems.add(at(pointer, "cloth"),
+                     "unknown cloth " + in_quotes(end.cloth) + suggestion(end.cloth, {names.begin(), names.end()}));
+    for (std::size_t i = 0; i < end.points.size(); ++i) {
+        const std::string place = at(at(pointer, "points"), i);
+        check_values(surface_point_keys, &end.points[i], place, problems);
+        const Vec3 w = end.points[i].weights;
+        if (std::abs(w.x + w.y + w.z - 1) > 1e-3f && !problems.concern(at(place, "weights")))
+            problems.add(at(place, "weights"), "must have the sum 1, got " + number_text(w.x + w.y + w.z));
+    }
+    if (end.vertices.empty() == end.points.empty())
+        problems.add(pointer, "must hold either \"vertices\" or \"points\", at least one");
+}
+
+}  // namespace
+
+void check_stitches(const StitchDesc& stitches, std::span<const std::string_view> names, const std::string& pointer,
+                    Problems& problems) {
+    check_values(stitch_keys, &stitches, pointer, problems);
+    check_stitch_end(stitches.a, names, at(pointer, "a"), problems);
+    check_stitch_end(stitches.b, names, at(pointer, "b"), problems);
+    const auto count = [](const StitchEnd& end) { return end.vertices.size() + end.points.size(); };
+    if (count(stitches.a) != count(stitches.b) && !problems.concern(pointer))
+        problems.add(at(pointer, "b"), "must have as many points as the other side, " +
+                                           std::to_string(count(stitches.a)) + ", got " +
+                                           std::to_string(count(stitches.b)));
+}
+
 void check_scene(const SceneDesc& scene, Problems& problems) {
     if (scene.cloths.empty()) problems.add("/cloths", "must hold at least one cloth");
     check_parts(scene, problems);
@@ -324,6 +357,11 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     const std::vector<std::string_view> names(called.begin(), called.end());
     for (std::size_t i = 0; i < scene.cloths.size(); ++i)
         check_attachments(scene.cloths[i].pins, names, at(at("/cloths", i), "pins"), problems);
+    check_names(scene.stitches, "/stitches", problems);
+    const std::vector<std::string> sheets = cloth_names(scene);
+    const std::vector<std::string_view> sheet_names(sheets.begin(), sheets.end());
+    for (std::size_t i = 0; i < scene.stitches.size(); ++i)
+        check_stitches(scene.stitches[i], sheet_names, at("/stitches", i), problems);
     check_total(scene, problems);
     if (scene.camera) check_camera(*scene.camera, "/camera", problems);
     check_light(scene.light, "/light", problems);
@@ -348,6 +386,8 @@ void name_unnamed(SceneDesc& scene) {
     const std::vector<std::string> cloths = cloth_names(scene), colliders = collider_names(scene);
     for (std::size_t i = 0; i < cloths.size(); ++i) scene.cloths[i].name = cloths[i];
     for (std::size_t i = 0; i < colliders.size(); ++i) scene.colliders[i].name = colliders[i];
+    const std::vector<std::string> stitches = names_of(scene.stitches, "stitches");
+    for (std::size_t i = 0; i < stitches.size(); ++i) scene.stitches[i].name = stitches[i];
 }
 
 }  // namespace weft

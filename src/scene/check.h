@@ -40,6 +40,9 @@ void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const st
 /// Colliders that pins name must be among `names`.
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
                        const std::string& pointer, Problems& problems);
+/// Cloths that stitches name must be among `names`.
+void check_stitches(const StitchDesc& stitches, std::span<const std::string_view> names, const std::string& pointer,
+                    Problems& problems);
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems);
 
 /// In check_look.cpp. The names in `look` must be those of cloths or colliders.

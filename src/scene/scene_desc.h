@@ -57,6 +57,7 @@ struct SceneDesc {
     std::optional<AirDesc> air = {};      ///< without, a vacuum
     std::vector<SceneCloth> cloths = {};  ///< at least one
     std::vector<ColliderDesc> colliders = {};
+    std::vector<StitchDesc> stitches = {};
     std::optional<Camera> camera = {};  ///< without, one from which everything is seen
     Lighting light = {};
     std::vector<SceneLook> looks = {};  ///< of those that have one

@@ -25,6 +25,9 @@ const OffsetKey offset_key;
 const PoseKey pose_key;
 const Camera camera;
 const LookHead look_head;
+const StitchDesc stitch;
+const StitchEnd stitch_end;
+const MeshPoint surface_point;
 
 std::vector<SceneTable> all_tables() {
     std::vector<SceneTable> tables = {
@@ -63,6 +66,11 @@ std::vector<SceneTable> all_tables() {
 #undef WEFT_SHAPE
         {"/colliders/*/motion", motion_keys, nullptr},
         {"/colliders/*/motion/keys/*", pose_key_keys, &pose_key},
+        {"/stitches/*", stitch_keys, &stitch},
+        {"/stitches/*/a", stitch_end_keys, &stitch_end},
+        {"/stitches/*/a/points/*", surface_point_keys, &surface_point},
+        // Its points have the keys that they have in `a`.
+        {"/stitches/*/b", stitch_end_keys, &stitch_end},
         {"/camera", camera_parameters, &camera},
         {"/light", lighting_parameters, &scene.light},
         {"/light/sun", sun_parameters, &scene.light.sun},

@@ -52,6 +52,7 @@ inline constexpr Parameter scene_keys[] = {
     {.key = "air", .kind = ParameterKind::object, .what = "the air around, still or windy; without it, a vacuum"},
     {.key = "cloths", .kind = ParameterKind::list, .what = "the cloths, at least one", .required = true},
     {.key = "colliders", .kind = ParameterKind::list, .what = "what the cloths fall on"},
+    {.key = "stitches", .kind = ParameterKind::list, .what = "what ties cloths together"},
     {.key = "camera", .kind = ParameterKind::object,
      .what = "where pictures are taken from; without it, a place from which everything is seen"},
     {.key = "light", .kind = ParameterKind::object, .what = "what lights pictures"},
@@ -258,6 +259,31 @@ inline constexpr Parameter pose_key_keys[] = {
      .min = -far_away, .max = far_away, .unit = "m", .what = "in place of the transform's"},
     {.key = "rotation", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PoseKey, rotation_degrees),
      .min = -any_float, .unit = "°", .what = "in place of the transform's; 360 more is one turn more"},
+};
+
+inline constexpr Parameter stitch_keys[] = {
+    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(StitchDesc, name),
+     .what = "no two rows of stitches share one; without, they are called `stitches 0`, `stitches 1`, …"},
+    {.key = "a", .kind = ParameterKind::object, .what = "points on one side", .required = true},
+    {.key = "b", .kind = ParameterKind::object, .what = "as many points on the other side", .required = true},
+    {.key = "gap", .offset = offsetof(StitchDesc, gap), .min = 0, .max = far_away, .unit = "m",
+     .what = "distance at which tied points are kept"},
+    {.key = "compliance", .offset = offsetof(StitchDesc, compliance), .min = 0, .max = 1e6, .unit = "m/N",
+     .what = "how far each stitch gives way per newton; 0: not at all"},
+};
+
+inline constexpr Parameter stitch_end_keys[] = {
+    {.key = "cloth", .kind = ParameterKind::text, .offset = offsetof(StitchEnd, cloth),
+     .what = "name of the cloth; both sides may be of one cloth", .required = true},
+    {.key = "vertices", .kind = ParameterKind::list, .what = "vertices, numbered as for pins"},
+    {.key = "points", .kind = ParameterKind::list, .what = "points in triangles; instead of `vertices`"},
+};
+
+inline constexpr Parameter surface_point_keys[] = {
+    {.key = "triangle", .kind = ParameterKind::integer, .offset = offsetof(MeshPoint, triangle), .min = 0,
+     .max = 4294967295.0, .what = "number of the triangle in the mesh"},
+    {.key = "weights", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(MeshPoint, weights), .min = 0,
+     .max = 1, .what = "of its three corners; their sum is 1"},
 };
 
 inline constexpr Parameter look_keys[] = {

@@ -81,11 +81,11 @@ Fabric fabric_of(const SceneCloth& cloth) {
     return fabric;
 }
 
+}  // namespace
+
 const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source) {
     return source.simulated ? *source.simulated : model.mesh();
 }
-
-}  // namespace
 
 Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
                                const std::string& pointer, std::vector<std::string>& notes) {
@@ -106,12 +106,18 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     clock.spent_on(BuildPart::topology);
     note_report(cloth.name, topology->report, notes);
 
-    auto pinned = select_pins(cloth.pins, {loaded->mesh, *topology, {}}, world, pointer + "/pins");
-    if (!pinned) return pinned.errors();
     BuiltCloth built;
     built.source.topology = options;
+    built.source.numbers = {topology->particle_count, topology->welded_to_particle, topology->vertex_to_particle};
+    auto pinned = select_pins(cloth.pins,
+                              {.mesh = loaded->mesh,
+                               .numbers = built.source.numbers,
+                               .rest_positions = topology->rest_positions,
+                               .positions = {}},
+                              world, pointer + "/pins");
+    if (!pinned) return pinned.errors();
     built.source.pins = pinned->pins;
-    if (drawn) built.source.simulated = std::make_unique<TriangleMesh>(loaded->mesh);
+    if (drawn) built.source.simulated = std::make_shared<const TriangleMesh>(loaded->mesh);
     built.holds = std::move(pinned->holds);
     auto model = build_cloth_model({.name = cloth.name,
                                     .mesh = std::move(loaded->mesh),
@@ -140,10 +146,12 @@ Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource
                                const std::vector<PinDesc>& pins) {
     const Frame& frame = world.frame();
     const auto cloth = std::ranges::find(frame.cloths, id, &ClothFrame::id);
-    const TriangleMesh& mesh = simulated_mesh(*world.model(id), source);
-    auto topology = build_topology(mesh, source.topology);
-    if (!topology) return topology.errors();
-    return select_pins(pins, {mesh, *topology, cloth->positions, frame.time}, world, "/pins");
+    return select_pins(pins,
+                       {.mesh = simulated_mesh(*world.model(id), source),
+                        .numbers = source.numbers,
+                        .positions = cloth->positions,
+                        .time = frame.time},
+                       world, "/pins");
 }
 
 }  // namespace weft

@@ -23,8 +23,9 @@ struct MeshFiles {
 
 /// What is kept of a cloth beside its model, to make another model of the same particles.
 struct ClothSource {
-    std::unique_ptr<TriangleMesh> simulated = {};  ///< placed; where that is not the mesh that is drawn
+    std::shared_ptr<const TriangleMesh> simulated = {};  ///< placed; where that is not the mesh that is drawn
     TopologyOptions topology = {};
+    ParticleNumbers numbers = {};
     ClothPins pins = {};
 };
 
@@ -38,6 +39,9 @@ struct BuiltCloth {
 /// the place of the cloth in errors; `notes` gets what building found and survived, a line each.
 Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
                                const std::string& pointer, std::vector<std::string>& notes);
+
+/// As it was placed at the start.
+const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source);
 
 /// Another fabric, other pins or another layout for the particles of `now`.
 Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,

@@ -22,12 +22,12 @@ Mat3 upright(UpAxis up) {
 class PinSelector {
   public:
     explicit PinSelector(const PinnedCloth& cloth)
-        : mesh_(cloth.mesh), topology_(cloth.topology), positions_(cloth.positions) {}
+        : mesh_(cloth.mesh), numbers_(cloth.numbers), rest_(cloth.rest_positions), positions_(cloth.positions) {}
 
-    Vec3 place(std::uint32_t p) const { return positions_.empty() ? topology_.rest_positions[p] : positions_[p].xyz(); }
+    Vec3 place(std::uint32_t p) const { return positions_.empty() ? rest_[p] : positions_[p].xyz(); }
 
     Errors select(const VertexPins& pins, const std::string& where) {
-        const auto& particle = topology_.welded_to_particle;
+        const auto& particle = numbers_.of_welded;
         Errors errors;
         for (std::size_t i = 0; i < pins.vertices.size(); ++i) {
             const std::uint32_t vertex = pins.vertices[i];
@@ -48,7 +48,7 @@ class PinSelector {
 
     Errors select(const BoxPins& pins, const std::string& where) {
         const std::size_t before = chosen.size();
-        for (std::uint32_t p = 0; p < topology_.particle_count; ++p) {
+        for (std::uint32_t p = 0; p < numbers_.particle_count; ++p) {
             if (pins.box.contains(place(p))) chosen.push_back(p);
         }
         if (chosen.size() == before) return {{where + "/box", "no vertex lies in it"}};
@@ -62,7 +62,7 @@ class PinSelector {
         for (std::size_t v = 0; v < mesh_.colors.size(); ++v) {
             const Vec4 c = mesh_.colors[v];
             const bool matches = near(c.x, pins.color.x) && near(c.y, pins.color.y) && near(c.z, pins.color.z);
-            if (matches && topology_.vertex_to_particle[v] != none) chosen.push_back(topology_.vertex_to_particle[v]);
+            if (matches && numbers_.of_vertex[v] != none) chosen.push_back(numbers_.of_vertex[v]);
         }
         if (chosen.size() == before) return {{where + "/color", "no vertex has such a color"}};
         return {};
@@ -72,7 +72,8 @@ class PinSelector {
 
   private:
     const TriangleMesh& mesh_;
-    const Topology& topology_;
+    const ParticleNumbers& numbers_;
+    std::span<const Vec3> rest_;
     std::span<const Vec4> positions_;
 };
 
@@ -134,7 +135,7 @@ Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& 
         const Vec3 place = places.place(particle);
         std::uint32_t point = particle;
         if (hold.compliance > 0) {
-            point = cloth.topology.particle_count + static_cast<std::uint32_t>(pinned.pins.attachments.size());
+            point = cloth.numbers.particle_count + static_cast<std::uint32_t>(pinned.pins.attachments.size());
             pinned.pins.attachments.push_back({particle, hold.compliance, place});
         } else {
             pinned.pins.particles.push_back(particle);

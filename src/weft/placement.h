@@ -24,12 +24,20 @@ struct Pinned {
 /// No id if there is none of that name.
 ColliderId find_collider(const World& world, std::string_view name);
 
+/// Which particle a number in a scene means: `none` for what is not simulated. As in Topology.
+struct ParticleNumbers {
+    std::uint32_t particle_count = 0;
+    std::vector<std::uint32_t> of_welded;  ///< by welded vertex, as pins and stitches number them
+    std::vector<std::uint32_t> of_vertex;  ///< by vertex of the simulated mesh
+};
+
 /// What the pins of a cloth are selected from.
 struct PinnedCloth {
     const TriangleMesh& mesh;  ///< simulated
-    const Topology& topology;
-    std::span<const Vec4> positions;  ///< m, per particle: where it is now; empty: where it is at rest
-    double time = 0;                  ///< s
+    const ParticleNumbers& numbers;
+    std::span<const Vec3> rest_positions = {};  ///< m, per particle; only without `positions`
+    std::span<const Vec4> positions;            ///< m, per particle: where it is now; empty: where it is at rest
+    double time = 0;                            ///< s
 };
 
 /// The particles that pins name; where several pins name one, the last wins. Every pin must name at least one; `where`

@@ -3,6 +3,7 @@
 #include "scene/check.h"
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
+#include "weft/stitching.h"
 
 #include <algorithm>
 #include <cassert>
@@ -45,7 +46,12 @@ Errors apply(const Options& options, SceneDesc& scene) {
     return errors;
 }
 
-WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, bool feedback) {
+/// What a host decides, and no scene: whether contacts are accounted for, and whether there are threads to spare.
+struct HostSettings {
+    bool feedback = false, background = false;
+};
+
+WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, HostSettings host) {
     return {.gravity = scene.gravity,
             .substeps = solver.substeps,
             .iterations = solver.iterations,
@@ -54,7 +60,12 @@ WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, bool
             .accumulate = solver.accumulate,
             .hierarchy = solver.hierarchy,
             .air = scene.air,
-            .feedback = feedback};
+            .feedback = host.feedback,
+            .background = host.background};
+}
+
+HostSettings host_of(const World& world) {
+    return {world.settings().feedback, world.settings().background};
 }
 
 template <class Named>
@@ -106,15 +117,21 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
     name_unnamed(scene);
     SceneWorld made;
     made.files_ = {options.read_mesh, folder};
-    made.world_ = std::make_unique<World>(std::move(*backend), settings_of(scene, scene.solver, options.feedback));
+    made.world_ = std::make_unique<World>(std::move(*backend),
+                                          settings_of(scene, scene.solver, {options.feedback, options.threads > 1}));
     std::vector<SceneCloth> cloths = std::exchange(scene.cloths, {});
     std::vector<ColliderDesc> colliders = std::exchange(scene.colliders, {});
+    std::vector<StitchDesc> stitches = std::exchange(scene.stitches, {});
     made.scene_ = std::move(scene);
     for (ColliderDesc& collider : colliders) made.add(std::move(collider));
     Errors errors;
     for (std::size_t i = 0; i < cloths.size(); ++i) {
         auto added = made.add(std::move(cloths[i]), "/cloths/" + std::to_string(i));
         if (!added) errors.insert(errors.end(), added.errors().begin(), added.errors().end());
+    }
+    for (std::size_t i = 0; errors.empty() && i < stitches.size(); ++i) {
+        auto added = made.add(std::move(stitches[i]), "/stitches/" + std::to_string(i));
+        if (!added) errors = added.errors();
     }
     if (!errors.empty()) return errors;
     return made;
@@ -144,6 +161,27 @@ Result<ClothId> SceneWorld::add(SceneCloth cloth, const std::string& pointer) {
     return *id;
 }
 
+Result<StitchId> SceneWorld::add(StitchDesc stitches, const std::string& pointer) {
+    const auto named = [&](const std::string& name) -> SewnCloth {
+        const auto place = static_cast<std::size_t>(find_named(scene_.cloths, name) - scene_.cloths.data());
+        const ClothId id = world_->cloth_id(place);
+        return {id, *world_->model(id), sources_[place]};
+    };
+    auto made = make_stitches(stitches, named(stitches.a.cloth), named(stitches.b.cloth), pointer);
+    if (!made) return made.errors();
+    const StitchId id = world_->add(std::move(*made));
+    stitch_ids_.push_back(id);
+    scene_.stitches.push_back(std::move(stitches));
+    return id;
+}
+
+void SceneWorld::remove(StitchId id) {
+    const auto place = std::ranges::find(stitch_ids_, id) - stitch_ids_.begin();
+    world_->remove(id);
+    stitch_ids_.erase(stitch_ids_.begin() + place);
+    scene_.stitches.erase(scene_.stitches.begin() + place);
+}
+
 ColliderId SceneWorld::add(ColliderDesc collider) {
     const ColliderId id = world_->add(make_collider(collider));
     scene_.colliders.push_back(std::move(collider));
@@ -158,6 +196,9 @@ void SceneWorld::forget_look(const std::string& name) {
 
 void SceneWorld::remove(ClothId id) {
     const auto place = static_cast<std::ptrdiff_t>(place_of(id));
+    const std::string& called = scene_.cloths[static_cast<std::size_t>(place)].name;
+    for (std::size_t i = scene_.stitches.size(); i-- > 0;)
+        if (scene_.stitches[i].a.cloth == called || scene_.stitches[i].b.cloth == called) remove(stitch_ids_[i]);
     world_->remove(id);
     sources_.erase(sources_.begin() + place);
     const std::string name = std::move(scene_.cloths[static_cast<std::size_t>(place)].name);
@@ -220,9 +261,32 @@ Result<Done> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const std::size_t place = place_of(id);
     auto pinned = select_pins_now(*world_, id, sources_[place], pins);
     if (!pinned) return pinned.errors();
+    // Springs to anchors are constraints, which a model has.
+    if (sources_[place].pins.attachments.empty() && pinned->pins.attachments.empty()) {
+        if (auto held = hold_at_once(place, *pinned); !held) return held;
+        scene_.cloths[place].pins = std::move(pins);
+        return Done{};
+    }
     SceneCloth cloth = without_meshes(scene_.cloths[place]);
     cloth.pins = std::move(pins);
     return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->holds));
+}
+
+Result<Done> SceneWorld::hold_at_once(std::size_t place, const Pinned& pinned) {
+    const ClothId id = world_->cloth_id(place);
+    if (auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds); !set) return set;
+    sources_[place].pins = pinned.pins;
+    // Coarse levels and tethers start from pins.
+    const auto now = world_->model(id);
+    if (now->hierarchy.empty() && now->table(ConstraintKind::tether).rows == 0 &&
+        scene_.cloths[place].tethers != Tethers::on)
+        return Done{};
+    const ClothSource& all = sources_[place];
+    world_->rebuild_later(id, [now, source = ClothSource{all.simulated, all.topology, {}, all.pins},
+                               cloth = without_meshes(scene_.cloths[place]), layout = world_->settings().layout()] {
+        return rebuild_cloth(*now, source, cloth, source.pins, layout);
+    });
+    return Done{};
 }
 
 void SceneWorld::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
@@ -240,20 +304,21 @@ void SceneWorld::set_friction(ColliderId id, std::array<float, 2> friction) {
 
 void SceneWorld::set_gravity(Vec3 gravity) {
     scene_.gravity = gravity;
-    world_->configure(settings_of(scene_, scene_.solver, world_->settings().feedback));
+    world_->configure(settings_of(scene_, scene_.solver, host_of(*world_)));
 }
 
 void SceneWorld::set_air(const std::optional<AirDesc>& air) {
     scene_.air = air;
-    world_->configure(settings_of(scene_, scene_.solver, world_->settings().feedback));
+    world_->configure(settings_of(scene_, scene_.solver, host_of(*world_)));
 }
 
 void SceneWorld::set_feedback(bool on) {
-    if (on != world_->settings().feedback) world_->configure(settings_of(scene_, scene_.solver, on));
+    if (on != world_->settings().feedback)
+        world_->configure(settings_of(scene_, scene_.solver, {on, world_->settings().background}));
 }
 
 Result<Done> SceneWorld::set_solver(const SolverDesc& solver) {
-    const WorldSettings settings = settings_of(scene_, solver, world_->settings().feedback);
+    const WorldSettings settings = settings_of(scene_, solver, host_of(*world_));
     if (const ClothLayout layout = settings.layout(); layout != world_->settings().layout()) {
         std::vector<Change> changes;
         for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -290,6 +355,7 @@ Result<Done> SceneWorld::follow(const SceneDesc& next) {
         if (auto set = set_solver(next.solver); !set) return set;
     }
     if (auto changed = change_cloths(next); !changed) return changed;
+    if (auto changed = change_stitches(next); !changed) return changed;
     scene_.name = next.name;
     scene_.frame_rate = next.frame_rate;
     scene_.camera = next.camera;
@@ -307,6 +373,16 @@ void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
         const ColliderDesc* there = find_named(next.colliders, scene_.colliders[i].name);
         if (!there || !same_body(scene_.colliders[i], *there)) remove(world_->collider_id(i));
     }
+}
+
+Result<Done> SceneWorld::change_stitches(const SceneDesc& next) {
+    for (std::size_t i = scene_.stitches.size(); i-- > 0;)
+        if (std::ranges::find(next.stitches, scene_.stitches[i]) == next.stitches.end()) remove(stitch_ids_[i]);
+    for (std::size_t i = 0; i < next.stitches.size(); ++i) {
+        if (std::ranges::find(scene_.stitches, next.stitches[i]) != scene_.stitches.end()) continue;
+        if (auto added = add(next.stitches[i], "/stitches/" + std::to_string(i)); !added) return added.errors();
+    }
+    return Done{};
 }
 
 void SceneWorld::change_colliders(const SceneDesc& next) {

@@ -43,12 +43,17 @@ class SceneWorld {
     /// `pointer` is the place of the cloth in errors.
     Result<ClothId> add(SceneCloth cloth, const std::string& pointer = {});
     ColliderId add(ColliderDesc collider);
+    /// Between cloths that are there, from where they are now.
+    Result<StitchId> add(StitchDesc stitches, const std::string& pointer = {});
+    void remove(StitchId id);
+    /// Its stitches go with it.
     void remove(ClothId id);
     /// Pins that it carried stay where they are.
     void remove(ColliderId id);
     /// Cloth goes on moving as it was. `preset`: the name of the one that the fabric began as.
     Result<Done> set_fabric(ClothId id, const Fabric& fabric, const std::string& preset);
-    /// Particles are held where they are now; boxes are where particles are now.
+    /// Particles are held where they are now; boxes are where particles are now. Touches the particles concerned alone,
+    /// where pins hold without giving way before and after; what else pins decide follows some frames later.
     Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
     /// During the next frame the collider moves there, and stays. Ends its motion by keys.
     void move(ColliderId id, Vec3 position, Vec3 rotation_degrees);
@@ -78,6 +83,8 @@ class SceneWorld {
 
     /// What building found and survived, a line each.
     const std::vector<std::string>& notes() const { return notes_; }
+    /// In the order of the document.
+    std::span<const StitchId> stitches() const { return stitch_ids_; }
 
   private:
     struct Change;
@@ -87,6 +94,8 @@ class SceneWorld {
     std::size_t place_of(ColliderId id) const;
     Result<Done> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, Holds holds);
     Result<Done> set_models(std::span<Change> changes);
+    Result<Done> hold_at_once(std::size_t place, const Pinned& pinned);
+    Result<Done> change_stitches(const SceneDesc& next);
     void forget_look(const std::string& name);
     void remove_what_is_not_in(const SceneDesc& next);
     void change_colliders(const SceneDesc& next);
@@ -96,6 +105,7 @@ class SceneWorld {
     SceneDesc scene_;
     MeshFiles files_;
     std::vector<ClothSource> sources_;  ///< of the cloths, in their order
+    std::vector<StitchId> stitch_ids_;  ///< of the rows of stitches, in their order
     std::unique_ptr<World> world_;
     std::vector<std::string> notes_;
 };

@@ -19,15 +19,18 @@ class BackendWithoutRoom final : public Backend {
     std::string_view name() const override { return inner_->name(); }
     std::string device() const override { return inner_->device(); }
     unsigned threads() const override { return inner_->threads(); }
-    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
-        return inner_->add_cloth(std::move(model));
+    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+        return inner_->add_cloth(std::move(model), base);
     }
     void remove_cloth(ClothHandle cloth) override { inner_->remove_cloth(cloth); }
-    Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model) override {
+    Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         if (count_++ == room_) return Error::of_machine("device", "has no room");
-        return inner_->set_model(cloth, std::move(model));
+        return inner_->set_model(cloth, std::move(model), base);
     }
-    void step(std::span<const ClothStep> cloths) override { inner_->step(cloths); }
+    void step(const WorldStep& step) override { inner_->step(step); }
+    Result<Done> set_weights(ClothHandle cloth, std::span<const ParticleWeight> changed) override {
+        return inner_->set_weights(cloth, changed);
+    }
     void finish(std::array<double, stage_count>& stage_ms) override { inner_->finish(stage_ms); }
     bool read(ClothHandle cloth, ClothFrame& frame) const override { return inner_->read(cloth, frame); }
     void measure(ClothHandle cloth, MeasureSums& sums) const override { inner_->measure(cloth, sums); }

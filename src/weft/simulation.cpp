@@ -168,6 +168,27 @@ Result<ColliderId> Simulation::add(const ColliderDesc& desc) {
     return impl_->scene.add(std::move(collider));
 }
 
+Result<StitchId> Simulation::add(const StitchDesc& desc) {
+    Problems problems;
+    StitchDesc stitches = desc;
+    const SceneDesc& scene = impl_->scene.scene();
+    stitches.name = own_name(desc.name, "stitches", names_of(scene.stitches), problems);
+    check_stitches(stitches, names_of(scene.cloths), "", problems);
+    if (!problems.none()) return std::move(problems).take();
+    return impl_->scene.add(std::move(stitches));
+}
+
+Result<Done> Simulation::remove(StitchId id) {
+    if (!impl_->world().contains(id)) return no_such("row of stitches");
+    impl_->scene.remove(id);
+    return Done{};
+}
+
+std::vector<StitchId> Simulation::stitches() const {
+    const auto ids = impl_->scene.stitches();
+    return {ids.begin(), ids.end()};
+}
+
 Result<Done> Simulation::remove(ClothId id) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     impl_->scene.remove(id);

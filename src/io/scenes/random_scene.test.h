@@ -35,6 +35,8 @@ class RandomScene {
                 if (pin.motion.empty() && !scene.colliders.empty() && maybe()) pin.attach = scene.colliders[0].name;
             }
         }
+        for (std::uint32_t i = below(3); i > 0; --i) draw(scene.stitches.emplace_back(), scene);
+        name_unnamed(scene);
         if (maybe()) {
             fill(camera_parameters, &scene.camera.emplace());
             scene.camera->target.x = scene.camera->position.x < 0 ? 1.0f : -1.0f;
@@ -193,6 +195,20 @@ class RandomScene {
         if (kind == 1) pin.select = BoxPins{{{-1e3f, -0.0f, -2.5f}, {1, 0.1f, 1e20f}}};
         if (kind == 2) fill(color_pin_keys, &pin.select.emplace<ColorPins>());
         if (maybe()) draw_keys(pin.motion, offset_key_keys, OffsetKey());
+    }
+
+    void draw(StitchDesc& stitches, const SceneDesc& scene) {
+        fill(stitch_keys, &stitches);
+        stitches.name.clear();
+        const std::uint32_t count = 1 + below(3);
+        for (StitchEnd* end : {&stitches.a, &stitches.b}) {
+            end->cloth = scene.cloths[below(static_cast<std::uint32_t>(scene.cloths.size()))].name;
+            const bool vertices = maybe();
+            for (std::uint32_t k = 0; k < count; ++k) {
+                if (vertices) end->vertices.push_back(below(4));
+                if (!vertices) end->points.push_back({below(2), maybe() ? Vec3{0.25f, 0.5f, 0.25f} : Vec3{0, 1, 0}});
+            }
+        }
     }
 
     void draw(ColliderDesc& collider) {

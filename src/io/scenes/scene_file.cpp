@@ -155,6 +155,18 @@ void read_collider(ObjectReader& o, ColliderDesc& collider) {
     read_motion(o, collider);
 }
 
+void read_stitch_end(ObjectReader& o, StitchEnd& end) {
+    o.values(stitch_end_keys, &end);
+    if (o.find("vertices")) end.vertices = o.indices("vertices");
+    o.objects("points", [&](ObjectReader& point) { point.values(surface_point_keys, &end.points.emplace_back()); });
+}
+
+void read_stitches(ObjectReader& o, StitchDesc& stitches) {
+    o.values(stitch_keys, &stitches);
+    o.object("a", [&](ObjectReader& end) { read_stitch_end(end, stitches.a); });
+    o.object("b", [&](ObjectReader& end) { read_stitch_end(end, stitches.b); });
+}
+
 SceneDesc read_scene(const json& value, Problems& problems) {
     SceneDesc scene;
     ObjectReader o(value, "", problems);
@@ -165,6 +177,7 @@ SceneDesc read_scene(const json& value, Problems& problems) {
     o.object("air", [&](ObjectReader& air) { read_air(air, scene.air.emplace()); });
     o.objects("cloths", [&](ObjectReader& cloth) { read_cloth(cloth, scene.cloths.emplace_back()); });
     o.objects("colliders", [&](ObjectReader& collider) { read_collider(collider, scene.colliders.emplace_back()); });
+    o.objects("stitches", [&](ObjectReader& row) { read_stitches(row, scene.stitches.emplace_back()); });
     read_pictures(o, scene);
     o.finish();
     return scene;

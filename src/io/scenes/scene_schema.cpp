@@ -31,6 +31,8 @@ const Kinds kinds[] = {
     {"/cloths/*/drawn", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/pins/*", {"vertices", "box", "color"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
+    {"/stitches/*/a", {"vertices", "points"}},
+    {"/stitches/*/b", {"vertices", "points"}},
 };
 
 std::vector<const SceneTable*> tables_at(std::string_view place) {

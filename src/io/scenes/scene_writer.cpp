@@ -49,6 +49,7 @@ class SceneWriter {
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
     Child motion(const ColliderDesc& collider, const std::string& place);
     JsonNode collider(const ColliderDesc& collider, std::size_t index, const std::string& place);
+    JsonNode stitches(const StitchDesc& stitches, std::size_t index, const std::string& place);
     JsonNode light(const Lighting& light, const std::string& place);
     JsonNode look(const SceneLook& look, const MaterialPreset* otherwise, const std::string& place);
     JsonNode looks(const SceneDesc& scene, const std::string& place);
@@ -249,6 +250,25 @@ JsonNode SceneWriter::collider(const ColliderDesc& desc, std::size_t index, cons
     });
 }
 
+JsonNode SceneWriter::stitches(const StitchDesc& desc, std::size_t index, const std::string& place) {
+    const auto end = [&](const StitchEnd& one, const std::string& where) {
+        return object(stitch_end_keys, one, StitchEnd(), where, [&](std::string_view key, const std::string& below) {
+            if (key == "vertices")
+                return unless_empty(list(one.vertices, below, [](std::uint32_t vertex, const std::string&) {
+                    return JsonNode::number(vertex);
+                }));
+            return unless_empty(list(one.points, below, [&](const MeshPoint& point, const std::string& at_point) {
+                return object(surface_point_keys, point, MeshPoint(), at_point);
+            }));
+        });
+    };
+    StitchDesc defaults;
+    defaults.name = "stitches " + std::to_string(index);
+    return object(stitch_keys, desc, defaults, place, [&](std::string_view key, const std::string& where) {
+        return Child(end(key == "a" ? desc.a : desc.b, where));
+    });
+}
+
 JsonNode SceneWriter::light(const Lighting& desc, const std::string& place) {
     const Lighting defaults;
     return object(
@@ -299,6 +319,10 @@ JsonNode SceneWriter::scene(const SceneDesc& desc) {
         if (key == "colliders")
             return unless_empty(list(desc.colliders, where, [&](const ColliderDesc& one, const std::string& below) {
                 return collider(one, index++, below);
+            }));
+        if (key == "stitches")
+            return unless_empty(list(desc.stitches, where, [&](const StitchDesc& one, const std::string& below) {
+                return stitches(one, index++, below);
             }));
         if (key == "camera")
             return desc.camera ? Child(object(camera_parameters, *desc.camera, Camera(), where)) : Child();
