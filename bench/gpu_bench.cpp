@@ -40,10 +40,8 @@ struct Method {
 constexpr std::uint32_t largest_fused = 64;
 constexpr Method methods[] = {
     {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "streamed"},
-    {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "patched"},
     {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "fused", largest_fused},
     {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "streamed"},
-    {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "patched"},
     {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "fused", largest_fused},
     {"gauss-seidel", 20, 1, Projection::gauss_seidel, false},
     {"gauss-seidel", 30, 1, Projection::gauss_seidel, false},

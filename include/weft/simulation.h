@@ -32,9 +32,8 @@ struct Options {
     std::string backend = "auto";
     /// Vulkan: part of the device's name, in whatever case; empty takes the best.
     std::string device = {};
-    /// Vulkan: how a frame becomes dispatches, "auto", "streamed" (one per pass), "grouped" (coarse levels in one),
-    /// "patched" (some iterations of averaged Jacobi in one, a workgroup to a patch of the cloth) or "fused" (one for
-    /// all, a workgroup to a cloth). The same bits.
+    /// Vulkan: how a frame becomes dispatches, "auto", "streamed" (one per pass), "grouped" (coarse levels in one) or
+    /// "fused" (one for all, a workgroup to a cloth). The same bits.
     std::string execution = "auto";
     /// Threads in all, the calling one included, 1…256. The result has the same bits whatever the number.
     unsigned threads = 1;

@@ -190,19 +190,6 @@ struct AverageArgs {
     uint mean;  // 1: the sum divided by its terms
 };
 
-// Planes of `width` floats per element between a whole and a part of it.
-struct CopyArgs {
-    Floats whole;
-    Floats part;
-    Uints index;  // elements of the whole
-    uint whole_stride;
-    uint part_stride;
-    uint planes;
-    uint width;
-    uint count;
-    uint back;  // 1: from the part to the whole
-};
-
 // A coarse level.
 struct LevelArgs {
     Vec4s position;  // of the level's nodes, or of particles that are spread to
@@ -220,10 +207,8 @@ struct LevelArgs {
 struct ContactArgs {
     Vec4s position;
     Vec4s start;
-    Vec4s sums;       // [collider · capacity + particle]; 0 with one iteration
-    Uints particles;  // where they start; 0: all of them, in order
-    Vec4s felt;       // [collider · felt_capacity + particle] of the cloth: moved of ContactTrace, and then turned; 0
-                      // without feedback
+    Vec4s sums;  // [collider · capacity + particle]; 0 with one iteration
+    Vec4s felt;  // [collider · capacity + particle]: moved of ContactTrace, and then turned; 0 without feedback
     FrameRef frame;
     ColliderRef colliders;
     PoseRef poses;  // [substep · colliders + collider]
@@ -231,8 +216,6 @@ struct ContactArgs {
     uint capacity;
     uint substep;
     uint first_iteration;
-    uint felt_capacity;
-    uint owned;  // so many, the first ones, are nobody else's to keep account of
 };
 
 // Triangles.

@@ -13,8 +13,8 @@ namespace {
 struct ListIn {
     std::uint64_t commands;
     std::uint32_t count, points;
-    std::uint64_t position, to, indices, sums;
-    std::uint32_t owned, repeat_begin, repeat_end, times;
+    std::uint64_t position, sums;
+    std::uint32_t repeat_begin, repeat_end, times, unused;
 };
 constexpr std::size_t head_bytes = 16, command_bytes = head_bytes + 128;
 
@@ -88,13 +88,11 @@ Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const 
                          .count = lists_[i].count,
                          .points = lists_[i].points.count,
                          .position = lists_[i].points.position,
-                         .to = lists_[i].points.to,
-                         .indices = lists_[i].points.indices,
                          .sums = lists_[i].points.sums,
-                         .owned = lists_[i].points.owned,
                          .repeat_begin = lists_[i].repeat_begin,
                          .repeat_end = lists_[i].repeat_end,
-                         .times = lists_[i].times});
+                         .times = lists_[i].times,
+                         .unused = 0});
     }
     if (auto done = upload(device, arena_, table_, std::as_bytes(std::span(table))); !done) return done;
     return choose_pipeline(device, programs);
@@ -126,12 +124,11 @@ Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& 
     return Done{};
 }
 
-void CommandLists::record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count,
-                          std::uint32_t substep) const {
+void CommandLists::record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count) const {
     struct {
         std::uint64_t lists;
-        std::uint32_t first, substep;
-    } const args{arena_.address(table_), first, substep};
+        std::uint32_t first, unused;
+    } const args{arena_.address(table_), first, 0};
     commands.bind(*pipeline_);
     commands.push(std::as_bytes(std::span(&args, 1)));
     commands.dispatch(count);

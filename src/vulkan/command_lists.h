@@ -12,9 +12,6 @@ namespace weft::vulkan {
 struct PointsAtHand {
     std::uint64_t position = 0;  ///< where they are
     std::uint32_t count = 0;     ///< 0: they stay there
-    std::uint64_t to = 0;        ///< where the first `owned` of them go at the end
-    std::uint32_t owned = 0;
-    std::uint64_t indices = 0;  ///< which they are; 0: the first ones, in order
     std::uint64_t sums = 0;  ///< in fixed point, likewise at hand and 0 at first; 0: there are none, or they stay there
 };
 
@@ -35,8 +32,8 @@ class CommandLists {
                       const Repeat& repeat = {});
     Result<Done> build(gpu::Device& device, Programs& programs, const std::string& name);
 
-    /// `count` lists from `first` on, side by side. What goes by substeps counts them from `substep` on.
-    void record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t substep = 0) const;
+    /// `count` lists from `first` on, side by side.
+    void record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count) const;
     bool empty() const { return lists_.empty(); }
 
   private:

@@ -391,7 +391,6 @@ class Compiler {
         const ContactArgs args{.position = state(cloth_.position),
                                .start = state(cloth_.start),
                                .sums = work(work_.contact_sums),
-                               .particles = 0,
                                .felt = work(work_.felt),
                                .frame = input_.frame(),
                                .colliders = input_.colliders(),
@@ -399,9 +398,7 @@ class Compiler {
                                .count = model_.point_count(),
                                .capacity = model_.capacity(),
                                .substep = substep,
-                               .first_iteration = pass.first_iteration ? 1u : 0u,
-                               .felt_capacity = model_.capacity(),
-                               .owned = model_.point_count()};
+                               .first_iteration = pass.first_iteration ? 1u : 0u};
         if (shape_.colliders > 0) add(list, "contact", args, args.count, pass, substep);
     }
 

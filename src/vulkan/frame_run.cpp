@@ -8,29 +8,23 @@
 namespace weft::vulkan {
 namespace {
 
-// Commands [begin, end) of a plan: one dispatch each, one for all where their levels are small, or a few where they
-// are iterations on patches.
+// Commands [begin, end) of a plan: a dispatch each, or one for all where their levels are small.
 struct Segment {
     std::size_t begin = 0, end = 0;
     std::uint32_t list = none;
-    bool patched = false;
 };
 
 bool is_alone(const Command& command) {
     return command.pass.alone;
 }
 
-std::vector<Segment> segments_of(std::span<const Command> commands, bool grouped, bool patched, CommandLists& lists) {
+std::vector<Segment> segments_of(std::span<const Command> commands, bool grouped, CommandLists& lists) {
     std::vector<Segment> segments;
     for (std::size_t i = 0; i < commands.size();) {
         Segment segment{i, i + 1};
         if (grouped && is_alone(commands[i])) {
             while (segment.end < commands.size() && is_alone(commands[segment.end])) ++segment.end;
             if (segment.end - i > 1) segment.list = lists.add(commands.subspan(i, segment.end - i));
-        } else if (patched && PatchedIterations::covers(commands[i].pass)) {
-            while (segment.end < commands.size() && PatchedIterations::covers(commands[segment.end].pass))
-                ++segment.end;
-            segment.patched = true;
         }
         i = segment.end;
         segments.push_back(segment);
@@ -39,7 +33,7 @@ std::vector<Segment> segments_of(std::span<const Command> commands, bool grouped
 }
 
 std::uint32_t stage_of_segment(const CompiledPlan& plan, const Segment& segment) {
-    return segment.patched ? stage_patched : stage_of(plan.commands[segment.begin].pass);
+    return stage_of(plan.commands[segment.begin].pass);
 }
 
 }  // namespace
@@ -133,7 +127,7 @@ Result<Done> FrameRun::record_fused(bool timings) {
         PointsAtHand points;
         if (const std::uint32_t count = cloth.model().point_count(); fits_fused(device_, cloth.model())) {
             const std::uint64_t position = cloth.state().address(cloth.state().position);
-            points = {.position = position, .count = count, .to = position, .owned = count};
+            points = {.position = position, .count = count};
             if (fits_at_hand(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
         }
         const bool lines = members_[i].plan->projection == Projection::lines;
@@ -149,27 +143,10 @@ Result<Done> FrameRun::record_fused(bool timings) {
     return end_recording();
 }
 
-Result<Done> FrameRun::patch_members() {
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-        const Member& member = members_[i];
-        auto patched = PatchedIterations::create(device_, programs_, member.cloth->state(), work_[i], buffers_.input(i),
-                                                 member.shape, *member.plan, lists_);
-        if (!patched) return patched.errors();
-        patched_[i] = std::move(*patched);
-    }
-    return Done{};
-}
-
 Result<Done> FrameRun::record_streamed(bool timings) {
-    patched_.resize(members_.size());
-    if (execution_ == Execution::patched) {
-        if (auto done = patch_members(); !done) return done;
-    }
     std::vector<std::vector<Segment>> segments;
-    for (std::size_t i = 0; i < plans_.size(); ++i) {
-        segments.push_back(
-            segments_of(plans_[i].commands, execution_ != Execution::streamed, patched_[i].has_value(), lists_));
-    }
+    for (const CompiledPlan& plan : plans_)
+        segments.push_back(segments_of(plan.commands, execution_ == Execution::grouped, lists_));
     if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
     for (std::size_t i = 0; i < plans_.size(); ++i) {
         for (const Segment& segment : segments[i]) {
@@ -186,9 +163,7 @@ Result<Done> FrameRun::record_streamed(bool timings) {
                 commands_->stamp();
                 last = stage;
             }
-            if (segment.patched) {
-                patched_[i]->record(*commands_, lists_, first.substep);
-            } else if (segment.list == none) {
+            if (segment.list == none) {
                 record(*commands_, first, device_.limits());
             } else {
                 commands_->barrier();

@@ -6,7 +6,6 @@
 #include "vulkan/command_lists.h"
 #include "vulkan/feedback/contact_readback.h"
 #include "vulkan/frame_input.h"
-#include "vulkan/patched_iterations.h"
 
 #include <array>
 #include <memory>
@@ -22,7 +21,6 @@ enum class Execution {
     automatic,
     streamed,  ///< a dispatch per pass
     grouped,   ///< the same, but one for as many passes as are together on coarse levels of few nodes
-    patched,   ///< the same, but one for as many iterations as a workgroup can do of a patch
     fused,     ///< one for the whole frame, a workgroup to a cloth
 };
 
@@ -68,7 +66,6 @@ class FrameRun {
 
     FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution);
     Result<Done> compile_members();
-    Result<Done> patch_members();
     Result<Done> prepare_feedback();
     Result<Done> record_fused(bool timings);
     Result<Done> record_streamed(bool timings);
@@ -86,7 +83,6 @@ class FrameRun {
     std::vector<WorkBuffers> work_;
     std::vector<CompiledPlan> plans_;
     CommandLists lists_;
-    std::vector<std::optional<PatchedIterations>> patched_;  ///< by member
     std::optional<gpu::Commands> commands_;
     std::vector<std::uint32_t> stages_;          ///< between one stamp and the next
     std::unique_ptr<ContactReadback> contacts_;  ///< none without feedback

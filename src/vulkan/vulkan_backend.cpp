@@ -180,7 +180,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     Execution execution_for(const Cloth& cloth) const {
         if (execution_ != Execution::automatic) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
-        return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::patched;
+        return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::grouped;
     }
 
     // Small cloths go into one dispatch; each of the others has its own.
@@ -273,7 +273,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 Result<Execution> execution_of(const VulkanOptions& options) {
     const auto execution = std::ranges::find(execution_names, options.execution);
     if (execution == execution_names.end())
-        return Error{"execution", "must be auto, streamed, grouped, patched or fused, got '" + options.execution + "'"};
+        return Error{"execution", "must be auto, streamed, grouped or fused, got '" + options.execution + "'"};
     return static_cast<Execution>(execution - execution_names.begin());
 }
 

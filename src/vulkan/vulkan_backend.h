@@ -19,11 +19,10 @@ struct VolkDeviceTable;
 namespace weft {
 
 /// How a frame becomes dispatches: `streamed` one per pass, `grouped` one for all passes of coarse levels that are too
-/// small for that, `patched` one for some iterations of averaged Jacobi, with a workgroup to a patch of the cloth (and
-/// grouped where there are none such), `fused` one for the whole frame, with a workgroup to a cloth; the same bits.
-/// `auto`: fused where a workgroup has room for the cloth, patched otherwise; streamed where software plays the GPU,
-/// for which a workgroup is one thread.
-inline constexpr std::array<std::string_view, 5> execution_names = {"auto", "streamed", "grouped", "patched", "fused"};
+/// small for that, `fused` one for the whole frame, with a workgroup to a cloth; the same bits. `auto`: fused where a
+/// workgroup has room for the cloth, grouped otherwise; streamed where software plays the GPU, for which a workgroup is
+/// one thread.
+inline constexpr std::array<std::string_view, 4> execution_names = {"auto", "streamed", "grouped", "fused"};
 
 struct VulkanOptions {
     std::string execution = "auto";

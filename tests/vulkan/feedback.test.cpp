@@ -125,37 +125,6 @@ TEST(VulkanFeedback, adds_up_what_many_workgroups_find) {
     }
 }
 
-// Particles around a patch are computed there too, but only their owner keeps account.
-TEST(VulkanFeedback, has_the_same_bits_in_patches) {
-    for (const Accumulate accumulate : {Accumulate::gather, Accumulate::fixed_point}) {
-        const auto felt = [&](std::unique_ptr<Backend> backend) {
-            World world(std::move(backend), {.substeps = 2,
-                                             .iterations = 5,
-                                             .projection = Projection::jacobi,
-                                             .accumulate = accumulate,
-                                             .feedback = true});
-            world.add(ground(0));
-            world.add(make_collider({.shape = SphereDesc{0.1f}}));
-            world.add(sheet(64, {0, 0.001f, 0}));
-            std::vector<std::uint32_t> bits;
-            for (int i = 0; i < 2; ++i) {
-                world.step(frame_seconds);
-                const auto more = bits_of(world.feedback());
-                bits.insert(bits.end(), more.begin(), more.end());
-                for (const ColliderLoad& load : world.feedback().colliders) EXPECT_GT(load.contacts, 100u);
-            }
-            return std::tuple(is_exact(world), bits, world.summary().stage_ms[stage_patched]);
-        };
-        const auto [unused, expected, unpatched] = felt(cpu_backend());
-        const auto [exact, bits, patched] = felt(checked_vulkan_backend({.execution = "patched", .timings = true}));
-        EXPECT_GT(patched, 0) << "it was cut";
-        EXPECT_EQ(unpatched, 0);
-        if (exact) {
-            EXPECT_EQ(bits, expected);
-        }
-    }
-}
-
 // Three grounds, each higher than the one before by less than gravity pulls in a substep: each of them pushes all.
 TEST(VulkanFeedback, says_when_the_list_is_full_and_has_room_in_the_next_frame) {
     for (const char* execution : {"streamed", "fused"}) {

@@ -198,7 +198,7 @@ TEST_F(VulkanHosts, are_told_everything_that_is_wrong_at_once) {
     EXPECT_THAT(refusal(host, {.device = "nvidia"}),
                 ElementsAre("device: must be empty on a host's device, got 'nvidia'"));
     EXPECT_THAT(refusal(host, {.execution = "backwards"}),
-                ElementsAre("execution: must be auto, streamed, grouped, patched or fused, got 'backwards'"));
+                ElementsAre("execution: must be auto, streamed, grouped or fused, got 'backwards'"));
     EXPECT_THAT(refusal(host, {.threads = 0}), ElementsAre("threads: must be from 1 to 256, got 0"));
 }
 

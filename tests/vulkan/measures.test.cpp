@@ -143,7 +143,7 @@ TEST_P(VulkanMeasures, are_the_same_bits_every_time_and_after_coming_back) {
     EXPECT_EQ(bits(other.measure()), then);
 }
 
-INSTANTIATE_TEST_SUITE_P(, VulkanMeasures, testing::Values("streamed", "patched", "fused"));
+INSTANTIATE_TEST_SUITE_P(, VulkanMeasures, testing::Values("streamed", "grouped", "fused"));
 
 // A cloth in a state of its own, without a step.
 struct Placed {

@@ -1,7 +1,7 @@
 #version 450
 // Lists of commands, one list to a workgroup, from the first to the last in one dispatch: whole frames of small cloths,
-// the passes of coarse levels that are too small to be worth a dispatch each, or some iterations of patches. A command
-// is what would be pushed with a dispatch, behind the number of its shader.
+// or the passes of coarse levels that are too small to be worth a dispatch each. A command is what would be pushed with a
+// dispatch, behind the number of its shader.
 #extension GL_GOOGLE_include_directive : require
 #define WEFT_POINTS_AT_HAND
 #define WEFT_LINE_ROWS_ID 5
@@ -25,16 +25,14 @@ struct ListIn {
     uint count;
     uint points;      // particles to be kept at hand
     uvec2 position;   // where they are
-    uvec2 to;         // where the owned ones, which are the first, go at the end
-    uvec2 indices;    // which they are; 0: the first ones
     uvec2 sums;       // in fixed point, likewise at hand and 0 at first; 0: none
-    uint owned;
     uint repeat_begin;  // commands of a substep, which run so many times
     uint repeat_end;
     uint times;
+    uint unused;
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ListRef { ListIn at[]; };
-layout(push_constant) uniform Push { ListRef lists; uint first; uint first_substep; };
+layout(push_constant) uniform Push { ListRef lists; uint first; uint unused; };
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CommandRef {
     uint program;
@@ -47,7 +45,6 @@ WEFT_COMMAND(ParticleArgs)
 WEFT_COMMAND(HoldArgs)
 WEFT_COMMAND(AverageArgs)
 WEFT_COMMAND(ContactArgs)
-WEFT_COMMAND(CopyArgs)
 WEFT_COMMAND(KeepArgs)
 WEFT_COMMAND(LevelArgs)
 WEFT_COMMAND(FaceArgs)
@@ -120,7 +117,6 @@ void run_command(uvec2 at, uint substep, uint me, uint all)
     WEFT_EACH_OF_SUBSTEP(hold, HoldArgs)
     WEFT_EACH(average, AverageArgs)
     WEFT_EACH_OF_SUBSTEP(contact, ContactArgs)
-    WEFT_EACH(copy, CopyArgs)
     WEFT_EACH(keep, KeepArgs)
     WEFT_EACH(check, KeepArgs)
     WEFT_EACH(roll_back, KeepArgs)
@@ -149,20 +145,13 @@ void run_command(uvec2 at, uint substep, uint me, uint all)
     }
 }
 
-// Which of the whole array is the one that is at hand as number p.
-uint whole_index(ListIn list, uint p)
-{
-    if (is_none(list.indices)) return p;
-    return Uints(list.indices).at[p];
-}
-
 void main()
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     ListIn list = lists.at[first + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x];
     if (points_at_hand > 1u) {
         Vec4s from = Vec4s(list.position);
-        for (uint p = me; p < list.points; p += all) points[p] = from.at[whole_index(list, p)];
+        for (uint p = me; p < list.points; p += all) points[p] = from.at[p];
         home_of_points = list.position;
     }
     if (quanta_at_hand > 1u) {
@@ -173,7 +162,7 @@ void main()
     for (uint c = 0u; c < list.count;) {
         uvec2 command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
         if (CommandRef(command).needs_barrier != 0u || c == 0u) meet();
-        run_command(command, first_substep + (c >= list.repeat_begin && c < list.repeat_end ? round : 0u), me, all);
+        run_command(command, c >= list.repeat_begin && c < list.repeat_end ? round : 0u, me, all);
         ++c;
         if (c == list.repeat_end && round + 1u < list.times) {
             c = list.repeat_begin;
@@ -182,7 +171,7 @@ void main()
     }
     if (points_at_hand > 1u) {
         meet();
-        Vec4s to = Vec4s(list.to);
-        for (uint p = me; p < list.owned; p += all) to.at[whole_index(list, p)] = points[p];
+        Vec4s to = Vec4s(list.position);
+        for (uint p = me; p < list.points; p += all) to.at[p] = points[p];
     }
 }

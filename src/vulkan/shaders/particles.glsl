@@ -92,7 +92,7 @@ void trace(ContactArgs a, uint collider, uint p, bool touches, vec3 before, vec3
 {
     bool begins = a.substep == 0u && a.first_iteration == 1u;
     if (!touches && !begins) return;
-    uint at = collider * a.felt_capacity + p, turned = a.frame.at.colliders * a.felt_capacity + at;
+    uint at = collider * a.capacity + p, turned = a.frame.at.colliders * a.capacity + at;
     ContactTrace sum = ContactTrace(vec3(0.0), vec3(0.0));
     if (!begins) sum = ContactTrace(a.felt.at[at].xyz, a.felt.at[turned].xyz);
     if (touches) trace_contact(sum, before, x, position);
@@ -103,11 +103,9 @@ void trace(ContactArgs a, uint collider, uint p, bool touches, vec3 before, vec3
 void run_contact(ContactArgs a, uint p)
 {
     vec4 x = load_point(a.position, p);
-    uint whole = p;
-    if (!is_none(uvec2(a.particles))) whole = a.particles.at[p];
-    vec3 start = a.start.at[whole].xyz;
+    vec3 start = a.start.at[p].xyz;
     uint colliders = a.frame.at.colliders;
-    bool keeps = !is_none(uvec2(a.sums)), traces = !is_none(uvec2(a.felt)) && p < a.owned;
+    bool keeps = !is_none(uvec2(a.sums)), traces = !is_none(uvec2(a.felt));
     for (uint c = 0u; c < colliders; ++c) {
         ColliderIn collider = a.colliders.at[c];
         PoseIn now = a.poses.at[(a.substep + 1u) * colliders + c];
@@ -144,21 +142,9 @@ void run_contact(ContactArgs a, uint p)
                             carried_by(body, local), body);
         }
         if (keeps) a.sums.at[at] = vec4(sum.friction, sum.push);
-        if (traces) trace(a, c, whole, touches, x_before, x.xyz, body.position);
+        if (traces) trace(a, c, p, touches, x_before, x.xyz, body.position);
     }
     store_point(a.position, p, x);
-}
-
-void run_copy(CopyArgs a, uint i)
-{
-    uint whole = a.index.at[i];
-    for (uint k = 0u; k < a.planes * a.width; ++k) {
-        uint plane = k / a.width, w = k % a.width;
-        uint of_whole = (plane * a.whole_stride + whole) * a.width + w;
-        uint of_part = (plane * a.part_stride + i) * a.width + w;
-        if (a.back == 1u) a.whole.at[of_whole] = a.part.at[of_part];
-        else a.part.at[of_part] = a.whole.at[of_whole];
-    }
 }
 
 // What the frame found, to go back to.
