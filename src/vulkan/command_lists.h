@@ -1,6 +1,7 @@
 // Lists of commands that one dispatch runs from the first to the last, a list to a workgroup.
 #pragma once
 
+#include "vulkan/command_memory.h"
 #include "vulkan/compiled_plan.h"
 
 #include <span>
@@ -25,29 +26,32 @@ LineRows largest_lines(const ConstraintTable& table);
 /// batch's if there is room, and not fewer than a block's. 1: none.
 std::uint32_t line_rows_at_hand(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes = 0);
 
+/// The pipeline that solves lines of blocks with so many rows.
+Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::uint32_t rows);
+
 class CommandLists {
   public:
-    /// Commands without anything to do are left out, and so are those that are others again. Returns the list's number.
-    std::uint32_t add(std::span<const Command> commands, const PointsAtHand& points = {}, const LineRows& lines = {},
-                      const Repeat& repeat = {});
-    Result<Done> build(gpu::Device& device, Programs& programs, const std::string& name);
+    /// `first` is the number of the first command in the memory that the list is built with. Returns the list's number.
+    std::uint32_t add(std::span<const Command> commands, std::uint32_t first, const PointsAtHand& points = {},
+                      const LineRows& lines = {}, const Repeat& repeat = {});
+    Result<Done> build(gpu::Device& device, Programs& programs, const CommandMemory& memory, const std::string& name);
 
-    /// `count` lists from `first` on, side by side.
-    void record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count) const;
+    /// `count` lists from `first` on, side by side. `substep` is added to that of each command.
+    void record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count, std::uint32_t substep = 0) const;
     bool empty() const { return lists_.empty(); }
 
   private:
     struct List {
-        std::vector<std::byte> commands;
-        std::uint32_t count = 0, widest = 0;  ///< invocations of the widest command
-        std::uint32_t repeat_begin = 0, repeat_end = 0, times = 1;
+        std::uint32_t first = 0, count = 0;
+        Repeat repeat;
         PointsAtHand points;
         LineRows lines;
     };
     Result<Done> choose_pipeline(const gpu::Device& device, Programs& programs);
 
     std::vector<List> lists_;
-    std::uint64_t used_ = 0;  ///< a bit for each shader
+    std::uint32_t widest_ = 0;  ///< invocations of the widest command
+    std::uint64_t used_ = 0;    ///< a bit for each shader
     Arena arena_;
     Slot table_;
     const gpu::Pipeline* pipeline_ = nullptr;

@@ -45,10 +45,12 @@ class Compiler {
   private:
     using List = std::vector<Command>;
 
+    // What has nothing to do is left out.
     template <class Args>
     Command& add(List& list, std::string_view program, const Args& args, std::uint32_t invocations, const Pass& pass,
                  std::uint32_t substep = 0) {
-        Command& command = list.emplace_back(make_command(programs_, errors_, program, args, invocations));
+        Command& command = invocations > 0 ? list.emplace_back() : nothing_;
+        command = make_command(programs_, errors_, program, args, invocations);
         command.pass = pass;
         command.substep = substep;
         return command;
@@ -68,45 +70,25 @@ class Compiler {
 
     void add_substeps(CompiledPlan& out) {
         List& list = out.commands;
-        std::vector<std::size_t> begins;
-        // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
+        // The first begins and the last ends in its own way; those between differ by their number alone.
+        if (plan_.substeps > 0) add_substep(list, 0);
+        out.repeat = {list.size(), list.size(), 1};
+        if (plan_.substeps > 2) {
+            add_substep(list, 1);
+            out.repeat.end = list.size();
+            out.repeat.times = plan_.substeps - 2;
+        }
+        if (plan_.substeps > 1) add_substep(list, plan_.substeps - 1);
+    }
+
+    // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
+    void add_substep(List& list, std::uint32_t substep) {
         const std::span<const Pass> passes(plan_.substep);
         const bool together =
             !passes.empty() && passes.front().kind == PassKind::predict && passes.back().kind == PassKind::velocities;
-        for (std::uint32_t substep = 0; substep < plan_.substeps; ++substep) {
-            begins.push_back(list.size());
-            const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan_.substeps;
-            for (const Pass& pass : passes.subspan(begun, passes.size() - begun - goes_on))
-                add_pass(list, pass, substep);
-            if (goes_on) add(list, "advance", particle_args(), model_.point_count(), passes.back(), substep);
-        }
-        // The first begins and the last ends in its own way.
-        if (plan_.substeps > 3) out.repeat = repeat_of(list, std::span(begins).subspan(1));
-    }
-
-    // From one begin to the next, as long as they are alike; the last begin is the end.
-    static Repeat repeat_of(const List& list, std::span<const std::size_t> begins) {
-        Repeat repeat{begins[0], begins[1], 1};
-        const std::size_t length = repeat.end - repeat.begin;
-        for (std::size_t i = 1; i + 1 < begins.size() && begins[i + 1] - begins[i] == length; ++i) {
-            for (std::size_t k = 0; k < length; ++k)
-                if (!alike(list[repeat.begin + k], list[begins[i] + k])) return repeat;
-            ++repeat.times;
-        }
-        return repeat;
-    }
-
-    static bool alike(const Command& a, const Command& b) {
-        if (a.program != b.program || a.invocations != b.invocations || a.needs_barrier != b.needs_barrier)
-            return false;
-        const auto without_substep = [](const Command& command) {
-            auto args = command.args;
-            const auto clear = [&](std::size_t at) { std::memset(args.data() + at, 0, sizeof(std::uint32_t)); };
-            if (command.program == shader_number("contact")) clear(offsetof(ContactArgs, substep));
-            if (command.program == shader_number("hold")) clear(offsetof(HoldArgs, substep));
-            return args;
-        };
-        return without_substep(a) == without_substep(b);
+        const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan_.substeps;
+        for (const Pass& pass : passes.subspan(begun, passes.size() - begun - goes_on)) add_pass(list, pass, substep);
+        if (goes_on) add(list, "advance", particle_args(), model_.point_count(), passes.back(), substep);
     }
 
     // Whether all is finite is asked before normals are made of it.
@@ -121,7 +103,8 @@ class Compiler {
         const KeepArgs args = keep_args();
         out.check = out.commands.size();
         add(out.commands, "check", args, args.count, like_velocities);
-        out.roll_back = add(out.commands, "roll_back", args, std::max(args.count, args.lambdas), like_velocities);
+        out.roll_back = out.commands.size();
+        add(out.commands, "roll_back", args, std::max(args.count, args.lambdas), like_velocities);
         for (const Pass& pass : plan_.frame_end) {
             if (is_surface(pass)) add_pass(out.commands, pass, plan_.substeps - 1);
         }
@@ -342,11 +325,8 @@ class Compiler {
             .unused = 0};
         Command& command = add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
         command.groups = batch.blocks;
-        const gpu::Device& device = programs_.device();
-        const std::uint32_t rows = largest_lines(table).of_block;
-        const std::array constants = {std::min(256u, device.limits().workgroup_size[0]),
-                                      line_rows_at_hand(device, {rows, rows})};
-        auto pipeline = programs_.get("lines", constants);
+        command.line_rows = largest_lines(table).of_block;
+        auto pipeline = lines_pipeline(programs_, command.line_rows);
         if (pipeline) command.pipeline = *pipeline;
         if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
     }
@@ -464,6 +444,7 @@ class Compiler {
     const InputShape& shape_;
     const StepPlan& plan_;
     Errors errors_;
+    Command nothing_;  ///< not in any list
 };
 
 }  // namespace
@@ -475,19 +456,6 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth) {
     return Compiler(programs, cloth, {}, {}, {}, {}).surface();
-}
-
-void record(gpu::Commands& commands, const Command& command, const gpu::DeviceLimits& limits) {
-    if (command.invocations == 0) return;
-    if (command.needs_barrier) commands.barrier();
-    assert(command.arg_bytes == command.pipeline->push_constants());
-    commands.bind(*command.pipeline);
-    commands.push(std::span(command.args).first(command.arg_bytes));
-    const std::uint32_t size = command.pipeline->workgroup();
-    const std::uint32_t filled = (command.invocations + size - 1) / size;
-    const std::uint32_t groups = command.groups > 0 ? command.groups : filled;
-    const std::uint32_t wide = std::min(groups, limits.workgroup_count[0]);
-    commands.dispatch(wide, (groups + wide - 1) / wide);
 }
 
 }  // namespace weft::vulkan

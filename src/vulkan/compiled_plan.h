@@ -1,4 +1,4 @@
-// A StepPlan as a device runs it: dispatches with what each is told.
+// A StepPlan of a cloth as a device runs it: commands with what each is told.
 #pragma once
 
 #include "vulkan/cloth_state.h"
@@ -16,27 +16,42 @@ struct Command {
     const gpu::Pipeline* pipeline = nullptr;
     std::uint32_t program = 0;  ///< number of its shader
     std::uint32_t invocations = 0;
-    std::uint32_t groups = 0;   ///< workgroups; 0: as many as the invocations fill
-    bool needs_barrier = true;  ///< reads or writes what the command before it writes
-    Pass pass{};                ///< what it comes from, or is part of
+    std::uint32_t groups = 0;     ///< workgroups; 0: as many as the invocations fill
+    std::uint32_t line_rows = 0;  ///< of lines: rows of the largest block
+    bool needs_barrier = true;    ///< reads or writes what the command before it writes
+    Pass pass{};                  ///< what it comes from, or is part of
     std::uint32_t substep = 0;
     std::uint32_t arg_bytes = 0;
     alignas(8) std::array<std::byte, 128> args{};
 };
 
-/// Commands [begin, end) are those of a substep; as many follow, alike but for the substep's number, for each further
-/// one.
+/// Commands [begin, end) are those of a substep, and run so many times: each time for the next one.
 struct Repeat {
     std::size_t begin = 0, end = 0;
     std::uint32_t times = 1;
 };
 
+/// Calls `f(i, substeps before)` for everything from 0 to `count` in the order in which it runs, as long as that is
+/// true.
+template <class F>
+void run_through(std::size_t count, const Repeat& repeat, F&& f) {
+    std::uint32_t round = 0;
+    for (std::size_t i = 0; i < count;) {
+        const bool repeated = i >= repeat.begin && i < repeat.end;
+        if (!f(i, repeated ? round : 0)) return;
+        if (++i == repeat.end && repeated && round + 1 < repeat.times) {
+            i = repeat.begin;
+            ++round;
+        }
+    }
+}
+
 /// What a frame does, in order.
 struct CompiledPlan {
     std::vector<Command> commands;
     Repeat repeat;
-    std::size_t check = 0;  ///< from here on: whether all is finite, back if not, and the surface
-    Command roll_back;      ///< one of those
+    std::size_t check = 0;      ///< from here on: whether all is finite, back if not, and the surface
+    std::size_t roll_back = 0;  ///< one of those
 };
 
 Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const WorkBuffers& work,
@@ -44,7 +59,5 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 
 /// Normals for the state as it is.
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);
-
-void record(gpu::Commands& commands, const Command& command, const gpu::DeviceLimits& limits);
 
 }  // namespace weft::vulkan

@@ -6,37 +6,6 @@
 #include <algorithm>
 
 namespace weft::vulkan {
-namespace {
-
-// Commands [begin, end) of a plan: a dispatch each, or one for all where their levels are small.
-struct Segment {
-    std::size_t begin = 0, end = 0;
-    std::uint32_t list = none;
-};
-
-bool is_alone(const Command& command) {
-    return command.pass.alone;
-}
-
-std::vector<Segment> segments_of(std::span<const Command> commands, bool grouped, CommandLists& lists) {
-    std::vector<Segment> segments;
-    for (std::size_t i = 0; i < commands.size();) {
-        Segment segment{i, i + 1};
-        if (grouped && is_alone(commands[i])) {
-            while (segment.end < commands.size() && is_alone(commands[segment.end])) ++segment.end;
-            if (segment.end - i > 1) segment.list = lists.add(commands.subspan(i, segment.end - i));
-        }
-        i = segment.end;
-        segments.push_back(segment);
-    }
-    return segments;
-}
-
-std::uint32_t stage_of_segment(const CompiledPlan& plan, const Segment& segment) {
-    return stage_of(plan.commands[segment.begin].pass);
-}
-
-}  // namespace
 
 bool fits_fused(const gpu::Device& device, const ClothModel& model) {
     return fits_at_hand(device, model.point_count(), false);
@@ -52,7 +21,7 @@ Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs
                                                    std::span<const Member> members, Execution execution, bool timings) {
     auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, members, execution));
     if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
-    auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_streamed(timings);
+    auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
     if (!recorded) return recorded.errors();
     if (auto prepared = self->prepare_feedback(); !prepared) return prepared.errors();
     return self;
@@ -75,7 +44,7 @@ Result<Done> FrameRun::prepare_feedback() {
                                        .particles = cloth.model().particle_count},
                            .colliders = members_[i].shape.colliders});
     }
-    auto contacts = ContactReadback::create(device_, programs_, members, members_.front().cloth->model().name);
+    auto contacts = ContactReadback::create(device_, programs_, members, name());
     if (!contacts) return contacts.errors();
     contacts_ = std::move(*contacts);
     return Done{};
@@ -88,8 +57,7 @@ std::uint32_t FrameRun::read_feedback(std::size_t member, ClothFeedback& to) {
 Result<Done> FrameRun::compile_members() {
     std::vector<InputShape> shapes;
     for (const Member& member : members_) shapes.push_back(member.shape);
-    const std::string name = members_.front().cloth->model().name;
-    auto buffers = FrameBuffers::create(device_, shapes, name);
+    auto buffers = FrameBuffers::create(device_, shapes, name());
     if (!buffers) return buffers.errors();
     buffers_ = std::move(*buffers);
     work_.reserve(members_.size());
@@ -102,8 +70,9 @@ Result<Done> FrameRun::compile_members() {
             compile(programs_, member.cloth->state(), work_.back(), buffers_.input(i), member.shape, *member.plan);
         if (!plan) return plan.errors();
         plans_.push_back(std::move(*plan));
+        first_command_.push_back(memory_.add(plans_.back().commands));
     }
-    return Done{};
+    return memory_.build(device_, name());
 }
 
 Result<Done> FrameRun::begin_recording(bool timings, std::size_t stages) {
@@ -131,10 +100,10 @@ Result<Done> FrameRun::record_fused(bool timings) {
             if (fits_at_hand(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
         }
         const bool lines = members_[i].plan->projection == Projection::lines;
-        lists_.add(plans_[i].commands, points,
+        lists_.add(plans_[i].commands, first_command_[i], points,
                    lines ? largest_lines(cloth.model().table(ConstraintKind::stretch)) : LineRows{}, plans_[i].repeat);
     }
-    if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
+    if (auto built = lists_.build(device_, programs_, memory_, name()); !built) return built;
     stages_ = {stage_fused};
     if (auto begun = begin_recording(timings, 1); !begun) return begun;
     commands_->barrier();
@@ -143,34 +112,42 @@ Result<Done> FrameRun::record_fused(bool timings) {
     return end_recording();
 }
 
-Result<Done> FrameRun::record_streamed(bool timings) {
-    std::vector<std::vector<Segment>> segments;
-    for (const CompiledPlan& plan : plans_)
-        segments.push_back(segments_of(plan.commands, execution_ == Execution::grouped, lists_));
-    if (auto built = lists_.build(device_, programs_, members_.front().cloth->model().name); !built) return built;
-    for (std::size_t i = 0; i < plans_.size(); ++i) {
-        for (const Segment& segment : segments[i]) {
-            const std::uint32_t stage = stage_of_segment(plans_[i], segment);
-            if (stages_.empty() || stages_.back() != stage) stages_.push_back(stage);
+Result<Done> FrameRun::record_passes(bool timings) {
+    const SharedPlan shared = share_passes(plans_, execution_ == Execution::grouped);
+    std::vector<std::uint32_t> lists;  // of each pass, its first list
+    for (const SharedPass& pass : shared.passes) {
+        std::uint32_t first = none;
+        for (const PlanPart& part : pass.parts) {
+            if (!pass.is_list) break;
+            const std::span<const Command> commands(plans_[part.member].commands);
+            const std::uint32_t list = lists_.add(commands.subspan(part.begin, part.end - part.begin),
+                                                  first_command_[part.member] + part.begin);
+            first = std::min(first, list);
         }
+        lists.push_back(first);
     }
+    if (auto built = lists_.build(device_, programs_, memory_, name()); !built) return built;
+    auto built = dispatches_.build(device_, programs_, shared, plans_, memory_, first_command_, name());
+    if (!built) return built;
+
+    run_through(shared.passes.size(), shared.repeat, [&](std::size_t i, std::uint32_t) {
+        const std::uint32_t stage = stage_of(shared.passes[i].pass);
+        if (stages_.empty() || stages_.back() != stage) stages_.push_back(stage);
+        return true;
+    });
     if (auto begun = begin_recording(timings, stages_.size()); !begun) return begun;
     std::uint32_t last = stage_count;
-    for (std::size_t i = 0; i < plans_.size(); ++i) {
-        for (const Segment& segment : segments[i]) {
-            const Command& first = plans_[i].commands[segment.begin];
-            if (const std::uint32_t stage = stage_of_segment(plans_[i], segment); stage != last) {
-                commands_->stamp();
-                last = stage;
-            }
-            if (segment.list == none) {
-                record(*commands_, first, device_.limits());
-            } else {
-                commands_->barrier();
-                lists_.record(*commands_, segment.list, 1);
-            }
+    run_through(shared.passes.size(), shared.repeat, [&](std::size_t i, std::uint32_t substep) {
+        const SharedPass& pass = shared.passes[i];
+        if (const std::uint32_t stage = stage_of(pass.pass); stage != last) commands_->stamp(), last = stage;
+        if (pass.needs_barrier) commands_->barrier();
+        if (pass.is_list) {
+            lists_.record(*commands_, lists[i], static_cast<std::uint32_t>(pass.parts.size()), substep);
+        } else {
+            dispatches_.record(*commands_, i, substep, device_.limits());
         }
-    }
+        return true;
+    });
     return end_recording();
 }
 
@@ -206,16 +183,27 @@ Result<FrameRun::Place> FrameRun::download_place(const Cloth& cloth) const {
 Result<std::string> FrameRun::replay(std::size_t member) {
     const Cloth& cloth = *members_[member].cloth;
     const CompiledPlan& plan = plans_[member];
-    for (const Command& command : std::span(plan.commands).first(plan.check)) {
-        auto done = gpu::run_once(device_, [&](gpu::Commands& now) { record(now, command, device_.limits()); });
-        if (!done) return done.errors();
-        if (command.pass.kind == PassKind::damp) continue;
+    Result<std::string> found = std::string(late_non_finite);
+    run_through(plan.check, plan.repeat, [&](std::size_t i, std::uint32_t substep) {
+        const Command& command = plan.commands[i];
+        if (auto done = run(member, i, substep); !done) return found = done.errors(), false;
+        if (command.pass.kind == PassKind::damp) return true;
         const auto place = download_place(cloth);
-        if (!place) return place.errors();
+        if (!place) return found = place.errors(), false;
         const std::uint32_t particle = first_non_finite(place->positions, place->velocities);
-        if (particle != none) return name_pass(cloth.model(), command.pass, command.substep, particle);
-    }
-    return std::string(late_non_finite);
+        if (particle == none) return true;
+        found = name_pass(cloth.model(), command.pass, command.substep + substep, particle);
+        return false;
+    });
+    return found;
+}
+
+// One command of the cloth's plan, by itself.
+Result<Done> FrameRun::run(std::size_t member, std::size_t command, std::uint32_t substep) {
+    const std::uint64_t address = memory_.address(first_command_[member] + static_cast<std::uint32_t>(command));
+    return gpu::run_once(device_, [&](gpu::Commands& now) {
+        record(now, plans_[member].commands[command], address, substep, device_.limits());
+    });
 }
 
 Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInput& input) {
@@ -226,9 +214,7 @@ Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInpu
         return culprit;
     auto found = replay(member);
     // The report still says that the frame was not finite, so this goes back.
-    const Command& back = plans_[member].roll_back;
-    auto done = gpu::run_once(device_, [&](gpu::Commands& now) { record(now, back, device_.limits()); });
-    if (!done) return done.errors();
+    if (auto done = run(member, plans_[member].roll_back, 0); !done) return done.errors();
     if (auto updated = cloth.update_normals(); !updated) return updated.errors();
     return found;
 }

@@ -4,6 +4,7 @@
 #include "gpu/commands.h"
 #include "vulkan/cloth.h"
 #include "vulkan/command_lists.h"
+#include "vulkan/dispatches.h"
 #include "vulkan/feedback/contact_readback.h"
 #include "vulkan/frame_input.h"
 
@@ -19,7 +20,7 @@ namespace weft::vulkan {
 /// How passes become dispatches.
 enum class Execution {
     automatic,
-    streamed,  ///< a dispatch per pass
+    streamed,  ///< a dispatch per pass, for all cloths
     grouped,   ///< the same, but one for as many passes as are together on coarse levels of few nodes
     fused,     ///< one for the whole frame, a workgroup to a cloth
 };
@@ -35,7 +36,7 @@ class FrameRun {
         InputShape shape;
     };
 
-    /// `execution` is not automatic.
+    /// `execution` is not automatic. All plans have as many substeps.
     static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs,
                                                     std::span<const Member> members, Execution execution, bool timings);
 
@@ -68,11 +69,13 @@ class FrameRun {
     Result<Done> compile_members();
     Result<Done> prepare_feedback();
     Result<Done> record_fused(bool timings);
-    Result<Done> record_streamed(bool timings);
+    Result<Done> record_passes(bool timings);
     Result<Done> begin_recording(bool timings, std::size_t stages);
     Result<Done> end_recording();
     Result<Place> download_place(const Cloth& cloth) const;
     Result<std::string> replay(std::size_t member);
+    Result<Done> run(std::size_t member, std::size_t command, std::uint32_t substep);
+    const std::string& name() const { return members_.front().cloth->model().name; }
 
     gpu::Device& device_;
     Programs& programs_;
@@ -82,7 +85,10 @@ class FrameRun {
     FrameBuffers buffers_;
     std::vector<WorkBuffers> work_;
     std::vector<CompiledPlan> plans_;
+    CommandMemory memory_;
+    std::vector<std::uint32_t> first_command_;  ///< in it, by member
     CommandLists lists_;
+    Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;
     std::vector<std::uint32_t> stages_;          ///< between one stamp and the next
     std::unique_ptr<ContactReadback> contacts_;  ///< none without feedback

@@ -1,5 +1,7 @@
 #include "vulkan/shaders.h"
 
+#include "vulkan/primitives/device.test.h"
+
 #include <gtest/gtest.h>
 
 namespace weft::vulkan {
@@ -24,6 +26,16 @@ TEST(Shaders, the_compiler_has_fused_nothing) {
         for (std::size_t at = 5; at < shader.words.size(); at += shader.words[at] >> 16)
             fused += (shader.words[at] & 0xffff) == op_ext_inst && shader.words[at + 4] == fma;
         EXPECT_EQ(fused, 0) << shader.name;
+    }
+}
+
+using Pipelines = DeviceTest;
+
+TEST_F(Pipelines, are_made_of_every_shader) {
+    for (const gpu::Shader& shader : shaders()) {
+        SCOPED_TRACE(shader.name);
+        const auto pipeline = programs().get(shader.name);
+        EXPECT_TRUE(pipeline.ok()) << pipeline.error().message();
     }
 }
 

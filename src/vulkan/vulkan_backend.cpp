@@ -183,18 +183,20 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::grouped;
     }
 
-    // Small cloths go into one dispatch; each of the others has its own.
+    // Those that are executed alike, over as many substeps.
     void group(std::span<const ClothStep> cloths) {
-        Group small{.execution = Execution::fused, .steps = {}};
         for (const ClothStep& step : cloths) {
             const Execution execution = execution_for(cloth(step.cloth));
-            if (execution == Execution::fused) {
-                small.steps.push_back(&step);
-            } else {
+            const auto takes = [&](const Group& group) {
+                return group.execution == execution && group.steps.front()->plan->substeps == step.plan->substeps;
+            };
+            const auto there = std::ranges::find_if(groups_, takes);
+            if (there == groups_.end()) {
                 groups_.push_back({.execution = execution, .steps = {&step}});
+            } else {
+                there->steps.push_back(&step);
             }
         }
-        if (!small.steps.empty()) groups_.push_back(std::move(small));
     }
 
     void submit(Group& group) {

@@ -27,7 +27,7 @@ void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--device", options.device, "Vulkan device: part of its name, see weft info");
     command
         .add_option("--execution", options.execution,
-                    "Vulkan: auto, streamed, grouped, patched or fused; never changes the result on a device")
+                    "Vulkan: auto, streamed, grouped or fused; never changes the result on a device")
         ->capture_default_str();
     command.add_option("--threads", options.threads, "threads in all, 1 to 256; never changes the result")
         ->capture_default_str();

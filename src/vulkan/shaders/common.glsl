@@ -6,6 +6,8 @@
 
 #include "physics/kernels.glsl"
 
+#include "vulkan/shaders/commands.glsl"
+
 layout(local_size_x_id = 0) in;
 
 // A dispatch of more workgroups than fit along one axis goes on along the next.

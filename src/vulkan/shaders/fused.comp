@@ -1,7 +1,7 @@
 #version 450
 // Lists of commands, one list to a workgroup, from the first to the last in one dispatch: whole frames of small cloths,
-// or the passes of coarse levels that are too small to be worth a dispatch each. A command is what would be pushed with a
-// dispatch, behind the number of its shader.
+// or the passes of coarse levels that are too small to be worth a dispatch each. Commands of
+// a list lie one behind the other.
 #extension GL_GOOGLE_include_directive : require
 #define WEFT_POINTS_AT_HAND
 #define WEFT_LINE_ROWS_ID 5
@@ -32,26 +32,7 @@ struct ListIn {
     uint unused;
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ListRef { ListIn at[]; };
-layout(push_constant) uniform Push { ListRef lists; uint first; uint unused; };
-
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CommandRef {
-    uint program;
-    uint invocations;
-    uint needs_barrier;  // behind the command before it
-};
-#define WEFT_COMMAND(Args) \
-    layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Args##Command { uvec4 head; Args args; };
-WEFT_COMMAND(ParticleArgs)
-WEFT_COMMAND(HoldArgs)
-WEFT_COMMAND(AverageArgs)
-WEFT_COMMAND(ContactArgs)
-WEFT_COMMAND(KeepArgs)
-WEFT_COMMAND(LevelArgs)
-WEFT_COMMAND(FaceArgs)
-WEFT_COMMAND(AroundArgs)
-WEFT_COMMAND(LineArgs)
-WEFT_COMMAND(LimitArgs)
-WEFT_COMMAND(RowArgs)
+layout(push_constant) uniform Push { ListRef lists; uint first; uint substep; };
 
 #define WEFT_COMMAND_BYTES 144u
 
@@ -63,13 +44,13 @@ uvec2 advanced(uvec2 address, uint bytes)
 }
 
 // As many blocks at once as have their rows at hand.
-void run_all_lines(LineArgs a)
+void run_all_lines(LineArgsRef a)
 {
-    for (uint b = 0u; b < a.count;) {
-        uint base = a.blocks.at[2u * b], end = b + 1u;
-        while (end < a.count &&
+    for (uint b = 0u; b < a.at.count;) {
+        uint base = a.at.blocks.at[2u * b], end = b + 1u;
+        while (end < a.at.count &&
                (line_rows_at_hand == 1u ||
-                a.blocks.at[2u * end] + a.blocks.at[2u * end + 1u] * WEFT_LANE_PADDING - base <= line_rows_at_hand))
+                a.at.blocks.at[2u * end] + a.at.blocks.at[2u * end + 1u] * WEFT_LANE_PADDING - base <= line_rows_at_hand))
             ++end;
         if (b > 0u) meet();
         run_lines(a, LineRound(b, end, base));
@@ -77,46 +58,32 @@ void run_all_lines(LineArgs a)
     }
 }
 
-#define WEFT_EACH(name, Args)                                               \
-    case WEFT_ID_##name:                                                    \
-        if (uses(WEFT_ID_##name)) {                                         \
-            Args a = Args##Command(at).args;                                \
-            for (uint i = me; i < invocations; i += all) run_##name(a, i);  \
-        }                                                                   \
+#define WEFT_EACH(name, Args)                                                         \
+    case WEFT_ID_##name:                                                              \
+        if (uses(WEFT_ID_##name))                                                     \
+            for (uint i = me; i < invocations; i += all) run_##name(Args##Ref(at), i); \
         break;
 
-// What goes by the number of its substep.
-#define WEFT_EACH_OF_SUBSTEP(name, Args)                                    \
-    case WEFT_ID_##name:                                                    \
-        if (uses(WEFT_ID_##name)) {                                         \
-            Args a = Args##Command(at).args;                                \
-            a.substep += substep;                                           \
-            for (uint i = me; i < invocations; i += all) run_##name(a, i);  \
-        }                                                                   \
+#define WEFT_EACH_ROW(id, pass)                                                                         \
+    case id:                                                                                            \
+        if (uses(id)) {                                                                                 \
+            for (uint i = me; i < invocations; i += all) {                                              \
+                RowRange rows = rows_of(RowArgsRef(at), i);                                             \
+                for (uint k = 0u; k < rows.count; ++k) pass(RowArgsRef(at), rows.row + k * rows.stride); \
+            }                                                                                           \
+        }                                                                                               \
         break;
 
-#define WEFT_EACH_ROW(id, pass)                                                                 \
-    case id:                                                                                    \
-        if (uses(id)) {                                                                         \
-            RowArgs a = RowArgsCommand(at).args;                                                \
-            for (uint i = me; i < invocations; i += all) {                                      \
-                RowRange rows = rows_of(a, i);                                                  \
-                for (uint k = 0u; k < rows.count; ++k) pass(a, rows.row + k * rows.stride);     \
-            }                                                                                   \
-        }                                                                                       \
-        break;
-
-// `substep`: what those that go by substeps add to their number.
-void run_command(uvec2 at, uint substep, uint me, uint all)
+void run_command(uvec2 at, uint me, uint all)
 {
     uint invocations = CommandRef(at).invocations;
     switch (CommandRef(at).program) {
     WEFT_EACH(predict, ParticleArgs)
     WEFT_EACH(velocities, ParticleArgs)
     WEFT_EACH(advance, ParticleArgs)
-    WEFT_EACH_OF_SUBSTEP(hold, HoldArgs)
+    WEFT_EACH(hold, HoldArgs)
     WEFT_EACH(average, AverageArgs)
-    WEFT_EACH_OF_SUBSTEP(contact, ContactArgs)
+    WEFT_EACH(contact, ContactArgs)
     WEFT_EACH(keep, KeepArgs)
     WEFT_EACH(check, KeepArgs)
     WEFT_EACH(roll_back, KeepArgs)
@@ -130,10 +97,10 @@ void run_command(uvec2 at, uint substep, uint me, uint all)
     WEFT_EACH(push, AroundArgs)
     WEFT_EACH(normals, AroundArgs)
     case WEFT_ID_lines:
-        if (uses(WEFT_ID_lines)) run_all_lines(LineArgsCommand(at).args);
+        if (uses(WEFT_ID_lines)) run_all_lines(LineArgsRef(at));
         break;
     case WEFT_ID_limits:
-        if (uses(WEFT_ID_limits)) run_limits(LimitArgsCommand(at).args);
+        if (uses(WEFT_ID_limits)) run_limits(LimitArgsRef(at));
         break;
 #define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas)                      \
     WEFT_EACH_ROW(WEFT_ID_project_##name, project_row_##name)                   \
@@ -162,7 +129,8 @@ void main()
     for (uint c = 0u; c < list.count;) {
         uvec2 command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
         if (CommandRef(command).needs_barrier != 0u || c == 0u) meet();
-        run_command(command, c >= list.repeat_begin && c < list.repeat_end ? round : 0u, me, all);
+        substeps_before = substep + (c >= list.repeat_begin && c < list.repeat_end ? round : 0u);
+        run_command(command, me, all);
         ++c;
         if (c == list.repeat_end && round + 1u < list.times) {
             c = list.repeat_begin;

@@ -1,12 +1,13 @@
 #version 450
-// What one-sided rows allow for in this frame. One workgroup.
+// What one-sided rows allow for in this frame. One workgroup to a cloth.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
+#include "vulkan/shaders/dispatch.glsl"
 #include "vulkan/shaders/limits.glsl"
-
-layout(push_constant) uniform Push { LimitArgs args; };
 
 void main()
 {
-    run_limits(args);
+    Share share = share_of_workgroup();
+    if (is_none(share.command)) return;
+    run_limits(LimitArgsRef(share.command));
 }

@@ -17,50 +17,50 @@ struct LineRound {
     uint base;  // row that is the first at hand
 };
 
-vec4 line_number(LineArgs a, LineRound round, uint r)
+vec4 line_number(LineArgsRef a, LineRound round, uint r)
 {
     if (line_rows_at_hand > 1u) return line_numbers[r - round.base];
-    return a.scratch.at[a.stride + r];
+    return a.at.scratch.at[a.at.stride + r];
 }
-void keep_number(LineArgs a, LineRound round, uint r, vec4 number)
+void keep_number(LineArgsRef a, LineRound round, uint r, vec4 number)
 {
     if (line_rows_at_hand > 1u) line_numbers[r - round.base] = number;
-    else a.scratch.at[a.stride + r] = number;
+    else a.at.scratch.at[a.at.stride + r] = number;
 }
-float line_coupling_of(LineArgs a, LineRound round, uint r)
+float line_coupling_of(LineArgsRef a, LineRound round, uint r)
 {
     if (line_rows_at_hand > 1u) return line_couplings[r - round.base];
-    return a.scratch.at[r].w;
+    return a.at.scratch.at[r].w;
 }
 
-StretchRow line_row(LineArgs a, uint r)
+StretchRow line_row(LineArgsRef a, uint r)
 {
-    return StretchRow(a.fields.at[r], a.fields.at[a.stride + r], a.fields.at[2u * a.stride + r]);
+    return StretchRow(a.at.fields.at[r], a.at.fields.at[a.at.stride + r], a.at.fields.at[2u * a.at.stride + r]);
 }
 
 // Direction and weight go to the scratch memory, where the next row looks for them.
-void begin_row(LineArgs a, LineRound round, uint r, Step h)
+void begin_row(LineArgsRef a, LineRound round, uint r, Step h)
 {
-    vec4 from = load_point(a.position, a.particles.at[r]);
-    vec4 to = load_point(a.position, a.particles.at[a.stride + r]);
-    float lambda = a.lambda_use == WEFT_LAMBDA_ACCUMULATE ? a.lambda.at[r] : 0.0;
+    vec4 from = load_point(a.at.position, a.at.particles.at[r]);
+    vec4 to = load_point(a.at.position, a.at.particles.at[a.at.stride + r]);
+    float lambda = a.at.lambda_use == WEFT_LAMBDA_ACCUMULATE ? a.at.lambda.at[r] : 0.0;
     LineTerms t = line_terms(from.xyz, to.xyz, from.w, to.w, lambda, line_row(a, r), h);
-    a.scratch.at[r] = vec4(t.n, from.w);
+    a.at.scratch.at[r] = vec4(t.n, from.w);
     keep_number(a, round, r, vec4(t.limit, t.couples, t.diagonal, t.rhs));
 }
 
-void couple_row(LineArgs a, LineRound round, uint r, bool first)
+void couple_row(LineArgsRef a, LineRound round, uint r, bool first)
 {
-    vec4 mine = a.scratch.at[r];
+    vec4 mine = a.at.scratch.at[r];
     vec3 before = vec3(0.0);
-    if (!first) before = a.scratch.at[r - WEFT_LANE_PADDING].xyz;
+    if (!first) before = a.at.scratch.at[r - WEFT_LANE_PADDING].xyz;
     float coupling = line_coupling(before, mine.xyz, mine.w);
     if (line_rows_at_hand > 1u) line_couplings[r - round.base] = coupling;
-    else a.scratch.at[r].w = coupling;
+    else a.at.scratch.at[r].w = coupling;
 }
 
 // The next row's numbers are asked for before this one's are needed: nothing that is written here is read there.
-void solve_line(LineArgs a, LineRound round, uint begin, uint length)
+void solve_line(LineArgsRef a, LineRound round, uint begin, uint length)
 {
     LineRow before = line_start();
     vec4 numbers = line_number(a, round, begin);
@@ -91,48 +91,48 @@ void solve_line(LineArgs a, LineRound round, uint begin, uint length)
 }
 
 // Each point is moved by the row that it is the second of, and the first one by the first row.
-void end_row(LineArgs a, LineRound round, uint r, bool first, bool last)
+void end_row(LineArgsRef a, LineRound round, uint r, bool first, bool last)
 {
     float change = line_number(a, round, r).x;
-    if (a.lambda_use == WEFT_LAMBDA_STORE) a.lambda.at[r] = change;
-    if (a.lambda_use == WEFT_LAMBDA_ACCUMULATE) a.lambda.at[r] = a.lambda.at[r] + change;
-    uint from = a.particles.at[r], to = a.particles.at[a.stride + r];
-    vec3 mine = a.scratch.at[r].xyz * change;
+    if (a.at.lambda_use == WEFT_LAMBDA_STORE) a.at.lambda.at[r] = change;
+    if (a.at.lambda_use == WEFT_LAMBDA_ACCUMULATE) a.at.lambda.at[r] = a.at.lambda.at[r] + change;
+    uint from = a.at.particles.at[r], to = a.at.particles.at[a.at.stride + r];
+    vec3 mine = a.at.scratch.at[r].xyz * change;
     vec3 pull = vec3(0.0);  // of the row behind
-    if (!last) pull = a.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(a, round, r + WEFT_LANE_PADDING).x;
+    if (!last) pull = a.at.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(a, round, r + WEFT_LANE_PADDING).x;
     // Padding goes from the end of a line to itself; that point is the last real row's.
     if (from != to) {
-        vec4 x = load_point(a.position, to);
-        store_point(a.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
+        vec4 x = load_point(a.at.position, to);
+        store_point(a.at.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
         if (first) {
-            vec4 y = load_point(a.position, from);
-            store_point(a.position, from, vec4(y.xyz + mine * y.w, y.w));
+            vec4 y = load_point(a.at.position, from);
+            store_point(a.at.position, from, vec4(y.xyz + mine * y.w, y.w));
         }
     }
 }
 
 // By all of a workgroup.
-void run_lines(LineArgs a, LineRound round)
+void run_lines(LineArgsRef a, LineRound round)
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
-    Step h = substep_of(a.frame);
+    Step h = substep_of(a.at.frame);
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        uint begin = a.at.blocks.at[2u * b], rows = a.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all) begin_row(a, round, begin + i, h);
     }
     meet();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        uint begin = a.at.blocks.at[2u * b], rows = a.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all) couple_row(a, round, begin + i, i < WEFT_LANE_PADDING);
     }
     meet();
     for (uint i = me; i < (round.end - round.first) * WEFT_LANE_PADDING; i += all) {
         uint b = round.first + i / WEFT_LANE_PADDING;
-        solve_line(a, round, a.blocks.at[2u * b] + i % WEFT_LANE_PADDING, a.blocks.at[2u * b + 1u]);
+        solve_line(a, round, a.at.blocks.at[2u * b] + i % WEFT_LANE_PADDING, a.at.blocks.at[2u * b + 1u]);
     }
     meet();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.blocks.at[2u * b], rows = a.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        uint begin = a.at.blocks.at[2u * b], rows = a.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all)
             end_row(a, round, begin + i, i < WEFT_LANE_PADDING, i + WEFT_LANE_PADDING >= rows);
     }

@@ -3,12 +3,13 @@
 // damp_row_<name>.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
+#include "vulkan/shaders/dispatch.glsl"
 #include "vulkan/shaders/rows.glsl"
-
-layout(push_constant) uniform Push { RowArgs args; };
 
 void main()
 {
-    RowRange rows = rows_of(args, invocation());
-    for (uint k = 0u; k < rows.count; ++k) WEFT_ROW_PASS(args, rows.row + k * rows.stride);
+    Share share = share_of_workgroup();
+    if (is_none(share.command)) return;
+    RowRange rows = rows_of(RowArgsRef(share.command), invocation_of(share));
+    for (uint k = 0u; k < rows.count; ++k) WEFT_ROW_PASS(RowArgsRef(share.command), rows.row + k * rows.stride);
 }

@@ -11,6 +11,9 @@
 
 layout(push_constant) uniform Push { ContactListArgs args; };
 
+// Of the packet's cloth; read where it lies (vulkan/shaders/commands.glsl).
+#define WEFT_ACCOUNT args.accounts.at[packet.cloth]
+
 #define WEFT_REPORT_NON_FINITE 2u
 
 vec3 quanta_of(vec3 v, float momentum)

@@ -35,17 +35,16 @@ void main()
     barrier();
 
     PacketIn packet = args.packets.at[group];
-    AccountIn account = args.accounts.at[packet.cloth];
     uint p = packet.first + me, flag = 0u;
     // A frame that went wrong is undone, and so is what it did.
-    if (p < account.particles && (account.report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) {
-        uint at = packet.collider * account.capacity + p;
-        vec3 moved = account.moved.at[at].xyz;
+    if (p < WEFT_ACCOUNT.particles && (WEFT_ACCOUNT.report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) {
+        uint at = packet.collider * WEFT_ACCOUNT.capacity + p;
+        vec3 moved = WEFT_ACCOUNT.moved.at[at].xyz;
         if (moved != vec3(0.0)) {
-            float momentum = contact_momentum(account.position.at[p].w, account.frame.at.inv_h);
+            float momentum = contact_momentum(WEFT_ACCOUNT.position.at[p].w, WEFT_ACCOUNT.frame.at.inv_h);
             vec3 linear = quanta_of(moved, momentum);
             if (linear != vec3(0.0)) {
-                vec3 angular = quanta_of(account.turned.at[at].xyz, momentum);
+                vec3 angular = quanta_of(WEFT_ACCOUNT.turned.at[at].xyz, momentum);
                 for (uint axis = 0u; axis < 3u; ++axis) {
                     add_here(2u * axis, linear[axis]);
                     add_here(2u * axis + 6u, angular[axis]);
@@ -62,8 +61,8 @@ void main()
     uint to = packet.collider * WEFT_SUM_WORDS;
     if (me < 6u) {
         uint low = sums[2u * me];
-        uint before = atomicAdd(account.sums.at[to + 2u * me], low);
-        atomicAdd(account.sums.at[to + 2u * me + 1u], sums[2u * me + 1u] + (before + low < before ? 1u : 0u));
+        uint before = atomicAdd(WEFT_ACCOUNT.sums.at[to + 2u * me], low);
+        atomicAdd(WEFT_ACCOUNT.sums.at[to + 2u * me + 1u], sums[2u * me + 1u] + (before + low < before ? 1u : 0u));
     }
-    if (me == 6u) atomicAdd(account.sums.at[to + WEFT_SUM_CONTACTS], sums[WEFT_SUM_CONTACTS]);
+    if (me == 6u) atomicAdd(WEFT_ACCOUNT.sums.at[to + WEFT_SUM_CONTACTS], sums[WEFT_SUM_CONTACTS]);
 }

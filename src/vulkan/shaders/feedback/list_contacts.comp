@@ -11,11 +11,10 @@ void main()
     if (number == before || number > args.room) return;
 
     PacketIn packet = args.packets.at[group];
-    AccountIn account = args.accounts.at[packet.cloth];
     uint p = packet.first + gl_LocalInvocationID.x;
-    vec4 x = account.position.at[p];
-    vec3 moved = account.moved.at[packet.collider * account.capacity + p].xyz;
-    vec3 quanta = quanta_of(moved, contact_momentum(x.w, account.frame.at.inv_h));
+    vec4 x = WEFT_ACCOUNT.position.at[p];
+    vec3 moved = WEFT_ACCOUNT.moved.at[packet.collider * WEFT_ACCOUNT.capacity + p].xyz;
+    vec3 quanta = quanta_of(moved, contact_momentum(x.w, WEFT_ACCOUNT.frame.at.inv_h));
     uint to = before * WEFT_RECORD_WORDS;
     for (uint axis = 0u; axis < 3u; ++axis) {
         args.contacts.at[to + axis] = floatBitsToUint(x[axis]);

@@ -1,12 +1,13 @@
 #version 450
 // The sum and the largest of each tile, always in the same order: 16 terms by each invocation, then by halves.
-// WEFT_TERM is what is summed, WEFT_ARGS what that is told.
+// WEFT_ARGS is what it is told, and WEFT_MEASURES_… says what is summed.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/tiles.glsl"
 #include "vulkan/measures/args.data.h"
-#include "vulkan/shaders/measures/terms.glsl"
 
 layout(push_constant) uniform Push { WEFT_ARGS args; };
+
+#include "vulkan/shaders/measures/terms.glsl"
 
 shared float sums[WEFT_GROUP];
 shared uint sizes[WEFT_GROUP];
@@ -19,7 +20,7 @@ void main()
     for (uint k = 0u; k < WEFT_EACH; ++k) {
         uint i = tile * WEFT_TILE + k * WEFT_GROUP + me;
         if (i < args.count) {
-            Term term = WEFT_TERM(args, i);
+            Term term = term_of(i);
             sum += term.value;
             size = max(size, term.size);
         }

@@ -18,52 +18,58 @@ bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.
 
 float square_of(vec3 v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
+#ifdef WEFT_MEASURES_PARTICLES
 // Kinetic energy, J; the square of the speed, m²/s².
-Term particle_term(MeasureParticlesArgs a, uint p)
+Term term_of(uint p)
 {
-    vec4 x = a.position.at[p];
-    vec3 v = a.velocity.at[p].xyz;
+    vec4 x = args.position.at[p];
+    vec3 v = args.velocity.at[p].xyz;
     if (!is_finite(x.xyz) || !is_finite(v)) return Term(0.0, WEFT_NAN);
     float speed2 = square_of(v);
-    return Term(x.w > 0.0 ? 0.5 * a.masses.at[p] * speed2 : 0.0, floatBitsToUint(speed2));
+    return Term(x.w > 0.0 ? 0.5 * args.masses.at[p] * speed2 : 0.0, floatBitsToUint(speed2));
 }
+#endif
 
 Term deviation(float x)
 {
     return Term(abs(x), floatBitsToUint(x) & 0x7fffffffu);
 }
 
+#ifdef WEFT_MEASURES_EDGES
 // ℓ/ℓ₀ - 1 as (ℓ² - ℓ₀²) / (ℓ₀ (ℓ + ℓ₀)), whose difference alone needs more than a float.
-Term edge_term(MeasureEdgesArgs a, uint e)
+Term term_of(uint e)
 {
-    vec3 p = a.position.at[a.edges.at[4u * e]].xyz, q = a.position.at[a.edges.at[4u * e + 1u]].xyz;
-    float rest2 = uintBitsToFloat(a.edges.at[4u * e + 2u]), rest2_low = uintBitsToFloat(a.edges.at[4u * e + 3u]);
+    vec3 p = args.position.at[args.edges.at[4u * e]].xyz, q = args.position.at[args.edges.at[4u * e + 1u]].xyz;
+    float rest2 = uintBitsToFloat(args.edges.at[4u * e + 2u]), rest2_low = uintBitsToFloat(args.edges.at[4u * e + 3u]);
     Two now2 = add(add(square(sum_of(p.x, -q.x)), square(sum_of(p.y, -q.y))), square(sum_of(p.z, -q.z)));
     float rest = sqrt(rest2), now = sqrt(max(now2.high, 0.0));
     return deviation(value(add(now2, Two(-rest2, -rest2_low))) / (rest * (now + rest)));
 }
+#endif
 
+#ifdef WEFT_MEASURES_ROWS
 // What is left of a row of stretch (solver/measures/residual.cpp): |C + α̃λ| over the rest length, C from the length as float
 // that the solver has seen.
-Term row_term(MeasureRowsArgs a, uint row)
+Term term_of(uint row)
 {
-    uint p = a.particles.at[row], q = a.particles.at[a.stride + row];
-    if (p >= a.first_dummy || p == q) return Term(0.0, 0u);  // padding
-    float length2 = square_of(a.position.at[p].xyz - a.position.at[q].xyz);
+    uint p = args.particles.at[row], q = args.particles.at[args.stride + row];
+    if (p >= args.first_dummy || p == q) return Term(0.0, 0u);  // padding
+    float length2 = square_of(args.position.at[p].xyz - args.position.at[q].xyz);
     float now = sqrt(length2);
     // A device may have rounded the root as it likes; its error is a float, and makes it the nearest one.
     Two squared = product_of(now, now);
     if (now > 0.0) now = now + ((length2 - squared.high) - squared.low) / (2.0 * now);
-    float rest = a.fields.at[row];
+    float rest = args.fields.at[row];
     Two left = sum_of(now, -rest);
-    float compliance = a.fields.at[(left.high > 0.0 ? 1u : 2u) * a.stride + row];
+    float compliance = args.fields.at[(left.high > 0.0 ? 1u : 2u) * args.stride + row];
     if (compliance < 0.0) return Term(0.0, 0u);  // nothing was to be solved
-    if (a.inv_h2 > 0.0) {
-        float lambda = a.lambda.at[row];
+    if (args.inv_h2 > 0.0) {
+        float lambda = args.lambda.at[row];
         if (!is_finite(lambda)) return Term(0.0, WEFT_NAN);
-        left = add(left, multiply(multiply(Two(a.inv_h2, a.inv_h2_low), compliance), lambda));
+        left = add(left, multiply(multiply(Two(args.inv_h2, args.inv_h2_low), compliance), lambda));
     }
     return deviation(value(left) / rest);
 }
+#endif
 
 #endif

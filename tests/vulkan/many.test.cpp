@@ -1,0 +1,121 @@
+// Many cloths in one frame: as many dispatches as for one cloth, one submit, and the same bits however passes become
+// dispatches.
+
+#include "counting_device.h"
+#include "vulkan_fixture.h"
+
+#include "mesh/procedural.h"
+#include "solver/world/world.h"
+
+#include <algorithm>
+
+namespace weft {
+namespace {
+
+constexpr double frame_seconds = 1.0 / 60;
+
+// A sheet above the ground, hung by a corner where it has a pin.
+std::shared_ptr<const ClothModel> sheet(std::uint32_t side, const ClothLayout& layout, bool pinned,
+                                        float bend = 1e-4f) {
+    ClothModelDesc desc;
+    desc.name = "sheet of " + std::to_string(side);
+    desc.mesh = make_grid({0.01f * static_cast<float>(side), 0.3f}, {side, side}, GridDiagonal::alternating);
+    std::ranges::fill(desc.fabric.bend.bend, bend);
+    auto topology = build_topology(desc.mesh, {.reorder = false});
+    EXPECT_TRUE(topology.ok());
+    desc.layout = layout;
+    if (pinned) desc.pins.particles = {0};
+    auto model = build_cloth_model(std::move(desc), std::move(*topology));
+    EXPECT_TRUE(model.ok());
+    return *model;
+}
+
+struct Frames {
+    std::string hash;
+    std::vector<std::vector<Vec4>> positions;  ///< by cloth
+    int dispatches = 0;                        ///< of a frame
+    int submits = 0;
+};
+
+// Two frames, of which the first one is recorded.
+Frames run(std::unique_ptr<Backend> backend, const std::vector<std::shared_ptr<const ClothModel>>& models,
+           const WorldSettings& settings) {
+    World world(std::move(backend), settings);
+    world.add(make_collider({.name = "ground", .shape = PlaneDesc{{0, 1, 0}, -0.001f}}));
+    for (const auto& model : models) world.add(model);
+    Frames frames;
+    counting_device::dispatches = 0;
+    world.advance(frame_seconds);
+    EXPECT_EQ(world.summary().reports, report_none);
+    frames.dispatches = counting_device::dispatches;
+    counting_device::submits = 0;
+    world.advance(frame_seconds);
+    EXPECT_EQ(world.summary().reports, report_none);
+    frames.submits = counting_device::submits;
+    EXPECT_EQ(counting_device::dispatches, frames.dispatches) << "recorded once";
+    frames.hash = world.state_hash();
+    for (const ClothFrame& cloth : world.frame().cloths)
+        frames.positions.emplace_back(cloth.positions.begin(), cloth.positions.end());
+    return frames;
+}
+
+std::unique_ptr<Backend> vulkan_backend(const char* execution) {
+    return checked_vulkan_backend({.execution = execution, .intercept = counting_device::intercept});
+}
+
+constexpr const char* executions[] = {"streamed", "grouped", "fused"};
+
+TEST(ManyCloths, take_no_more_dispatches_than_one) {
+    WorldSettings settings{.substeps = 3};
+    settings.hierarchy = true;
+    const auto model = sheet(32, settings.layout(), true);
+    std::array<int, 3> of_one{};
+    for (const std::size_t count : {1u, 16u, 256u}) {
+        const std::vector models(count, model);
+        std::string expected;
+        for (std::size_t i = 0; i < of_one.size(); ++i) {
+            SCOPED_TRACE(std::to_string(count) + " cloths, " + executions[i]);
+            const Frames frames = run(vulkan_backend(executions[i]), models, settings);
+            if (count == 1) of_one[i] = frames.dispatches;
+            if (expected.empty()) expected = frames.hash;
+            EXPECT_EQ(frames.dispatches, of_one[i]);
+            EXPECT_EQ(frames.submits, 1);
+            EXPECT_EQ(frames.hash, expected);
+        }
+    }
+    EXPECT_GT(of_one[0], of_one[1]);
+    EXPECT_GT(of_one[1], 1);
+    EXPECT_EQ(of_one[2], 1);
+}
+
+// Of other sizes, with other constraints, with and without coarse levels, lines and pins: none notices the others.
+TEST(ManyCloths, that_differ_do_what_each_does_alone) {
+    for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
+        WorldSettings settings{.substeps = 4, .iterations = 2, .projection = projection};
+        settings.hierarchy = true;
+        ClothLayout flat = settings.layout();
+        flat.hierarchy = false;
+        const std::vector models{sheet(9, flat, false), sheet(40, settings.layout(), true), sheet(20, flat, true, 0),
+                                 sheet(33, settings.layout(), true), sheet(17, settings.layout(), false)};
+        std::vector<std::vector<Vec4>> expected;
+        int sum = 0, longest = 0;
+        for (const auto& model : models) {
+            Frames alone = run(vulkan_backend("streamed"), {model}, settings);
+            expected.push_back(std::move(alone.positions.front()));
+            sum += alone.dispatches;
+            longest = std::max(longest, alone.dispatches);
+        }
+        for (const char* execution : executions) {
+            SCOPED_TRACE(execution);
+            const Frames frames = run(vulkan_backend(execution), models, settings);
+            EXPECT_EQ(frames.positions, expected);
+            EXPECT_EQ(frames.submits, 1);
+            if (execution != std::string_view("streamed")) continue;
+            EXPECT_GE(frames.dispatches, longest);
+            EXPECT_LT(frames.dispatches, longest + (sum - longest) / 4);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace weft
