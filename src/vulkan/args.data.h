@@ -1,6 +1,6 @@
 // What shaders are told, one struct per kind of pass, read by C++ and by GLSL: the same bytes are pushed as constants
-// with a dispatch, or lie in a list that one dispatch works through. None is larger than the 128 bytes that every
-// device has room for.
+// with a dispatch, or lie in memory where one dispatch runs many commands. None is larger than 120 bytes: with the two
+// numbers that are pushed behind it, every device has room for it.
 #ifndef WEFT_VULKAN_ARGS_H
 #define WEFT_VULKAN_ARGS_H
 

@@ -11,7 +11,6 @@ Result<std::unique_ptr<Cloth>> Cloth::create(gpu::Device& device, Programs& prog
     if (!state) return state.errors();
     self->state_ = std::move(*state);
     if (auto made = self->make_readable(); !made) return made.errors();
-    if (auto prepared = self->prepare_normals(); !prepared) return prepared.errors();
     if (auto done = self->update_normals(); !done) return done.errors();
     return self;
 }
@@ -36,24 +35,12 @@ Result<Done> Cloth::make_readable() {
     return Done{};
 }
 
-Result<Done> Cloth::prepare_normals() {
+Result<Done> Cloth::update_normals() {
     auto surface = compile_surface(programs_, *state_);
     if (!surface) return surface.errors();
-    std::uint32_t number = normals_memory_.add(*surface);
-    if (auto built = normals_memory_.build(device_, "normals of " + model().name); !built) return built;
-    auto commands = gpu::Commands::create(device_);
-    if (!commands) return commands.errors();
-    if (auto begun = commands->begin(); !begun) return begun;
-    for (const Command& command : *surface)
-        record(*commands, command, normals_memory_.address(number++), 0, device_.limits());
-    if (auto ended = commands->end(); !ended) return ended;
-    normals_commands_ = std::move(*commands);
-    return Done{};
-}
-
-Result<Done> Cloth::update_normals() {
-    const auto value = normals_commands_->submit();
-    auto done = value ? device_.wait(*value) : Result<Done>(value.errors());
+    auto done = gpu::run_once(device_, [&](gpu::Commands& commands) {
+        for (const Command& command : *surface) record(commands, command, 0, device_.limits());
+    });
     changed(done.ok());
     return done;
 }

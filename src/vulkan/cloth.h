@@ -5,7 +5,6 @@
 #include "gpu/commands.h"
 #include "solver/measures/measures.h"
 #include "vulkan/cloth_state.h"
-#include "vulkan/command_memory.h"
 #include "vulkan/compiled_plan.h"
 #include "vulkan/surface/drawn_surface.h"
 
@@ -52,7 +51,6 @@ class Cloth {
   private:
     Cloth(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
     Result<Done> make_readable();
-    Result<Done> prepare_normals();
     std::span<const Vec4> read_array(std::uint32_t which) const;
 
     gpu::Device& device_;
@@ -60,8 +58,6 @@ class Cloth {
     std::unique_ptr<ClothState> state_;
     gpu::Buffer readback_;  ///< positions, velocities, normals
     std::optional<gpu::Commands> read_commands_;
-    CommandMemory normals_memory_;
-    std::optional<gpu::Commands> normals_commands_;
     std::uint64_t changes_ = 0;
     bool normals_stale_ = false;
     std::unique_ptr<DrawnSurface> surface_;  ///< reads the state

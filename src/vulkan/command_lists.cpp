@@ -48,11 +48,11 @@ LineRows largest_lines(const ConstraintTable& table) {
     return largest;
 }
 
-Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::uint32_t rows) {
+Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view name, std::uint32_t rows) {
     const gpu::Device& device = programs.device();
     const std::array constants = {std::min(256u, device.limits().workgroup_size[0]),
                                   line_rows_at_hand(device, {rows, rows})};
-    return programs.get("lines", constants);
+    return programs.get(name, constants);
 }
 
 std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t first, const PointsAtHand& points,

@@ -26,8 +26,8 @@ LineRows largest_lines(const ConstraintTable& table);
 /// batch's if there is room, and not fewer than a block's. 1: none.
 std::uint32_t line_rows_at_hand(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes = 0);
 
-/// The pipeline that solves lines of blocks with so many rows.
-Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::uint32_t rows);
+/// The pipeline of that shader, which solves lines of blocks with so many rows.
+Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view name, std::uint32_t rows);
 
 class CommandLists {
   public:

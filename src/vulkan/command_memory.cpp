@@ -1,8 +1,5 @@
 #include "vulkan/command_memory.h"
 
-#include "vulkan/dispatches.h"
-
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstring>
@@ -39,19 +36,6 @@ Result<Done> CommandMemory::build(gpu::Device& device, const std::string& name) 
 std::uint64_t CommandMemory::address(std::uint32_t command) const {
     assert((command + std::uint64_t{1}) * command_bytes <= slot_.bytes);
     return arena_.address(slot_) + command * command_bytes;
-}
-
-void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::DeviceLimits& limits) {
-    const std::uint32_t wide = std::min(groups, limits.workgroup_count[0]);
-    commands.dispatch(wide, (groups + wide - 1) / wide);
-}
-
-void record(gpu::Commands& commands, const Command& command, std::uint64_t address, std::uint32_t substep,
-            const gpu::DeviceLimits& limits) {
-    if (command.needs_barrier) commands.barrier();
-    const std::uint32_t groups = workgroups_of(command);
-    push_dispatch(commands, *command.pipeline, {address, 1, groups, groups, substep});
-    dispatch_groups(commands, groups, limits);
 }
 
 }  // namespace weft::vulkan

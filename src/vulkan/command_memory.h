@@ -1,4 +1,4 @@
-// Commands of some cloths in the device's memory, where shaders read what they are told.
+// Commands of some cloths in the device's memory, where shaders that run those of several read them.
 #pragma once
 
 #include "vulkan/compiled_plan.h"
@@ -23,12 +23,5 @@ class CommandMemory {
     Arena arena_;
     Slot slot_;
 };
-
-/// So many workgroups, along more than one axis if one has no room for them.
-void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::DeviceLimits& limits);
-
-/// One command by itself, which lies at `address`. `substep` is added to its own.
-void record(gpu::Commands& commands, const Command& command, std::uint64_t address, std::uint32_t substep,
-            const gpu::DeviceLimits& limits);
 
 }  // namespace weft::vulkan

@@ -326,7 +326,7 @@ class Compiler {
         Command& command = add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
         command.groups = batch.blocks;
         command.line_rows = largest_lines(table).of_block;
-        auto pipeline = lines_pipeline(programs_, command.line_rows);
+        auto pipeline = lines_pipeline(programs_, "lines", command.line_rows);
         if (pipeline) command.pipeline = *pipeline;
         if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
     }
@@ -456,6 +456,28 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth) {
     return Compiler(programs, cloth, {}, {}, {}, {}).surface();
+}
+
+std::uint32_t workgroups_of(const Command& command) {
+    if (command.groups > 0) return command.groups;
+    const std::uint32_t size = command.pipeline->workgroup();
+    return (command.invocations + size - 1) / size;
+}
+
+void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::DeviceLimits& limits) {
+    const std::uint32_t wide = std::min(groups, limits.workgroup_count[0]);
+    commands.dispatch(wide, (groups + wide - 1) / wide);
+}
+
+void record(gpu::Commands& commands, const Command& command, std::uint32_t substep, const gpu::DeviceLimits& limits) {
+    if (command.needs_barrier) commands.barrier();
+    std::array<std::byte, sizeof command.args> constants = command.args;
+    const std::array behind = {substep, command.invocations};  // as dispatch.glsl has it
+    std::memcpy(constants.data() + command.arg_bytes, behind.data(), sizeof behind);
+    assert(command.arg_bytes + sizeof behind == command.pipeline->push_constants());
+    commands.bind(*command.pipeline);
+    commands.push(std::span(constants).first(command.pipeline->push_constants()));
+    dispatch_groups(commands, workgroups_of(command), limits);
 }
 
 }  // namespace weft::vulkan

@@ -60,4 +60,11 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 /// Normals for the state as it is.
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);
 
+/// Workgroups that a command fills.
+std::uint32_t workgroups_of(const Command& command);
+/// So many workgroups, along more than one axis if one has no room for them.
+void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::DeviceLimits& limits);
+/// Behind a barrier if the command needs one. `substep` is added to its own.
+void record(gpu::Commands& commands, const Command& command, std::uint32_t substep, const gpu::DeviceLimits& limits);
+
 }  // namespace weft::vulkan

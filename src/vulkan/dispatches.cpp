@@ -1,9 +1,9 @@
 #include "vulkan/dispatches.h"
 
 #include "vulkan/command_lists.h"
+#include "vulkan/shaders.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 namespace weft::vulkan {
@@ -14,7 +14,7 @@ struct MemberIn {
     std::uint64_t command;
     std::uint32_t first_group, unused;
 };
-static_assert(sizeof(MemberIn) == 16 && sizeof(DispatchArgs) == 24);
+static_assert(sizeof(MemberIn) == 16);
 
 // The pass that begins at command `begin` of the plan, and where it ends.
 SharedPass next_pass(const CompiledPlan& plan, std::size_t begin, std::size_t end, bool grouped) {
@@ -61,28 +61,16 @@ const Command& command_of(std::span<const CompiledPlan> plans, const PlanPart& p
     return plans[part.member].commands[part.begin];
 }
 
-// Of lines the one that has room for the longest.
-Result<const gpu::Pipeline*> pipeline_of(Programs& programs, std::span<const CompiledPlan> plans,
-                                         const SharedPass& pass) {
+// The shader for many cloths; of lines the one that has room for the longest.
+Result<const gpu::Pipeline*> pipeline_for_many(Programs& programs, std::span<const CompiledPlan> plans,
+                                               const SharedPass& pass) {
     std::uint32_t line_rows = 0;
     for (const PlanPart& part : pass.parts) line_rows = std::max(line_rows, command_of(plans, part).line_rows);
-    if (line_rows > 0) return lines_pipeline(programs, line_rows);
-    return command_of(plans, pass.parts.front()).pipeline;
+    const std::string name = std::string(shaders()[pass.program].name) + "_many";
+    return line_rows > 0 ? lines_pipeline(programs, name, line_rows) : programs.get(name);
 }
 
 }  // namespace
-
-void push_dispatch(gpu::Commands& commands, const gpu::Pipeline& pipeline, const DispatchArgs& args) {
-    assert(sizeof args == pipeline.push_constants());
-    commands.bind(pipeline);
-    commands.push(std::as_bytes(std::span(&args, 1)));
-}
-
-std::uint32_t workgroups_of(const Command& command) {
-    if (command.groups > 0) return command.groups;
-    const std::uint32_t size = command.pipeline->workgroup();
-    return (command.invocations + size - 1) / size;
-}
 
 SharedPlan share_passes(std::span<const CompiledPlan> plans, bool grouped) {
     SharedPlan shared;
@@ -109,22 +97,26 @@ Result<Done> Dispatches::build(gpu::Device& device, Programs& programs, const Sh
                                std::span<const CompiledPlan> plans, const CommandMemory& memory,
                                std::span<const std::uint32_t> first, const std::string& name) {
     std::vector<MemberIn> table;
-    std::vector<std::size_t> in_table;  // of each dispatch of several cloths, its first entry
+    std::vector<std::size_t> in_table;  // of each dispatch of many cloths, its first entry
     for (const SharedPass& pass : shared.passes) {
         Dispatch& dispatch = dispatches_.emplace_back();
+        dispatch.needs_barrier = pass.needs_barrier;
         in_table.push_back(table.size());
         if (pass.is_list) continue;
-        auto pipeline = pipeline_of(programs, plans, pass);
+        const Command& one = command_of(plans, pass.parts.front());
+        if (pass.parts.size() == 1) {
+            dispatch.alone = &one;
+            continue;
+        }
+        auto pipeline = pipeline_for_many(programs, plans, pass);
         if (!pipeline) return pipeline.errors();
         dispatch.pipeline = *pipeline;
-        DispatchArgs& args = dispatch.args;
+        ManyArgs& args = dispatch.args;
         args.members = static_cast<std::uint32_t>(pass.parts.size());
-        args.groups_each = workgroups_of(command_of(plans, pass.parts.front()));
+        args.groups_each = workgroups_of(one);
         for (const PlanPart& part : pass.parts) {
             const std::uint32_t groups = workgroups_of(command_of(plans, part));
-            const std::uint64_t command = memory.address(first[part.member] + part.begin);
-            if (args.members == 1) args.commands = command;
-            if (args.members > 1) table.push_back({command, args.groups, 0});
+            table.push_back({memory.address(first[part.member] + part.begin), args.groups, 0});
             if (groups != args.groups_each) args.groups_each = 0;
             args.groups += groups;
         }
@@ -132,18 +124,21 @@ Result<Done> Dispatches::build(gpu::Device& device, Programs& programs, const Sh
     if (table.empty()) return Done{};
     const Slot slot = arena_.add_array(table);
     if (auto built = arena_.build(device, "dispatches of " + name); !built) return built;
-    for (std::size_t i = 0; i < dispatches_.size(); ++i) {
-        if (dispatches_[i].args.members > 1)
-            dispatches_[i].args.commands = arena_.address(slot) + in_table[i] * sizeof(MemberIn);
-    }
+    for (std::size_t i = 0; i < dispatches_.size(); ++i)
+        dispatches_[i].args.table = arena_.address(slot) + in_table[i] * sizeof(MemberIn);
     return Done{};
 }
 
 void Dispatches::record(gpu::Commands& commands, std::size_t pass, std::uint32_t substep,
                         const gpu::DeviceLimits& limits) const {
-    DispatchArgs args = dispatches_[pass].args;
+    const Dispatch& dispatch = dispatches_[pass];
+    if (dispatch.alone) return vulkan::record(commands, *dispatch.alone, substep, limits);
+    if (dispatch.needs_barrier) commands.barrier();
+    ManyArgs args = dispatch.args;
     args.substep = substep;
-    push_dispatch(commands, *dispatches_[pass].pipeline, args);
+    assert(sizeof args == dispatch.pipeline->push_constants());
+    commands.bind(*dispatch.pipeline);
+    commands.push(std::as_bytes(std::span(&args, 1)));
     dispatch_groups(commands, args.groups, limits);
 }
 

@@ -11,19 +11,6 @@
 
 namespace weft::vulkan {
 
-/// As dispatch.glsl has it.
-struct DispatchArgs {
-    std::uint64_t commands = 0;  ///< address of the command of one cloth, or of the table of several
-    std::uint32_t members = 0;
-    std::uint32_t groups = 0;       ///< workgroups of all
-    std::uint32_t groups_each = 0;  ///< of each; 0: they differ
-    std::uint32_t substep = 0;      ///< substeps that commands of a Repeat have run for before
-};
-void push_dispatch(gpu::Commands& commands, const gpu::Pipeline& pipeline, const DispatchArgs& args);
-
-/// Workgroups that a command fills.
-std::uint32_t workgroups_of(const Command& command);
-
 /// Commands [begin, end) of a cloth's plan.
 struct PlanPart {
     std::uint32_t member = 0;
@@ -51,19 +38,30 @@ SharedPlan share_passes(std::span<const CompiledPlan> plans, bool grouped);
 /// The passes that are not lists, as dispatches.
 class Dispatches {
   public:
-    /// `first` is the number in `memory` of each plan's first command.
+    /// `first` is the number in `memory` of each plan's first command. `plans` stay where they are.
     Result<Done> build(gpu::Device& device, Programs& programs, const SharedPlan& shared,
                        std::span<const CompiledPlan> plans, const CommandMemory& memory,
                        std::span<const std::uint32_t> first, const std::string& name);
 
-    /// The pass of that number in the SharedPlan.
+    /// The pass of that number in the SharedPlan, behind a barrier if it needs one. `substep` is added to that of each
+    /// command.
     void record(gpu::Commands& commands, std::size_t pass, std::uint32_t substep,
                 const gpu::DeviceLimits& limits) const;
 
   private:
+    // As dispatch.glsl has it.
+    struct ManyArgs {
+        std::uint64_t table = 0;
+        std::uint32_t members = 0;
+        std::uint32_t groups = 0;       // workgroups of all
+        std::uint32_t groups_each = 0;  // of each; 0: they differ
+        std::uint32_t substep = 0;
+    };
     struct Dispatch {
-        const gpu::Pipeline* pipeline = nullptr;
-        DispatchArgs args;
+        const Command* alone = nullptr;           // of one cloth, or
+        const gpu::Pipeline* pipeline = nullptr;  // of many
+        ManyArgs args;
+        bool needs_barrier = false;
     };
     std::vector<Dispatch> dispatches_;  ///< by pass; lists have none
     Arena arena_;

@@ -140,8 +140,8 @@ Result<Done> FrameRun::record_passes(bool timings) {
     run_through(shared.passes.size(), shared.repeat, [&](std::size_t i, std::uint32_t substep) {
         const SharedPass& pass = shared.passes[i];
         if (const std::uint32_t stage = stage_of(pass.pass); stage != last) commands_->stamp(), last = stage;
-        if (pass.needs_barrier) commands_->barrier();
         if (pass.is_list) {
+            commands_->barrier();
             lists_.record(*commands_, lists[i], static_cast<std::uint32_t>(pass.parts.size()), substep);
         } else {
             dispatches_.record(*commands_, i, substep, device_.limits());
@@ -186,7 +186,7 @@ Result<std::string> FrameRun::replay(std::size_t member) {
     Result<std::string> found = std::string(late_non_finite);
     run_through(plan.check, plan.repeat, [&](std::size_t i, std::uint32_t substep) {
         const Command& command = plan.commands[i];
-        if (auto done = run(member, i, substep); !done) return found = done.errors(), false;
+        if (auto done = run(command, substep); !done) return found = done.errors(), false;
         if (command.pass.kind == PassKind::damp) return true;
         const auto place = download_place(cloth);
         if (!place) return found = place.errors(), false;
@@ -198,12 +198,9 @@ Result<std::string> FrameRun::replay(std::size_t member) {
     return found;
 }
 
-// One command of the cloth's plan, by itself.
-Result<Done> FrameRun::run(std::size_t member, std::size_t command, std::uint32_t substep) {
-    const std::uint64_t address = memory_.address(first_command_[member] + static_cast<std::uint32_t>(command));
-    return gpu::run_once(device_, [&](gpu::Commands& now) {
-        record(now, plans_[member].commands[command], address, substep, device_.limits());
-    });
+// One command by itself.
+Result<Done> FrameRun::run(const Command& command, std::uint32_t substep) {
+    return gpu::run_once(device_, [&](gpu::Commands& now) { record(now, command, substep, device_.limits()); });
 }
 
 Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInput& input) {
@@ -214,7 +211,8 @@ Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInpu
         return culprit;
     auto found = replay(member);
     // The report still says that the frame was not finite, so this goes back.
-    if (auto done = run(member, plans_[member].roll_back, 0); !done) return done.errors();
+    const CompiledPlan& plan = plans_[member];
+    if (auto done = run(plan.commands[plan.roll_back], 0); !done) return done.errors();
     if (auto updated = cloth.update_normals(); !updated) return updated.errors();
     return found;
 }

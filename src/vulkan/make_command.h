@@ -13,7 +13,7 @@ namespace weft::vulkan {
 template <class Args>
 Command make_command(Programs& programs, Errors& errors, std::string_view program, const Args& args,
                      std::uint32_t invocations) {
-    static_assert(sizeof(Args) <= sizeof(Command::args));
+    static_assert(sizeof(Args) + 2 * sizeof(std::uint32_t) <= sizeof(Command::args), "to be pushed with two numbers");
     auto pipeline = programs.get(program);
     if (!pipeline) errors.insert(errors.end(), pipeline.errors().begin(), pipeline.errors().end());
     Command command;

@@ -1,6 +1,31 @@
-// A dispatch of one pass of several cloths: each has a command, and its workgroups follow those of the cloth before it.
+// What a workgroup works on: the command that a dispatch pushes, or, with WEFT_MANY, one of those of several cloths.
+// Then the workgroups of a cloth follow those of the cloth before it.
 #ifndef WEFT_DISPATCH_GLSL
 #define WEFT_DISPATCH_GLSL
+
+uint group_of_command = 0u;  // of the command's workgroups, the one that this is
+uint invocation_of_command() { return group_of_command * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
+
+// A dispatch of more workgroups than fit along one axis goes on along the next, and may have too many there.
+uint group_of_dispatch() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+#ifndef WEFT_MANY
+
+layout(push_constant) uniform Push {
+    WEFT_ARGS at;
+    uint substep;      // substeps_before
+    uint invocations;
+} WEFT_PUSHED;
+
+bool find_command()
+{
+    substeps_before = WEFT_PUSHED.substep;
+    group_of_command = group_of_dispatch();
+    return true;
+}
+uint invocations_of_command() { return WEFT_PUSHED.invocations; }
+
+#else
 
 struct MemberIn {
     uvec2 command;
@@ -10,38 +35,35 @@ struct MemberIn {
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer MembersRef { MemberIn at[]; };
 
 layout(push_constant) uniform Push {
-    uvec2 commands;    // of one cloth its command, of several MembersRef
+    uvec2 table;       // MembersRef
     uint members;
     uint groups;       // workgroups of all
     uint groups_each;  // of each; 0: they differ
     uint substep;      // substeps_before
 };
 
-// What a workgroup works on.
-struct Share {
-    uvec2 command;  // 0: nothing
-    uint group;     // among those of the command
-};
-
-Share share_of_workgroup()
+// False if there is nothing to do.
+bool find_command()
 {
-    // A dispatch of more workgroups than fit along one axis goes on along the next, and may have too many there.
-    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     substeps_before = substep;
-    if (group >= groups) return Share(uvec2(0u), 0u);
-    if (members == 1u) return Share(commands, group);
-    MembersRef table = MembersRef(commands);
-    if (groups_each > 0u) return Share(table.at[group / groups_each].command, group % groups_each);
+    uint group = group_of_dispatch();
+    if (group >= groups) return false;
     uint begin = 0u, end = members;  // the last one that begins here or before is in between
+    if (groups_each > 0u) {
+        begin = group / groups_each;
+        end = begin + 1u;
+    }
     while (begin + 1u < end) {
         uint middle = (begin + end) / 2u;
-        if (table.at[middle].first_group <= group) begin = middle;
+        if (MembersRef(table).at[middle].first_group <= group) begin = middle;
         else end = middle;
     }
-    return Share(table.at[begin].command, group - table.at[begin].first_group);
+    command = MembersRef(table).at[begin].command;
+    group_of_command = group - MembersRef(table).at[begin].first_group;
+    return true;
 }
+uint invocations_of_command() { return CommandRef(command).invocations; }
 
-// The number of an invocation among those of its command.
-uint invocation_of(Share share) { return share.group * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
+#endif
 
 #endif

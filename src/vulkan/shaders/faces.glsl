@@ -2,23 +2,23 @@
 #ifndef WEFT_FACES_GLSL
 #define WEFT_FACES_GLSL
 
-void corners_of(FaceArgsRef a, uint t, out uint corner[3], out vec3 x[3])
+void corners_of(uint t, out uint corner[3], out vec3 x[3])
 {
     for (uint k = 0u; k < 3u; ++k) {
-        corner[k] = a.at.faces.at[k * a.at.stride + t];
-        x[k] = load_point(a.at.position, corner[k]).xyz;
+        corner[k] = face_args.at.faces.at[k * face_args.at.stride + t];
+        x[k] = load_point(face_args.at.position, corner[k]).xyz;
     }
 }
 
-void run_wind(FaceArgsRef a, uint t)
+void run_wind(uint t)
 {
     uint corner[3];
     vec3 x[3];
-    corners_of(a, t, corner, x);
+    corners_of(t, corner, x);
     vec3 middle = (x[0] + x[1] + x[2]) * (1.0 / 3.0);
     vec3 u = vec3(0.0);
-    for (uint i = 0u; i < a.at.frame.at.winds; ++i) {
-        WindIn wind = a.at.winds.at[i];
+    for (uint i = 0u; i < face_args.at.frame.at.winds; ++i) {
+        WindIn wind = face_args.at.winds.at[i];
         WindNumbers numbers = WindNumbers(wind.n0.xyz, wind.n1.xyz, wind.n2.xyz);
         WindLife life = WindLife(wind.n0.w, wind.n1.w, wind.n2.w, wind.noise_offset.w, wind.turbulence,
                                  wind.noise_per_meter, wind.noise_time, wind.noise_offset.xyz);
@@ -29,54 +29,58 @@ void run_wind(FaceArgsRef a, uint t)
 #undef WEFT_WIND
         u = u + live_wind(flow, float(t), life);
     }
-    a.at.wind.at[t] = vec4(u, 0.0);
+    face_args.at.wind.at[t] = vec4(u, 0.0);
 }
 
-void run_air(FaceArgsRef a, uint t)
+void run_air(uint t)
 {
     uint corner[3];
     vec3 x[3];
-    corners_of(a, t, corner, x);
+    corners_of(t, corner, x);
     float third = 1.0 / 3.0;
-    vec3 v = (a.at.velocity.at[corner[0]].xyz + a.at.velocity.at[corner[1]].xyz + a.at.velocity.at[corner[2]].xyz) * third;
-    if (!is_none(uvec2(a.at.wind))) v = v - a.at.wind.at[t].xyz;
-    float mass = a.at.mass.at[t];
+    vec3 v = (face_args.at.velocity.at[corner[0]].xyz + face_args.at.velocity.at[corner[1]].xyz +
+              face_args.at.velocity.at[corner[2]].xyz) * third;
+    if (!is_none(uvec2(face_args.at.wind))) v = v - face_args.at.wind.at[t].xyz;
+    float mass = face_args.at.mass.at[t];
     vec3 dv = air_velocity_change(v, face_normal(x[0], x[1], x[2]), mass,
-                                  AirFabric(a.at.frame.at.drag, a.at.frame.at.lift, a.at.frame.at.listing), a.at.frame.at.h);
-    a.at.by_face.at[t] = vec4(dv * (mass * third), 0.0);
+                                  AirFabric(face_args.at.frame.at.drag, face_args.at.frame.at.lift,
+                                            face_args.at.frame.at.listing),
+                                  face_args.at.frame.at.h);
+    face_args.at.by_face.at[t] = vec4(dv * (mass * third), 0.0);
 }
 
-void run_faces(FaceArgsRef a, uint t)
+void run_faces(uint t)
 {
     uint corner[3];
     vec3 x[3];
-    corners_of(a, t, corner, x);
-    a.at.by_face.at[t] = vec4(face_normal(x[0], x[1], x[2]), 0.0);
+    corners_of(t, corner, x);
+    face_args.at.by_face.at[t] = vec4(face_normal(x[0], x[1], x[2]), 0.0);
 }
 
-vec3 sum_around(AroundArgsRef a, uint p)
+vec3 sum_around(uint p)
 {
     vec3 sum = vec3(0.0);
-    uint end = a.at.offsets.at[p + 1u];
-    for (uint k = a.at.offsets.at[p]; k < end; ++k) sum = sum + a.at.by_face.at[a.at.items.at[k]].xyz;
+    uint end = around_args.at.offsets.at[p + 1u];
+    for (uint k = around_args.at.offsets.at[p]; k < end; ++k)
+        sum = sum + around_args.at.by_face.at[around_args.at.items.at[k]].xyz;
     return sum;
 }
 
-void run_push(AroundArgsRef a, uint p)
+void run_push(uint p)
 {
-    float w = load_point(a.at.position, p).w;
+    float w = load_point(around_args.at.position, p).w;
     if (!(w > 0.0)) return;
-    vec4 s = a.at.start.at[p], v = a.at.velocity.at[p], c = a.at.carry.at[p];
+    vec4 s = around_args.at.start.at[p], v = around_args.at.velocity.at[p], c = around_args.at.carry.at[p];
     Motion m = Motion(v.xyz, vec3(s.w, v.w, c.w), c.xyz);
-    push_by_air(m, sum_around(a, p), w);
-    a.at.start.at[p].w = m.v_dropped.x;
-    a.at.velocity.at[p] = vec4(m.v, m.v_dropped.y);
-    a.at.carry.at[p].w = m.v_dropped.z;
+    push_by_air(m, sum_around(p), w);
+    around_args.at.start.at[p].w = m.v_dropped.x;
+    around_args.at.velocity.at[p] = vec4(m.v, m.v_dropped.y);
+    around_args.at.carry.at[p].w = m.v_dropped.z;
 }
 
-void run_normals(AroundArgsRef a, uint p)
+void run_normals(uint p)
 {
-    a.at.normals.at[p] = vec4(unit_normal(sum_around(a, p)), 0.0);
+    around_args.at.normals.at[p] = vec4(unit_normal(sum_around(p)), 0.0);
 }
 
 #endif

@@ -44,63 +44,61 @@ uvec2 advanced(uvec2 address, uint bytes)
 }
 
 // As many blocks at once as have their rows at hand.
-void run_all_lines(LineArgsRef a)
+void run_all_lines()
 {
-    for (uint b = 0u; b < a.at.count;) {
-        uint base = a.at.blocks.at[2u * b], end = b + 1u;
-        while (end < a.at.count &&
-               (line_rows_at_hand == 1u ||
-                a.at.blocks.at[2u * end] + a.at.blocks.at[2u * end + 1u] * WEFT_LANE_PADDING - base <= line_rows_at_hand))
+    for (uint b = 0u; b < line_args.at.count;) {
+        uint base = line_args.at.blocks.at[2u * b], end = b + 1u;
+        while (end < line_args.at.count && (line_rows_at_hand == 1u || row_after_block(end) - base <= line_rows_at_hand))
             ++end;
         if (b > 0u) meet();
-        run_lines(a, LineRound(b, end, base));
+        run_lines(LineRound(b, end, base));
         b = end;
     }
 }
 
-#define WEFT_EACH(name, Args)                                                         \
-    case WEFT_ID_##name:                                                              \
-        if (uses(WEFT_ID_##name))                                                     \
-            for (uint i = me; i < invocations; i += all) run_##name(Args##Ref(at), i); \
+#define WEFT_EACH(name)                                                   \
+    case WEFT_ID_##name:                                                  \
+        if (uses(WEFT_ID_##name))                                         \
+            for (uint i = me; i < invocations; i += all) run_##name(i);   \
         break;
 
-#define WEFT_EACH_ROW(id, pass)                                                                         \
-    case id:                                                                                            \
-        if (uses(id)) {                                                                                 \
-            for (uint i = me; i < invocations; i += all) {                                              \
-                RowRange rows = rows_of(RowArgsRef(at), i);                                             \
-                for (uint k = 0u; k < rows.count; ++k) pass(RowArgsRef(at), rows.row + k * rows.stride); \
-            }                                                                                           \
-        }                                                                                               \
+#define WEFT_EACH_ROW(id, pass)                                                             \
+    case id:                                                                                \
+        if (uses(id)) {                                                                     \
+            for (uint i = me; i < invocations; i += all) {                                  \
+                RowRange rows = rows_of(i);                                                 \
+                for (uint k = 0u; k < rows.count; ++k) pass(rows.row + k * rows.stride);    \
+            }                                                                               \
+        }                                                                                   \
         break;
 
-void run_command(uvec2 at, uint me, uint all)
+void run_command(uint me, uint all)
 {
-    uint invocations = CommandRef(at).invocations;
-    switch (CommandRef(at).program) {
-    WEFT_EACH(predict, ParticleArgs)
-    WEFT_EACH(velocities, ParticleArgs)
-    WEFT_EACH(advance, ParticleArgs)
-    WEFT_EACH(hold, HoldArgs)
-    WEFT_EACH(average, AverageArgs)
-    WEFT_EACH(contact, ContactArgs)
-    WEFT_EACH(keep, KeepArgs)
-    WEFT_EACH(check, KeepArgs)
-    WEFT_EACH(roll_back, KeepArgs)
-    WEFT_EACH(collect, LevelArgs)
-    WEFT_EACH(lift, LevelArgs)
-    WEFT_EACH(settle, LevelArgs)
-    WEFT_EACH(spread, LevelArgs)
-    WEFT_EACH(wind, FaceArgs)
-    WEFT_EACH(air, FaceArgs)
-    WEFT_EACH(faces, FaceArgs)
-    WEFT_EACH(push, AroundArgs)
-    WEFT_EACH(normals, AroundArgs)
+    uint invocations = CommandRef(command).invocations;
+    switch (CommandRef(command).program) {
+    WEFT_EACH(predict)
+    WEFT_EACH(velocities)
+    WEFT_EACH(advance)
+    WEFT_EACH(hold)
+    WEFT_EACH(average)
+    WEFT_EACH(contact)
+    WEFT_EACH(keep)
+    WEFT_EACH(check)
+    WEFT_EACH(roll_back)
+    WEFT_EACH(collect)
+    WEFT_EACH(lift)
+    WEFT_EACH(settle)
+    WEFT_EACH(spread)
+    WEFT_EACH(wind)
+    WEFT_EACH(air)
+    WEFT_EACH(faces)
+    WEFT_EACH(push)
+    WEFT_EACH(normals)
     case WEFT_ID_lines:
-        if (uses(WEFT_ID_lines)) run_all_lines(LineArgsRef(at));
+        if (uses(WEFT_ID_lines)) run_all_lines();
         break;
     case WEFT_ID_limits:
-        if (uses(WEFT_ID_limits)) run_limits(LimitArgsRef(at));
+        if (uses(WEFT_ID_limits)) run_limits();
         break;
 #define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas)                      \
     WEFT_EACH_ROW(WEFT_ID_project_##name, project_row_##name)                   \
@@ -127,10 +125,10 @@ void main()
     }
     uint round = 0u;
     for (uint c = 0u; c < list.count;) {
-        uvec2 command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
+        command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
         if (CommandRef(command).needs_barrier != 0u || c == 0u) meet();
         substeps_before = substep + (c >= list.repeat_begin && c < list.repeat_end ? round : 0u);
-        run_command(command, me, all);
+        run_command(me, all);
         ++c;
         if (c == list.repeat_end && round + 1u < list.times) {
             c = list.repeat_begin;

@@ -7,7 +7,5 @@
 
 void main()
 {
-    Share share = share_of_workgroup();
-    if (is_none(share.command)) return;
-    run_limits(LimitArgsRef(share.command));
+    if (find_command()) run_limits();
 }

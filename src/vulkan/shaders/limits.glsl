@@ -34,28 +34,28 @@ float start_of(uint bin)
            uintBitsToFloat((127u + steps / WEFT_BINS_PER_DOUBLING) << 23);
 }
 
-void run_limits(LimitArgsRef args)
+void run_limits()
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     for (uint i = me; i < WEFT_BINS; i += all) bins[i] = 0u;
     if (me == 0u) strain_bits = 0u;
     barrier();
 
-    float scale = args.at.frame.at.strain_per_lambda;
-    uint looked_at = scale != 0.0 ? args.at.rows / (4u * WEFT_ROWS_LOOKED_AT) * WEFT_ROWS_LOOKED_AT +
-                                             min(args.at.rows % (4u * WEFT_ROWS_LOOKED_AT), WEFT_ROWS_LOOKED_AT)
+    float scale = limit_args.at.frame.at.strain_per_lambda;
+    uint looked_at = scale != 0.0 ? limit_args.at.rows / (4u * WEFT_ROWS_LOOKED_AT) * WEFT_ROWS_LOOKED_AT +
+                                             min(limit_args.at.rows % (4u * WEFT_ROWS_LOOKED_AT), WEFT_ROWS_LOOKED_AT)
                                        : 0u;
     for (uint i = me; i < looked_at; i += all) {
         uint r = i / WEFT_ROWS_LOOKED_AT * 4u * WEFT_ROWS_LOOKED_AT + i % WEFT_ROWS_LOOKED_AT;
-        uint a = args.at.particles.at[r];
-        if (a >= args.at.first_dummy || a == args.at.particles.at[args.at.stride + r]) continue;
-        float strain = scale * args.at.lambda.at[r] / args.at.rest.at[r];
+        uint a = limit_args.at.particles.at[r];
+        if (a >= limit_args.at.first_dummy || a == limit_args.at.particles.at[limit_args.at.stride + r]) continue;
+        float strain = scale * limit_args.at.lambda.at[r] / limit_args.at.rest.at[r];
         atomicAdd(bins[bin_of(strain)], 1u);
     }
-    for (uint i = me; i < args.at.spans; i += all) {
-        vec3 a = load_point(args.at.position, args.at.span_ends.at[2u * i]).xyz;
-        vec3 b = load_point(args.at.position, args.at.span_ends.at[2u * i + 1u]).xyz;
-        atomicMax(strain_bits, floatBitsToUint(max(0.0, length(a - b) / args.at.span_lengths.at[i] - 1.0)));
+    for (uint i = me; i < limit_args.at.spans; i += all) {
+        vec3 a = load_point(limit_args.at.position, limit_args.at.span_ends.at[2u * i]).xyz;
+        vec3 b = load_point(limit_args.at.position, limit_args.at.span_ends.at[2u * i + 1u]).xyz;
+        atomicMax(strain_bits, floatBitsToUint(max(0.0, length(a - b) / limit_args.at.span_lengths.at[i] - 1.0)));
     }
     barrier();
     if (me == 0u) {
@@ -65,9 +65,9 @@ void run_limits(LimitArgsRef args)
         while (bin > 1u && 20u * (above + bins[bin - 1u]) <= count) above += bins[--bin];
         // The upper end of the bin.
         float strain = bin <= 1u ? 0.0 : start_of(bin);
-        float tension = max(0.0, strain * args.at.softest - args.at.model_tension);
-        args.at.limits.at.tension = tension;
-        args.at.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + args.at.stretched * tension));
+        float tension = max(0.0, strain * limit_args.at.softest - limit_args.at.model_tension);
+        limit_args.at.limits.at.tension = tension;
+        limit_args.at.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + limit_args.at.stretched * tension));
     }
 }
 

@@ -9,9 +9,10 @@
 
 void main()
 {
-    Share share = share_of_workgroup();
-    if (is_none(share.command)) return;
-    uint block = share.group;
-    run_lines(LineArgsRef(share.command),
-              LineRound(block, block + 1u, LineArgsRef(share.command).at.blocks.at[2u * block]));
+    if (!find_command()) return;
+    uint block = group_of_command;
+    // What a dispatch has too many of has nothing to do, but meets the others.
+    uint end = min(block + 1u, line_args.at.count);
+    uint base = block < line_args.at.count ? line_args.at.blocks.at[2u * block] : 0u;
+    run_lines(LineRound(min(block, end), end, base));
 }

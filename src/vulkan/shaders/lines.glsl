@@ -17,63 +17,71 @@ struct LineRound {
     uint base;  // row that is the first at hand
 };
 
-vec4 line_number(LineArgsRef a, LineRound round, uint r)
+// Rows up to the end of the block.
+uint row_after_block(uint block)
 {
-    if (line_rows_at_hand > 1u) return line_numbers[r - round.base];
-    return a.at.scratch.at[a.at.stride + r];
-}
-void keep_number(LineArgsRef a, LineRound round, uint r, vec4 number)
-{
-    if (line_rows_at_hand > 1u) line_numbers[r - round.base] = number;
-    else a.at.scratch.at[a.at.stride + r] = number;
-}
-float line_coupling_of(LineArgsRef a, LineRound round, uint r)
-{
-    if (line_rows_at_hand > 1u) return line_couplings[r - round.base];
-    return a.at.scratch.at[r].w;
+    return line_args.at.blocks.at[2u * block] + line_args.at.blocks.at[2u * block + 1u] * WEFT_LANE_PADDING;
 }
 
-StretchRow line_row(LineArgsRef a, uint r)
+vec4 line_number(LineRound round, uint r)
 {
-    return StretchRow(a.at.fields.at[r], a.at.fields.at[a.at.stride + r], a.at.fields.at[2u * a.at.stride + r]);
+    if (line_rows_at_hand > 1u) return line_numbers[r - round.base];
+    return line_args.at.scratch.at[line_args.at.stride + r];
+}
+void keep_number(LineRound round, uint r, vec4 number)
+{
+    if (line_rows_at_hand > 1u) line_numbers[r - round.base] = number;
+    else line_args.at.scratch.at[line_args.at.stride + r] = number;
+}
+float line_coupling_of(LineRound round, uint r)
+{
+    if (line_rows_at_hand > 1u) return line_couplings[r - round.base];
+    return line_args.at.scratch.at[r].w;
+}
+
+StretchRow line_row(uint r)
+{
+    uint stride = line_args.at.stride;
+    return StretchRow(line_args.at.fields.at[r], line_args.at.fields.at[stride + r],
+                      line_args.at.fields.at[2u * stride + r]);
 }
 
 // Direction and weight go to the scratch memory, where the next row looks for them.
-void begin_row(LineArgsRef a, LineRound round, uint r, Step h)
+void begin_row(LineRound round, uint r, Step h)
 {
-    vec4 from = load_point(a.at.position, a.at.particles.at[r]);
-    vec4 to = load_point(a.at.position, a.at.particles.at[a.at.stride + r]);
-    float lambda = a.at.lambda_use == WEFT_LAMBDA_ACCUMULATE ? a.at.lambda.at[r] : 0.0;
-    LineTerms t = line_terms(from.xyz, to.xyz, from.w, to.w, lambda, line_row(a, r), h);
-    a.at.scratch.at[r] = vec4(t.n, from.w);
-    keep_number(a, round, r, vec4(t.limit, t.couples, t.diagonal, t.rhs));
+    vec4 from = load_point(line_args.at.position, line_args.at.particles.at[r]);
+    vec4 to = load_point(line_args.at.position, line_args.at.particles.at[line_args.at.stride + r]);
+    float lambda = line_args.at.lambda_use == WEFT_LAMBDA_ACCUMULATE ? line_args.at.lambda.at[r] : 0.0;
+    LineTerms t = line_terms(from.xyz, to.xyz, from.w, to.w, lambda, line_row(r), h);
+    line_args.at.scratch.at[r] = vec4(t.n, from.w);
+    keep_number(round, r, vec4(t.limit, t.couples, t.diagonal, t.rhs));
 }
 
-void couple_row(LineArgsRef a, LineRound round, uint r, bool first)
+void couple_row(LineRound round, uint r, bool first)
 {
-    vec4 mine = a.at.scratch.at[r];
+    vec4 mine = line_args.at.scratch.at[r];
     vec3 before = vec3(0.0);
-    if (!first) before = a.at.scratch.at[r - WEFT_LANE_PADDING].xyz;
+    if (!first) before = line_args.at.scratch.at[r - WEFT_LANE_PADDING].xyz;
     float coupling = line_coupling(before, mine.xyz, mine.w);
     if (line_rows_at_hand > 1u) line_couplings[r - round.base] = coupling;
-    else a.at.scratch.at[r].w = coupling;
+    else line_args.at.scratch.at[r].w = coupling;
 }
 
 // The next row's numbers are asked for before this one's are needed: nothing that is written here is read there.
-void solve_line(LineArgsRef a, LineRound round, uint begin, uint length)
+void solve_line(LineRound round, uint begin, uint length)
 {
     LineRow before = line_start();
-    vec4 numbers = line_number(a, round, begin);
-    float coupling = line_coupling_of(a, round, begin);
+    vec4 numbers = line_number(round, begin);
+    float coupling = line_coupling_of(round, begin);
     for (uint k = 0u; k < length; ++k) {
         uint r = begin + k * WEFT_LANE_PADDING;
         uint ahead = min(k + 1u, length - 1u) * WEFT_LANE_PADDING + begin;
-        vec4 next_numbers = line_number(a, round, ahead);
-        float next_coupling = line_coupling_of(a, round, ahead);
+        vec4 next_numbers = line_number(round, ahead);
+        float next_coupling = line_coupling_of(round, ahead);
         LineTerms t = LineTerms(vec3(0.0), numbers.w, numbers.z, numbers.y, numbers.x);
         LineRow now = eliminate_line(before, coupling, t);
         if (k > 0u)
-            keep_number(a, round, r - WEFT_LANE_PADDING, vec4(before.limit, before.couples, before.factor, before.g));
+            keep_number(round, r - WEFT_LANE_PADDING, vec4(before.limit, before.couples, before.factor, before.g));
         before = now;
         numbers = next_numbers, coupling = next_coupling;
     }
@@ -81,60 +89,61 @@ void solve_line(LineArgsRef a, LineRound round, uint begin, uint length)
     numbers = vec4(before.limit, before.couples, 0.0, before.g);
     for (uint k = length; k-- > 0u;) {
         uint r = begin + k * WEFT_LANE_PADDING;
-        vec4 next_numbers = line_number(a, round, k > 0u ? r - WEFT_LANE_PADDING : r);
+        vec4 next_numbers = line_number(round, k > 0u ? r - WEFT_LANE_PADDING : r);
         LineRow row = line_start();
         row.limit = numbers.x, row.factor = numbers.z, row.g = numbers.w;
         next = substitute_stretch(row, next);
-        keep_number(a, round, r, vec4(next, 0.0, 0.0, 0.0));
+        keep_number(round, r, vec4(next, 0.0, 0.0, 0.0));
         numbers = next_numbers;
     }
 }
 
 // Each point is moved by the row that it is the second of, and the first one by the first row.
-void end_row(LineArgsRef a, LineRound round, uint r, bool first, bool last)
+void end_row(LineRound round, uint r, bool first, bool last)
 {
-    float change = line_number(a, round, r).x;
-    if (a.at.lambda_use == WEFT_LAMBDA_STORE) a.at.lambda.at[r] = change;
-    if (a.at.lambda_use == WEFT_LAMBDA_ACCUMULATE) a.at.lambda.at[r] = a.at.lambda.at[r] + change;
-    uint from = a.at.particles.at[r], to = a.at.particles.at[a.at.stride + r];
-    vec3 mine = a.at.scratch.at[r].xyz * change;
+    float change = line_number(round, r).x;
+    if (line_args.at.lambda_use == WEFT_LAMBDA_STORE) line_args.at.lambda.at[r] = change;
+    if (line_args.at.lambda_use == WEFT_LAMBDA_ACCUMULATE)
+        line_args.at.lambda.at[r] = line_args.at.lambda.at[r] + change;
+    uint from = line_args.at.particles.at[r], to = line_args.at.particles.at[line_args.at.stride + r];
+    vec3 mine = line_args.at.scratch.at[r].xyz * change;
     vec3 pull = vec3(0.0);  // of the row behind
-    if (!last) pull = a.at.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(a, round, r + WEFT_LANE_PADDING).x;
+    if (!last) pull = line_args.at.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(round, r + WEFT_LANE_PADDING).x;
     // Padding goes from the end of a line to itself; that point is the last real row's.
     if (from != to) {
-        vec4 x = load_point(a.at.position, to);
-        store_point(a.at.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
+        vec4 x = load_point(line_args.at.position, to);
+        store_point(line_args.at.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
         if (first) {
-            vec4 y = load_point(a.at.position, from);
-            store_point(a.at.position, from, vec4(y.xyz + mine * y.w, y.w));
+            vec4 y = load_point(line_args.at.position, from);
+            store_point(line_args.at.position, from, vec4(y.xyz + mine * y.w, y.w));
         }
     }
 }
 
 // By all of a workgroup.
-void run_lines(LineArgsRef a, LineRound round)
+void run_lines(LineRound round)
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
-    Step h = substep_of(a.at.frame);
+    Step h = substep_of(line_args.at.frame);
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.at.blocks.at[2u * b], rows = a.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
-        for (uint i = me; i < rows; i += all) begin_row(a, round, begin + i, h);
+        uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        for (uint i = me; i < rows; i += all) begin_row(round, begin + i, h);
     }
     meet();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.at.blocks.at[2u * b], rows = a.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
-        for (uint i = me; i < rows; i += all) couple_row(a, round, begin + i, i < WEFT_LANE_PADDING);
+        uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        for (uint i = me; i < rows; i += all) couple_row(round, begin + i, i < WEFT_LANE_PADDING);
     }
     meet();
     for (uint i = me; i < (round.end - round.first) * WEFT_LANE_PADDING; i += all) {
         uint b = round.first + i / WEFT_LANE_PADDING;
-        solve_line(a, round, a.at.blocks.at[2u * b] + i % WEFT_LANE_PADDING, a.at.blocks.at[2u * b + 1u]);
+        solve_line(round, line_args.at.blocks.at[2u * b] + i % WEFT_LANE_PADDING, line_args.at.blocks.at[2u * b + 1u]);
     }
     meet();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = a.at.blocks.at[2u * b], rows = a.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all)
-            end_row(a, round, begin + i, i < WEFT_LANE_PADDING, i + WEFT_LANE_PADDING >= rows);
+            end_row(round, begin + i, i < WEFT_LANE_PADDING, i + WEFT_LANE_PADDING >= rows);
     }
 }
 

@@ -1,5 +1,5 @@
 #version 450
-// A pass over particles or what is as simple: WEFT_PASS is its function, WEFT_ARGS refers to what that is told.
+// A pass over particles or what is as simple: WEFT_PASS is its function.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/dispatch.glsl"
@@ -9,8 +9,7 @@
 
 void main()
 {
-    Share share = share_of_workgroup();
-    if (is_none(share.command)) return;
-    uint i = invocation_of(share);
-    if (i < CommandRef(share.command).invocations) WEFT_PASS(WEFT_ARGS(share.command), i);
+    if (!find_command()) return;
+    uint i = invocation_of_command();
+    if (i < invocations_of_command()) WEFT_PASS(i);
 }

@@ -3,121 +3,127 @@
 #define WEFT_PARTICLES_GLSL
 
 // The fourth floats hold, in this order, the inverse mass and the x, y and z of the velocity that rounding dropped.
-Motion load_motion(ParticleArgsRef a, uint p, out vec3 start)
+Motion load_motion(uint p, out vec3 start)
 {
-    vec4 s = a.at.start.at[p];
-    vec4 v = a.at.velocity.at[p];
-    vec4 c = a.at.carry.at[p];
+    vec4 s = particle_args.at.start.at[p];
+    vec4 v = particle_args.at.velocity.at[p];
+    vec4 c = particle_args.at.carry.at[p];
     start = s.xyz;
     return Motion(v.xyz, vec3(s.w, v.w, c.w), c.xyz);
 }
 
-void store_motion(ParticleArgsRef a, uint p, Motion m)
+void store_motion(uint p, Motion m)
 {
-    a.at.velocity.at[p] = vec4(m.v, m.v_dropped.y);
-    a.at.carry.at[p] = vec4(m.x_dropped, m.v_dropped.z);
+    particle_args.at.velocity.at[p] = vec4(m.v, m.v_dropped.y);
+    particle_args.at.carry.at[p] = vec4(m.x_dropped, m.v_dropped.z);
 }
 
 vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravity_y, frame.at.gravity_z); }
 
-void report_capped(ParticleArgsRef a, bool capped)
+void report_capped(bool capped)
 {
-    if (capped) atomicOr(a.at.report.at[0], WEFT_REPORT_SPEED_CAPPED);
+    if (capped) atomicOr(particle_args.at.report.at[0], WEFT_REPORT_SPEED_CAPPED);
 }
 
-void run_predict(ParticleArgsRef a, uint p)
+void run_predict(uint p)
 {
-    vec4 x = load_point(a.at.position, p);
+    vec4 x = load_point(particle_args.at.position, p);
     vec3 start;
-    Motion m = load_motion(a, p, start);
+    Motion m = load_motion(p, start);
     start = x.xyz;
-    bool capped = predict(x.xyz, m, x.w, gravity_of(a.at.frame), a.at.frame.at.max_speed, substep_of(a.at.frame));
-    store_point(a.at.position, p, x);
-    a.at.start.at[p] = vec4(start, m.v_dropped.x);
-    store_motion(a, p, m);
-    report_capped(a, capped);
+    bool capped = predict(x.xyz, m, x.w, gravity_of(particle_args.at.frame), particle_args.at.frame.at.max_speed,
+                          substep_of(particle_args.at.frame));
+    store_point(particle_args.at.position, p, x);
+    particle_args.at.start.at[p] = vec4(start, m.v_dropped.x);
+    store_motion(p, m);
+    report_capped(capped);
 }
 
-void run_velocities(ParticleArgsRef a, uint p)
+void run_velocities(uint p)
 {
-    vec4 x = load_point(a.at.position, p);
+    vec4 x = load_point(particle_args.at.position, p);
     vec3 start;
-    Motion m = load_motion(a, p, start);
-    bool capped = update_velocity(m, x.xyz, start, x.w, a.at.frame.at.max_speed, substep_of(a.at.frame));
-    store_motion(a, p, m);
-    report_capped(a, capped);
+    Motion m = load_motion(p, start);
+    bool capped = update_velocity(m, x.xyz, start, x.w, particle_args.at.frame.at.max_speed,
+                                  substep_of(particle_args.at.frame));
+    store_motion(p, m);
+    report_capped(capped);
 }
 
 // The end of one substep and the beginning of the next.
-void run_advance(ParticleArgsRef a, uint p)
+void run_advance(uint p)
 {
-    vec4 x = load_point(a.at.position, p);
+    vec4 x = load_point(particle_args.at.position, p);
     vec3 start;
-    Motion m = load_motion(a, p, start);
-    Step h = substep_of(a.at.frame);
-    bool ended = update_velocity(m, x.xyz, start, x.w, a.at.frame.at.max_speed, h);
+    Motion m = load_motion(p, start);
+    Step h = substep_of(particle_args.at.frame);
+    bool ended = update_velocity(m, x.xyz, start, x.w, particle_args.at.frame.at.max_speed, h);
     start = x.xyz;
-    bool begun = predict(x.xyz, m, x.w, gravity_of(a.at.frame), a.at.frame.at.max_speed, h);
-    store_point(a.at.position, p, x);
-    a.at.start.at[p] = vec4(start, m.v_dropped.x);
-    store_motion(a, p, m);
-    report_capped(a, ended || begun);
+    bool begun = predict(x.xyz, m, x.w, gravity_of(particle_args.at.frame), particle_args.at.frame.at.max_speed, h);
+    store_point(particle_args.at.position, p, x);
+    particle_args.at.start.at[p] = vec4(start, m.v_dropped.x);
+    store_motion(p, m);
+    report_capped(ended || begun);
 }
 
-void run_hold(HoldArgsRef a, uint i)
+void run_hold(uint i)
 {
-    HeldIn held = a.at.held.at[i];
-    PoseIn pose = a.at.poses.at[(a.at.substep + substeps_before + 1u) * a.at.frame.at.movers + held.mover];
+    HeldIn held = hold_args.at.held.at[i];
+    uint after = hold_args.at.substep + substeps_before + 1u;
+    PoseIn pose = hold_args.at.poses.at[after * hold_args.at.frame.at.movers + held.mover];
     vec3 x = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, held.local.xyz) + pose.position.xyz;
-    store_point(a.at.position, held.particle, vec4(x, load_point(a.at.position, held.particle).w));
+    store_point(hold_args.at.position, held.particle, vec4(x, load_point(hold_args.at.position, held.particle).w));
 }
 
-void run_average(AverageArgsRef a, uint p)
+void run_average(uint p)
 {
-    uint begin = a.at.offsets.at[p], end = a.at.offsets.at[p + 1u];
+    uint begin = average_args.at.offsets.at[p], end = average_args.at.offsets.at[p + 1u];
     if (begin == end) return;
     vec3 sum = vec3(0.0);
-    if (is_none(uvec2(a.at.sums))) {
-        for (uint k = begin; k < end; ++k) sum = sum + a.at.corrections.at[a.at.items.at[k]].xyz;
+    if (is_none(uvec2(average_args.at.sums))) {
+        for (uint k = begin; k < end; ++k) sum = sum + average_args.at.corrections.at[average_args.at.items.at[k]].xyz;
     } else {
-        for (uint axis = 0u; axis < 3u; ++axis) sum[axis] = from_quanta(float(int(take_sum(a.at.sums, p, axis))));
+        for (uint axis = 0u; axis < 3u; ++axis)
+            sum[axis] = from_quanta(float(int(take_sum(average_args.at.sums, p, axis))));
     }
-    if (a.at.mean == 1u) sum = sum * (1.0 / float(end - begin));
-    vec4 x = load_point(a.at.position, p);
-    store_point(a.at.position, p, vec4(x.xyz + sum, x.w));
+    if (average_args.at.mean == 1u) sum = sum * (1.0 / float(end - begin));
+    vec4 x = load_point(average_args.at.position, p);
+    store_point(average_args.at.position, p, vec4(x.xyz + sum, x.w));
 }
 
 // Adds what a contact did to the particle's account of the frame, which the first contacts of the frame begin.
-void trace(ContactArgsRef a, uint collider, uint p, bool touches, vec3 before, vec3 x, vec3 position)
+void trace(uint collider, uint p, bool touches, vec3 before, vec3 x, vec3 position)
 {
-    bool begins = a.at.substep + substeps_before == 0u && a.at.first_iteration == 1u;
+    bool begins = contact_args.at.substep + substeps_before == 0u && contact_args.at.first_iteration == 1u;
     if (!touches && !begins) return;
-    uint at = collider * a.at.capacity + p, turned = a.at.frame.at.colliders * a.at.capacity + at;
+    uint at = collider * contact_args.at.capacity + p;
+    uint turned = contact_args.at.frame.at.colliders * contact_args.at.capacity + at;
     ContactTrace sum = ContactTrace(vec3(0.0), vec3(0.0));
-    if (!begins) sum = ContactTrace(a.at.felt.at[at].xyz, a.at.felt.at[turned].xyz);
+    if (!begins) sum = ContactTrace(contact_args.at.felt.at[at].xyz, contact_args.at.felt.at[turned].xyz);
     if (touches) trace_contact(sum, before, x, position);
-    a.at.felt.at[at] = vec4(sum.moved, 0.0);
-    a.at.felt.at[turned] = vec4(sum.turned, 0.0);
+    contact_args.at.felt.at[at] = vec4(sum.moved, 0.0);
+    contact_args.at.felt.at[turned] = vec4(sum.turned, 0.0);
 }
 
-void run_contact(ContactArgsRef a, uint p)
+void run_contact(uint p)
 {
-    vec4 x = load_point(a.at.position, p);
-    vec3 start = a.at.start.at[p].xyz;
-    uint colliders = a.at.frame.at.colliders, substep = a.at.substep + substeps_before;
-    bool keeps = !is_none(uvec2(a.at.sums)), traces = !is_none(uvec2(a.at.felt));
+    vec4 x = load_point(contact_args.at.position, p);
+    vec3 start = contact_args.at.start.at[p].xyz;
+    uint colliders = contact_args.at.frame.at.colliders, substep = contact_args.at.substep + substeps_before;
+    bool keeps = !is_none(uvec2(contact_args.at.sums)), traces = !is_none(uvec2(contact_args.at.felt));
     for (uint c = 0u; c < colliders; ++c) {
-        ColliderIn collider = a.at.colliders.at[c];
-        PoseIn now = a.at.poses.at[(substep + 1u) * colliders + c];
-        PoseIn before = a.at.poses.at[substep * colliders + c];
+        ColliderIn collider = contact_args.at.colliders.at[c];
+        PoseIn now = contact_args.at.poses.at[(substep + 1u) * colliders + c];
+        PoseIn before = contact_args.at.poses.at[substep * colliders + c];
         ContactBody body = ContactBody(now.x.xyz, now.y.xyz, now.z.xyz, now.position.xyz, before.x.xyz, before.y.xyz,
                                        before.z.xyz, before.position.xyz, collider.static_friction,
-                                       collider.kinetic_friction, a.at.frame.at.half_thickness, a.at.frame.at.depenetration);
+                                       collider.kinetic_friction, contact_args.at.frame.at.half_thickness,
+                                       contact_args.at.frame.at.depenetration);
         ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w);
-        uint at = c * a.at.capacity + p;
+        uint at = c * contact_args.at.capacity + p;
         ContactSum sum = ContactSum(vec3(0.0), 0.0);
-        if (keeps && a.at.first_iteration == 0u) {
-            vec4 kept = a.at.sums.at[at];
+        if (keeps && contact_args.at.first_iteration == 0u) {
+            vec4 kept = contact_args.at.sums.at[at];
             sum = ContactSum(kept.xyz, kept.w);
         }
         vec3 local = to_body(body, x.xyz);
@@ -141,37 +147,38 @@ void run_contact(ContactArgsRef a, uint p)
             project_contact(x.xyz, start, x.w, sum, gap, gap_at_start, rotate(body.rx, body.ry, body.rz, normal),
                             carried_by(body, local), body);
         }
-        if (keeps) a.at.sums.at[at] = vec4(sum.friction, sum.push);
-        if (traces) trace(a, c, p, touches, x_before, x.xyz, body.position);
+        if (keeps) contact_args.at.sums.at[at] = vec4(sum.friction, sum.push);
+        if (traces) trace(c, p, touches, x_before, x.xyz, body.position);
     }
-    store_point(a.at.position, p, x);
+    store_point(contact_args.at.position, p, x);
 }
 
 // What the frame found, to go back to.
-void run_keep(KeepArgsRef a, uint p)
+void run_keep(uint p)
 {
-    a.at.good_position.at[p] = vec4(load_point(a.at.position, p).xyz, a.at.start.at[p].w);
-    a.at.good_velocity.at[p] = a.at.velocity.at[p];
-    a.at.good_carry.at[p] = a.at.carry.at[p];
+    keep_args.at.good_position.at[p] = vec4(load_point(keep_args.at.position, p).xyz, keep_args.at.start.at[p].w);
+    keep_args.at.good_velocity.at[p] = keep_args.at.velocity.at[p];
+    keep_args.at.good_carry.at[p] = keep_args.at.carry.at[p];
 }
 
-void run_check(KeepArgsRef a, uint p)
+void run_check(uint p)
 {
-    if (!is_finite(load_point(a.at.position, p)) || !is_finite(a.at.velocity.at[p]) || !is_finite(a.at.carry.at[p]))
-        atomicOr(a.at.report.at[0], WEFT_REPORT_NON_FINITE);
+    if (!is_finite(load_point(keep_args.at.position, p)) || !is_finite(keep_args.at.velocity.at[p]) ||
+        !is_finite(keep_args.at.carry.at[p]))
+        atomicOr(keep_args.at.report.at[0], WEFT_REPORT_NON_FINITE);
 }
 
-void run_roll_back(KeepArgsRef a, uint i)
+void run_roll_back(uint i)
 {
-    if ((a.at.report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) return;
+    if ((keep_args.at.report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) return;
     // What was solved was not of this place; a residual and a saved state still read it.
-    if (i < a.at.lambdas) a.at.lambda.at[i] = 0.0;
-    if (i >= a.at.count) return;
-    vec4 good = a.at.good_position.at[i];
-    a.at.start.at[i] = good;
-    store_point(a.at.position, i, vec4(good.xyz, a.at.weights.at[i]));
-    a.at.velocity.at[i] = a.at.good_velocity.at[i];
-    a.at.carry.at[i] = a.at.good_carry.at[i];
+    if (i < keep_args.at.lambdas) keep_args.at.lambda.at[i] = 0.0;
+    if (i >= keep_args.at.count) return;
+    vec4 good = keep_args.at.good_position.at[i];
+    keep_args.at.start.at[i] = good;
+    store_point(keep_args.at.position, i, vec4(good.xyz, keep_args.at.weights.at[i]));
+    keep_args.at.velocity.at[i] = keep_args.at.good_velocity.at[i];
+    keep_args.at.carry.at[i] = keep_args.at.good_carry.at[i];
 }
 
 #endif

@@ -8,8 +8,7 @@
 
 void main()
 {
-    Share share = share_of_workgroup();
-    if (is_none(share.command)) return;
-    RowRange rows = rows_of(RowArgsRef(share.command), invocation_of(share));
-    for (uint k = 0u; k < rows.count; ++k) WEFT_ROW_PASS(RowArgsRef(share.command), rows.row + k * rows.stride);
+    if (!find_command()) return;
+    RowRange rows = rows_of(invocation_of_command());
+    for (uint k = 0u; k < rows.count; ++k) WEFT_ROW_PASS(rows.row + k * rows.stride);
 }
