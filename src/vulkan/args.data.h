@@ -255,9 +255,10 @@ struct KeepArgs {
     Vec4s good_position;  // w: of start
     Vec4s good_velocity;
     Vec4s good_carry;
-    Floats weights;  // kg: inverse masses, which are the model's
+    Floats weights;  // 1/kg: inverse masses as they are
     Floats lambda;   // of stretch
     Uints report;
+    Uints island_report;  // of the first cloth of the island: what is not finite in one takes all back
     uint count;
     uint lambdas;
 };

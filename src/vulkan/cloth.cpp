@@ -5,9 +5,10 @@
 namespace weft::vulkan {
 
 Result<std::unique_ptr<Cloth>> Cloth::create(gpu::Device& device, Programs& programs,
-                                             std::shared_ptr<const ModelBuffers> buffers) {
+                                             std::shared_ptr<const ModelBuffers> buffers, const WorldParticles& world,
+                                             std::uint32_t base) {
     auto self = std::unique_ptr<Cloth>(new Cloth(device, programs));
-    auto state = ClothState::create(device, std::move(buffers));
+    auto state = ClothState::create(device, std::move(buffers), world, base);
     if (!state) return state.errors();
     self->state_ = std::move(*state);
     if (auto made = self->make_readable(); !made) return made.errors();
@@ -25,8 +26,8 @@ Result<Done> Cloth::make_readable() {
     if (!commands) return commands.errors();
     if (auto begun = commands->begin(); !begun) return begun;
     std::uint64_t to = 0;
-    for (const Slot slot : {state_->position, state_->velocity, state_->normals}) {
-        commands->copy(state_->arena().buffer(), readback_, bytes, slot.offset, to);
+    for (const PointArray array : {PointArray::position, PointArray::velocity, PointArray::normals}) {
+        commands->copy(state_->world().buffer(), readback_, bytes, state_->offset(array), to);
         to += bytes;
     }
     commands->host_barrier();
@@ -43,6 +44,11 @@ Result<Done> Cloth::update_normals() {
     });
     changed(done.ok());
     return done;
+}
+
+Result<Done> Cloth::particles_moved() {
+    if (auto made = make_readable(); !made) return made;
+    return surface_ ? surface_->particles_moved() : Done{};
 }
 
 Result<Done> Cloth::make_surface(std::shared_ptr<const DrawnMesh> mesh) {
@@ -78,17 +84,17 @@ void Cloth::measure(MeasureSums& sums) {
     if (const auto found = vulkan::measure(device_, programs_, *state_); found && *found) return sums.add(**found);
     (void)read();  // else as it was read last
     sums.add(model(), positions(), velocities());
-    const auto points = state_->download_points(device_, state_->position);
+    const auto points = state_->download_points(device_, PointArray::position);
     const auto lambda = state_->download_lambda(device_);
     if (points && lambda)
         sums.add_residual(model(), stretch_residual(model(), *points, *lambda, state_->substep_seconds));
 }
 
 void Cloth::hash(StateHash& hash) const {
-    const auto position = state_->download_points(device_, state_->position);
-    const auto velocity = state_->download_points(device_, state_->velocity);
-    const auto carry = state_->download_points(device_, state_->carry);
-    const auto start = state_->download_points(device_, state_->start);
+    const auto position = state_->download_points(device_, PointArray::position);
+    const auto velocity = state_->download_points(device_, PointArray::velocity);
+    const auto carry = state_->download_points(device_, PointArray::carry);
+    const auto start = state_->download_points(device_, PointArray::start);
     if (!position || !velocity || !carry || !start) return;
     for (std::uint32_t p = 0; p < model().particle_count; ++p) {
         for (const Vec4& v : {(*position)[p], (*velocity)[p], (*carry)[p]}) {

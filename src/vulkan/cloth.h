@@ -17,7 +17,8 @@ namespace weft::vulkan {
 class Cloth {
   public:
     static Result<std::unique_ptr<Cloth>> create(gpu::Device& device, Programs& programs,
-                                                 std::shared_ptr<const ModelBuffers> buffers);
+                                                 std::shared_ptr<const ModelBuffers> buffers,
+                                                 const WorldParticles& world, std::uint32_t base);
 
     const ClothModel& model() const { return state_->model(); }
     ClothState& state() { return *state_; }
@@ -40,6 +41,9 @@ class Cloth {
         ++changes_;
         normals_stale_ = !with_normals;
     }
+
+    /// The arrays of the world lie elsewhere now; the device has nothing to do.
+    Result<Done> particles_moved();
 
     bool has_surface() const { return surface_ != nullptr; }
     Result<Done> make_surface(std::shared_ptr<const DrawnMesh> mesh);

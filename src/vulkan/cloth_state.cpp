@@ -3,6 +3,7 @@
 #include "vulkan/args.data.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 namespace weft::vulkan {
@@ -23,7 +24,7 @@ bool has(const std::vector<Pass>& passes, PassKind kind) {
 
 }  // namespace
 
-Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& model, const StepPlan& plan,
+Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& model, const WorldPlan& plan,
                                         const InputShape& shape) {
     constexpr std::uint64_t block = sizeof(Vec4);
     WorkBuffers work;
@@ -76,42 +77,72 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     return work;
 }
 
-Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device,
-                                                       std::shared_ptr<const ModelBuffers> buffers) {
-    auto self = std::unique_ptr<ClothState>(new ClothState(std::move(buffers)));
+Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std::shared_ptr<const ModelBuffers> buffers,
+                                                       const WorldParticles& world, std::uint32_t base) {
+    auto self = std::unique_ptr<ClothState>(new ClothState(std::move(buffers), world, base));
     const ClothModel& model = self->model();
-    const std::uint64_t points = std::uint64_t{model.capacity()} * sizeof(Vec4);
     Arena& arena = self->arena_;
-    self->position = arena.add_array(model.start);
-    for (Slot* slot : {&self->start, &self->velocity, &self->carry, &self->good_position, &self->good_velocity,
-                       &self->good_carry, &self->normals})
-        *slot = arena.reserve(points);
+    std::vector<float> weights;
+    for (const Vec4& start : model.start) weights.push_back(start.w);
+    self->weights = arena.add_array(weights);
     self->by_face = arena.reserve((std::uint64_t{model.face_stride} + 1) * sizeof(Vec4));
     self->lambda = arena.reserve(model.table(ConstraintKind::stretch).lambda_count() * sizeof(float));
     const std::array none = {0.0f, 1.0f};  // no tension, nothing more allowed
     self->limits = arena.add_array(none);
     if (auto built = arena.build(device, "state of " + model.name); !built) return built.errors();
+    // Another cloth may have been there before.
+    const std::vector<Vec4> zeros(model.capacity());
+    for (std::uint32_t i = 0; i < point_array_count; ++i) {
+        const auto array = static_cast<PointArray>(i);
+        const auto bytes =
+            array == PointArray::position ? std::as_bytes(std::span(model.start)) : std::as_bytes(std::span(zeros));
+        if (auto done = upload(device, world.buffer(), self->offset(array), bytes); !done) return done.errors();
+    }
     return self;
 }
 
-Result<std::vector<Vec4>> ClothState::download_points(gpu::Device& device, Slot slot) const {
-    return download_as<Vec4>(device, arena_, {slot.offset, model().point_count() * sizeof(Vec4)});
+Result<std::vector<Vec4>> ClothState::download_points(gpu::Device& device, PointArray array) const {
+    std::vector<Vec4> points(model().point_count());
+    auto done = download(device, world_.buffer(), offset(array), std::as_writable_bytes(std::span(points)));
+    if (!done) return done.errors();
+    return points;
 }
 
 Result<std::vector<float>> ClothState::download_lambda(gpu::Device& device) const {
     return download_as<float>(device, arena_, lambda);
 }
 
+// Few of them, and scattered: a copy each, all in one go.
+Result<Done> ClothState::set_weights(gpu::Device& device, std::span<const ParticleWeight> changed) {
+    if (changed.empty()) return Done{};
+    std::vector<float> values;
+    for (const ParticleWeight& one : changed) values.push_back(one.weight);
+    auto staging = device.memory().buffer(values.size() * sizeof(float), gpu::MemoryKind::upload, "inverse masses");
+    if (!staging) return staging.errors();
+    std::memcpy(staging->mapped().data(), values.data(), values.size() * sizeof(float));
+    return gpu::run_once(device, [&](gpu::Commands& commands) {
+        for (std::size_t i = 0; i < changed.size(); ++i) {
+            const std::uint64_t p = changed[i].particle, from = i * sizeof(float);
+            commands.copy(*staging, arena_.buffer(), sizeof(float), from, weights.offset + p * sizeof(float));
+            commands.copy(*staging, world_.buffer(), sizeof(float), from,
+                          offset(PointArray::position) + p * sizeof(Vec4) + offsetof(Vec4, w));
+        }
+    });
+}
+
 Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {
     ClothSnapshot snapshot;
     snapshot.substep_seconds = substep_seconds;
-    for (const auto& [slot, to] : {std::pair{position, &snapshot.position}, std::pair{start, &snapshot.start},
-                                   std::pair{velocity, &snapshot.velocity}, std::pair{carry, &snapshot.carry}}) {
-        auto array = download_points(device, slot);
+    for (const auto& [which, to] :
+         {std::pair{PointArray::position, &snapshot.position}, std::pair{PointArray::start, &snapshot.start},
+          std::pair{PointArray::velocity, &snapshot.velocity}, std::pair{PointArray::carry, &snapshot.carry}}) {
+        auto array = download_points(device, which);
         if (!array) return array.errors();
         *to = std::move(*array);
     }
-    for (Vec4& p : snapshot.position) p.w = 0;
+    auto inverse_masses = download_as<float>(device, arena_, {weights.offset, model().point_count() * sizeof(float)});
+    if (!inverse_masses) return inverse_masses.errors();
+    for (std::size_t p = 0; p < snapshot.position.size(); ++p) snapshot.position[p].w = (*inverse_masses)[p];
     auto multipliers = download_lambda(device);
     if (!multipliers) return multipliers.errors();
     snapshot.lambda = std::move(*multipliers);
@@ -119,15 +150,16 @@ Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {
 }
 
 Result<Done> ClothState::restore(gpu::Device& device, const ClothSnapshot& snapshot) {
-    std::vector<Vec4> positions = snapshot.position;
-    for (std::size_t p = 0; p < positions.size(); ++p) positions[p].w = model().start[p].w;
-    const auto put = [&](Slot slot, const std::vector<Vec4>& from) {
-        return upload(device, arena_, slot, std::as_bytes(std::span(from)));
+    std::vector<float> inverse_masses;
+    for (const Vec4& p : snapshot.position) inverse_masses.push_back(p.w);
+    if (auto done = upload(device, arena_, weights, std::as_bytes(std::span(inverse_masses))); !done) return done;
+    const auto put = [&](PointArray array, const std::vector<Vec4>& from) {
+        return upload(device, world_.buffer(), offset(array), std::as_bytes(std::span(from)));
     };
-    if (auto done = put(position, positions); !done) return done;
-    if (auto done = put(start, snapshot.start); !done) return done;
-    if (auto done = put(velocity, snapshot.velocity); !done) return done;
-    if (auto done = put(carry, snapshot.carry); !done) return done;
+    if (auto done = put(PointArray::position, snapshot.position); !done) return done;
+    if (auto done = put(PointArray::start, snapshot.start); !done) return done;
+    if (auto done = put(PointArray::velocity, snapshot.velocity); !done) return done;
+    if (auto done = put(PointArray::carry, snapshot.carry); !done) return done;
     substep_seconds = snapshot.substep_seconds;
     return upload(device, arena_, lambda, std::as_bytes(std::span(snapshot.lambda)));
 }

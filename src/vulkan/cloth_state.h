@@ -2,9 +2,11 @@
 #pragma once
 
 #include "solver/model/jacobi.h"
+#include "solver/state/particle_weight.h"
 #include "solver/state/snapshot.h"
 #include "vulkan/frame_input.h"
 #include "vulkan/model_buffers.h"
+#include "vulkan/world_particles.h"
 
 #include <array>
 #include <memory>
@@ -31,36 +33,45 @@ struct WorkBuffers {
     std::array<Slot, constraint_kind_count> share, corrections_of;
     Slot line_scratch;
 
-    static Result<WorkBuffers> create(gpu::Device& device, const ClothModel& model, const StepPlan& plan,
+    static Result<WorkBuffers> create(gpu::Device& device, const ClothModel& model, const WorldPlan& plan,
                                       const InputShape& shape);
 };
 
 /// Where everything lies that outlives a frame.
 class ClothState {
   public:
-    static Result<std::unique_ptr<ClothState>> create(gpu::Device& device, std::shared_ptr<const ModelBuffers> buffers);
+    /// The cloth's particles are those from `base` on; `world` has room for them and outlives this.
+    static Result<std::unique_ptr<ClothState>> create(gpu::Device& device, std::shared_ptr<const ModelBuffers> buffers,
+                                                      const WorldParticles& world, std::uint32_t base);
 
     const ClothModel& model() const { return *buffers_->model; }
     const ModelBuffers& buffers() const { return *buffers_; }
     const Arena& arena() const { return arena_; }
     std::uint64_t address(Slot slot) const { return arena_.address(slot); }
+    /// Of the cloth's first particle.
+    std::uint64_t address(PointArray array) const { return world_.address(array, base_); }
+    const WorldParticles& world() const { return world_; }
+    std::uint64_t offset(PointArray array) const { return world_.offset(array, base_); }
 
-    Slot position, start, velocity, carry;
-    Slot good_position, good_velocity, good_carry;
-    Slot normals, by_face, lambda, limits;
+    Slot weights;  ///< inverse masses as they are, 0 for pinned particles
+    Slot by_face, lambda, limits;
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
 
+    Result<Done> set_weights(gpu::Device& device, std::span<const ParticleWeight> changed);
     Result<ClothSnapshot> save(gpu::Device& device) const;
     /// Normals are not brought up to date.
     Result<Done> restore(gpu::Device& device, const ClothSnapshot& snapshot);
     /// The rounding carries too: all that decides what comes next. Whole arrays with padding.
-    Result<std::vector<Vec4>> download_points(gpu::Device& device, Slot slot) const;
+    Result<std::vector<Vec4>> download_points(gpu::Device& device, PointArray array) const;
     Result<std::vector<float>> download_lambda(gpu::Device& device) const;
 
   private:
-    explicit ClothState(std::shared_ptr<const ModelBuffers> buffers) : buffers_(std::move(buffers)) {}
+    ClothState(std::shared_ptr<const ModelBuffers> buffers, const WorldParticles& world, std::uint32_t base)
+        : buffers_(std::move(buffers)), world_(world), base_(base) {}
 
     std::shared_ptr<const ModelBuffers> buffers_;
+    const WorldParticles& world_;
+    std::uint32_t base_;
     Arena arena_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 class Compiler {
   public:
     Compiler(Programs& programs, const ClothState& cloth, const WorkBuffers& work, const FrameInput& input,
-             const InputShape& shape, const StepPlan& plan)
+             const InputShape& shape, const WorldPlan& plan, const PlainStiffness& stiffness, const IslandPart& island)
         : programs_(programs),
           cloth_(cloth),
           model_(cloth.model()),
@@ -23,7 +23,12 @@ class Compiler {
           work_(work),
           input_(input),
           shape_(shape),
-          plan_(plan) {}
+          plan_(plan),
+          stiffness_(stiffness),
+          island_(island) {
+        const PlannedCloth cloth_alone{&model_, shape.held > 0};
+        passes_ = IslandPlan(plan, {&cloth_alone, 1}, island.tables, Sharing::free);
+    }
 
     Result<CompiledPlan> run() {
         CompiledPlan out;
@@ -57,6 +62,7 @@ class Compiler {
     }
 
     std::uint64_t state(Slot slot) const { return cloth_.address(slot); }
+    std::uint64_t state(PointArray array) const { return cloth_.address(array); }
     std::uint64_t of_model(Slot slot) const { return buffers_.address(slot); }
     std::uint64_t work(Slot slot) const { return work_.arena.address(slot); }
 
@@ -65,7 +71,20 @@ class Compiler {
         add(list, "keep", keep_args(), model_.point_count(), like_predict);
         if (has_limits(model_, plan_))
             add(list, "limits", limit_args(), 1, {.kind = PassKind::spread}).needs_barrier = false;
-        for (const Pass& pass : plan_.frame_begin) add_pass(list, pass, 0);
+        add_passes(list, passes_.frame_begin(), 0);
+    }
+
+    void add_passes(List& list, std::span<const IslandPass> passes, std::uint32_t substep) {
+        for (const auto& [pass, barrier, single] : passes) {
+            const std::size_t before = list.size();
+            add_pass(list, pass, substep);
+            for (std::size_t i = before; i < list.size(); ++i) {
+                list[i].single = single;
+                // What comes before the first pass is none.
+                list[i].needs_barrier = barrier || first_pass_;
+                first_pass_ = false;
+            }
+        }
     }
 
     void add_substeps(CompiledPlan& out) {
@@ -81,23 +100,15 @@ class Compiler {
         if (plan_.substeps > 1) add_substep(list, plan_.substeps - 1);
     }
 
-    // Where a substep ends as the next one begins, with the particles one by one, both are one pass over them.
-    void add_substep(List& list, std::uint32_t substep) {
-        const std::span<const Pass> passes(plan_.substep);
-        const bool together =
-            !passes.empty() && passes.front().kind == PassKind::predict && passes.back().kind == PassKind::velocities;
-        const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan_.substeps;
-        for (const Pass& pass : passes.subspan(begun, passes.size() - begun - goes_on)) add_pass(list, pass, substep);
-        if (goes_on) add(list, "advance", particle_args(), model_.point_count(), passes.back(), substep);
-    }
+    void add_substep(List& list, std::uint32_t substep) { add_passes(list, passes_.substep(substep), substep); }
 
     // Whether all is finite is asked before normals are made of it.
     void add_frame_end(CompiledPlan& out) {
         const auto is_surface = [](const Pass& pass) {
             return pass.kind == PassKind::faces || pass.kind == PassKind::normals;
         };
-        for (const Pass& pass : plan_.frame_end) {
-            if (!is_surface(pass)) add_pass(out.commands, pass, plan_.substeps - 1);
+        for (const IslandPass& one : passes_.frame_end()) {
+            if (!is_surface(one.pass)) add_passes(out.commands, std::span(&one, 1), plan_.substeps - 1);
         }
         const Pass like_velocities{.kind = PassKind::velocities};
         const KeepArgs args = keep_args();
@@ -105,8 +116,8 @@ class Compiler {
         add(out.commands, "check", args, args.count, like_velocities);
         out.roll_back = out.commands.size();
         add(out.commands, "roll_back", args, std::max(args.count, args.lambdas), like_velocities);
-        for (const Pass& pass : plan_.frame_end) {
-            if (is_surface(pass)) add_pass(out.commands, pass, plan_.substeps - 1);
+        for (const IslandPass& one : passes_.frame_end()) {
+            if (is_surface(one.pass)) add_pass(out.commands, one.pass, plan_.substeps - 1);
         }
     }
 
@@ -119,12 +130,15 @@ class Compiler {
             case PassKind::velocities:
                 add(list, "velocities", particle_args(), points, pass, substep);
                 break;
+            case PassKind::advance:
+                add(list, "advance", particle_args(), points, pass, substep);
+                break;
             case PassKind::hold:
                 add_holds(list, pass, substep);
                 break;
             case PassKind::project:
             case PassKind::damp:
-                add_rows(list, pass, substep);
+                pass.source == RowSource::links ? add_links(list, pass, substep) : add_rows(list, pass, substep);
                 break;
             case PassKind::correct:
                 add_corrections(list, pass, substep);
@@ -165,10 +179,10 @@ class Compiler {
     }
 
     ParticleArgs particle_args() const {
-        return {.position = state(cloth_.position),
-                .start = state(cloth_.start),
-                .velocity = state(cloth_.velocity),
-                .carry = state(cloth_.carry),
+        return {.position = state(PointArray::position),
+                .start = state(PointArray::start),
+                .velocity = state(PointArray::velocity),
+                .carry = state(PointArray::carry),
                 .frame = input_.frame(),
                 .report = input_.report(),
                 .count = model_.point_count(),
@@ -176,16 +190,17 @@ class Compiler {
     }
 
     KeepArgs keep_args() const {
-        return {.position = state(cloth_.position),
-                .start = state(cloth_.start),
-                .velocity = state(cloth_.velocity),
-                .carry = state(cloth_.carry),
-                .good_position = state(cloth_.good_position),
-                .good_velocity = state(cloth_.good_velocity),
-                .good_carry = state(cloth_.good_carry),
-                .weights = of_model(buffers_.weights),
+        return {.position = state(PointArray::position),
+                .start = state(PointArray::start),
+                .velocity = state(PointArray::velocity),
+                .carry = state(PointArray::carry),
+                .good_position = state(PointArray::good_position),
+                .good_velocity = state(PointArray::good_velocity),
+                .good_carry = state(PointArray::good_carry),
+                .weights = state(cloth_.weights),
                 .lambda = state(cloth_.lambda),
                 .report = input_.report(),
+                .island_report = island_.report,
                 .count = model_.point_count(),
                 .lambdas = static_cast<std::uint32_t>(model_.table(ConstraintKind::stretch).lambda_count())};
     }
@@ -196,7 +211,7 @@ class Compiler {
         const StretchMaterial& fabric = model_.fabric.stretch;
         const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
         const Elasticity& elastic = model_.elasticity;
-        return {.position = state(cloth_.position),
+        return {.position = state(PointArray::position),
                 .particles = of_model(rows.particles),
                 .rest = of_model(rows.fields),
                 .lambda = state(cloth_.lambda),
@@ -215,8 +230,8 @@ class Compiler {
     }
 
     FaceArgs face_args() const {
-        return {.position = state(cloth_.position),
-                .velocity = state(cloth_.velocity),
+        return {.position = state(PointArray::position),
+                .velocity = state(PointArray::velocity),
                 .faces = of_model(buffers_.faces),
                 .mass = of_model(buffers_.face_mass),
                 .wind = work(work_.wind),
@@ -231,11 +246,11 @@ class Compiler {
         return {.by_face = state(cloth_.by_face),
                 .offsets = of_model(buffers_.around_offsets),
                 .items = of_model(buffers_.around_items),
-                .normals = state(cloth_.normals),
-                .position = state(cloth_.position),
-                .start = state(cloth_.start),
-                .velocity = state(cloth_.velocity),
-                .carry = state(cloth_.carry),
+                .normals = state(PointArray::normals),
+                .position = state(PointArray::position),
+                .start = state(PointArray::start),
+                .velocity = state(PointArray::velocity),
+                .carry = state(PointArray::carry),
                 .count = model_.particle_count,
                 .unused = 0};
     }
@@ -245,19 +260,23 @@ class Compiler {
                                                : work(work_.lambda[static_cast<std::uint32_t>(kind)]);
     }
 
-    // Lambda is read again by a later iteration; that of stretch, after the last substep, by whoever asks for the
-    // tension in the cloth or the residual.
-    std::uint32_t lambda_use(const Pass& pass, std::uint32_t substep) const {
-        if (!pass.first_iteration) return WEFT_LAMBDA_ACCUMULATE;
-        const bool last = pass.constraint == ConstraintKind::stretch && substep + 1 == plan_.substeps;
-        return plan_.iterations > 1 || last ? WEFT_LAMBDA_STORE : WEFT_LAMBDA_DISCARD;
+    std::uint32_t use_of_lambda(const Pass& pass, std::uint32_t substep) const {
+        switch (lambda_use(plan_, pass, substep)) {
+            case LambdaUse::discard:
+                return WEFT_LAMBDA_DISCARD;
+            case LambdaUse::store:
+                return WEFT_LAMBDA_STORE;
+            case LambdaUse::accumulate:
+                break;
+        }
+        return WEFT_LAMBDA_ACCUMULATE;
     }
 
     RowArgs row_args(ConstraintKind kind) const {
         const auto index = static_cast<std::uint32_t>(kind);
         const TableBuffers& rows = buffers_.tables[index];
-        return {.position = state(cloth_.position),
-                .velocity = state(cloth_.velocity),
+        return {.position = state(PointArray::position),
+                .velocity = state(PointArray::velocity),
                 .particles = of_model(rows.particles),
                 .fields = of_model(rows.fields),
                 .lambda = lambda_of(kind),
@@ -267,8 +286,8 @@ class Compiler {
                 .blocks = 0,
                 .frame = input_.frame(),
                 .limits = state(cloth_.limits),
-                .plain_positive = plan_.stiffness[index][0],
-                .plain_negative = plan_.stiffness[index][1],
+                .plain_positive = stiffness_[index][0],
+                .plain_negative = stiffness_[index][1],
                 .stride = model_.constraints[index].stride,
                 .begin = 0,
                 .count = 0,
@@ -302,8 +321,26 @@ class Compiler {
         RowArgs args = row_args(pass.constraint);
         const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));
         std::string program = pass.kind == PassKind::damp ? "damp_" : plain ? "plain_" : "project_";
-        if (pass.kind == PassKind::project && !plain) args.lambda_use = lambda_use(pass, substep);
+        if (pass.kind == PassKind::project && !plain) args.lambda_use = use_of_lambda(pass, substep);
         add(list, program + std::string(constraint_info(pass.constraint).name), args, invocations, pass, substep);
+    }
+
+    // Their particles are numbered over the world.
+    void add_links(List& list, const Pass& pass, std::uint32_t substep) {
+        const LinkBuffers::Table& table = island_.links->table(pass.constraint);
+        const bool plain = plan_.method == Method::pbd;
+        RowArgs args = row_args(pass.constraint);
+        args.position = cloth_.world().address(PointArray::position, 0);
+        args.velocity = 0;
+        args.particles = island_.links->address(table.particles);
+        args.fields = island_.links->address(table.fields);
+        args.lambda = island_.links->address(table.lambda);
+        args.plain_positive = args.plain_negative = 1;  // no fabric says less
+        args.stride = table.stride;
+        args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
+        const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], 0);
+        add(list, (plain ? "plain_" : "project_") + std::string(constraint_info(pass.constraint).name), args,
+            invocations, pass, substep);
     }
 
     void add_lines(List& list, const Pass& pass, std::uint32_t substep) {
@@ -312,7 +349,7 @@ class Compiler {
         const Batch& batch = table.batches[pass.batch];
         const TableBuffers& buffers = buffers_.tables[index];
         const LineArgs args{
-            .position = state(cloth_.position),
+            .position = state(PointArray::position),
             .particles = of_model(buffers.particles),
             .fields = of_model(buffers.fields),
             .lambda = state(cloth_.lambda),
@@ -321,7 +358,7 @@ class Compiler {
             .frame = input_.frame(),
             .stride = table.stride,
             .count = batch.blocks,
-            .lambda_use = lambda_use(pass, substep),
+            .lambda_use = use_of_lambda(pass, substep),
             .unused = 0};
         Command& command = add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
         command.groups = batch.blocks;
@@ -339,15 +376,13 @@ class Compiler {
         args.sums = work(work_.sums);
         args.share = plain ? 0 : work(work_.share[index]);
         args.count = model_.constraints[index].stride;
-        args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : lambda_use(pass, substep);
-        const bool again = !list.empty() && list.back().pass.kind == PassKind::correct;
-        // Rows side by side write to places of their own.
-        add(list, "side_by_side_" + std::string(constraint_info(pass.constraint).name), args, args.count, pass, substep)
-            .needs_barrier = !again;
+        args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
+        add(list, "side_by_side_" + std::string(constraint_info(pass.constraint).name), args, args.count, pass,
+            substep);
     }
 
     void add_average(List& list, const Pass& pass, std::uint32_t substep) {
-        const AverageArgs args{.position = state(cloth_.position),
+        const AverageArgs args{.position = state(PointArray::position),
                                .corrections = work(work_.corrections),
                                .sums = work(work_.sums),
                                .offsets = work(work_.gather_offsets),
@@ -358,7 +393,7 @@ class Compiler {
     }
 
     void add_holds(List& list, const Pass& pass, std::uint32_t substep) {
-        const HoldArgs args{.position = state(cloth_.position),
+        const HoldArgs args{.position = state(PointArray::position),
                             .held = input_.held(),
                             .poses = input_.mover_poses(),
                             .frame = input_.frame(),
@@ -368,8 +403,8 @@ class Compiler {
     }
 
     void add_contacts(List& list, const Pass& pass, std::uint32_t substep) {
-        const ContactArgs args{.position = state(cloth_.position),
-                               .start = state(cloth_.start),
+        const ContactArgs args{.position = state(PointArray::position),
+                               .start = state(PointArray::start),
                                .sums = work(work_.contact_sums),
                                .felt = work(work_.felt),
                                .frame = input_.frame(),
@@ -385,16 +420,17 @@ class Compiler {
     void add_level(List& list, const Pass& pass, std::uint32_t substep) {
         const CoarseLevel& level = model_.hierarchy[pass.level];
         const WorkBuffers::Level& mine = work_.levels[pass.level];
-        LevelArgs args{.position = work(mine.position),
-                       .origin = work(mine.origin),
-                       .displacement = work(mine.displacement),
-                       .finer = pass.level == 0 ? state(cloth_.position) : work(work_.levels[pass.level - 1].origin),
-                       .coarser = 0,
-                       .begin = of_model(buffers_.levels[pass.level].restriction_begin),
-                       .nodes = of_model(buffers_.levels[pass.level].restriction_node),
-                       .weights = of_model(buffers_.levels[pass.level].restriction_weight),
-                       .stride = 0,
-                       .count = level.count};
+        LevelArgs args{
+            .position = work(mine.position),
+            .origin = work(mine.origin),
+            .displacement = work(mine.displacement),
+            .finer = pass.level == 0 ? state(PointArray::position) : work(work_.levels[pass.level - 1].origin),
+            .coarser = 0,
+            .begin = of_model(buffers_.levels[pass.level].restriction_begin),
+            .nodes = of_model(buffers_.levels[pass.level].restriction_node),
+            .weights = of_model(buffers_.levels[pass.level].restriction_weight),
+            .stride = 0,
+            .count = level.count};
         if (pass.kind == PassKind::collect) {
             add(list, "collect", args, level.count, pass, substep);
         } else if (pass.kind == PassKind::settle) {
@@ -415,7 +451,7 @@ class Compiler {
 
     void add_spread(List& list, const Pass& pass, std::uint32_t substep) {
         LevelArgs args{};
-        args.position = state(cloth_.position);
+        args.position = state(PointArray::position);
         args.count = model_.particle_count;
         follow(args, 0);
         add(list, "spread", args, args.count, pass, substep);
@@ -430,7 +466,7 @@ class Compiler {
         args.fields = of_model(rows.fields);
         args.lambda = work(work_.levels[pass.level].lambda);
         args.stride = table.stride;
-        args.lambda_use = pass.first_iteration ? WEFT_LAMBDA_STORE : WEFT_LAMBDA_ACCUMULATE;
+        args.lambda_use = use_of_lambda(pass, substep);
         const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], of_model(rows.blocks));
         add(list, "project_reach", args, invocations, pass, substep);
     }
@@ -442,7 +478,11 @@ class Compiler {
     const WorkBuffers& work_;
     const FrameInput& input_;
     const InputShape& shape_;
-    const StepPlan& plan_;
+    const WorldPlan& plan_;
+    const PlainStiffness& stiffness_;
+    const IslandPart& island_;
+    IslandPlan passes_;
+    bool first_pass_ = true;
     Errors errors_;
     Command nothing_;  ///< not in any list
 };
@@ -450,12 +490,13 @@ class Compiler {
 }  // namespace
 
 Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const WorkBuffers& work,
-                             const FrameInput& input, const InputShape& shape, const StepPlan& plan) {
-    return Compiler(programs, cloth, work, input, shape, plan).run();
+                             const FrameInput& input, const InputShape& shape, const WorldPlan& plan,
+                             const PlainStiffness& stiffness, const IslandPart& island) {
+    return Compiler(programs, cloth, work, input, shape, plan, stiffness, island).run();
 }
 
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth) {
-    return Compiler(programs, cloth, {}, {}, {}, {}).surface();
+    return Compiler(programs, cloth, {}, {}, {}, {}, {}, {}).surface();
 }
 
 std::uint32_t workgroups_of(const Command& command) {

@@ -1,7 +1,8 @@
-// A StepPlan of a cloth as a device runs it: commands with what each is told.
+// The part of a cloth in the world's plan as a device runs it: commands with what each is told.
 #pragma once
 
 #include "vulkan/cloth_state.h"
+#include "vulkan/links.h"
 #include "vulkan/programs.h"
 
 #include <array>
@@ -20,6 +21,7 @@ struct Command {
     std::uint32_t line_rows = 0;  ///< of lines: rows of the largest block
     bool needs_barrier = true;    ///< reads or writes what the command before it writes
     Pass pass{};                  ///< what it comes from, or is part of
+    bool single = false;          ///< so little work that one workgroup does it
     std::uint32_t substep = 0;
     std::uint32_t arg_bytes = 0;
     alignas(8) std::array<std::byte, 128> args{};
@@ -54,8 +56,16 @@ struct CompiledPlan {
     std::size_t roll_back = 0;  ///< one of those
 };
 
+/// What a cloth does for its island.
+struct IslandPart {
+    std::uint64_t report = 0;            ///< address of that of the island's first cloth
+    const LinkTables* tables = nullptr;  ///< of the first cloth alone, if the island has links
+    const LinkBuffers* links = nullptr;  ///< likewise
+};
+
 Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const WorkBuffers& work,
-                             const FrameInput& input, const InputShape& shape, const StepPlan& plan);
+                             const FrameInput& input, const InputShape& shape, const WorldPlan& plan,
+                             const PlainStiffness& stiffness, const IslandPart& island);
 
 /// Normals for the state as it is.
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);

@@ -21,8 +21,8 @@ SharedPass next_pass(const CompiledPlan& plan, std::size_t begin, std::size_t en
     const Command& first = plan.commands[begin];
     SharedPass pass{.pass = first.pass, .program = first.program, .needs_barrier = first.needs_barrier, .parts = {}};
     std::size_t last = begin + 1;
-    if (grouped && first.pass.alone)
-        while (last < end && plan.commands[last].pass.alone) ++last;
+    if (grouped && first.single)
+        while (last < end && plan.commands[last].single) ++last;
     pass.is_list = last - begin > 1;
     pass.parts = {{0, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(last)}};
     return pass;
@@ -30,9 +30,7 @@ SharedPass next_pass(const CompiledPlan& plan, std::size_t begin, std::size_t en
 
 bool go_together(const SharedPass& a, const SharedPass& b) {
     if (a.is_list || b.is_list) return a.is_list && b.is_list;
-    Pass as_b = a.pass;
-    as_b.alone = b.pass.alone;
-    return a.program == b.program && as_b == b.pass;
+    return a.program == b.program && a.pass == b.pass;
 }
 
 // Joins commands [begin, end) of a plan to passes of others: each to the next one that is the same, or where none is,

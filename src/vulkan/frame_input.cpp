@@ -39,7 +39,8 @@ float strain_per_lambda(const ClothModel& model, double substep_seconds) {
     return static_cast<float>(-1 / (substep_seconds * substep_seconds * softest));
 }
 
-FrameIn frame_in(const ClothModel& model, const StepPlan& plan, const StepInput& input, double substep_seconds) {
+FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
+                 double substep_seconds) {
     const FrameNumbers numbers = frame_numbers(model, plan, input.dt);
     const AirMaterial& air = model.fabric.air;
     return {.h = numbers.h,
@@ -57,7 +58,7 @@ FrameIn frame_in(const ClothModel& model, const StepPlan& plan, const StepInput&
             .listing = air.lift_model == LiftModel::listing ? 1.0f : 0.0f,
             .colliders = static_cast<std::uint32_t>(input.colliders.size()),
             .winds = static_cast<std::uint32_t>(input.winds.size()),
-            .movers = input.movers,
+            .movers = cloth.movers,
             .strain_per_lambda = strain_per_lambda(model, substep_seconds),
             .unused0 = 0,
             .unused1 = 0,
@@ -66,12 +67,12 @@ FrameIn frame_in(const ClothModel& model, const StepPlan& plan, const StepInput&
 
 }  // namespace
 
-InputShape shape_of(const StepPlan& plan, const StepInput& input) {
+InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothStep& cloth) {
     return {plan.substeps,
             static_cast<std::uint32_t>(input.colliders.size()),
             static_cast<std::uint32_t>(input.winds.size()),
-            input.movers,
-            static_cast<std::uint32_t>(input.held.size()),
+            cloth.movers,
+            static_cast<std::uint32_t>(cloth.held.size()),
             input.feedback && !input.colliders.empty()};
 }
 
@@ -91,10 +92,11 @@ FrameInput::FrameInput(const InputShape& shape) {
     held_ = take(shape.held * sizeof(HeldIn));
 }
 
-void FrameInput::write(const ClothModel& model, const StepPlan& plan, const StepInput& input, double substep_seconds) {
+void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
+                       double substep_seconds) {
     const auto put = [&](std::uint64_t at, const auto& value) { std::memcpy(host_ + at, &value, sizeof value); };
     put(0, std::uint32_t{report_none});
-    put(frame_, frame_in(model, plan, input, substep_seconds));
+    put(frame_, frame_in(model, plan, input, cloth, substep_seconds));
     for (std::size_t i = 0; i < input.colliders.size(); ++i) {
         const Collider& collider = input.colliders[i];
         const auto [held, sliding] = friction_between(model, collider);
@@ -104,10 +106,10 @@ void FrameInput::write(const ClothModel& model, const StepPlan& plan, const Step
     }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
     for (std::size_t i = 0; i < input.poses.size(); ++i) put(poses_ + i * sizeof(PoseIn), pose_in(input.poses[i]));
-    for (std::size_t i = 0; i < input.mover_poses.size(); ++i)
-        put(mover_poses_ + i * sizeof(PoseIn), pose_in(input.mover_poses[i]));
-    for (std::size_t i = 0; i < input.held.size(); ++i) {
-        const HeldParticle& held = input.held[i];
+    for (std::size_t i = 0; i < cloth.mover_poses.size(); ++i)
+        put(mover_poses_ + i * sizeof(PoseIn), pose_in(cloth.mover_poses[i]));
+    for (std::size_t i = 0; i < cloth.held.size(); ++i) {
+        const HeldParticle& held = cloth.held[i];
         put(held_ + i * sizeof(HeldIn), HeldIn{with(held.local, 0), held.particle, held.mover, 0, 0});
     }
 }

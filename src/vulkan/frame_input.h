@@ -20,7 +20,7 @@ struct InputShape {
     friend bool operator==(const InputShape&, const InputShape&) = default;
 };
 
-InputShape shape_of(const StepPlan& plan, const StepInput& input);
+InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothStep& cloth);
 
 /// Places of all that in a buffer of `bytes()`, of which a host sees a copy.
 class FrameInput {
@@ -32,7 +32,8 @@ class FrameInput {
     void attach(std::byte* host, std::uint64_t address) { host_ = host, address_ = address; }
 
     /// The device must be done with the frame before, which left a lambda of `substep_seconds` (lambda_seconds).
-    void write(const ClothModel& model, const StepPlan& plan, const StepInput& input, double substep_seconds);
+    void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
+               double substep_seconds);
 
     std::uint64_t report() const { return address_; }
     std::uint64_t frame() const { return address_ + frame_; }

@@ -11,15 +11,19 @@ bool fits_fused(const gpu::Device& device, const ClothModel& model) {
     return fits_at_hand(device, model.point_count(), false);
 }
 
-FrameRun::FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution)
-    : device_(device), programs_(programs), members_(members.begin(), members.end()), execution_(execution) {
-    plans_of_members_.reserve(members.size());
-    for (Member& member : members_) member.plan = &plans_of_members_.emplace_back(*member.plan);
-}
+FrameRun::FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
+                   std::span<const Member> members, Execution execution)
+    : device_(device),
+      programs_(programs),
+      plan_(plan),
+      serial_(serial),
+      members_(members.begin(), members.end()),
+      execution_(execution) {}
 
-Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs& programs,
-                                                   std::span<const Member> members, Execution execution, bool timings) {
-    auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, members, execution));
+Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
+                                                   std::uint64_t serial, std::span<const Member> members,
+                                                   Execution execution, bool timings) {
+    auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, plan, serial, members, execution));
     if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
     if (!recorded) return recorded.errors();
@@ -34,7 +38,7 @@ Result<Done> FrameRun::prepare_feedback() {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const ClothState& cloth = members_[i].cloth->state();
         const std::uint64_t felt = work_[i].arena.address(work_[i].felt);
-        members.push_back({.account = {.position = cloth.address(cloth.position),
+        members.push_back({.account = {.position = cloth.address(PointArray::position),
                                        .moved = felt,
                                        .turned = felt + work_[i].felt.bytes / 2,
                                        .report = buffers_.input(i).report(),
@@ -61,18 +65,37 @@ Result<Done> FrameRun::compile_members() {
     if (!buffers) return buffers.errors();
     buffers_ = std::move(*buffers);
     work_.reserve(members_.size());
+    links_.reserve(members_.size());
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
-        auto work = WorkBuffers::create(device_, member.cloth->model(), *member.plan, member.shape);
+        auto work = WorkBuffers::create(device_, member.cloth->model(), plan_, member.shape);
         if (!work) return work.errors();
         work_.push_back(std::move(*work));
-        auto plan =
-            compile(programs_, member.cloth->state(), work_.back(), buffers_.input(i), member.shape, *member.plan);
+        IslandPart island{.report = buffers_.input(first_of_island(i)).report()};
+        if (first_of_island(i) == i && member.links) {
+            auto links = LinkBuffers::create(device_, *member.links, plan_);
+            if (!links) return links.errors();
+            links_.push_back(std::move(*links));
+            island.tables = member.links;
+            island.links = &links_.back();
+        }
+        auto plan = compile(programs_, member.cloth->state(), work_.back(), buffers_.input(i), member.shape, plan_,
+                            member.stiffness, island);
         if (!plan) return plan.errors();
         plans_.push_back(std::move(*plan));
         first_command_.push_back(memory_.add(plans_.back().commands));
     }
+    for (Member& member : members_) member.links = nullptr;  // the caller's
     return memory_.build(device_, name());
+}
+
+std::size_t FrameRun::first_of_island(std::size_t member) const {
+    while (member > 0 && members_[member - 1].island == members_[member].island) --member;
+    return member;
+}
+
+std::uint32_t FrameRun::report(std::size_t member) const {
+    return buffers_.report(member) | (buffers_.report(first_of_island(member)) & report_non_finite);
 }
 
 Result<Done> FrameRun::begin_recording(bool timings, std::size_t stages) {
@@ -95,11 +118,11 @@ Result<Done> FrameRun::record_fused(bool timings) {
         const Cloth& cloth = *members_[i].cloth;
         PointsAtHand points;
         if (const std::uint32_t count = cloth.model().point_count(); fits_fused(device_, cloth.model())) {
-            const std::uint64_t position = cloth.state().address(cloth.state().position);
+            const std::uint64_t position = cloth.state().address(PointArray::position);
             points = {.position = position, .count = count};
             if (fits_at_hand(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
         }
-        const bool lines = members_[i].plan->projection == Projection::lines;
+        const bool lines = plan_.projection == Projection::lines;
         lists_.add(plans_[i].commands, first_command_[i], points,
                    lines ? largest_lines(cloth.model().table(ConstraintKind::stretch)) : LineRows{}, plans_[i].repeat);
     }
@@ -151,15 +174,15 @@ Result<Done> FrameRun::record_passes(bool timings) {
     return end_recording();
 }
 
-Result<std::uint64_t> FrameRun::submit(std::span<const StepInput* const> inputs) {
+Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps) {
     if (contacts_) {
         if (auto prepared = contacts_->prepare(); !prepared) return prepared.errors();
     }
     seconds_.clear();
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
-        buffers_.input(i).write(member.cloth->model(), *member.plan, *inputs[i], member.cloth->state().substep_seconds);
-        seconds_.push_back(lambda_seconds(*member.plan, inputs[i]->dt));
+        buffers_.input(i).write(member.cloth->model(), plan_, input, *steps[i], member.cloth->state().substep_seconds);
+        seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();
     return value && contacts_ ? contacts_->submit() : value;
@@ -172,9 +195,9 @@ void FrameRun::finish(std::array<double, stage_count>& stage_ms) {
 }
 
 Result<FrameRun::Place> FrameRun::download_place(const Cloth& cloth) const {
-    auto positions = cloth.state().download_points(device_, cloth.state().position);
+    auto positions = cloth.state().download_points(device_, PointArray::position);
     if (!positions) return positions.errors();
-    auto velocities = cloth.state().download_points(device_, cloth.state().velocity);
+    auto velocities = cloth.state().download_points(device_, PointArray::velocity);
     if (!velocities) return velocities.errors();
     return Place{std::move(*positions), std::move(*velocities)};
 }
@@ -203,11 +226,12 @@ Result<Done> FrameRun::run(const Command& command, std::uint32_t substep) {
     return gpu::run_once(device_, [&](gpu::Commands& now) { record(now, command, substep, device_.limits()); });
 }
 
-Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInput& input) {
+Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInput& input, const ClothStep& step) {
     Cloth& cloth = *members_[member].cloth;
     const auto before = download_place(cloth);
     if (!before) return before.errors();
-    if (std::string culprit = name_input(input, before->positions, before->velocities); !culprit.empty())
+    if (std::string culprit = name_input(input, step.mover_poses, before->positions, before->velocities);
+        !culprit.empty())
         return culprit;
     auto found = replay(member);
     // The report still says that the frame was not finite, so this goes back.

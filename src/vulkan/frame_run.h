@@ -32,44 +32,49 @@ class FrameRun {
   public:
     struct Member {
         Cloth* cloth = nullptr;
-        const StepPlan* plan = nullptr;
         InputShape shape;
+        PlainStiffness stiffness{};
+        std::uint32_t island = 0;           ///< of the members of a run, those of one island follow one another
+        const LinkTables* links = nullptr;  ///< of the island; valid while the run is made
     };
 
-    /// `execution` is not automatic. All plans have as many substeps.
-    static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs,
-                                                    std::span<const Member> members, Execution execution, bool timings);
+    /// `execution` is not automatic. `serial`: that of the plan (WorldStep), which is kept as a copy.
+    static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
+                                                    std::uint64_t serial, std::span<const Member> members,
+                                                    Execution execution, bool timings);
 
-    /// Plans are kept as copies.
-    bool is_for(std::span<const Member> members, Execution execution) const {
+    bool is_for(std::uint64_t serial, std::span<const Member> members, Execution execution) const {
         const auto same = [](const Member& a, const Member& b) {
-            return a.cloth == b.cloth && a.shape == b.shape && same_plan(*a.plan, *b.plan);
+            return a.cloth == b.cloth && a.shape == b.shape && a.island == b.island;
         };
-        return execution == execution_ && std::ranges::equal(members, members_, same);
+        return serial == serial_ && execution == execution_ && std::ranges::equal(members, members_, same);
     }
     bool has(const Cloth* cloth) const { return std::ranges::find(members_, cloth, &Member::cloth) != members_.end(); }
 
-    /// One input for each cloth; valid until finish(). The device may still be at work when this returns.
-    Result<std::uint64_t> submit(std::span<const StepInput* const> inputs);
+    /// A step for each member. The device may still be at work when this returns.
+    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps);
     /// When the device is done with it.
     void finish(std::array<double, stage_count>& stage_ms);
-    std::uint32_t report(std::size_t member) const { return buffers_.report(member); }
+    /// What is not finite in one cloth is reported of all cloths of its island.
+    std::uint32_t report(std::size_t member) const;
     /// What contacts did to colliders, if its shape asks for it: see ContactReadback::read.
     std::uint32_t read_feedback(std::size_t member, ClothFeedback& to);
     /// After a frame in which the cloth was not finite: what did it. The state is that before the frame, before and
     /// after.
-    Result<std::string> find_non_finite(std::size_t member, const StepInput& input);
+    Result<std::string> find_non_finite(std::size_t member, const StepInput& input, const ClothStep& step);
 
   private:
     struct Place {
         std::vector<Vec4> positions, velocities;
     };
 
-    FrameRun(gpu::Device& device, Programs& programs, std::span<const Member> members, Execution execution);
+    FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
+             std::span<const Member> members, Execution execution);
     Result<Done> compile_members();
     Result<Done> prepare_feedback();
     Result<Done> record_fused(bool timings);
     Result<Done> record_passes(bool timings);
+    std::size_t first_of_island(std::size_t member) const;
     Result<Done> begin_recording(bool timings, std::size_t stages);
     Result<Done> end_recording();
     Result<Place> download_place(const Cloth& cloth) const;
@@ -79,11 +84,13 @@ class FrameRun {
 
     gpu::Device& device_;
     Programs& programs_;
-    std::vector<StepPlan> plans_of_members_;
+    WorldPlan plan_;
+    std::uint64_t serial_;
     std::vector<Member> members_;
     Execution execution_;
     FrameBuffers buffers_;
     std::vector<WorkBuffers> work_;
+    std::vector<LinkBuffers> links_;
     std::vector<CompiledPlan> plans_;
     CommandMemory memory_;
     std::vector<std::uint32_t> first_command_;  ///< in it, by member

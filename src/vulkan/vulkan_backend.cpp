@@ -1,6 +1,7 @@
 #include "vulkan/vulkan_backend.h"
 
 #include "gpu/device.h"
+#include "solver/measures/diagnosis.h"
 #include "vulkan/frame_run.h"
 #include "vulkan/interop.h"
 
@@ -47,8 +48,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     unsigned threads() const override { return 1; }
     std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
-    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model) override {
-        auto cloth = make_cloth(std::move(model));
+    Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+        auto cloth = make_cloth(std::move(model), base);
         if (!cloth) return cloth.errors();
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
         const auto at = static_cast<std::uint32_t>(free - cloths_.begin());
@@ -65,13 +66,13 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         cloths_[handle.value] = nullptr;
     }
 
-    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         Cloth& old = cloth(handle);
         assert(model->particle_count == old.model().particle_count);
         auto snapshot = old.save();
         if (!snapshot) return snapshot.errors();
         const bool same_anchors = model->anchor_count == old.model().anchor_count;
-        auto next = make_cloth(std::move(model));
+        auto next = make_cloth(std::move(model), base);
         if (!next) return next.errors();
         keep_what_moves(*snapshot, (*next)->model(), same_anchors);
         if (auto restored = (*next)->restore(*snapshot); !restored) return restored;
@@ -80,10 +81,17 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return Done{};
     }
 
-    void step(std::span<const ClothStep> cloths) override {
+    Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
+        auto done = cloth(handle).state().set_weights(*device_, changed);
+        cloth(handle).changed(true);
+        return done;
+    }
+
+    void step(const WorldStep& step) override {
         assert(groups_.empty());
-        group(cloths);
-        for (Group& group : groups_) submit(group);
+        input_ = &step.input;
+        group(step);
+        for (Group& group : groups_) submit(step, group);
         last_ = device_->submitted();
     }
 
@@ -140,7 +148,21 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return *cloths_[handle.value];
     }
 
-    Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model) {
+    // Room for a range of particles. Whoever knows where others lie is told if they move.
+    Result<Done> make_room(std::uint64_t end) {
+        const auto moved = particles_.make_room(*device_, end);
+        if (!moved) return moved.errors();
+        if (!*moved) return Done{};
+        runs_.clear();
+        for (const auto& one : cloths_) {
+            if (!one) continue;
+            if (auto done = one->particles_moved(); !done) return done;
+        }
+        return Done{};
+    }
+
+    Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) {
+        if (auto room = make_room(std::uint64_t{base} + model->capacity()); !room) return room.errors();
         // Cloths of one model share it on the device too.
         std::shared_ptr<const ModelBuffers> buffers = models_[model.get()].lock();
         if (!buffers) {
@@ -150,7 +172,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             buffers = std::move(*made);
             models_[model.get()] = buffers;
         }
-        return Cloth::create(*device_, programs_, std::move(buffers));
+        return Cloth::create(*device_, programs_, std::move(buffers), particles_, base);
     }
 
     Result<std::shared_ptr<const DrawnMesh>> drawn_mesh(const std::shared_ptr<const ClothModel>& model) {
@@ -170,63 +192,68 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         snapshot.lambda.assign(model.table(ConstraintKind::stretch).lambda_count(), 0.0f);
     }
 
-    // Cloths that a frame takes together.
+    // Islands that a frame takes together.
     struct Group {
         Execution execution{};
         std::vector<const ClothStep*> steps;
+        std::vector<FrameRun::Member> members;
         FrameRun* run = nullptr;  ///< none where that failed
     };
 
-    Execution execution_for(const Cloth& cloth) const {
-        if (execution_ != Execution::automatic) return execution_;
+    // A workgroup runs a cloth to the end of the frame without waiting for others, so it must be alone in its island.
+    Execution execution_for(const IslandStep& island) const {
+        const bool alone = island.cloths.size() == 1 && !island.links;
+        if (execution_ != Execution::automatic && (alone || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
-        return vulkan::fits_fused(*device_, cloth.model()) ? Execution::fused : Execution::grouped;
+        return alone && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model()) ? Execution::fused
+                                                                                                 : Execution::grouped;
     }
 
-    // Those that are executed alike, over as many substeps.
-    void group(std::span<const ClothStep> cloths) {
-        for (const ClothStep& step : cloths) {
-            const Execution execution = execution_for(cloth(step.cloth));
-            const auto takes = [&](const Group& group) {
-                return group.execution == execution && group.steps.front()->plan->substeps == step.plan->substeps;
-            };
-            const auto there = std::ranges::find_if(groups_, takes);
+    // Those that are executed alike.
+    void group(const WorldStep& step) {
+        for (std::uint32_t i = 0; i < step.islands.size(); ++i) {
+            const IslandStep& island = step.islands[i];
+            if (island.cloths.empty()) continue;
+            const Execution execution = execution_for(island);
+            auto there = std::ranges::find(groups_, execution, &Group::execution);
             if (there == groups_.end()) {
-                groups_.push_back({.execution = execution, .steps = {&step}});
-            } else {
-                there->steps.push_back(&step);
+                groups_.push_back({.execution = execution, .steps = {}, .members = {}});
+                there = groups_.end() - 1;
+            }
+            for (const ClothStep& one : island.cloths) {
+                there->steps.push_back(&one);
+                there->members.push_back({.cloth = &cloth(one.cloth),
+                                          .shape = vulkan::shape_of(*step.plan, step.input, one),
+                                          .stiffness = one.stiffness ? *one.stiffness : PlainStiffness{},
+                                          .island = i,
+                                          .links = island.links});
             }
         }
     }
 
-    void submit(Group& group) {
-        members_.clear();
-        inputs_.clear();
-        for (const ClothStep* step : group.steps) {
-            step->frame->reports = report_none;
-            step->frame->detail.clear();
-            members_.push_back({&cloth(step->cloth), step->plan, vulkan::shape_of(*step->plan, step->input)});
-            inputs_.push_back(&step->input);
+    void submit(const WorldStep& step, Group& group) {
+        for (const ClothStep* one : group.steps) {
+            one->frame->reports = report_none;
+            one->frame->detail.clear();
         }
-        auto run = find_run(members_, group.execution);
+        auto run = find_run(step, group);
         if (!run) return fail(group, run.error());
-        const auto value = (*run)->submit(inputs_);
+        const auto value = (*run)->submit(step.input, group.steps);
         if (!value) return fail(group, value.error());
         group.run = *run;
-        for (const ClothStep* step : group.steps) {
-            const auto& end = step->plan->frame_end;
-            const bool normals = std::ranges::find(end, PassKind::normals, &Pass::kind) != end.end();
-            cloth(step->cloth).changed(normals);
-        }
+        const auto& end = step.plan->frame_end;
+        const bool normals = std::ranges::find(end, PassKind::normals, &Pass::kind) != end.end();
+        for (const ClothStep* one : group.steps) cloth(one->cloth).changed(normals);
     }
 
     // The one that was recorded for a frame like this, or a new one in place of those with other plans.
-    Result<FrameRun*> find_run(std::span<const FrameRun::Member> members, Execution execution) {
+    Result<FrameRun*> find_run(const WorldStep& step, const Group& group) {
         for (const auto& run : runs_) {
-            if (run->is_for(members, execution)) return run.get();
+            if (run->is_for(step.plan_serial, group.members, group.execution)) return run.get();
         }
-        for (const FrameRun::Member& member : members) forget_runs(*member.cloth);
-        auto run = FrameRun::create(*device_, programs_, members, execution, timings_);
+        for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
+        auto run = FrameRun::create(*device_, programs_, *step.plan, step.plan_serial, group.members, group.execution,
+                                    timings_);
         if (!run) return run.errors();
         runs_.push_back(std::move(*run));
         return runs_.back().get();
@@ -243,9 +270,23 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             frame.reports = group.run->report(i);
             if (ClothFeedback* feedback = group.steps[i]->feedback)
                 frame.reports |= group.run->read_feedback(i, *feedback);
-            if (!(frame.reports & report_non_finite)) continue;
-            auto culprit = group.run->find_non_finite(i, group.steps[i]->input);
-            frame.detail = culprit ? *culprit : culprit.error().message();
+            if (frame.reports & report_non_finite) name_culprit(group, i);
+        }
+    }
+
+    // Of an island the first cloth in which there is one tells of all.
+    void name_culprit(Group& group, std::size_t member) {
+        std::string& detail = group.steps[member]->frame->detail;
+        const std::uint32_t island = group.members[member].island;
+        if (member > 0 && group.members[member - 1].island == island) {
+            detail = group.steps[member - 1]->frame->detail;
+            return;
+        }
+        detail = late_non_finite;
+        for (std::size_t i = member; i < group.steps.size() && group.members[i].island == island; ++i) {
+            auto culprit = group.run->find_non_finite(i, *input_, *group.steps[i]);
+            detail = culprit ? *culprit : culprit.error().message();
+            if (detail != late_non_finite) return;
         }
     }
 
@@ -262,14 +303,14 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     bool timings_;
     std::map<const ClothModel*, std::weak_ptr<const ModelBuffers>> models_;
     std::map<const ClothModel*, std::weak_ptr<const DrawnMesh>> drawn_;
+    vulkan::WorldParticles particles_;  // outlives the cloths
     std::vector<std::unique_ptr<Cloth>> cloths_;
     std::vector<std::unique_ptr<FrameRun>> runs_;
     // What is submitted after a frame may wait for a host, which the next step must not.
     std::uint64_t last_ = 0;  ///< when the device is done with the last frame
     // Of a frame, until it is finished:
     std::vector<Group> groups_;
-    std::vector<FrameRun::Member> members_;
-    std::vector<const StepInput*> inputs_;
+    const StepInput* input_ = nullptr;
 };
 
 Result<Execution> execution_of(const VulkanOptions& options) {

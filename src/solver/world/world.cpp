@@ -134,7 +134,6 @@ Result<Done> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Hold
     cloth.holds = std::move(holds);
     cloth.mover_poses.resize((std::size_t{settings_.substeps} + 1) * cloth.holds.movers.size());
     unread_ = true;
-    ++plan_serial_;  // how many are held may have changed
     if (replanned) replan();
     return Done{};
 }

@@ -64,10 +64,10 @@ class Measuring {
 
     void record(Recorder& passes, std::uint64_t found) const {
         const auto place = [&](const Part& part) { return found + part.first_tile * words_of_tile * word; };
-        const std::uint64_t position = cloth_.address(cloth_.position);
+        const std::uint64_t position = cloth_.address(PointArray::position);
         passes.run("measure_particles",
                    MeasureParticlesArgs{.position = position,
-                                        .velocity = cloth_.address(cloth_.velocity),
+                                        .velocity = cloth_.address(PointArray::velocity),
                                         .masses = lists_.arena.address(lists_.masses),
                                         .found = place(particles_),
                                         .count = particles_.count,
@@ -108,7 +108,7 @@ class Measuring {
         const TableBuffers& buffers = cloth_.buffers().tables[static_cast<std::uint32_t>(ConstraintKind::stretch)];
         const double h = cloth_.substep_seconds;
         const TwoFloats inv_h2(h > 0 ? 1 / (h * h) : 0);
-        return {.position = cloth_.address(cloth_.position),
+        return {.position = cloth_.address(PointArray::position),
                 .particles = cloth_.buffers().address(buffers.particles),
                 .fields = cloth_.buffers().address(buffers.fields),
                 .lambda = cloth_.address(cloth_.lambda),

@@ -42,7 +42,9 @@ void run_settle(uint i)
 void run_spread(uint i)
 {
     vec4 x = load_point(level_args.at.position, i);
-    store_point(level_args.at.position, i, vec4(x.xyz + carried(i), x.w));
+    // The levels may not know yet of a particle that was pinned a moment ago.
+    float moves = x.w > 0.0 ? 1.0 : 0.0;
+    store_point(level_args.at.position, i, vec4(x.xyz + carried(i) * moves, x.w));
 }
 
 #endif

@@ -165,12 +165,12 @@ void run_check(uint p)
 {
     if (!is_finite(load_point(keep_args.at.position, p)) || !is_finite(keep_args.at.velocity.at[p]) ||
         !is_finite(keep_args.at.carry.at[p]))
-        atomicOr(keep_args.at.report.at[0], WEFT_REPORT_NON_FINITE);
+        atomicOr(keep_args.at.island_report.at[0], WEFT_REPORT_NON_FINITE);
 }
 
 void run_roll_back(uint i)
 {
-    if ((keep_args.at.report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) return;
+    if ((keep_args.at.island_report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) return;
     // What was solved was not of this place; a residual and a saved state still read it.
     if (i < keep_args.at.lambdas) keep_args.at.lambda.at[i] = 0.0;
     if (i >= keep_args.at.count) return;

@@ -23,6 +23,14 @@ DrawnSurface::~DrawnSurface() {
     (void)device_.wait(std::max(sets_[0].written, sets_[1].written));
 }
 
+Result<Done> DrawnSurface::particles_moved() {
+    for (Set& set : sets_) {
+        if (auto idle = device_.wait(set.written); !idle) return idle;
+        if (auto recorded = record(set); !recorded) return recorded;
+    }
+    return Done{};
+}
+
 Result<Done> DrawnSurface::make(Set& set) {
     const ClothModel& model = *mesh_->model;
     const std::uint64_t bytes = mesh_->vertex_count() * sizeof(Vec4);
@@ -52,7 +60,7 @@ Result<Done> DrawnSurface::record(Set& set) {
         const auto pipeline = programs_.get(program);
         passes.run(program, args, pipeline ? groups_of(count, (*pipeline)->workgroup()) : 0);
     };
-    const std::uint64_t position = cloth_.address(cloth_.position), normals = cloth_.address(cloth_.normals);
+    const std::uint64_t position = cloth_.address(PointArray::position), normals = cloth_.address(PointArray::normals);
     const std::uint64_t to_position = set.arena.address(set.positions), to_normal = set.arena.address(set.normals);
     if (mesh_->model->binding.empty()) {
         run("drawn_welded", WeldedArgs{.position = position,

@@ -23,6 +23,8 @@ class DrawnSurface {
                                                         const ClothState& cloth, std::shared_ptr<const DrawnMesh> mesh);
     ~DrawnSurface();
 
+    /// The cloth's particles lie elsewhere from now on.
+    Result<Done> particles_moved();
     /// The surface of the cloth as it is, with the particles' normals as they are. `change` is another number whenever
     /// the cloth has changed; with the same one, what there is. Otherwise the device writes the other one of two sets
     /// of buffers, after all work that was submitted to its queue before and after `before`, which must come of work
