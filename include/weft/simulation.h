@@ -128,6 +128,8 @@ class WEFT_API Simulation {
 
     Result<Done> set_fabric(ClothId id, const FabricDesc& fabric);
     /// In place of those that it has. Particles are held where they are now; a box selects those that are in it now.
+    /// The cost is that of the particles concerned where no pin, old or new, has a compliance; otherwise the cloth's
+    /// model is built anew. Coarse levels and tethers follow some frames later, in the same frame on every run.
     Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
     /// During the next frame the collider moves there from where it is, and takes cloth along; then it stays there.
     /// Rotation as in a scene, in degrees. Ends a motion by keys.

@@ -281,7 +281,7 @@ inline constexpr Parameter stitch_end_keys[] = {
 
 inline constexpr Parameter surface_point_keys[] = {
     {.key = "triangle", .kind = ParameterKind::integer, .offset = offsetof(MeshPoint, triangle), .min = 0,
-     .max = 4294967295.0, .what = "number of the triangle in the mesh"},
+     .max = 1e9, .what = "number of the triangle in the mesh"},
     {.key = "weights", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(MeshPoint, weights), .min = 0,
      .max = 1, .what = "of its three corners; their sum is 1"},
 };

@@ -107,8 +107,8 @@ TEST(ManyCloths, that_differ_do_what_each_does_alone) {
         const WorldSettings settings{.substeps = 4, .iterations = 2, .projection = projection, .hierarchy = true};
         ClothLayout flat = settings.layout();
         flat.hierarchy = false;
-        const std::vector models{sheet(9, flat, false), sheet(40, settings.layout(), true), sheet(20, flat, true, 0),
-                                 sheet(33, settings.layout(), true), sheet(17, settings.layout(), false)};
+        const std::vector models{sheet(9, flat, false), sheet(30, settings.layout(), true), sheet(14, flat, true, 0),
+                                 sheet(20, settings.layout(), true), sheet(11, settings.layout(), false)};
         std::vector<std::vector<Vec4>> expected;
         int sum = 0, longest = 0;
         for (const auto& model : models) {

@@ -4,6 +4,7 @@
 
 #include "mesh/procedural.h"
 #include "solver/measures/statistics.h"
+#include "solver/state/address_space.h"
 #include "solver/world/world.h"
 
 #include <volk.h>
@@ -77,7 +78,7 @@ std::array<std::uint64_t, 9> bits(const ClothMeasures& m) {
             of(m.kinetic_energy),      of(m.max_speed),          m.finite};
 }
 
-void expect_as_on_host(const World& world, const std::vector<std::shared_ptr<const ClothModel>>& models) {
+void expect_as_on_host(World& world, const std::vector<std::shared_ptr<const ClothModel>>& models) {
     const Snapshot saved = world.save();
     ASSERT_EQ(saved.cloths.size(), models.size());
     MeasureSums sums;
@@ -148,7 +149,9 @@ INSTANTIATE_TEST_SUITE_P(, VulkanMeasures, testing::Values("streamed", "grouped"
 // A cloth in a state of its own, without a step.
 struct Placed {
     explicit Placed(std::shared_ptr<const ClothModel> of, VulkanOptions options = {})
-        : model(std::move(of)), backend(checked_vulkan_backend(std::move(options))), cloth(*backend->add_cloth(model)) {
+        : model(std::move(of)),
+          backend(checked_vulkan_backend(std::move(options))),
+          cloth(*backend->add_cloth(model, AddressSpace::reserved)) {
         state = backend->save(cloth);
         for (Vec4& v : state.velocity) v = {};
     }

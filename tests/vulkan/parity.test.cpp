@@ -9,6 +9,8 @@
 
 #include "cpu/cpu_backend.h"
 #include "solver/model/random_rows.test.h"
+#include "solver/plan/island_plan.h"
+#include "solver/state/address_space.h"
 
 #include <bit>
 #include <cmath>
@@ -50,16 +52,15 @@ std::shared_ptr<const ClothModel> model_of(const RandomState& state) {
 enum class Way { project, plain, side_by_side, fixed_point, damp };
 
 // Two iterations of one constraint and nothing else.
-StepPlan plan_of(const ConstraintTable& table, Way way) {
+WorldPlan plan_of(const ConstraintTable& table, Way way) {
     constexpr std::uint32_t iterations = 2;
-    StepPlan plan;
+    WorldPlan plan;
     plan.substeps = 1;
     plan.iterations = iterations;
     plan.method = way == Way::plain ? Method::pbd : Method::xpbd;
     if (way == Way::fixed_point) plan.accumulate = Accumulate::fixed_point;
     const bool jacobi = way == Way::side_by_side || way == Way::fixed_point;
     plan.projection = jacobi ? Projection::jacobi : table.blocks.empty() ? Projection::gauss_seidel : Projection::lines;
-    for (auto& stiffness : plan.stiffness) stiffness = {0.3f, 0.8f};
     for (std::uint32_t i = 0; i < iterations; ++i) {
         const bool first = i == 0;
         if (jacobi) {
@@ -88,9 +89,9 @@ class Parity : public testing::TestWithParam<const char*> {
         std::string detail;
     };
 
-    static Outcome run(Backend& backend, const RandomState& from, const StepPlan& plan) {
+    static Outcome run(Backend& backend, const RandomState& from, const WorldPlan& plan) {
         const auto model = model_of(from);
-        auto cloth = backend.add_cloth(model);
+        auto cloth = backend.add_cloth(model, AddressSpace::reserved);
         EXPECT_TRUE(cloth.ok());
         const auto points = [&](const AlignedVector<Vec4>& array) {
             return std::vector<Vec4>(array.begin(), array.begin() + particle_count);
@@ -105,10 +106,14 @@ class Parity : public testing::TestWithParam<const char*> {
                         .ok());
         ClothFrame frame;
         std::array<double, stage_count> stages{};
-        StepInput input;
-        input.dt = 1e-3;
-        const ClothStep step{*cloth, &plan, input, &frame};
-        backend.step(std::span(&step, 1));
+        PlainStiffness stiffness;
+        stiffness.fill({0.3f, 0.8f});
+        const PlannedCloth planned{model.get(), false};
+        const IslandPlan passes(plan, {&planned, 1}, nullptr);
+        const ClothStep step{.cloth = *cloth, .stiffness = &stiffness, .frame = &frame};
+        const IslandStep island{.plan = &passes, .cloths = {&step, 1}};
+        const WorldStep world{.plan = &plan, .input = {.dt = 1e-3, .gravity = {}}, .islands = {&island, 1}};
+        backend.step(world);
         backend.finish(stages);
         Outcome outcome{backend.save(*cloth), frame.reports, frame.detail};
         backend.remove_cloth(*cloth);
@@ -134,7 +139,7 @@ class Parity : public testing::TestWithParam<const char*> {
     }
 
     void compare(const RandomState& state, Way way, bool nasty, const std::string& what) {
-        const StepPlan plan = plan_of(state.table, way);
+        const WorldPlan plan = plan_of(state.table, way);
         const Outcome cpu = run(*cpu_, state, plan), vulkan = run(*vulkan_, state, plan);
         for (const Vec4& p : vulkan.state.position) ASSERT_TRUE(finite(p.xyz())) << what;
         if (nasty && !exact_) return;

@@ -292,7 +292,8 @@ TEST(SceneFile, NamesUnknownKeysAndChoices) {
         {scene(R"("clots": [])"), {"s.json: /clots: unknown key \"clots\"; did you mean \"cloths\"?"}},
         {scene(R"("a/b\n": 1)"),
          {"s.json: /a~1b\\u000a: unknown key \"a/b\\u000a\"; known are \"weft\", \"name\", "
-          "\"gravity\", \"frame_rate\", \"solver\", \"air\", \"cloths\", \"colliders\", \"camera\", \"light\" and "
+          "\"gravity\", \"frame_rate\", \"solver\", \"air\", \"cloths\", \"colliders\", \"stitches\", \"camera\", "
+          "\"light\" and "
           "\"look\""}},
         {scene(R"("colliders": [{"plane": {}, "transform": {"scale": 2}}])"),
          {"s.json: /colliders/0/transform/scale: unknown key \"scale\"; known are \"position\" and \"rotation\""}},
