@@ -38,19 +38,22 @@ BendModel bend_model(ConstraintKind kind) {
 
 // All batches of one constraint, once per iteration, as a step does with one iteration a substep.
 void project(benchmark::State& state, const cpu::Passes* passes, ConstraintKind kind, std::uint32_t side) {
-    cpu::ClothState cloth(sheet(side, bend_model(kind)));
-    const ConstraintTable& table = cloth.model->table(kind);
-    const cpu::ParticleView particles = cloth.now.view();
+    const auto model = sheet(side, bend_model(kind));
+    cpu::WorldArrays arrays;
+    arrays.resize(model->capacity());
+    cpu::ClothState cloth(model, arrays, 0);
+    const ConstraintTable& table = model->table(kind);
+    const cpu::ParticleView particles = cloth.now().view();
     const cpu::RowView rows = cloth.rows(kind);
     const auto index = static_cast<std::uint32_t>(kind);
     for (auto _ : state) {
         for (const Batch& batch : table.batches) {
             if (batch.serial) {
                 cpu::scalar_passes().project[index](particles, rows, {batch.begin, batch.begin + batch.rows},
-                                                    1.0f / 1200, cpu::LambdaUse::discard);
+                                                    1.0f / 1200, LambdaUse::discard);
             } else {
                 passes->project[index](particles, rows, {batch.begin, batch.padded_end()}, 1.0f / 1200,
-                                       cpu::LambdaUse::discard);
+                                       LambdaUse::discard);
             }
         }
         benchmark::ClobberMemory();

@@ -35,7 +35,7 @@ const Floors floors = {
     {"render", {"base", "look", "gpu"}},
     {"view", {"base", "mesh", "physics", "collide", "scene", "look", "solver", "render", "gpu"}},
     {"weft", {"base", "mesh", "physics", "collide", "scene", "look", "solver", "cpu", "gpu", "vulkan", "bodies"}},
-    {"files", {"base", "mesh", "physics", "collide", "scene", "look", "solver", "weft", "io"}},
+    {"files", {"base", "mesh", "physics", "collide", "scene", "look", "solver", "cpu", "weft", "io"}},
 };
 
 // Public headers that every floor may use; the rest of include/weft is for src/weft, src/files and the apps.

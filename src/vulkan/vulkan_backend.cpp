@@ -69,13 +69,19 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         Cloth& old = cloth(handle);
         assert(model->particle_count == old.model().particle_count);
-        auto snapshot = old.save();
-        if (!snapshot) return snapshot.errors();
+        const auto before = old.save();
+        if (!before) return before.errors();
         const bool same_anchors = model->anchor_count == old.model().anchor_count;
+        // The new cloth may take the place of the old one, which then gets back what it was.
+        const auto undone = [&](const Errors& errors) -> Result<Done> {
+            (void)old.restore(*before);
+            return errors;
+        };
         auto next = make_cloth(std::move(model), base);
-        if (!next) return next.errors();
-        keep_what_moves(*snapshot, (*next)->model(), same_anchors);
-        if (auto restored = (*next)->restore(*snapshot); !restored) return restored;
+        if (!next) return undone(next.errors());
+        ClothSnapshot snapshot = *before;
+        keep_what_moves(snapshot, (*next)->model(), same_anchors);
+        if (auto restored = (*next)->restore(snapshot); !restored) return undone(restored.errors());
         forget_runs(old);
         cloths_[handle.value] = std::move(*next);
         return Done{};
@@ -189,6 +195,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
             array->resize(kept), array->resize(model.point_count());
         for (std::size_t p = kept; p < model.point_count(); ++p) snapshot.position[p] = model.start[p];
+        for (std::size_t p = 0; p < kept; ++p) snapshot.position[p].w = model.start[p].w;
         snapshot.lambda.assign(model.table(ConstraintKind::stretch).lambda_count(), 0.0f);
     }
 

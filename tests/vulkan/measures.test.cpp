@@ -193,7 +193,7 @@ TEST(VulkanMeasuring, of_many_particles_keep_their_digits) {
     for (const float amount : {0.0f, 1e-6f, 1e-3f, 1.0f}) {
         for (std::size_t p = 0; p < rest.size(); ++p) {
             placed.state.position[p] = {rest[p].x + amount / 317 * unit(random) + 10, rest[p].y,
-                                        rest[p].z + amount / 317 * unit(random), 0};
+                                        rest[p].z + amount / 317 * unit(random), rest[p].w};
             placed.state.velocity[p] = {amount * unit(random), 3 * amount * unit(random), amount * unit(random), 0};
         }
         placed.put();

@@ -161,7 +161,8 @@ class Parity : public testing::TestWithParam<const char*> {
                     << what << ", lambda " << i << ": " << ours << " and " << theirs;
             }
         }
-        if (way == Way::project && !nasty) {
+        // Rows that are stiff: what soft ones of a plate do in a millisecond is rounded away.
+        if (way == Way::plain && !nasty) {
             EXPECT_NE(cpu.state.position, positions) << what << " moves something";
         }
     }
