@@ -65,7 +65,7 @@ void Executor::run(const WorldStep& step, std::span<Job> jobs, std::array<double
     if (side_by_side) run_side_by_side(step, stage_ms);
 }
 
-// All on this thread: nobody could catch what fails on another.
+// On the calling thread alone: an exception on another one could not be caught.
 void Executor::prepare(const WorldStep& step, Job& job, unsigned ranks) {
     for (ClothState* cloth : job.cloths)
         cloth->prepare(*step.plan, step.input.colliders.size(), ranks, step.input.feedback);

@@ -17,7 +17,7 @@ class Executor {
     Executor(const Passes& passes, WorkerTeam& team, std::uint32_t smallest_shared = 0)
         : passes_(passes), team_(team), smallest_shared_(smallest_shared), ranks_(team.ranks()) {}
 
-    /// An island in a frame. What is under `out` comes of it.
+    /// An island in a frame.
     struct Job {
         const IslandStep* step = nullptr;
         std::vector<ClothState*> cloths = {};     ///< as in the step

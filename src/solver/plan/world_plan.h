@@ -87,13 +87,13 @@ void for_each_pass(const WorldPlan& plan, Visit&& visit) {
 
 /// What happens to a constraint's multiplier lambda, which restarts at 0 in every substep.
 enum class LambdaUse {
-    discard,     ///< starts at 0; nobody will ask for it
+    discard,     ///< starts at 0 and is not kept
     store,       ///< starts at 0 and is kept
     accumulate,  ///< goes on from where the last iteration left it
 };
 
-/// Lambda is read again by a later iteration; that of stretch, after the last substep, by whoever asks for the tension
-/// in the cloth or the residual. Those of coarse levels go on from sweep to sweep.
+/// A later iteration reads lambda again. The tension in the cloth and the residual are computed from the lambda of
+/// stretch after the last substep. Those of coarse levels go on from sweep to sweep.
 LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
 
 /// The part of its error that an iteration of plain position-based dynamics undoes, 0…1, while C > 0 and while C < 0.

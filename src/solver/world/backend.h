@@ -46,7 +46,7 @@ struct ClothStep {
     /// Of what carries the held particles: [substep · movers + mover], substeps + 1 times.
     std::span<const Pose> mover_poses = {};
     std::uint32_t movers = 0;
-    ClothFrame* frame = nullptr;        ///< what comes of it
+    ClothFrame* frame = nullptr;        ///< its reports and details are written here
     ClothFeedback* feedback = nullptr;  ///< likewise, where the input asks for it
 };
 
