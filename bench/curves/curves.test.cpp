@@ -51,7 +51,7 @@ TEST_F(BenchCurves, leaves_out_points_that_would_take_too_long) {
 }
 
 TEST_F(BenchCurves, gives_the_curves_that_it_has_when_interrupted) {
-    const Outcome outcome = weft("24 --seconds 120 --quiet --json c.json", "timeout --preserve-status 2");
+    const Outcome outcome = weft("24 --seconds 120 --quiet --json c.json", "timeout --foreground --preserve-status 2");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
     if (outcome.err.find("before anything") == std::string::npos) {
