@@ -21,7 +21,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
 
 void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base) {
     assert(other->particle_count == model->particle_count);
-    // Of another set of anchors nobody can tell which is which; they start where the model has them.
+    // Anchors of two different sets do not correspond; the new ones start where the model has them.
     const bool same_anchors = other->anchor_count == model->anchor_count;
     const std::uint32_t kept = same_anchors ? other->point_count() : other->particle_count;
     const auto copy_of = [&](std::span<Vec4> array) {

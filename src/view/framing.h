@@ -1,4 +1,4 @@
-// A camera for scenes that have none: it shows what there is, and follows where that goes.
+// A camera for scenes that have none: it frames all cloths and colliders, and follows them.
 #pragma once
 
 #include "look/camera.h"

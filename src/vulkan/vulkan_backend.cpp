@@ -189,7 +189,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return made;
     }
 
-    // Of another set of anchors nobody can tell which is which; they start where the model has them.
+    // Anchors of two different sets do not correspond; the new ones start where the model has them.
     static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& model, bool same_anchors) {
         const std::size_t kept = same_anchors ? model.point_count() : model.particle_count;
         for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})

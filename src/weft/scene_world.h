@@ -19,7 +19,7 @@
 
 namespace weft {
 
-/// scene() is the one place that says what there is. Every change is made here, to the document and to the world; what
+/// scene() is the document. Every change is made here, to the document and to the world; what
 /// fails changes neither. The world adds to the document only what moves: positions, velocities, the poses of colliders
 /// on their way. So a world that is built from the document starts as this one would have.
 ///

@@ -76,7 +76,7 @@ std::string hash_after(SceneWorld& world, int frames) {
     return world.world().state_hash();
 }
 
-/// What a world starts with comes of its document alone.
+/// A world starts from its document alone.
 void expect_document_says_all(const SceneWorld& world, int frames = 4) {
     EXPECT_TRUE(check_scene(world.scene()).empty()) << check_scene(world.scene()).front().message();
     EXPECT_EQ(world.scene().cloths.size(), world.world().cloth_count());
@@ -143,7 +143,7 @@ TEST(SceneWorld, takes_all_of_a_change_or_nothing) {
     EXPECT_THAT(set.error().message(), HasSubstr("has no room"));
     EXPECT_TRUE(world.scene() == same.scene());
     EXPECT_TRUE(world.world().settings().hierarchy);
-    EXPECT_EQ(hash_after(world, 5), hash_after(same, 5)) << "as if nobody had asked";
+    EXPECT_EQ(hash_after(world, 5), hash_after(same, 5)) << "a query changes no state";
 
     room = 3;  // one for each sheet has been refused or taken back
     EXPECT_FALSE(world.set_fabric(world.world().cloth_id(0), find_fabric("silk")->fabric, "silk").ok());
