@@ -10,24 +10,12 @@
 namespace weft::physical {
 namespace {
 
-SheetDesc hung(const ClothLayout& layout = {}) {
-    return {.resolution = {17, 17}, .rotation_degrees = {90, 0, 0}, .layout = layout, .pinned = [](Vec3 p) {
-                return p.z < -0.49f && std::abs(p.x) > 0.49f;
-            }};
-}
-
-std::vector<std::uint32_t> pinned_of(const ClothModel& model) {
-    std::vector<std::uint32_t> pins;
-    for (std::uint32_t p = 0; p < model.particle_count; ++p)
-        if (!(model.start[p].w > 0)) pins.push_back(p);
-    return pins;
-}
-
 // Runs a second with a pin added at the start and the model rebuilt for it.
 std::string hash_with_rebuild(bool background, std::atomic<int>& builds, std::uint64_t& used_from) {
-    World world = make_world({.hierarchy = true, .background = background}, hung({.lines = true, .hierarchy = true}));
+    World world =
+        make_world({.hierarchy = true, .background = background}, hung_upright({.lines = true, .hierarchy = true}));
     const ClothId id = world.frame().cloths[0].id;
-    SheetDesc with_pin = hung({.lines = true, .hierarchy = true});
+    SheetDesc with_pin = hung_upright({.lines = true, .hierarchy = true});
     with_pin.pinned = [](Vec3 p) { return p.z < -0.49f && (std::abs(p.x) > 0.49f || std::abs(p.x) < 0.01f); };
     const auto next = make_sheet(with_pin);
     const ClothModel* before = world.model(id).get();
@@ -54,9 +42,9 @@ TEST(LateModels, are_used_from_the_same_frame_wherever_they_are_built) {
 }
 
 TEST(LateModels, are_dropped_for_newer_ones_and_with_their_cloth) {
-    World world = make_world({.background = true}, hung());
+    World world = make_world({.background = true}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
-    const auto first = make_sheet(hung()), second = make_sheet(hung());
+    const auto first = make_sheet(hung_upright()), second = make_sheet(hung_upright());
     world.rebuild_later(id, [first] { return Result<std::shared_ptr<const ClothModel>>(first); });
     world.step(1.0 / 60);
     world.rebuild_later(id, [second] { return Result<std::shared_ptr<const ClothModel>>(second); });
@@ -69,7 +57,7 @@ TEST(LateModels, are_dropped_for_newer_ones_and_with_their_cloth) {
 }
 
 TEST(LateModels, that_fail_leave_the_cloth_as_it_is) {
-    World world = make_world({}, hung());
+    World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     const auto before = world.model(id);
     world.rebuild_later(id, []() -> Result<std::shared_ptr<const ClothModel>> { return Error{"model", "no"}; });

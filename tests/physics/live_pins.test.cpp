@@ -7,21 +7,8 @@
 namespace weft::physical {
 namespace {
 
-SheetDesc hung(const ClothLayout& layout = {}) {
-    return {.resolution = {17, 17}, .rotation_degrees = {90, 0, 0}, .layout = layout, .pinned = [](Vec3 p) {
-                return p.z < -0.49f && std::abs(p.x) > 0.49f;
-            }};
-}
-
-std::vector<std::uint32_t> pinned_of(const ClothModel& model) {
-    std::vector<std::uint32_t> pins;
-    for (std::uint32_t p = 0; p < model.particle_count; ++p)
-        if (!(model.start[p].w > 0)) pins.push_back(p);
-    return pins;
-}
-
 TEST(LivePins, hold_a_particle_where_it_is) {
-    World world = make_world({}, hung());
+    World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     run(world, 0.5);
     auto pins = pinned_of(*world.model(id));
@@ -35,7 +22,7 @@ TEST(LivePins, hold_a_particle_where_it_is) {
 }
 
 TEST(LivePins, let_go_with_the_weight_that_the_particle_had) {
-    World world = make_world({}, hung());
+    World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     ASSERT_TRUE(world.set_pins(id, {}, {}).ok());
     const ClothModel& model = *world.model(id);
@@ -45,7 +32,7 @@ TEST(LivePins, let_go_with_the_weight_that_the_particle_had) {
 }
 
 TEST(LivePins, are_carried_by_keys_from_where_they_are) {
-    World world = make_world({}, hung());
+    World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     run(world, 0.25);
     const Vec3 at = world.frame().cloths[0].positions[100].xyz();
@@ -60,7 +47,7 @@ TEST(LivePins, are_carried_by_keys_from_where_they_are) {
 }
 
 TEST(LivePins, of_coarse_cloth_stay_where_they_are) {
-    World world = make_world({.hierarchy = true}, hung({.lines = true, .hierarchy = true}));
+    World world = make_world({.hierarchy = true}, hung_upright({.lines = true, .hierarchy = true}));
     const ClothId id = world.frame().cloths[0].id;
     ASSERT_FALSE(world.model(id)->hierarchy.empty());
     run(world, 0.25);
@@ -72,7 +59,7 @@ TEST(LivePins, of_coarse_cloth_stay_where_they_are) {
 }
 
 TEST(LivePins, are_saved_and_restored) {
-    World world = make_world({}, hung());
+    World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     const Holds holds{.movers = {{.offsets = {{0, {0, 0, 0}}, {2, {0, 0.5f, 0}}}}},
                       .particles = {{40, 0, world.frame().cloths[0].positions[40].xyz()}}};
@@ -92,7 +79,7 @@ TEST(LivePins, are_saved_and_restored) {
 }
 
 TEST(LivePins, of_a_frame_that_is_not_finite_stay) {
-    World world = make_world({}, hung());
+    World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
     ASSERT_TRUE(world.set_pins(id, {7}, {}).ok());
     run(world, 0.1);

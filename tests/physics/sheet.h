@@ -59,6 +59,20 @@ inline SheetDesc hung_by_corners(std::uint32_t side, const ClothLayout& layout) 
             }};
 }
 
+/// A square meter of 17 by 17 particles that hangs upright by two corners.
+inline SheetDesc hung_upright(const ClothLayout& layout = {}) {
+    return {.resolution = {17, 17}, .rotation_degrees = {90, 0, 0}, .layout = layout, .pinned = [](Vec3 p) {
+                return p.z < -0.49f && std::abs(p.x) > 0.49f;
+            }};
+}
+
+inline std::vector<std::uint32_t> pinned_of(const ClothModel& model) {
+    std::vector<std::uint32_t> pins;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p)
+        if (!(model.start[p].w > 0)) pins.push_back(p);
+    return pins;
+}
+
 /// An elastic sheet, 1 m long, that hangs by its upper edge at y = 0. `stiffness` and `shear` in N/m.
 inline SheetDesc hanging_strip(std::array<std::uint32_t, 2> resolution, float stiffness, float shear) {
     SheetDesc sheet{.size = {0.25f, 1},
