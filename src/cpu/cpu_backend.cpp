@@ -62,15 +62,24 @@ class CpuBackend final : public Backend {
     void step(const WorldStep& step) override {
         jobs_.resize(step.islands.size());
         links_.resize(std::max(links_.size(), step.islands.size()));
+        const auto& begin = step.plan->frame_begin;
+        const bool sticks = std::ranges::find(begin, PassKind::find, &Pass::kind) != begin.end();
+        adhesion_.resize(sticks ? std::max(adhesion_.size(), step.islands.size()) : 0);
+        counts_ = {};
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             cpu::Executor::Job& job = jobs_[i];
             job.step = &step.islands[i];
             job.links = job.step->links ? &links_[i] : nullptr;
+            job.adhesion = sticks ? &adhesion_[i] : nullptr;
+            job.again = false;
             job.cloths.clear();
             for (const ClothStep& one : job.step->cloths) job.cloths.push_back(&cloth(one.cloth));
         }
         executor_.run(step, jobs_, stage_ms_);
-        for (const cpu::Executor::Job& job : jobs_) end_island(step, job);
+        for (cpu::Executor::Job& job : jobs_) {
+            if (job.adhesion) complete_lists(step, job);
+            end_island(step, job);
+        }
     }
 
     void finish(std::array<double, stage_count>& stage_ms) override {
@@ -90,6 +99,8 @@ class CpuBackend final : public Backend {
         frame.topology_version = first_topology_version;
         return true;
     }
+
+    ListCounts list_counts() const override { return counts_; }
 
     void measure(ClothHandle id, MeasureSums& sums) const override {
         const cpu::ClothState& state = cloth(id);
@@ -121,6 +132,19 @@ class CpuBackend final : public Backend {
         if (arrays_.size() < end) arrays_.resize(end);
     }
 
+    // An island whose list was too short goes back to where the frame began, and has another go with a longer one.
+    void complete_lists(const WorldStep& step, cpu::Executor::Job& job) {
+        while (job.adhesion->rows().is_full()) {
+            for (cpu::ClothState* state : job.cloths) state->roll_back();
+            job.adhesion->grow();
+            job.again = true;
+            executor_.run(step, std::span(&job, 1), stage_ms_);
+            ++counts_.repeats;
+        }
+        counts_.rows += job.adhesion->rows().rows();
+        counts_.capacity += job.adhesion->rows().capacity();
+    }
+
     // What happens to one cloth of an island happens to all.
     void end_island(const WorldStep& step, const cpu::Executor::Job& job) {
         std::uint32_t all = report_none;
@@ -150,8 +174,10 @@ class CpuBackend final : public Backend {
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
-    std::vector<cpu::Executor::Job> jobs_;  // of a frame
-    std::vector<cpu::LinkState> links_;     // by island
+    std::vector<cpu::Executor::Job> jobs_;     // of a frame
+    std::vector<cpu::LinkState> links_;        // by island
+    std::vector<cpu::AdhesionList> adhesion_;  // by island; none where nothing sticks
+    ListCounts counts_;                        // of the last frame
     cpu::WorldArrays arrays_;
     std::array<double, stage_count> stage_ms_{};
     std::vector<std::unique_ptr<cpu::ClothState>> cloths_;

@@ -70,6 +70,7 @@ void Executor::prepare(const WorldStep& step, Job& job, unsigned ranks) {
     for (ClothState* cloth : job.cloths)
         cloth->prepare(*step.plan, step.input.colliders.size(), ranks, step.input.feedback);
     if (job.links) job.links->prepare(*job.step->links, *step.plan);
+    if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
     job.reports.assign(job.cloths.size(), report_none);
     for (Worker& worker : ranks_) {
         if (worker.reports.size() < job.cloths.size()) worker.reports.resize(job.cloths.size());
@@ -80,7 +81,8 @@ void Executor::prepare(const WorldStep& step, Job& job, unsigned ranks) {
 void Executor::begin_island(const WorldStep& step, const Job& job, std::vector<ClothRun>& runs) const {
     runs.clear();
     for (std::size_t i = 0; i < job.cloths.size(); ++i) {
-        job.cloths[i]->begin_frame(*step.plan);
+        // What limits allow for is found from what the frame before left, which the first run has written over.
+        if (!job.again) job.cloths[i]->begin_frame(*step.plan);
         runs.emplace_back(passes_, *job.cloths[i], step, job.step->cloths[i]);
     }
 }
@@ -163,6 +165,8 @@ void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint3
                               world.range(0, world.size()).view(), h, rank);
         return;
     }
+    if (pass.pass.source == RowSource::dynamic)
+        return island.job.adhesion->run({passes_, island.step, island.job.cloths}, pass.pass, substep, rank);
     for (std::size_t i = 0; i < island.runs.size(); ++i) {
         if (island.runs[i].run(pass, substep, rank)) reports[i] |= report_speed_capped;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/workers.h"
+#include "cpu/adhesion_list.h"
 #include "cpu/cloth_run.h"
 #include "cpu/links.h"
 
@@ -22,6 +23,8 @@ class Executor {
         const IslandStep* step = nullptr;
         std::vector<ClothState*> cloths = {};     ///< as in the step
         LinkState* links = nullptr;               ///< where the step has some
+        AdhesionList* adhesion = nullptr;         ///< where something sticks
+        bool again = false;                       ///< a frame that has been run before, from the same state
         std::vector<std::uint32_t> reports = {};  ///< out: per cloth. With report_non_finite it is whatever came out
     };
 

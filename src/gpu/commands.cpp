@@ -90,14 +90,19 @@ void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
     device_->vk().vkCmdDispatch(commands_, groups_x, groups_y, 1);
 }
 
+void Commands::dispatch_indirect(const Buffer& groups, std::uint64_t offset) {
+    device_->vk().vkCmdDispatchIndirect(commands_, groups.handle(), offset);
+}
+
 void Commands::barrier() {
     VkMemoryBarrier memory{};
     memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                           VK_ACCESS_TRANSFER_WRITE_BIT;
-    constexpr VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    device_->vk().vkCmdPipelineBarrier(commands_, stages, stages, 0, 1, &memory, 0, nullptr, 0, nullptr);
+                           VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+    constexpr VkPipelineStageFlags before = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    constexpr VkPipelineStageFlags after = before | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+    device_->vk().vkCmdPipelineBarrier(commands_, before, after, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 void Commands::wait_for_all() {

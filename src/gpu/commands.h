@@ -33,6 +33,9 @@ class Commands {
     void bind(const Pipeline& pipeline);
     void push(std::span<const std::byte> constants);
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
+    /// As many workgroups as three 32-bit numbers in a buffer say, which is for VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT
+    /// too.
+    void dispatch_indirect(const Buffer& groups, std::uint64_t offset);
     /// What comes after sees what shaders and copies before it have written.
     void barrier();
     /// What comes after begins when everything that was submitted before has ended, drawing and the like of a host's

@@ -5,6 +5,7 @@
 #ifndef WEFT_CONSTRAINTS_DATA_H
 #define WEFT_CONSTRAINTS_DATA_H
 
+#include "physics/adhesion/adhesion.data.h"
 #include "physics/attachment/attachment.data.h"
 #include "physics/bend/bend.data.h"
 #include "physics/flexion/flexion.data.h"

@@ -24,6 +24,7 @@
 #include "physics/plate/plate.kernel.h"
 #include "physics/flexion/flexion.kernel.h"
 #include "physics/stitch/stitch.kernel.h"
+#include "physics/adhesion/adhesion.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/feedback.kernel.h"

@@ -64,7 +64,7 @@ struct FrameIn {
     uint winds;
     uint movers;
     float strain_per_lambda;  // 1/m  times the rest length, of the last frame's lambda of stretch; 0: there is none
-    uint unused0;
+    uint again;               // 1: the frame has been run before, from the same state, and a list was full
     uint unused1;
     uint unused2;
 };
@@ -74,7 +74,11 @@ struct ColliderIn {
     float static_friction;  // of the pair
     float kinetic_friction;
     uint shape;
-    uint unused;
+    uint sticks;  // 1: cloth sticks to it
+    float adhesion_distance;    // m
+    float adhesion_compliance;  // m/N
+    uint unused0;
+    uint unused1;
 };
 
 struct PoseIn {

@@ -51,6 +51,7 @@ class ClothState {
     /// Of the cloth's first particle.
     std::uint64_t address(PointArray array) const { return world_.address(array, base_); }
     const WorldParticles& world() const { return world_; }
+    std::uint32_t base() const { return base_; }
     std::uint64_t offset(PointArray array) const { return world_.offset(array, base_); }
 
     Slot weights;  ///< inverse masses as they are, 0 for pinned particles

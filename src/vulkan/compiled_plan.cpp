@@ -79,7 +79,7 @@ class Compiler {
             const std::size_t before = list.size();
             add_pass(list, pass, substep);
             for (std::size_t i = before; i < list.size(); ++i) {
-                list[i].single = single;
+                list[i].single = single && pass.source != RowSource::dynamic;
                 // What comes before the first pass is none.
                 list[i].needs_barrier = barrier || first_pass_;
                 first_pass_ = false;
@@ -121,7 +121,16 @@ class Compiler {
         }
     }
 
+    // Of all cloths together (FrameRun): here stands only when.
+    void add_dynamic(List& list, const Pass& pass, std::uint32_t substep) {
+        Command& command = list.emplace_back();
+        command.groups = 1;
+        command.pass = pass;
+        command.substep = substep;
+    }
+
     void add_pass(List& list, const Pass& pass, std::uint32_t substep) {
+        if (pass.source == RowSource::dynamic) return add_dynamic(list, pass, substep);
         const std::uint32_t points = model_.point_count();
         switch (pass.kind) {
             case PassKind::predict:
@@ -133,6 +142,11 @@ class Compiler {
             case PassKind::advance:
                 add(list, "advance", particle_args(), points, pass, substep);
                 break;
+            case PassKind::find:
+            case PassKind::place:
+            case PassKind::list:
+            case PassKind::aim:
+                break;  // of dynamic lists alone
             case PassKind::hold:
                 add_holds(list, pass, substep);
                 break;
@@ -261,15 +275,7 @@ class Compiler {
     }
 
     std::uint32_t use_of_lambda(const Pass& pass, std::uint32_t substep) const {
-        switch (lambda_use(plan_, pass, substep)) {
-            case LambdaUse::discard:
-                return WEFT_LAMBDA_DISCARD;
-            case LambdaUse::store:
-                return WEFT_LAMBDA_STORE;
-            case LambdaUse::accumulate:
-                break;
-        }
-        return WEFT_LAMBDA_ACCUMULATE;
+        return vulkan::use_of_lambda(plan_, pass, substep);
     }
 
     RowArgs row_args(ConstraintKind kind) const {
@@ -510,14 +516,30 @@ void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::D
     commands.dispatch(wide, (groups + wide - 1) / wide);
 }
 
-void record(gpu::Commands& commands, const Command& command, std::uint32_t substep, const gpu::DeviceLimits& limits) {
-    if (command.needs_barrier) commands.barrier();
+std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep) {
+    switch (lambda_use(plan, pass, substep)) {
+        case LambdaUse::discard:
+            return WEFT_LAMBDA_DISCARD;
+        case LambdaUse::store:
+            return WEFT_LAMBDA_STORE;
+        case LambdaUse::accumulate:
+            break;
+    }
+    return WEFT_LAMBDA_ACCUMULATE;
+}
+
+void bind(gpu::Commands& commands, const Command& command, std::uint32_t substep) {
     std::array<std::byte, sizeof command.args> constants = command.args;
     const std::array behind = {substep, command.invocations};  // as dispatch.glsl has it
     std::memcpy(constants.data() + command.arg_bytes, behind.data(), sizeof behind);
     assert(command.arg_bytes + sizeof behind == command.pipeline->push_constants());
     commands.bind(*command.pipeline);
     commands.push(std::span(constants).first(command.pipeline->push_constants()));
+}
+
+void record(gpu::Commands& commands, const Command& command, std::uint32_t substep, const gpu::DeviceLimits& limits) {
+    if (command.needs_barrier) commands.barrier();
+    bind(commands, command, substep);
     dispatch_groups(commands, workgroups_of(command), limits);
 }
 

@@ -70,10 +70,15 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 /// Normals for the state as it is.
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);
 
+/// WEFT_LAMBDA_… of a pass.
+std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
+
 /// Workgroups that a command fills.
 std::uint32_t workgroups_of(const Command& command);
 /// So many workgroups, along more than one axis if one has no room for them.
 void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::DeviceLimits& limits);
+/// Its pipeline with what it is told. `substep` is added to its own.
+void bind(gpu::Commands& commands, const Command& command, std::uint32_t substep);
 /// Behind a barrier if the command needs one. `substep` is added to its own.
 void record(gpu::Commands& commands, const Command& command, std::uint32_t substep, const gpu::DeviceLimits& limits);
 

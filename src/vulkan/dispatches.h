@@ -63,7 +63,7 @@ class Dispatches {
         ManyArgs args;
         bool needs_barrier = false;
     };
-    std::vector<Dispatch> dispatches_;  ///< by pass; lists have none
+    std::vector<Dispatch> dispatches_;  ///< by pass; lists and passes of dynamic lists have none
     Arena arena_;
 };
 

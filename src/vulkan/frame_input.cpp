@@ -9,7 +9,7 @@ namespace weft::vulkan {
 namespace {
 
 // The layout that GLSL has.
-static_assert(sizeof(FrameIn) == 80 && sizeof(ColliderIn) == 32 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 &&
+static_assert(sizeof(FrameIn) == 80 && sizeof(ColliderIn) == 48 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 &&
               sizeof(HeldIn) == 32);
 
 Vec4 with(Vec3 v, float w) {
@@ -40,7 +40,7 @@ float strain_per_lambda(const ClothModel& model, double substep_seconds) {
 }
 
 FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-                 double substep_seconds) {
+                 double substep_seconds, bool again) {
     const FrameNumbers numbers = frame_numbers(model, plan, input.dt);
     const AirMaterial& air = model.fabric.air;
     return {.h = numbers.h,
@@ -60,7 +60,7 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .winds = static_cast<std::uint32_t>(input.winds.size()),
             .movers = cloth.movers,
             .strain_per_lambda = strain_per_lambda(model, substep_seconds),
-            .unused0 = 0,
+            .again = again ? 1u : 0u,
             .unused1 = 0,
             .unused2 = 0};
 }
@@ -93,16 +93,24 @@ FrameInput::FrameInput(const InputShape& shape) {
 }
 
 void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-                       double substep_seconds) {
+                       double substep_seconds, bool again) {
     const auto put = [&](std::uint64_t at, const auto& value) { std::memcpy(host_ + at, &value, sizeof value); };
     put(0, std::uint32_t{report_none});
-    put(frame_, frame_in(model, plan, input, cloth, substep_seconds));
+    put(frame_, frame_in(model, plan, input, cloth, substep_seconds, again));
     for (std::size_t i = 0; i < input.colliders.size(); ++i) {
         const Collider& collider = input.colliders[i];
         const auto [held, sliding] = friction_between(model, collider);
         const auto& n = collider.numbers;
         put(colliders_ + i * sizeof(ColliderIn),
-            ColliderIn{{n[0], n[1], n[2], n[3]}, held, sliding, static_cast<std::uint32_t>(collider.shape), 0});
+            ColliderIn{.numbers = {n[0], n[1], n[2], n[3]},
+                       .static_friction = held,
+                       .kinetic_friction = sliding,
+                       .shape = static_cast<std::uint32_t>(collider.shape),
+                       .sticks = collider.adhesion ? 1u : 0u,
+                       .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
+                       .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
+                       .unused0 = 0,
+                       .unused1 = 0});
     }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
     for (std::size_t i = 0; i < input.poses.size(); ++i) put(poses_ + i * sizeof(PoseIn), pose_in(input.poses[i]));

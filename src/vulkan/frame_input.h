@@ -32,8 +32,9 @@ class FrameInput {
     void attach(std::byte* host, std::uint64_t address) { host_ = host, address_ = address; }
 
     /// The device must be done with the frame before, which left a lambda of `substep_seconds` (lambda_seconds).
+    /// `again`: the frame has been run before, from the same state.
     void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-               double substep_seconds);
+               double substep_seconds, bool again);
 
     std::uint64_t report() const { return address_; }
     std::uint64_t frame() const { return address_ + frame_; }

@@ -22,9 +22,10 @@ FrameRun::FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& pla
 
 Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
                                                    std::uint64_t serial, std::span<const Member> members,
-                                                   Execution execution, bool timings) {
+                                                   Execution execution, bool timings, std::uint32_t list_capacity) {
     auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, plan, serial, members, execution));
     if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
+    if (auto made = self->make_lists(list_capacity); !made) return made.errors();
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
     if (!recorded) return recorded.errors();
     if (auto prepared = self->prepare_feedback(); !prepared) return prepared.errors();
@@ -89,6 +90,28 @@ Result<Done> FrameRun::compile_members() {
     return memory_.build(device_, name());
 }
 
+Result<Done> FrameRun::make_lists(std::uint32_t capacity) {
+    const auto& begin = plan_.frame_begin;
+    if (std::ranges::find(begin, PassKind::find, &Pass::kind) == begin.end()) return Done{};
+    std::vector<AdhesionList::Member> members;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const ClothState& cloth = members_[i].cloth->state();
+        const FrameInput& input = buffers_.input(i);
+        members.push_back({.frame = input.frame(),
+                           .colliders = input.colliders(),
+                           .poses = input.poses(),
+                           .report = input.report(),
+                           .base = cloth.base(),
+                           .particles = cloth.model().particle_count});
+    }
+    const ClothState& first = members_.front().cloth->state();
+    auto made = AdhesionList::create(device_, programs_, plan_, members, first.world().address(PointArray::position, 0),
+                                     first.address(first.limits), capacity, name());
+    if (!made) return made.errors();
+    adhesion_ = std::move(*made);
+    return Done{};
+}
+
 std::size_t FrameRun::first_of_island(std::size_t member) const {
     while (member > 0 && members_[member - 1].island == members_[member].island) --member;
     return member;
@@ -110,6 +133,10 @@ Result<Done> FrameRun::begin_recording(bool timings, std::size_t stages) {
 Result<Done> FrameRun::end_recording() {
     commands_->stamp();
     buffers_.record_end(*commands_);
+    if (adhesion_) {
+        adhesion_->record_end(*commands_);
+        commands_->host_barrier();
+    }
     return commands_->end();
 }
 
@@ -160,10 +187,17 @@ Result<Done> FrameRun::record_passes(bool timings) {
     });
     if (auto begun = begin_recording(timings, stages_.size()); !begun) return begun;
     std::uint32_t last = stage_count;
+    Errors errors;
     run_through(shared.passes.size(), shared.repeat, [&](std::size_t i, std::uint32_t substep) {
         const SharedPass& pass = shared.passes[i];
         if (const std::uint32_t stage = stage_of(pass.pass); stage != last) commands_->stamp(), last = stage;
-        if (pass.is_list) {
+        if (pass.pass.source == RowSource::dynamic) {
+            // Once for all cloths.
+            const PlanPart& part = pass.parts.front();
+            auto recorded =
+                adhesion_->record(*commands_, pass.pass, plans_[part.member].commands[part.begin].substep + substep);
+            if (!recorded) return errors = recorded.errors(), false;
+        } else if (pass.is_list) {
             commands_->barrier();
             lists_.record(*commands_, lists[i], static_cast<std::uint32_t>(pass.parts.size()), substep);
         } else {
@@ -171,17 +205,19 @@ Result<Done> FrameRun::record_passes(bool timings) {
         }
         return true;
     });
+    if (!errors.empty()) return errors;
     return end_recording();
 }
 
-Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps) {
+Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again) {
     if (contacts_) {
         if (auto prepared = contacts_->prepare(); !prepared) return prepared.errors();
     }
     seconds_.clear();
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
-        buffers_.input(i).write(member.cloth->model(), plan_, input, *steps[i], member.cloth->state().substep_seconds);
+        buffers_.input(i).write(member.cloth->model(), plan_, input, *steps[i], member.cloth->state().substep_seconds,
+                                again);
         seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();
@@ -223,7 +259,15 @@ Result<std::string> FrameRun::replay(std::size_t member) {
 
 // One command by itself.
 Result<Done> FrameRun::run(const Command& command, std::uint32_t substep) {
-    return gpu::run_once(device_, [&](gpu::Commands& now) { record(now, command, substep, device_.limits()); });
+    Result<Done> recorded = Done{};
+    auto done = gpu::run_once(device_, [&](gpu::Commands& now) {
+        if (command.pass.source == RowSource::dynamic) {
+            recorded = adhesion_->record(now, command.pass, command.substep + substep);
+        } else {
+            record(now, command, substep, device_.limits());
+        }
+    });
+    return recorded ? done : recorded;
 }
 
 Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInput& input, const ClothStep& step) {

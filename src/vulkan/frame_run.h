@@ -7,6 +7,7 @@
 #include "vulkan/dispatches.h"
 #include "vulkan/feedback/contact_readback.h"
 #include "vulkan/frame_input.h"
+#include "vulkan/lists/adhesion_list.h"
 
 #include <array>
 #include <memory>
@@ -38,10 +39,11 @@ class FrameRun {
         const LinkTables* links = nullptr;  ///< of the island; valid while the run is made
     };
 
-    /// `execution` is not automatic. `serial`: that of the plan (WorldStep), which is kept as a copy.
+    /// `execution` is not automatic, and not fused where the plan has dynamic lists. `serial`: that of the plan
+    /// (WorldStep), which is kept as a copy. `list_capacity`: rows of dynamic lists.
     static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
                                                     std::uint64_t serial, std::span<const Member> members,
-                                                    Execution execution, bool timings);
+                                                    Execution execution, bool timings, std::uint32_t list_capacity);
 
     bool is_for(std::uint64_t serial, std::span<const Member> members, Execution execution) const {
         const auto same = [](const Member& a, const Member& b) {
@@ -51,8 +53,13 @@ class FrameRun {
     }
     bool has(const Cloth* cloth) const { return std::ranges::find(members_, cloth, &Member::cloth) != members_.end(); }
 
-    /// A step for each member. The device may still be at work when this returns.
-    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps);
+    /// A step for each member. The device may still be at work when this returns. `again`: the same frame once more, of
+    /// which a list was full.
+    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again = false);
+    /// Of the frame that the device is done with: the rows that the list had room for, or none without a list. Where
+    /// there were more, the state is as it was before the frame.
+    const AdhesionList* adhesion() const { return adhesion_.get(); }
+    bool list_was_full() const { return adhesion_ && adhesion_->wanted() > adhesion_->capacity(); }
     /// When the device is done with it.
     void finish(std::array<double, stage_count>& stage_ms);
     /// What is not finite in one cloth is reported of all cloths of its island.
@@ -71,6 +78,7 @@ class FrameRun {
     FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
              std::span<const Member> members, Execution execution);
     Result<Done> compile_members();
+    Result<Done> make_lists(std::uint32_t capacity);
     Result<Done> prepare_feedback();
     Result<Done> record_fused(bool timings);
     Result<Done> record_passes(bool timings);
@@ -94,6 +102,7 @@ class FrameRun {
     std::vector<CompiledPlan> plans_;
     CommandMemory memory_;
     std::vector<std::uint32_t> first_command_;  ///< in it, by member
+    std::unique_ptr<AdhesionList> adhesion_;    ///< none where nothing sticks
     CommandLists lists_;
     Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;

@@ -95,7 +95,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     void step(const WorldStep& step) override {
         assert(groups_.empty());
-        input_ = &step.input;
+        step_ = &step;
+        counts_ = {};
         group(step);
         for (Group& group : groups_) submit(step, group);
         last_ = device_->submitted();
@@ -106,9 +107,9 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         const auto done = device_->wait(last_);
         for (Group& group : groups_) {
             if (!group.run) continue;
-            if (done) {
+            if (done && complete_lists(group)) {
                 finish(group, stage_ms);
-            } else {
+            } else if (!done) {
                 fail(group, done.error());
             }
         }
@@ -127,6 +128,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return read;
     }
 
+    ListCounts list_counts() const override { return counts_; }
     void measure(ClothHandle handle, MeasureSums& sums) const override { cloth(handle).measure(sums); }
     ClothSnapshot save(ClothHandle handle) const override {
         auto snapshot = cloth(handle).save();
@@ -207,13 +209,19 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         FrameRun* run = nullptr;  ///< none where that failed
     };
 
-    // A workgroup runs a cloth to the end of the frame without waiting for others, so it must be alone in its island.
-    Execution execution_for(const IslandStep& island) const {
-        const bool alone = island.cloths.size() == 1 && !island.links;
+    // A workgroup runs a cloth to the end of the frame without waiting for others, so it must be alone in its island,
+    // and without dynamic lists, which are those of all cloths.
+    Execution execution_for(const WorldStep& step, const IslandStep& island) const {
+        const bool alone = island.cloths.size() == 1 && !island.links && !has_lists(step);
         if (execution_ != Execution::automatic && (alone || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
         return alone && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model()) ? Execution::fused
                                                                                                  : Execution::grouped;
+    }
+
+    static bool has_lists(const WorldStep& step) {
+        const auto& begin = step.plan->frame_begin;
+        return std::ranges::find(begin, PassKind::find, &Pass::kind) != begin.end();
     }
 
     // Those that are executed alike.
@@ -221,7 +229,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (std::uint32_t i = 0; i < step.islands.size(); ++i) {
             const IslandStep& island = step.islands[i];
             if (island.cloths.empty()) continue;
-            const Execution execution = execution_for(island);
+            const Execution execution = execution_for(step, island);
             auto there = std::ranges::find(groups_, execution, &Group::execution);
             if (there == groups_.end()) {
                 groups_.push_back({.execution = execution, .steps = {}, .members = {}});
@@ -260,7 +268,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
         auto run = FrameRun::create(*device_, programs_, *step.plan, step.plan_serial, group.members, group.execution,
-                                    timings_);
+                                    timings_, std::max(list_capacity_, first_list_capacity(step.input.list_capacity)));
         if (!run) return run.errors();
         runs_.push_back(std::move(*run));
         return runs_.back().get();
@@ -268,6 +276,28 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     void forget_runs(const Cloth& cloth) {
         std::erase_if(runs_, [&](const auto& run) { return run->has(&cloth); });
+    }
+
+    // Where a list was full, the device has gone back to where the frame began: it runs the frame again with a longer
+    // one. False where that fails.
+    bool complete_lists(Group& group) {
+        while (group.run->list_was_full()) {
+            ++counts_.repeats;
+            list_capacity_ = grown_list_capacity(group.run->adhesion()->wanted());
+            group.run = nullptr;
+            for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
+            auto run = find_run(*step_, group);
+            if (!run) return fail(group, run.error()), false;
+            const auto value = (*run)->submit(step_->input, group.steps, true);
+            if (!value) return fail(group, value.error()), false;
+            if (auto done = device_->wait(*value); !done) return fail(group, done.error()), false;
+            group.run = *run;
+        }
+        if (const auto* list = group.run->adhesion()) {
+            counts_.rows += list->wanted();
+            counts_.capacity += list->capacity();
+        }
+        return true;
     }
 
     void finish(Group& group, std::array<double, stage_count>& stage_ms) {
@@ -291,7 +321,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         detail = late_non_finite;
         for (std::size_t i = member; i < group.steps.size() && group.members[i].island == island; ++i) {
-            auto culprit = group.run->find_non_finite(i, *input_, *group.steps[i]);
+            auto culprit = group.run->find_non_finite(i, step_->input, *group.steps[i]);
             detail = culprit ? *culprit : culprit.error().message();
             if (detail != late_non_finite) return;
         }
@@ -317,7 +347,9 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint64_t last_ = 0;  ///< when the device is done with the last frame
     // Of a frame, until it is finished:
     std::vector<Group> groups_;
-    const StepInput* input_ = nullptr;
+    const WorldStep* step_ = nullptr;
+    ListCounts counts_;                ///< of the last frame
+    std::uint32_t list_capacity_ = 0;  ///< rows of dynamic lists, as far as they have grown
 };
 
 Result<Execution> execution_of(const VulkanOptions& options) {

@@ -49,6 +49,26 @@ TEST(Determinism, holds_with_iterations_too) {
     }
 }
 
+// Which particles stick is found by all threads, each its own.
+TEST(Determinism, holds_where_cloth_sticks_to_colliders) {
+    const auto fall = [](unsigned workers, std::uint32_t capacity) {
+        World world = make_world({.substeps = 5, .list_capacity = capacity}, CpuOptions{workers});
+        for (const float x : {-0.2f, 0.2f}) {
+            Collider ball =
+                make_collider({.name = "ball", .shape = SphereDesc{0.1f}, .transform = {.position = {x, 0, 0}}});
+            ball.adhesion = Adhesion{0.01f, 1e-4f};
+            world.add(std::move(ball));
+        }
+        world.add(make_sheet({.resolution = {40, 37}, .position = {0.01f, 0.15f, 0.02f}}));
+        world.add(make_sheet({.size = {0.4f, 0.4f}, .resolution = {12, 12}, .position = {0, 0.2f, 0}}));
+        run(world, 0.3);
+        EXPECT_GT(world.frame().lists.rows, 0u);
+        return world.state_hash();
+    };
+    const std::string expected = fall(0, 4096);
+    for (const unsigned workers : {0u, 1u, 3u}) EXPECT_EQ(fall(workers, 1), expected) << workers << " workers";
+}
+
 // More cloths than threads run side by side, one alone by all threads: nobody can tell from the result.
 // Labels: slow no-asan
 TEST(Determinism, does_not_tell_how_many_cloths_there_are) {

@@ -127,9 +127,15 @@ class TrafficCounter {
     }
 
     PassTraffic count(const Pass& pass) {
+        if (pass.source == RowSource::dynamic) return {};  // how many there are shows only as it runs
         const double points = model_.point_count();
         const ConstraintTable& table = model_.table(pass.constraint);
         switch (pass.kind) {
+            case PassKind::find:
+            case PassKind::place:
+            case PassKind::list:
+            case PassKind::aim:
+                return {};  // of dynamic lists
             case PassKind::predict:  // four arrays in, four out
                 return {.own = 0, .shared = 8 * block * points};
             case PassKind::velocities:  // four in, two out; all but the last are one pass with the next prediction

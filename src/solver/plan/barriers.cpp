@@ -26,6 +26,9 @@ std::uint32_t array_of(Data data, const Pass& pass) {
         case Data::finest_displacement:
             return array_id(Data::node_displacement, 0);
         case Data::correction:
+        case Data::found:
+        case Data::places:
+        case Data::list_rows:
             return array_id(data, static_cast<std::uint32_t>(pass.constraint));
         case Data::all_corrections:
             return array_id(Data::correction, every);

@@ -60,6 +60,21 @@ TEST(Barriers, of_side_by_side_constraints_are_none) {
     EXPECT_TRUE(barrier_before_last({of(PassKind::average), correct(ConstraintKind::stretch)}));
 }
 
+TEST(Barriers, stand_between_the_passes_that_find_constraints) {
+    const auto list = [](PassKind kind) {
+        return Pass{.kind = kind, .constraint = ConstraintKind::adhesion, .source = RowSource::dynamic};
+    };
+    EXPECT_TRUE(barrier_before_last({list(PassKind::find), list(PassKind::place)}));
+    EXPECT_TRUE(barrier_before_last({list(PassKind::place), list(PassKind::list)}));
+    EXPECT_TRUE(barrier_before_last({list(PassKind::list), list(PassKind::aim)}));
+    EXPECT_TRUE(barrier_before_last({list(PassKind::list), of(PassKind::predict)}, Sharing::free));
+    EXPECT_FALSE(barrier_before_last({of(PassKind::predict), list(PassKind::aim)}));
+    EXPECT_FALSE(barrier_before_last({list(PassKind::aim), list(PassKind::correct)})) << "each its own rows";
+    EXPECT_TRUE(barrier_before_last({list(PassKind::aim), list(PassKind::correct)}, Sharing::free));
+    EXPECT_TRUE(barrier_before_last({list(PassKind::correct), list(PassKind::average)}));
+    EXPECT_TRUE(barrier_before_last({list(PassKind::place), list(PassKind::average)}));
+}
+
 TEST(Barriers, between_passes_of_one_thread_are_none) {
     Barriers barriers(Sharing::fixed);
     EXPECT_FALSE(barriers.before(level(PassKind::collect, 0), true));
@@ -95,6 +110,19 @@ TEST(WorldPlan, has_the_passes_of_the_cloth_with_most) {
         return sum;
     };
     EXPECT_LT(count(cloths[0]), count(cloths[1])) << "no levels, no damping, nothing held";
+}
+
+TEST(WorldPlan, finds_what_sticks_once_a_frame_and_projects_it_before_contact) {
+    const auto model = make_model(5, 0);
+    const PlannedCloth cloth{model.get(), false};
+    const StepSettings settings{.substeps = 3, .iterations = 2, .adhesion = true};
+    EXPECT_EQ(describe(plan_world(settings, {&cloth, 1})).substr(0, 17), "first:\n  find x3\n");
+    const WorldPlan plan = plan_world(settings, {&cloth, 1});
+    std::vector<PassKind> found;
+    for (const Pass& pass : plan.substep)
+        if (pass.source == RowSource::dynamic || pass.kind == PassKind::contact) found.push_back(pass.kind);
+    using enum PassKind;
+    EXPECT_EQ(found, (std::vector{aim, correct, average, contact, correct, average, contact}));
 }
 
 TEST(IslandPlan, has_the_passes_in_which_somebody_has_work) {

@@ -7,6 +7,7 @@ namespace {
 
 // Levels are solved by one thread where sharing them out costs more than it saves.
 bool is_single(std::span<const PlannedCloth> cloths, const Pass& pass) {
+    if (pass.kind == PassKind::place) return true;
     if (pass.source != RowSource::level || pass.kind == PassKind::spread) return false;
     std::size_t nodes = 0;
     for (const PlannedCloth& cloth : cloths)

@@ -26,11 +26,14 @@ enum class RowSource : std::uint8_t {
     model,  ///< the table of each cloth's model
     level,  ///< the table of a coarse level
     links,  ///< the island's table of constraints between cloths, whose particles are numbered over the world
+    /// A list that the passes find, place and list make anew while the world moves: how long it is, only the device
+    /// knows. It has a capacity; a frame in which it is full is run again with a larger one (ListCounts).
+    dynamic,
 };
 
 struct Pass {
     PassKind kind;
-    ConstraintKind constraint{};  ///< of project, correct and damp
+    ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list
     std::uint32_t batch = 0;      ///< of project, reach and damp
     bool first_iteration = true;  ///< of project, reach, correct and contact: no lambda, no friction from before
     std::uint32_t level = 0;      ///< of collect, lift, reach and settle
@@ -58,6 +61,9 @@ enum class Data : std::uint8_t {
     finest_displacement,   ///< node_displacement of the finest level
     correction,
     all_corrections,
+    found,      ///< of a dynamic list: how many rows each particle has in it
+    places,     ///< likewise: where they begin
+    list_rows,  ///< likewise: the rows themselves
 };
 
 struct Access {
@@ -77,7 +83,8 @@ const PassInfo& pass_info(PassKind kind);
 
 /// Timings are kept by stages: one per constraint, then these.
 enum Stage : std::uint32_t {
-    stage_air = constraint_kind_count,
+    stage_find = constraint_kind_count,
+    stage_air,
     stage_predict,
     stage_hierarchy,
     stage_average,

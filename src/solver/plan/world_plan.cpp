@@ -25,6 +25,10 @@ class Planner {
                        .frame_begin = {},
                        .substep = {},
                        .frame_end = {}};
+        for (const ConstraintKind kind : found()) {
+            for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
+                plan.frame_begin.push_back(dynamic(pass, kind));
+        }
         // The wind changes little within a frame; what the cloth makes of it does.
         if (settings_.air && settings_.wind) plan.frame_begin.push_back({.kind = PassKind::wind});
 
@@ -32,6 +36,7 @@ class Planner {
         if (settings_.air) plan.substep.push_back({.kind = PassKind::push});
         plan.substep.push_back({.kind = PassKind::predict});
         if (std::ranges::any_of(cloths_, &PlannedCloth::held)) plan.substep.push_back({.kind = PassKind::hold});
+        for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
         for (std::uint32_t i = 0; i < settings_.iterations; ++i) add_iteration(i == 0, plan.substep);
         plan.substep.push_back({.kind = PassKind::velocities});
 
@@ -65,6 +70,15 @@ class Planner {
         for (const LinkTables* tables : links_)
             largest = std::max(largest, (*tables)[static_cast<std::uint32_t>(kind)].batches.size());
         return static_cast<std::uint32_t>(largest);
+    }
+
+    /// Kinds whose rows are found anew in every frame.
+    std::vector<ConstraintKind> found() const {
+        if (settings_.adhesion) return {ConstraintKind::adhesion};
+        return {};
+    }
+    static Pass dynamic(PassKind pass, ConstraintKind kind, bool first = true) {
+        return {.kind = pass, .constraint = kind, .first_iteration = first, .source = RowSource::dynamic};
     }
 
     void add_hierarchy(bool first, Passes& passes) const {
@@ -116,6 +130,11 @@ class Planner {
                                   .first_iteration = first,
                                   .source = RowSource::links});
         });
+        // Each row of these moves one particle, which takes the mean of what its rows want.
+        for (const ConstraintKind kind : found()) {
+            passes.push_back(dynamic(PassKind::correct, kind, first));
+            passes.push_back(dynamic(PassKind::average, kind, first));
+        }
         // Last, so that an iteration ends with nothing inside a collider.
         if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
     }
@@ -187,6 +206,7 @@ WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth>
 bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     const ClothModel& model = *cloth.model;
     if (pass.source == RowSource::links) return false;
+    if (pass.source == RowSource::dynamic) return true;
     switch (pass.kind) {
         case PassKind::hold:
             return cloth.held;

@@ -26,6 +26,7 @@ struct StepSettings {
     bool contacts = true;    ///< there is something to touch
     bool air = false;        ///< there is air
     bool wind = false;       ///< and it moves
+    bool adhesion = false;   ///< some of it sticks to cloth
     bool surface = true;     ///< compute normals
     bool hierarchy = false;  ///< coarse levels first, where models have them
     Method method = Method::xpbd;

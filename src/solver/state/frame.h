@@ -4,6 +4,7 @@
 #include "mesh/triangle_view.h"
 #include "solver/model/cloth_model.h"
 #include "solver/plan/pass.h"
+#include "solver/state/list_counts.h"
 
 #include <weft/ids.h>
 
@@ -75,6 +76,7 @@ struct Frame {
     /// Of the caller's time, what the frame took: to submit it, and to wait for it where a device runs it. What the
     /// caller did in between does not count.
     double step_ms = 0;
+    ListCounts lists;                     ///< of constraints that were found in this frame
     std::uint32_t reports = report_none;  ///< of all cloths
 };
 

@@ -7,6 +7,7 @@
 #include "solver/state/feedback.h"
 #include "solver/state/frame.h"
 #include "solver/state/holds.h"
+#include "solver/state/list_counts.h"
 #include "solver/state/particle_weight.h"
 #include "solver/state/snapshot.h"
 #include "solver/world/air.h"
@@ -35,7 +36,8 @@ struct StepInput {
     /// Where each collider is at the start of the frame and after every substep: [substep · colliders + collider],
     /// substeps + 1 times.
     std::span<const Pose> poses = {};
-    bool feedback = false;  ///< keep account of contacts
+    bool feedback = false;                                ///< keep account of contacts
+    std::uint32_t list_capacity = default_list_capacity;  ///< of dynamic lists that are new
 };
 
 /// One cloth's part of a frame.
@@ -92,6 +94,8 @@ class Backend {
     /// Ends the frame that step() began, if there is one. Adds its times, and leaves reports, details and feedback with
     /// its steps; the rest is for read().
     virtual void finish(std::array<double, stage_count>& stage_ms) = 0;
+    /// Of the last finished frame.
+    virtual ListCounts list_counts() const = 0;
     /// The cloth as it is, in arrays that stay until the next call of anything. False if the device cannot tell any
     /// more: then as it was when it was last read.
     virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;

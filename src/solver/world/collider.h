@@ -24,11 +24,19 @@ inline constexpr std::uint32_t shape_kind_count = 0
     ;
 #undef WEFT_SHAPE
 
+/// Particles that are within `distance` of the surface where a frame begins are held during that frame to where they
+/// are on the collider, each by a spring.
+struct Adhesion {
+    float distance = 0;    ///< m, >= 0: between the surfaces of cloth and collider
+    float compliance = 0;  ///< m/N, >= 0: inverse stiffness of a particle's spring
+};
+
 struct Collider {
     std::string name;
     ShapeKind shape{};
     std::array<float, 4> numbers{};             ///< as the shape's kernel file states
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
+    std::optional<Adhesion> adhesion = {};      ///< nothing sticks to it without
     Pose pose;                                  ///< where it is now
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays
     std::optional<Pose> next_pose = {};         ///< where it goes in the next frame, if it is moved from outside

@@ -221,16 +221,18 @@ const Frame& World::frame() const {
 
 void World::replan() {
     const bool air = settings_.air && settings_.air->density > 0;
-    const StepSettings settings{.substeps = settings_.substeps,
-                                .iterations = settings_.iterations,
-                                .contacts = !colliders_.empty(),
-                                .air = air,
-                                .wind = air && !settings_.air->wind.empty(),
-                                .surface = settings_.surface,
-                                .hierarchy = settings_.hierarchy,
-                                .method = settings_.method,
-                                .projection = settings_.projection,
-                                .accumulate = settings_.accumulate};
+    const StepSettings settings{
+        .substeps = settings_.substeps,
+        .iterations = settings_.iterations,
+        .contacts = !colliders_.empty(),
+        .air = air,
+        .wind = air && !settings_.air->wind.empty(),
+        .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
+        .surface = settings_.surface,
+        .hierarchy = settings_.hierarchy,
+        .method = settings_.method,
+        .projection = settings_.projection,
+        .accumulate = settings_.accumulate};
     const std::size_t places = std::size_t{settings_.substeps} + 1;
     std::vector<PlannedCloth> planned;
     for (Cloth& cloth : cloths_) {
@@ -355,7 +357,8 @@ void World::advance(double dt) {
                        .winds = winds_,
                        .colliders = colliders_.values(),
                        .poses = poses_,
-                       .feedback = settings_.feedback},
+                       .feedback = settings_.feedback,
+                       .list_capacity = settings_.list_capacity},
              .islands = steps_};
     backend_->step(step_);
     running_ = true;
@@ -371,6 +374,7 @@ void World::complete() const {
     running_ = false;
     const auto begin = std::chrono::steady_clock::now();
     backend_->finish(frame_.stage_ms);
+    frame_.lists = backend_->list_counts();
     unread_ = true;
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.feedback) not_made_out_ = static_cast<std::uint32_t>(frame_.index % felt_.size());

@@ -20,11 +20,12 @@ struct WorldSettings {
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
     Accumulate accumulate = Accumulate::gather;
-    bool hierarchy = false;           ///< coarse levels first, for cloths whose model has them
-    std::optional<AirDesc> air = {};  ///< without, a vacuum
-    bool surface = true;              ///< keep normals up to date
-    bool feedback = false;            ///< keep account of what contacts do
-    bool background = false;          ///< models are rebuilt on a thread of their own, one after another
+    bool hierarchy = false;                               ///< coarse levels first, for cloths whose model has them
+    std::optional<AirDesc> air = {};                      ///< without, a vacuum
+    bool surface = true;                                  ///< keep normals up to date
+    bool feedback = false;                                ///< keep account of what contacts do
+    std::uint32_t list_capacity = default_list_capacity;  ///< rows that dynamic lists have room for at first
+    bool background = false;  ///< models are rebuilt on a thread of their own, one after another
 
     /// What the models of a world with these settings should have.
     ClothLayout layout() const {

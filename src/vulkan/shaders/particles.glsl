@@ -170,7 +170,7 @@ void run_check(uint p)
 
 void run_roll_back(uint i)
 {
-    if ((keep_args.at.island_report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) return;
+    if ((keep_args.at.island_report.at[0] & (WEFT_REPORT_NON_FINITE | WEFT_REPORT_LIST_FULL)) == 0u) return;
     // What was solved was not of this place; a residual and a saved state still read it.
     if (i < keep_args.at.lambdas) keep_args.at.lambda.at[i] = 0.0;
     if (i >= keep_args.at.count) return;

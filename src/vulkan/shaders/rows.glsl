@@ -2,6 +2,7 @@
 #ifndef WEFT_ROWS_GLSL
 #define WEFT_ROWS_GLSL
 
+#define WEFT_PARTICLES_1(v) v[0]
 #define WEFT_PARTICLES_2(v) v[0], v[1]
 #define WEFT_PARTICLES_4(v) v[0], v[1], v[2], v[3]
 #define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
@@ -100,7 +101,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
         } else {                                                                                                      \
             for (uint k = 0u; k < moved; ++k) {                                                                       \
                 /* Of a particle that a row names twice, the last one counts (solver/model/jacobi.cpp). */            \
-                bool counts = p[0] != p[1];                                                                           \
+                bool counts = arity == 1 || p[0] != p[min(1, arity - 1)];                                             \
                 for (uint later = k + 1u; later < moved; ++later) counts = counts && p[later] != p[k];                \
                 if (counts) add_quanta(row_args.at.sums, p[k], change[k]);                                            \
             }                                                                                                         \

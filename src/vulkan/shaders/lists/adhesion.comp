@@ -1,0 +1,49 @@
+#version 450
+// Which particles stick to colliders where the frame begins: how many colliders each one does (WEFT_FINDS), or a row for
+// each of them.
+#extension GL_GOOGLE_include_directive : require
+#include "vulkan/shaders/lists/list.glsl"
+
+void main()
+{
+    uint item = invocation();
+    if (item >= list.items) return;
+    uint member = member_of(item), p = particle_of(member, item);
+#ifdef WEFT_FINDS
+    uint found = 0u;
+#else
+    uint row = first_row(item), end = first_row(item + 1u);
+    float share = row < end ? 1.0 / float(end - row) : 0.0;
+    if (row == end) return;
+#endif
+    vec4 x = list.position.at[p];
+    uint colliders = list.members.at[member].frame.at.colliders;
+    float half_thickness = list.members.at[member].frame.at.half_thickness;
+    for (uint c = 0u; c < colliders; ++c) {
+        ColliderIn collider = list.members.at[member].colliders.at[c];
+        if (collider.sticks == 0u) continue;
+        PoseIn pose = list.members.at[member].poses.at[c];
+        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w);
+        vec3 local = unrotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, x.xyz - pose.position.xyz);
+        vec3 normal;
+        float gap = 0.0;
+        uint kind = 0u;
+#define WEFT_SHAPE(name, Name) if (collider.shape == kind++) gap = distance_##name(local, shape, normal);
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+        if (!adheres(gap - half_thickness, collider.adhesion_distance, x.w)) continue;
+#ifdef WEFT_FINDS
+        ++found;
+#else
+        if (row == end) return;  // the list is full
+        list.particles.at[row] = p;
+        list.fields.at[3u * list.stride + row] = collider.adhesion_compliance;
+        list.share.at[row] = share;
+        list.holds.at[row] = vec4(local, uintBitsToFloat(c));
+        ++row;
+#endif
+    }
+#ifdef WEFT_FINDS
+    list.places.at[item + 1u] = found;
+#endif
+}
