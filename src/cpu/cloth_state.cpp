@@ -57,6 +57,20 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     update_normals();
 }
 
+void ClothState::set_material(std::shared_ptr<const ClothModel> other) {
+    assert(other->point_count() == model->point_count());
+    const bool same_masses = other->mass.shares(model->mass);
+    model = std::move(other);
+    if (same_masses) return;
+    face_mass.clear();
+    const std::span<Vec4> position = now().position;
+    const std::span<float> weight = weights();
+    for (std::uint32_t p = 0; p < model->particle_count; ++p) {
+        const float unpinned = 1 / model->mass[p];
+        weight[p] = position[p].w = weight[p] > 0 ? unpinned : 0;  // pins are those of now, not the model's
+    }
+}
+
 ClothSnapshot ClothState::save() const {
     const auto points = [&](std::span<const Vec4> array) {
         return std::vector<Vec4>(array.begin(), array.begin() + model->point_count());
@@ -132,7 +146,7 @@ RowView ClothState::rows(ConstraintKind kind) {
 
 SurfaceView ClothState::surface() {
     return {&now().position[0].x, model->faces.data(),    model->face_stride,
-            &by_face[0].x,        view_of(model->around), &normals()[0].x};
+            &by_face[0].x,        view_of(*model->around), &normals()[0].x};
 }
 
 LevelView ClothState::level(std::uint32_t i) {
@@ -180,7 +194,7 @@ AirView ClothState::air(float density) {
             .drag = 0.5f * density * fabric.drag,
             .lift = 0.5f * density * fabric.lift,
             .listing = fabric.lift_model == LiftModel::listing,
-            .around = view_of(model->around)};
+            .around = view_of(*model->around)};
 }
 
 GatherView ClothState::gather_view(const WorldPlan& plan) const {

@@ -53,6 +53,8 @@ struct ClothState {
 
     /// The same particles; anchors may come or go. `base` is where they are now, which may be another place.
     void set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base);
+    /// The same rows, particles and anchors, other numbers.
+    void set_material(std::shared_ptr<const ClothModel> other);
     /// Changes inverse masses, nothing else.
     void set_weights(std::span<const ParticleWeight> changed);
     ClothSnapshot save() const;

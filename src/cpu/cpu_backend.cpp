@@ -48,6 +48,11 @@ class CpuBackend final : public Backend {
         return Done{};
     }
 
+    Result<Done> set_material(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+        cloth(handle).set_material(std::move(model));
+        return Done{};
+    }
+
     Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
         cloth(handle).set_weights(changed);
         return Done{};

@@ -41,11 +41,18 @@ struct RowList {
     std::uint32_t arity = 0, field_count = 0;
     std::vector<std::uint32_t> particles;  ///< arity per row
     std::vector<float> fields;             ///< field_count per row
+    /// Of kinds whose rows change_rows.h can give another material: what of the cloth's shape the fields follow from,
+    /// and one such number for each row that the material leaves out because it has no stiffness there.
+    std::uint32_t geometry_count = 0;
+    std::vector<float> geometry = {};  ///< geometry_count per row
+    std::vector<float> left_out = {};
 
     std::uint32_t size() const { return arity ? static_cast<std::uint32_t>(particles.size() / arity) : 0; }
-    void add(std::initializer_list<std::uint32_t> row_particles, std::initializer_list<float> row_fields) {
+    void add(std::initializer_list<std::uint32_t> row_particles, std::initializer_list<float> row_fields,
+             std::initializer_list<float> row_geometry = {}) {
         particles.insert(particles.end(), row_particles);
         fields.insert(fields.end(), row_fields);
+        geometry.insert(geometry.end(), row_geometry);
     }
 };
 

@@ -21,7 +21,11 @@ double Elasticity::reserve() const {
     return std::max(warp, weft) * tension;
 }
 
-Elasticity elasticity_of(const StretchMaterial& material, float density, const Topology& topology) {
+float extent_of(const Topology& topology) {
+    return length(bounds_of(topology.rest_positions).size());
+}
+
+Elasticity elasticity_of(const StretchMaterial& material, float density, float extent) {
     if (material.inextensible) return {};
     constexpr double gravity = 9.81;
     const auto strain = [](float stiffness) {
@@ -30,7 +34,7 @@ Elasticity elasticity_of(const StretchMaterial& material, float density, const T
     return {.warp = strain(material.stretch[0]),
             .weft = strain(material.stretch[1]),
             .shear = strain(material.shear),
-            .tension = 3 * static_cast<double>(density) * gravity * length(bounds_of(topology.rest_positions).size())};
+            .tension = 3 * static_cast<double>(density) * gravity * extent};
 }
 
 namespace {

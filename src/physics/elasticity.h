@@ -20,7 +20,9 @@ struct Elasticity {
     double reserve() const;
 };
 
-Elasticity elasticity_of(const StretchMaterial& material, float density, const Topology& topology);
+/// `extent`: m, of the cloth at rest.
+Elasticity elasticity_of(const StretchMaterial& material, float density, float extent);
+float extent_of(const Topology& topology);
 
 /// Beyond such a reserve limits let anything pass. Half of it is a help yet: without one, a soft cloth with few
 /// substeps is left at ten times its length where it hangs.

@@ -19,13 +19,13 @@ TEST(Elasticity, of_a_fabric_is_that_of_its_threads_and_its_shear) {
     EXPECT_DOUBLE_EQ(cloth.along(0), 2e-3);
     EXPECT_DOUBLE_EQ(cloth.along(0.5), 0.25 * (1e-3 + 2e-3 + 0.1));
     const auto topology = build_topology(make_grid({3, 4}, {3, 3}, GridDiagonal::uniform));
-    const Elasticity cotton = elasticity_of({.stretch = {4000, 2000}, .shear = 40}, 0.2f, *topology);
+    const Elasticity cotton = elasticity_of({.stretch = {4000, 2000}, .shear = 40}, 0.2f, extent_of(*topology));
     EXPECT_NEAR(cotton.along(1), 1 / 4000.0, 1e-9);
     EXPECT_NEAR(cotton.along(0), 1 / 2000.0, 1e-9);
     EXPECT_NEAR(cotton.shear, 1 / 40.0, 1e-9);
     EXPECT_NEAR(cotton.tension, 3 * 0.2 * 9.81 * 5, 1e-5);
     EXPECT_NEAR(cotton.reserve(), cotton.tension / 2000, 1e-9);
-    const Elasticity rigid = elasticity_of({.inextensible = true}, 0.2f, *topology);
+    const Elasticity rigid = elasticity_of({.inextensible = true}, 0.2f, extent_of(*topology));
     EXPECT_EQ(rigid.along(0.5), 0);
     EXPECT_EQ(rigid.reserve(), 0);
 }

@@ -76,9 +76,4 @@ RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
     return rest;
 }
 
-float directional(float warp, float bias, float weft, float cos2) {
-    const float off_bias = (1 - 2 * cos2) * (1 - 2 * cos2);  // cos²(2φ), without cancellation at 45°
-    return (warp * cos2 + weft * (1 - cos2)) * off_bias + bias * (1 - off_bias);
-}
-
 }  // namespace weft

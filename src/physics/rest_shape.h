@@ -42,6 +42,9 @@ RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology);
 
 /// A stiffness with the given values along warp, bias (45°) and weft at an angle to the warp:
 /// (warp·cos² + weft·sin²)(1 - s) + bias·s with s = sin²(2φ).
-float directional(float warp, float bias, float weft, float cos2);
+inline float directional(float warp, float bias, float weft, float cos2) {
+    const float off_bias = (1 - 2 * cos2) * (1 - 2 * cos2);  // cos²(2φ), without cancellation at 45°
+    return (warp * cos2 + weft * (1 - cos2)) * off_bias + bias * (1 - off_bias);
+}
 
 }  // namespace weft

@@ -5,7 +5,7 @@
 namespace weft::vulkan {
 
 Result<std::unique_ptr<Cloth>> Cloth::create(gpu::Device& device, Programs& programs,
-                                             std::shared_ptr<const ModelBuffers> buffers, const WorldParticles& world,
+                                             std::shared_ptr<ModelBuffers> buffers, const WorldParticles& world,
                                              std::uint32_t base) {
     auto self = std::unique_ptr<Cloth>(new Cloth(device, programs));
     auto state = ClothState::create(device, std::move(buffers), world, base);

@@ -77,7 +77,7 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     return work;
 }
 
-Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std::shared_ptr<const ModelBuffers> buffers,
+Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers,
                                                        const WorldParticles& world, std::uint32_t base) {
     auto self = std::unique_ptr<ClothState>(new ClothState(std::move(buffers), world, base));
     const ClothModel& model = self->model();
@@ -128,6 +128,41 @@ Result<Done> ClothState::set_weights(gpu::Device& device, std::span<const Partic
                           offset(PointArray::position) + p * sizeof(Vec4) + offsetof(Vec4, w));
         }
     });
+}
+
+// Inverse masses stand in two arrays, in one of them beside the positions.
+Result<Done> ClothState::set_masses(gpu::Device& device, const ClothModel& other) {
+    auto inverse = download_as<float>(device, arena_, weights);
+    if (!inverse) return inverse.errors();
+    auto position = download_points(device, PointArray::position);
+    if (!position) return position.errors();
+    for (std::uint32_t p = 0; p < other.particle_count; ++p)
+        (*inverse)[p] = (*position)[p].w = (*inverse)[p] > 0 ? 1 / other.mass[p] : 0;
+    if (auto done = upload(device, arena_, weights, std::as_bytes(std::span(*inverse))); !done) return done;
+    return upload(device, world_.buffer(), offset(PointArray::position), std::as_bytes(std::span(*position)));
+}
+
+Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other) {
+    const auto before = buffers_->model();
+    if (auto done = buffers_->set_material(device, std::move(other)); !done) return done;
+    if (model().mass.shares(before->mass)) return Done{};
+    auto done = set_masses(device, model());
+    if (!done) {
+        (void)buffers_->set_material(device, before);
+        (void)set_masses(device, *before);
+    }
+    return done;
+}
+
+Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers) {
+    if (!buffers->model()->mass.shares(model().mass)) {
+        if (auto done = set_masses(device, *buffers->model()); !done) {
+            (void)set_masses(device, model());
+            return done;
+        }
+    }
+    buffers_ = std::move(buffers);
+    return Done{};
 }
 
 Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {

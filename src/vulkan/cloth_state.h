@@ -41,11 +41,13 @@ struct WorkBuffers {
 class ClothState {
   public:
     /// The cloth's particles are those from `base` on; `world` has room for them and outlives this.
-    static Result<std::unique_ptr<ClothState>> create(gpu::Device& device, std::shared_ptr<const ModelBuffers> buffers,
+    static Result<std::unique_ptr<ClothState>> create(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers,
                                                       const WorldParticles& world, std::uint32_t base);
 
-    const ClothModel& model() const { return *buffers_->model; }
+    const ClothModel& model() const { return *buffers_->model(); }
     const ModelBuffers& buffers() const { return *buffers_; }
+    /// Whether no other cloth has them.
+    bool owns_buffers() const { return buffers_.use_count() == 1; }
     const Arena& arena() const { return arena_; }
     std::uint64_t address(Slot slot) const { return arena_.address(slot); }
     /// Of the cloth's first particle.
@@ -58,6 +60,10 @@ class ClothState {
     Slot by_face, lambda, limits;
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before it
 
+    /// A model by with_fabric() in the buffers that it has, which must be this cloth's alone. Pins stay as they are.
+    Result<Done> set_material(gpu::Device& device, std::shared_ptr<const ClothModel> model);
+    /// The same in place of buffers that it shares with other cloths.
+    Result<Done> set_material(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers);
     Result<Done> set_weights(gpu::Device& device, std::span<const ParticleWeight> changed);
     Result<ClothSnapshot> save(gpu::Device& device) const;
     /// Normals are not brought up to date.
@@ -67,10 +73,11 @@ class ClothState {
     Result<std::vector<float>> download_lambda(gpu::Device& device) const;
 
   private:
-    ClothState(std::shared_ptr<const ModelBuffers> buffers, const WorldParticles& world, std::uint32_t base)
+    Result<Done> set_masses(gpu::Device& device, const ClothModel& model);
+    ClothState(std::shared_ptr<ModelBuffers> buffers, const WorldParticles& world, std::uint32_t base)
         : buffers_(std::move(buffers)), world_(world), base_(base) {}
 
-    std::shared_ptr<const ModelBuffers> buffers_;
+    std::shared_ptr<ModelBuffers> buffers_;
     const WorldParticles& world_;
     std::uint32_t base_;
     Arena arena_;

@@ -9,7 +9,7 @@ namespace {
 struct Lists {
     std::vector<std::vector<std::uint32_t>> blocks, carry_nodes;
     std::vector<std::uint32_t> offsets, items, span_ends;
-    std::vector<float> weights, masses, span_lengths;
+    std::vector<float> masses, span_lengths;
 };
 
 TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists) {
@@ -24,7 +24,7 @@ TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists)
 // Lists of the triangles at each particle, one after another; the zeros that packets of lanes are padded with are left
 // out, so sums are the same.
 void list_around(const ClothModel& model, Lists& lists) {
-    const FacesAround& around = model.around;
+    const FacesAround& around = *model.around;
     lists.offsets.push_back(0);
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
         const std::uint32_t packet = p / lane_padding, lane = p % lane_padding;
@@ -43,10 +43,10 @@ void list_around(const ClothModel& model, Lists& lists) {
 
 }  // namespace
 
-Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& device,
-                                                                 std::shared_ptr<const ClothModel> cloth_model) {
+Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
+                                                           std::shared_ptr<const ClothModel> cloth_model) {
     auto self = std::shared_ptr<ModelBuffers>(new ModelBuffers(std::move(cloth_model)));
-    const ClothModel& model = *self->model;
+    const ClothModel& model = *self->model_;
     Arena& arena = self->arena_;
     Lists lists;
     lists.blocks.reserve(constraint_kind_count + model.hierarchy.size());  // the arena reads them where they are
@@ -65,7 +65,6 @@ Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& de
     }
     list_around(model, lists);
     lists.masses = face_masses(model);
-    for (const Vec4& start : model.start) lists.weights.push_back(start.w);
     for (const PinSpan& span : model.pin_spans) {
         lists.span_ends.insert(lists.span_ends.end(), {span.a, span.b});
         lists.span_lengths.push_back(span.length);
@@ -74,16 +73,39 @@ Result<std::shared_ptr<const ModelBuffers>> ModelBuffers::create(gpu::Device& de
     self->face_mass = arena.add_array(lists.masses);
     self->around_offsets = arena.add_array(lists.offsets);
     self->around_items = arena.add_array(lists.items);
-    self->weights = arena.add_array(lists.weights);
     self->span_ends = arena.add_array(lists.span_ends);
     self->span_lengths = arena.add_array(lists.span_lengths);
     if (auto built = arena.build(device, "model of " + model.name); !built) return built.errors();
-    return std::shared_ptr<const ModelBuffers>(std::move(self));
+    return self;
+}
+
+Result<Done> ModelBuffers::write_changed(gpu::Device& device, const ClothModel& from, const ClothModel& to) const {
+    const auto write = [&](Slot slot, const auto& numbers) {
+        return slot.bytes == 0 ? Result<Done>(Done{})
+                               : upload(device, arena_, slot, std::as_bytes(std::span(numbers.data(), numbers.size())));
+    };
+    for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        const SharedArray<float>& fields = to.constraints[kind].fields;
+        if (fields.shares(from.constraints[kind].fields)) continue;
+        if (auto written = write(tables[kind].fields, fields); !written) return written;
+    }
+    if (to.mass.shares(from.mass)) return Done{};
+    return write(face_mass, face_masses(to));
+}
+
+Result<Done> ModelBuffers::set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other) {
+    if (auto written = write_changed(device, *model_, *other); !written) {
+        (void)write_changed(device, *other, *model_);
+        return written;
+    }
+    if (!other->mass.shares(model_->mass)) measure_lists_ = nullptr;
+    model_ = std::move(other);
+    return Done{};
 }
 
 Result<const MeasureLists*> ModelBuffers::measure_lists(gpu::Device& device) const {
     if (!measure_lists_) {
-        auto made = MeasureLists::create(device, *model);
+        auto made = MeasureLists::create(device, *model_);
         if (!made) return made.errors();
         measure_lists_ = std::move(*made);
     }

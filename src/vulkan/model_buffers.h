@@ -1,4 +1,4 @@
-// A ClothModel on the device: what does not change while a cloth moves. Shared by all cloths of that model.
+// A ClothModel on the device: what does not move with a cloth. Shared by all cloths of that model.
 #pragma once
 
 #include "solver/model/cloth_model.h"
@@ -23,14 +23,16 @@ struct LevelBuffers {
 
 class ModelBuffers {
   public:
-    static Result<std::shared_ptr<const ModelBuffers>> create(gpu::Device& device,
-                                                              std::shared_ptr<const ClothModel> model);
+    static Result<std::shared_ptr<ModelBuffers>> create(gpu::Device& device, std::shared_ptr<const ClothModel> model);
 
-    const std::shared_ptr<const ClothModel> model;
+    const std::shared_ptr<const ClothModel>& model() const { return model_; }
+    /// A model by with_fabric() in place of this one: writes the numbers that differ where they are. Where it fails,
+    /// all is as it was.
+    Result<Done> set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other);
+
     std::array<TableBuffers, constraint_kind_count> tables;
     std::vector<LevelBuffers> levels;
     Slot faces, face_mass, around_offsets, around_items;
-    Slot weights;  ///< inverse masses
     Slot span_ends, span_lengths;
 
     /// Made when somebody asks for them.
@@ -40,8 +42,10 @@ class ModelBuffers {
     std::uint64_t bytes() const { return arena_.size(); }
 
   private:
-    explicit ModelBuffers(std::shared_ptr<const ClothModel> cloth_model) : model(std::move(cloth_model)) {}
+    explicit ModelBuffers(std::shared_ptr<const ClothModel> cloth_model) : model_(std::move(cloth_model)) {}
+    Result<Done> write_changed(gpu::Device& device, const ClothModel& from, const ClothModel& to) const;
 
+    std::shared_ptr<const ClothModel> model_;
     Arena arena_;
     mutable std::unique_ptr<const MeasureLists> measure_lists_;
 };

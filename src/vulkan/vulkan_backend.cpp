@@ -87,6 +87,20 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return Done{};
     }
 
+    Result<Done> set_material(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+        vulkan::ClothState& state = cloth(handle).state();
+        // Commands that are recorded already have numbers of the fabric in them.
+        forget_runs(cloth(handle));
+        if (!state.owns_buffers()) {
+            auto buffers = buffers_of(std::move(model));
+            return buffers ? state.set_material(*device_, std::move(*buffers)) : Result<Done>(buffers.errors());
+        }
+        const auto known = models_.extract(&state.model());
+        auto done = state.set_material(*device_, model);
+        models_[&state.model()] = known.mapped();
+        return done;
+    }
+
     Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
         auto done = cloth(handle).state().set_weights(*device_, changed);
         cloth(handle).changed(true);
@@ -143,7 +157,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     Result<gpu::SurfaceBuffers> surface(ClothHandle handle, gpu::Moment before) override {
         Cloth& one = cloth(handle);
         if (!one.has_surface()) {
-            auto mesh = drawn_mesh(one.state().buffers().model);
+            auto mesh = drawn_mesh(one.state().buffers().model());
             if (!mesh) return mesh.errors();
             if (auto made = one.make_surface(std::move(*mesh)); !made) return made.errors();
         }
@@ -171,16 +185,18 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) {
         if (auto room = make_room(std::uint64_t{base} + model->capacity()); !room) return room.errors();
-        // Cloths of one model share it on the device too.
-        std::shared_ptr<const ModelBuffers> buffers = models_[model.get()].lock();
-        if (!buffers) {
-            std::erase_if(models_, [](const auto& one) { return one.second.expired(); });
-            auto made = ModelBuffers::create(*device_, model);
-            if (!made) return made.errors();
-            buffers = std::move(*made);
-            models_[model.get()] = buffers;
-        }
-        return Cloth::create(*device_, programs_, std::move(buffers), particles_, base);
+        auto buffers = buffers_of(std::move(model));
+        if (!buffers) return buffers.errors();
+        return Cloth::create(*device_, programs_, std::move(*buffers), particles_, base);
+    }
+
+    // Cloths of one model share it on the device too.
+    Result<std::shared_ptr<ModelBuffers>> buffers_of(std::shared_ptr<const ClothModel> model) {
+        if (auto there = models_[model.get()].lock()) return there;
+        std::erase_if(models_, [](const auto& one) { return one.second.expired(); });
+        auto made = ModelBuffers::create(*device_, model);
+        if (made) models_[model.get()] = *made;
+        return made;
     }
 
     Result<std::shared_ptr<const DrawnMesh>> drawn_mesh(const std::shared_ptr<const ClothModel>& model) {
@@ -338,7 +354,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     vulkan::Programs programs_;
     Execution execution_;
     bool timings_;
-    std::map<const ClothModel*, std::weak_ptr<const ModelBuffers>> models_;
+    std::map<const ClothModel*, std::weak_ptr<ModelBuffers>> models_;
     std::map<const ClothModel*, std::weak_ptr<const DrawnMesh>> drawn_;
     vulkan::WorldParticles particles_;  // outlives the cloths
     std::vector<std::unique_ptr<Cloth>> cloths_;

@@ -74,14 +74,13 @@ void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
                         " m away from the simulated one");
 }
 
-// What a scene says of tethers beside the fabric is a material like any other to the solver.
+}  // namespace
+
 Fabric fabric_of(const SceneCloth& cloth) {
     Fabric fabric = cloth.fabric;
     fabric.tether = {cloth.tethers, cloth.tether_slack};
     return fabric;
 }
-
-}  // namespace
 
 const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source) {
     return source.simulated ? *source.simulated : model.mesh();

@@ -40,6 +40,9 @@ struct BuiltCloth {
 Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
                                const std::string& pointer, std::vector<std::string>& notes);
 
+/// What a scene says of tethers beside the fabric is a material like any other to the solver.
+Fabric fabric_of(const SceneCloth& cloth);
+
 /// As it was placed at the start.
 const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source);
 

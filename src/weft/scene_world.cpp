@@ -253,8 +253,29 @@ Result<Done> SceneWorld::set_fabric(ClothId id, const Fabric& fabric, const std:
     SceneCloth cloth = without_meshes(scene_.cloths[place]);
     cloth.fabric = fabric;
     cloth.fabric_name = preset;
+    auto changed = change_material(place, cloth);
+    if (!changed) return changed.errors();
+    if (*changed) return Done{};
     // Not what was held when the pins were made: what carried them may be gone.
     return change_cloth(id, std::move(cloth), sources_[place].pins, world_->holds(id));
+}
+
+// Its fabric alone, without building anything anew. False, and nothing is changed, where that is not possible.
+Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cloth) {
+    const ClothId id = world_->cloth_id(place);
+    const auto before = world_->model(id);
+    const Fabric fabric = fabric_of(cloth);
+    auto model = with_fabric(*before, fabric);
+    if (!model) return model.errors();
+    if (!*model) return false;
+    const bool pending = world_->is_rebuilding(id);
+    if (auto set = world_->set_material(id, std::move(*model)); !set) return set.errors();
+    scene_.cloths[place].fabric = cloth.fabric;
+    scene_.cloths[place].fabric_name = cloth.fabric_name;
+    // A cloth that has no coarse levels yet may get some.
+    const bool limited = world_->settings().hierarchy || before->table(ConstraintKind::tether).rows > 0;
+    if (pending || (limited && limits_differ(before->fabric, fabric))) rebuild_later(place);
+    return true;
 }
 
 Result<Done> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
@@ -276,17 +297,23 @@ Result<Done> SceneWorld::hold_at_once(std::size_t place, const Pinned& pinned) {
     const ClothId id = world_->cloth_id(place);
     if (auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds); !set) return set;
     sources_[place].pins = pinned.pins;
-    // Coarse levels and tethers start from pins.
+    // Coarse levels and tethers start from pins. What is pending already has other pins.
+    const auto& now = world_->model(id);
+    if (!now->hierarchy.empty() || now->table(ConstraintKind::tether).rows > 0 ||
+        scene_.cloths[place].tethers == Tethers::on || world_->is_rebuilding(id))
+        rebuild_later(place);
+    return Done{};
+}
+
+// The model that the document says, in the background: coarse levels and tethers take long to build.
+void SceneWorld::rebuild_later(std::size_t place) {
+    const ClothId id = world_->cloth_id(place);
     const auto now = world_->model(id);
-    if (now->hierarchy.empty() && now->table(ConstraintKind::tether).rows == 0 &&
-        scene_.cloths[place].tethers != Tethers::on)
-        return Done{};
     const ClothSource& all = sources_[place];
     world_->rebuild_later(id, [now, source = ClothSource{all.simulated, all.topology, {}, all.pins},
                                cloth = without_meshes(scene_.cloths[place]), layout = world_->settings().layout()] {
         return rebuild_cloth(*now, source, cloth, source.pins, layout);
     });
-    return Done{};
 }
 
 void SceneWorld::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
@@ -411,7 +438,11 @@ Result<Done> SceneWorld::change_cloths(const SceneDesc& next) {
         const auto place = static_cast<std::size_t>(there - scene_.cloths.data());
         const ClothId id = world_->cloth_id(place);
         Pinned pinned{sources_[place].pins, world_->holds(id)};
-        if (there->pins != wanted.pins) {
+        if (there->pins == wanted.pins) {
+            auto changed = change_material(place, wanted);
+            if (!changed) return changed.errors();
+            if (*changed) continue;
+        } else {
             auto selected = select_pins_now(*world_, id, sources_[place], wanted.pins);
             if (!selected) return selected.errors();
             pinned = std::move(*selected);

@@ -94,6 +94,8 @@ class SceneWorld {
     std::size_t place_of(ColliderId id) const;
     Result<Done> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, Holds holds);
     Result<Done> set_models(std::span<Change> changes);
+    Result<bool> change_material(std::size_t place, const SceneCloth& cloth);
+    void rebuild_later(std::size_t place);
     Result<Done> hold_at_once(std::size_t place, const Pinned& pinned);
     Result<Done> change_stitches(const SceneDesc& next);
     void forget_look(const std::string& name);

@@ -27,6 +27,10 @@ class BackendWithoutRoom final : public Backend {
         if (count_++ == room_) return Error::of_machine("device", "has no room");
         return inner_->set_model(cloth, std::move(model), base);
     }
+    Result<Done> set_material(ClothHandle cloth, std::shared_ptr<const ClothModel> model) override {
+        if (count_++ == room_) return Error::of_machine("device", "has no room");
+        return inner_->set_material(cloth, std::move(model));
+    }
     void step(const WorldStep& step) override { inner_->step(step); }
     Result<Done> set_weights(ClothHandle cloth, std::span<const ParticleWeight> changed) override {
         return inner_->set_weights(cloth, changed);

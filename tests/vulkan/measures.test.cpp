@@ -269,8 +269,8 @@ std::shared_ptr<ClothModel> three_loose_particles() {
 TEST(VulkanMeasuring, are_nothing_where_there_is_nothing_to_measure) {
     const auto chain = three_loose_particles();  // two particles of it at the same place, and no shear
     chain->start[2].x = 1;
-    chain->edges_without_row = {{0, 1}, {1, 2}};
-    chain->axial_without_row = 2;
+    chain->edges = std::make_shared<ClothEdges>(
+        ClothEdges{.axial_rows = {}, .without_row = {{0, 1}, {1, 2}}, .axial_without_row = 2});
 
     Placed one(three_loose_particles());
     one.state.velocity[0] = {0, 4, 0, 0};  // held, and so without energy

@@ -37,19 +37,19 @@ bool cuts_a_rectangle(const Topology& topology, const Hinge& h) {
 
 }  // namespace
 
-std::optional<HingeAtRest> hinge_at_rest(const RestShape& rest, const Hinge& hinge, const BendMaterial& material) {
-    const Topology& topology = rest.topology;
-    if (material.hinges == HingeChoice::source && cuts_a_rectangle(topology, hinge)) return {};
-    const auto [warp, bias, weft] = material.bend;
+bool bends(const Topology& topology, const Hinge& hinge, HingeChoice choice) {
+    return choice != HingeChoice::source || !cuts_a_rectangle(topology, hinge);
+}
+
+HingeShape shape_of(const RestShape& rest, const Hinge& hinge) {
+    const Vec3 e = rest.topology.rest_positions[hinge.b] - rest.topology.rest_positions[hinge.a];
     // The cloth curves across the edge: an edge along the weft bends the warp.
-    const float across = 1 - rest.cos2_to_warp[hinge.edge];
-    const float stiffness = directional(warp, bias, weft, across);
-    if (!(stiffness > 0)) return {};
-    const Vec3 e = topology.rest_positions[hinge.b] - topology.rest_positions[hinge.a];
-    const float angle = std::isnan(material.rest_angle)
-                            ? mesh_angle(topology, hinge)
-                            : material.rest_angle * static_cast<float>(std::numbers::pi / 180);
-    return HingeAtRest{angle, rest.area_at_edge[hinge.edge] / (stiffness * dot(e, e))};
+    return {1 - rest.cos2_to_warp[hinge.edge], rest.area_at_edge[hinge.edge], dot(e, e)};
+}
+
+float angle_at_rest(const Topology& topology, const Hinge& hinge, const BendMaterial& material) {
+    return std::isnan(material.rest_angle) ? mesh_angle(topology, hinge)
+                                           : material.rest_angle * static_cast<float>(std::numbers::pi / 180);
 }
 
 }  // namespace weft

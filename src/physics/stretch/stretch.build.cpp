@@ -1,4 +1,5 @@
-#include "physics/constraint.h"
+#include "physics/change_rows.h"
+#include "physics/stretch/stretch_law.h"
 
 #include <algorithm>
 
@@ -25,29 +26,55 @@ Moduli without_shear(Moduli k, float shear) {
 
 }  // namespace
 
+StretchLaw::Side StretchLaw::side_of(const float (&moduli)[2], float shear) {
+    const Moduli k = without_shear({moduli[0], moduli[1]}, shear);
+    // A millionth is what rounding leaves of warp and weft in a diagonal of a fabric without shear stiffness.
+    return {k.warp, k.weft, 1e-6f * std::max({k.warp, k.weft, shear})};
+}
+
+StretchLaw::StretchLaw(const StretchMaterial& material)
+    : pull_(side_of(material.stretch, material.shear)),
+      push_(side_of(material.compression, material.shear)),
+      bias_(4 * material.shear),
+      inextensible_(material.inextensible) {}
+
 RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
-    const Moduli pull = without_shear({material.stretch[0], material.stretch[1]}, material.shear);
-    const Moduli push = without_shear({material.compression[0], material.compression[1]}, material.shear);
+    const StretchLaw law(material);
     RowList rows = make_rows(ConstraintKind::stretch);
+    rows.geometry_count = 2;
     for (std::size_t e = 0; e < rest.topology.edges.size(); ++e) {
         const Edge& edge = rest.topology.edges[e];
         const float length_at_rest =
             length(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
         const float cos2 = rest.cos2_to_warp[e];
         const float strip = rest.area_at_edge[e] / (length_at_rest * length_at_rest);
-        // A negative compliance says "no stiffness" to the kernel, which has no infinity.
-        const auto compliance = [&](Moduli k) {
-            if (material.inextensible) return 0.0f;
-            const float stiffness = directional(k.warp, 4 * material.shear, k.weft, cos2);
-            // A millionth is what rounding leaves of warp and weft in a diagonal of a fabric without shear stiffness.
-            const bool none_to_speak_of = stiffness <= 1e-6f * std::max({k.warp, k.weft, material.shear});
-            return none_to_speak_of ? -1.0f : 1 / (stiffness * strip);
-        };
-        const float stretched = compliance(pull), compressed = compliance(push);
-        if (stretched < 0 && compressed < 0) continue;
-        rows.add({edge.a, edge.b}, {length_at_rest, stretched, compressed});
+        const StretchLaw::Compliances compliances = law.at(cos2, strip);
+        if (compliances.none()) {
+            rows.left_out.push_back(cos2);
+            continue;
+        }
+        rows.add({edge.a, edge.b}, {length_at_rest, compliances.stretched, compliances.compressed}, {cos2, strip});
     }
     return rows;
+}
+
+bool change_stretch(const RowsToChange& rows, const StretchMaterial& material) {
+    const StretchLaw law(material);
+    for (const float cos2 : rows.left_out)
+        if (!law.at(cos2, 1).none()) return false;
+    const float* __restrict cos2 = rows.geometry;
+    const float* __restrict strip = cos2 + rows.stride;
+    float* __restrict stretched = rows.fields + rows.stride;
+    float* __restrict compressed = stretched + rows.stride;
+    int without = 0;
+    for (std::uint32_t row = 0; row < rows.stride; ++row) {
+        const StretchLaw::Compliances at = law.at(cos2[row], strip[row]);
+        const bool real = !(strip[row] < 0);
+        without |= static_cast<int>(real) & static_cast<int>(at.stretched < 0) & static_cast<int>(at.compressed < 0);
+        stretched[row] = real ? at.stretched : stretched[row];
+        compressed[row] = real ? at.compressed : compressed[row];
+    }
+    return without == 0;
 }
 
 }  // namespace weft

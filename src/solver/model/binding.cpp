@@ -64,7 +64,8 @@ Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology) {
     const SurfaceSearch search(topology.rest_positions, topology.triangles);
 
     Binding binding;
-    binding.vertices.reserve(drawn.positions.size());
+    std::vector<BoundVertex> vertices;
+    vertices.reserve(drawn.positions.size());
     for (std::size_t v = 0; v < drawn.positions.size(); ++v) {
         const SurfacePoint point = search.closest(drawn.positions[v]);
         BoundVertex vertex{.particles = topology.triangles[point.triangle],
@@ -75,9 +76,10 @@ Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology) {
         vertex.offset = to_local(frame, drawn.positions[v] - gathered(frame.origin));
         const Vec3 normal = to_local(frame, drawn_normals[v]);
         vertex.normal = dot(normal, normal) > 0.25f ? normalized(normal) : Vec3{0, 0, 1};
-        binding.vertices.push_back(vertex);
+        vertices.push_back(vertex);
         binding.farthest = std::max(binding.farthest, static_cast<float>(point.distance));
     }
+    binding.vertices = std::move(vertices);
     return binding;
 }
 

@@ -1,6 +1,7 @@
 // A drawn mesh that follows a coarser, simulated one.
 #pragma once
 
+#include "base/shared_array.h"
 #include "mesh/topology.h"
 
 #include <weft/vector.h>
@@ -23,7 +24,7 @@ struct BoundVertex {
 };
 
 struct Binding {
-    std::vector<BoundVertex> vertices;  ///< one per vertex of the drawn mesh
+    SharedArray<BoundVertex> vertices;  ///< one per vertex of the drawn mesh
     float farthest = 0;                 ///< m: largest distance of a drawn vertex from the simulated surface at rest
 
     bool empty() const { return vertices.empty(); }

@@ -5,6 +5,7 @@
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
 #include "solver/model/lines.h"
+#include "solver/model/masses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,38 +14,26 @@
 namespace weft {
 namespace {
 
-std::vector<float> lump_masses(const RestShape& rest, float density) {
-    std::vector<double> sum(rest.topology.particle_count);
-    for (std::size_t t = 0; t < rest.topology.triangles.size(); ++t) {
-        const double third = static_cast<double>(density) * rest.area[t] / 3;
-        for (std::uint32_t p : rest.topology.triangles[t]) sum[p] += third;
-    }
-    return {sum.begin(), sum.end()};
-}
-
-Result<Done> place_particles(ClothModel& model, const Topology& topology, const std::vector<std::uint32_t>& pinned) {
-    model.start.assign(model.capacity(), Vec4{});
+Result<Done> place_particles(ClothModel& model, const Topology& topology, const std::vector<std::uint32_t>& pinned,
+                             AlignedVector<Vec4>& start) {
+    if (auto weighed = check_masses(model.mass); !weighed) return weighed;
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
         const Vec3 x = topology.rest_positions[p];
-        const float weight = 1 / model.mass[p];
-        if (!(std::isfinite(weight) && weight > 0)) {
-            return Error{"particle " + std::to_string(p),
-                         "its mass of " + number_text(model.mass[p]) + " kg has no finite inverse in single precision"};
-        }
-        model.start[p] = {x.x, x.y, x.z, weight};
+        start[p] = {x.x, x.y, x.z, 1 / model.mass[p]};
     }
     for (std::uint32_t p : pinned) {
         if (p >= model.particle_count) {
             return Error{"pinned particle " + std::to_string(p),
                          "there are only " + std::to_string(model.particle_count)};
         }
-        model.pinned_count += model.start[p].w > 0;
-        model.start[p].w = 0;
+        model.pinned_count += start[p].w > 0;
+        start[p].w = 0;
     }
     return Done{};
 }
 
-Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& attachments) {
+Result<Done> place_anchors(const ClothModel& model, const std::vector<Attachment>& attachments,
+                           AlignedVector<Vec4>& start) {
     for (std::uint32_t i = 0; i < attachments.size(); ++i) {
         const auto& [particle, compliance, place] = attachments[i];
         const std::string where = "attachment " + std::to_string(i);
@@ -54,7 +43,7 @@ Result<Done> place_anchors(ClothModel& model, const std::vector<Attachment>& att
         if (!(compliance > 0 && std::isfinite(compliance)))
             return Error{where, "compliance must be > 0 m/N, got " + number_text(compliance)};
         if (!finite(place)) return Error{where, "place is not finite"};
-        model.start[model.particle_count + i] = {place.x, place.y, place.z, 0};
+        start[model.particle_count + i] = {place.x, place.y, place.z, 0};
     }
     return Done{};
 }
@@ -63,15 +52,18 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     const Topology& topology = rest.topology;
     const auto count = model.triangle_count = static_cast<std::uint32_t>(topology.triangles.size());
     model.face_stride = padded(count);
-    model.faces.resize(std::size_t{3} * model.face_stride);
-    model.around = lay_out_around(topology.particle_triangles, model.face_stride);
+    AlignedVector<std::uint32_t> faces(std::size_t{3} * model.face_stride);
+    model.around =
+        std::make_shared<const FacesAround>(lay_out_around(topology.particle_triangles, model.face_stride));
     for (std::uint32_t t = 0; t < model.face_stride; ++t) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
-            model.faces[std::size_t{corner} * model.face_stride + t] =
+            faces[std::size_t{corner} * model.face_stride + t] =
                 t < count ? topology.triangles[t][corner]
                           : first_dummy(model.point_count()) + corner * lane_padding + t % lane_padding;
         }
     }
+    model.faces = std::move(faces);
+    model.face_area = std::vector<float>(rest.area);
 }
 
 // Edges stand in the order of their lower end, and then of the upper one.
@@ -108,20 +100,22 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
 
     const EdgeIndex index(topology);
     const ConstraintTable& rows = model.table(ConstraintKind::stretch);
-    model.axial_rows.assign(rows.stride, false);
+    auto edges = std::make_shared<ClothEdges>();
+    edges->axial_rows.assign(rows.stride, false);
     for (std::uint32_t row = 0; row < rows.stride; ++row) {
         if (!rows.is_real(row)) continue;
         const std::size_t e = index.find(rows.particles[row], rows.particles[std::size_t{rows.stride} + row]);
         has_row[e] = 1;
-        model.axial_rows[row] = axial[e];
+        edges->axial_rows[row] = axial[e];
     }
     for (const bool along : {true, false}) {
         for (std::size_t e = 0; e < count; ++e) {
             if (!has_row[e] && static_cast<bool>(axial[e]) == along)
-                model.edges_without_row.push_back({topology.edges[e].a, topology.edges[e].b});
+                edges->without_row.push_back({topology.edges[e].a, topology.edges[e].b});
         }
-        if (along) model.axial_without_row = model.edges_without_row.size();
+        if (along) edges->axial_without_row = edges->without_row.size();
     }
+    model.edges = std::move(edges);
 }
 
 // Whether every vertex is a particle, and every triangle a face.
@@ -179,28 +173,34 @@ void choose_tethers(ClothModel& model, const RestShape& rest) {
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
                      const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout) {
     const float density = fabric.body.density;
-    if (!(density > 0) || !std::isfinite(density))
-        return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
+    if (auto sound = check_density(density); !sound) return sound;
     BuildClock clock(model.build_times);
     model.fabric = fabric;
+    model.tethers_asked = fabric.tether.use;
     model.particle_count = topology.particle_count;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
 
     RestShape rest = make_rest_shape(mesh, topology);
-    model.mass = lump_masses(rest, density);
-    if (auto placed = place_particles(model, topology, pins.particles); !placed) return placed;
-    if (auto placed = place_anchors(model, pins.attachments); !placed) return placed;
+    lay_out_faces(model, rest);
+    model.mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
+    AlignedVector<Vec4> start(model.capacity());
+    if (auto placed = place_particles(model, topology, pins.particles, start); !placed) return placed;
+    if (auto placed = place_anchors(model, pins.attachments, start); !placed) return placed;
+    model.start = std::move(start);
     rest.attachments = pins.attachments;
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
-    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, topology);
+    model.extent = extent_of(topology);
+    rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.extent);
     clock.spent_on(BuildPart::rest);
 
+    std::vector<CoarseLevel> hierarchy;
     if (layout.hierarchy)
-        model.hierarchy = build_hierarchy(rest, model.fabric, model.start,
-                                          layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
-    model.pin_spans = find_pin_spans(model.hierarchy, topology.rest_positions);
-    for (CoarseLevel& level : model.hierarchy) level.ways = {};
+        hierarchy = build_hierarchy(rest, model.fabric, model.start,
+                                    layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
+    model.pin_spans = find_pin_spans(hierarchy, topology.rest_positions);
+    for (CoarseLevel& level : hierarchy) level.ways = {};
+    model.hierarchy = std::move(hierarchy);
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);
@@ -212,7 +212,6 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    lay_out_faces(model, rest);
     measure_edges(model, rest);
     clock.spent_on(BuildPart::rest);
     return Done{};
@@ -261,33 +260,35 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
 }
 
 void ClothModel::set_mesh(TriangleMesh mesh) {
-    mesh_ = std::move(mesh);
-    mesh_.normals = {};
-    mesh_of_particles_ = false;
+    drawn_ = std::make_shared<Drawn>();
+    drawn_->mesh = std::move(mesh);
+    drawn_->mesh.normals = {};
 }
 
 void ClothModel::set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors) {
-    mesh_.uvs = std::move(uvs);
-    mesh_.colors = std::move(colors);
-    mesh_of_particles_ = true;
+    drawn_ = std::make_shared<Drawn>();
+    drawn_->mesh.uvs = std::move(uvs);
+    drawn_->mesh.colors = std::move(colors);
+    drawn_->of_particles = true;
 }
 
 const TriangleMesh& ClothModel::mesh() const {
-    if (!mesh_of_particles_) return mesh_;
-    std::call_once(mesh_made_, [&] {
+    TriangleMesh& mesh = drawn_->mesh;
+    if (!drawn_->of_particles) return mesh;
+    std::call_once(drawn_->made, [&] {
         std::vector<std::uint32_t> vertex(particle_count);
-        mesh_.positions.reserve(particle_count);
+        mesh.positions.reserve(particle_count);
         for (std::uint32_t v = 0; v < particle_count; ++v) {
             vertex[vertex_to_particle[v]] = v;
-            mesh_.positions.push_back(rest_position(vertex_to_particle[v]));
+            mesh.positions.push_back(rest_position(vertex_to_particle[v]));
         }
-        mesh_.triangles.reserve(triangle_count);
+        mesh.triangles.reserve(triangle_count);
         for (std::uint32_t t = 0; t < triangle_count; ++t) {
             const auto [a, b, c] = triangles()[t];
-            mesh_.triangles.push_back({vertex[a], vertex[b], vertex[c]});
+            mesh.triangles.push_back({vertex[a], vertex[b], vertex[c]});
         }
     });
-    return mesh_;
+    return mesh;
 }
 
 EdgesByDirection edges_by_direction(const ClothModel& model) {
@@ -312,11 +313,8 @@ EdgesByDirection edges_by_direction(const ClothModel& model) {
 
 std::vector<float> face_masses(const ClothModel& model) {
     std::vector<float> masses(model.face_stride);
-    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
-        const auto [a, b, c] = model.triangles()[t];
-        masses[t] =
-            model.fabric.body.density * area_of(model.rest_position(a), model.rest_position(b), model.rest_position(c));
-    }
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t)
+        masses[t] = model.fabric.body.density * model.face_area[t];
     return masses;
 }
 

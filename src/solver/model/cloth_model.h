@@ -1,6 +1,7 @@
 // A cloth as it was made: everything that does not change while it moves. Shared by every cloth of its kind.
 #pragma once
 
+#include "base/shared_array.h"
 #include "mesh/topology.h"
 #include "mesh/triangle_view.h"
 #include "scene/fabric.h"
@@ -48,33 +49,40 @@ struct ClothModelDesc {
 
 using EdgeEnds = std::array<std::uint32_t, 2>;
 
+/// Edges are the rows of stretch, by row whether along warp or weft (within 10°), and those that have none, as nothing
+/// stretches there: of these the ones along warp or weft first, and how many they are.
+struct ClothEdges {
+    std::vector<bool> axial_rows;
+    std::vector<EdgeEnds> without_row;
+    std::size_t axial_without_row = 0;
+};
+
+/// A copy shares the arrays with the original.
 struct ClothModel {
     std::string name;
     /// How the drawn mesh follows the simulated one. Empty where they are the same.
     Binding binding;
-    std::vector<std::uint32_t> vertex_to_particle;  ///< of the drawn mesh, as Topology has it; empty with a binding
-    Fabric fabric;
+    SharedArray<std::uint32_t> vertex_to_particle;  ///< of the drawn mesh, as Topology has it; empty with a binding
+    Fabric fabric;                                  ///< `tether.use` is never automatic: it says whether there are any
+    Tethers tethers_asked = Tethers::automatic;     ///< what `tether.use` was before
 
     std::uint32_t particle_count = 0;
     std::uint32_t anchor_count = 0;  ///< points without weight behind the particles, which attachments hold on to
     std::uint32_t pinned_count = 0;
-    AlignedVector<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to capacity()
-    std::vector<float> mass;    ///< kg, per particle, pinned ones included
+    SharedArray<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to capacity()
+    SharedArray<float> mass;  ///< kg, per particle, pinned ones included
+    float extent = 0;         ///< m, of the cloth at rest
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
-    std::vector<CoarseLevel> hierarchy;  ///< the finest level first; empty if none was asked for, or none is of use
+    SharedArray<CoarseLevel> hierarchy;  ///< the finest level first; empty if none was asked for, or none is of use
     std::vector<PinSpan> pin_spans;      ///< only with a hierarchy
     Elasticity elasticity;
     /// Corners of the triangles for the surface passes: [corner · stride + triangle], padded with dummies.
-    AlignedVector<std::uint32_t> faces;
+    SharedArray<std::uint32_t> faces;
+    SharedArray<float> face_area;  ///< m², per triangle at rest
     std::uint32_t triangle_count = 0, face_stride = 0;
-    FacesAround around;  ///< `nothing` is face_stride
-
-    /// Edges are the rows of stretch, by row whether along warp or weft (within 10°), and those that have none, as
-    /// nothing stretches there: of these the ones along warp or weft first, and how many they are.
-    std::vector<bool> axial_rows;
-    std::vector<EdgeEnds> edges_without_row;
-    std::size_t axial_without_row = 0;
+    std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< `nothing` is face_stride
+    std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();
     float mean_edge = 0;  ///< m
 
     BuildTimes build_times;
@@ -95,9 +103,12 @@ struct ClothModel {
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
 
   private:
-    bool mesh_of_particles_ = false;
-    mutable TriangleMesh mesh_;
-    mutable std::once_flag mesh_made_;
+    struct Drawn {
+        bool of_particles = false;
+        TriangleMesh mesh;
+        std::once_flag made;
+    };
+    std::shared_ptr<Drawn> drawn_ = std::make_shared<Drawn>();
 };
 
 /// visit(ends, whether along warp or weft) for every edge, in no particular order.
@@ -106,10 +117,11 @@ void for_each_edge(const ClothModel& model, Visit&& visit) {
     const ConstraintTable& rows = model.table(ConstraintKind::stretch);
     for (std::uint32_t row = 0; row < rows.stride; ++row) {
         if (rows.is_real(row))
-            visit(EdgeEnds{rows.particles[row], rows.particles[std::size_t{rows.stride} + row]}, model.axial_rows[row]);
+            visit(EdgeEnds{rows.particles[row], rows.particles[std::size_t{rows.stride} + row]},
+                  model.edges->axial_rows[row]);
     }
-    for (std::size_t i = 0; i < model.edges_without_row.size(); ++i)
-        visit(model.edges_without_row[i], i < model.axial_without_row);
+    for (std::size_t i = 0; i < model.edges->without_row.size(); ++i)
+        visit(model.edges->without_row[i], i < model.edges->axial_without_row);
 }
 
 /// All edges, ends ascending: those along warp or weft, and the others.
@@ -130,5 +142,14 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Topology& topology, const Fabric& fabric,
                                                              const ClothPins& pins, const ClothLayout& layout = {});
+
+/// The same rows with the numbers of another material: compliances, masses, inverse masses and elasticity are those
+/// that build_cloth_model() gives, bit by bit. All other arrays are shared with `from`: coarse levels and tethers are
+/// still those of its fabric. Null where the fabric needs other rows, or rows that this cannot compute: where
+/// constraints lose all stiffness or get some, other edges bend, by another model or from another angle, plates get
+/// another stiffness, or tethers are asked for in another way. Fails as build_cloth_model() does.
+Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, const Fabric& fabric);
+/// Whether coarse levels or tethers would not be the same for both.
+bool limits_differ(const Fabric& a, const Fabric& b);
 
 }  // namespace weft

@@ -133,7 +133,7 @@ TEST(ClothModel, knows_edges_along_which_nothing_is_stiff) {
     fabric.stretch.shear = 0;
     const auto model = model_of(mesh, *topology, fabric);
     EXPECT_LT(model->table(ConstraintKind::stretch).rows, topology->edges.size());
-    EXPECT_FALSE(model->edges_without_row.empty());
+    EXPECT_FALSE(model->edges->without_row.empty());
     expect_edges_of(*topology, *model);
 }
 

@@ -1,5 +1,7 @@
 #include "solver/model/constraint_table.h"
 
+#include "physics/change_rows.h"
+
 namespace weft {
 namespace {
 
@@ -55,12 +57,13 @@ ConstraintTable pack_rows_with_dummies(ConstraintKind kind, const RowList& list,
                           .first_dummy = first,
                           .batches = lay_out(coloring),
                           .blocks = {}};
+    table.left_out = std::vector<float>(list.left_out);
     if (table.batches.empty()) return table;
 
     table.stride = table.batches.back().padded_end();
-    table.particles.resize(std::size_t{table.arity} * table.stride);
-    table.fields.resize(std::size_t{table.field_count} * table.stride);
-
+    const std::size_t stride = table.stride;
+    AlignedVector<std::uint32_t> particles(table.arity * stride);
+    AlignedVector<float> fields(table.field_count * stride), geometry(list.geometry_count * stride, no_area);
     std::uint32_t next = 0;
     for (const Batch& batch : table.batches) {
         for (std::uint32_t row = batch.begin; row < batch.padded_end(); ++row) {
@@ -68,14 +71,18 @@ ConstraintTable pack_rows_with_dummies(ConstraintKind kind, const RowList& list,
             const std::size_t source = real_row ? coloring.order[next++] : 0;
             for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
                 const std::uint32_t particle = real_row ? list.particles[source * table.arity + slot] : no_particle;
-                table.particles[std::size_t{slot} * table.stride + row] =
-                    particle == no_particle ? dummy(first, slot, row) : particle;
+                particles[slot * stride + row] = particle == no_particle ? dummy(first, slot, row) : particle;
             }
-            for (std::uint32_t field = 0; real_row && field < table.field_count; ++field) {
-                table.fields[std::size_t{field} * table.stride + row] = list.fields[source * table.field_count + field];
-            }
+            if (!real_row) continue;
+            for (std::uint32_t field = 0; field < table.field_count; ++field)
+                fields[field * stride + row] = list.fields[source * table.field_count + field];
+            for (std::uint32_t number = 0; number < list.geometry_count; ++number)
+                geometry[number * stride + row] = list.geometry[source * list.geometry_count + number];
         }
     }
+    table.particles = std::move(particles);
+    table.fields = std::move(fields);
+    table.geometry = std::move(geometry);
     return table;
 }
 

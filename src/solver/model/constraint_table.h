@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/aligned.h"
+#include "base/shared_array.h"
 #include "mesh/coloring.h"
 #include "physics/constraint.h"
 
@@ -46,11 +47,13 @@ struct ConstraintTable {
     std::uint32_t arity = 0, field_count = 0;
     std::uint32_t rows = 0;                  ///< real rows
     std::uint32_t stride = 0;                ///< rows with padding: length of each array below
-    AlignedVector<std::uint32_t> particles;  ///< [slot · stride + row]
-    AlignedVector<float> fields;             ///< [field · stride + row]
+    SharedArray<std::uint32_t> particles;    ///< [slot · stride + row]
+    SharedArray<float> fields;               ///< [field · stride + row]
     std::uint32_t first_dummy = 0;           ///< so many particles from here on are for padding alone: dummy_count
     std::vector<Batch> batches;
     std::vector<LineBlock> blocks;  ///< in the order of their rows; empty where rows are laid out one by one
+    SharedArray<float> geometry = {};  ///< as RowList has it, [number · stride + row]; `no_area` in padding
+    SharedArray<float> left_out = {};  ///< likewise
 
     /// Whether a row is more than padding, which acts on dummies or, along lines, on one particle twice.
     bool is_real(std::uint32_t row) const {

@@ -1,6 +1,7 @@
 #include "solver/model/lines.h"
 
 #include "mesh/paths.h"
+#include "physics/change_rows.h"
 
 #include <weft/bounds.h>
 
@@ -186,18 +187,25 @@ void lay_out(const Lines& lines, ConstraintTable& table) {
 
 class LineWriter {
   public:
-    LineWriter(const RowList& rows, std::uint32_t particle_count, ConstraintTable& table)
-        : rows_(rows), particle_count_(particle_count), table_(table) {}
+    LineWriter(const RowList& rows, std::uint32_t particle_count, std::uint32_t stride)
+        : rows_(rows),
+          particle_count_(particle_count),
+          stride_(stride),
+          particles_(rows.arity * stride_),
+          fields_(rows.field_count * stride_),
+          geometry_(rows.geometry_count * stride_, no_area) {}
 
     void write_row(std::uint32_t at, std::uint32_t row, bool turned) {
         const std::uint32_t* ends = &rows_.particles[2 * std::size_t{row}];
-        place(at, ends[turned], ends[!turned], &rows_.fields[std::size_t{table_.field_count} * row]);
+        place(at, ends[turned], ends[!turned], &rows_.fields[std::size_t{rows_.field_count} * row]);
+        for (std::uint32_t number = 0; number < rows_.geometry_count; ++number)
+            geometry_[number * stride_ + at] = rows_.geometry[std::size_t{rows_.geometry_count} * row + number];
     }
     void write_line(std::uint32_t at, const Paths& paths, std::uint32_t path, std::uint32_t length) {
         std::uint32_t k = 0, end = dummy(first_dummy(particle_count_), 0, at);
         for (std::uint32_t i = paths.offsets[path]; i < paths.offsets[path + 1]; ++i, ++k) {
             write_row(at + k * lane_padding, paths.links[i], paths.turned[i]);
-            end = table_.particles[table_.stride + at + k * lane_padding];
+            end = particles_[stride_ + at + k * lane_padding];
         }
         write_padding(at, k, length, end);
     }
@@ -205,19 +213,24 @@ class LineWriter {
     void write_padding(std::uint32_t at, std::uint32_t from, std::uint32_t length, std::uint32_t end) {
         for (std::uint32_t k = from; k < length; ++k) place(at + k * lane_padding, end, end, inert.data());
     }
+    void move_to(ConstraintTable& table) {
+        table.particles = std::move(particles_);
+        table.fields = std::move(fields_);
+        table.geometry = std::move(geometry_);
+    }
 
   private:
     void place(std::uint32_t at, std::uint32_t first, std::uint32_t second, const float* fields) {
-        table_.particles[at] = first;
-        table_.particles[table_.stride + at] = second;
-        for (std::uint32_t field = 0; field < table_.field_count; ++field) {
-            table_.fields[std::size_t{field} * table_.stride + at] = fields[field];
-        }
+        particles_[at] = first;
+        particles_[stride_ + at] = second;
+        for (std::uint32_t field = 0; field < rows_.field_count; ++field) fields_[field * stride_ + at] = fields[field];
     }
 
     const RowList& rows_;
     std::uint32_t particle_count_;
-    ConstraintTable& table_;
+    std::size_t stride_;
+    AlignedVector<std::uint32_t> particles_;
+    AlignedVector<float> fields_, geometry_;
 };
 
 }  // namespace
@@ -241,10 +254,9 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
                           .batches = {},
                           .blocks = {}};
     lay_out(lines, table);
-    table.particles.resize(std::size_t{table.arity} * table.stride);
-    table.fields.resize(std::size_t{table.field_count} * table.stride);
+    table.left_out = std::vector<float>(stretch.left_out);
 
-    LineWriter writer(stretch, particle_count, table);
+    LineWriter writer(stretch, particle_count, table.stride);
     std::size_t block = 0;
     for (const auto& color : lines.colors) {
         for (std::size_t i = 0; i < color.size(); i += lane_padding, ++block) {
@@ -268,6 +280,7 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
             }
         }
     }
+    writer.move_to(table);
     return table;
 }
 

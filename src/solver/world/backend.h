@@ -85,6 +85,9 @@ class Backend {
     /// Another model for the same particles: other rows, other masses, other pins. What moved goes on moving. `base`
     /// may be another place, which overlaps no cloth's, not even its own former one. Where it fails, all is as it was.
     virtual Result<Done> set_model(ClothHandle cloth, std::shared_ptr<const ClothModel> model, std::uint32_t base) = 0;
+    /// A model by with_fabric() in place of the one that it has: the same rows, particles and pins, other numbers.
+    /// What moved goes on moving, pinned particles stay pinned. Where it fails, all is as it was.
+    virtual Result<Done> set_material(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
     /// Changes inverse masses of single particles and nothing else.
     virtual Result<Done> set_weights(ClothHandle cloth, std::span<const ParticleWeight> changed) = 0;
     /// Advances the world by a frame; times of what runs side by side are shares of the time that passes. A device may

@@ -28,6 +28,10 @@ void PendingModels::drop(ClothId cloth) {
     pending_.erase(one);
 }
 
+bool PendingModels::contains(ClothId cloth) const {
+    return std::ranges::find(pending_, cloth, &Pending::cloth) != pending_.end();
+}
+
 void PendingModels::start_next() {
     std::erase_if(dropped_, [](const Pending& one) { return one.work->done(); });
     if (!dropped_.empty()) return;

@@ -36,6 +36,7 @@ class PendingModels {
     void add(ClothId cloth, std::uint64_t due_frame, BuildModel build);
     /// Waits for nothing: what is being built for the cloth is left to itself.
     void drop(ClothId cloth);
+    bool contains(ClothId cloth) const;
     /// Has the next model built in the background, one at a time. Without calls of this each is built when it is due.
     void start_next();
     /// The next one that is due in `frame`, in the order in which they were added. Waits for it.

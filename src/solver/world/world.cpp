@@ -100,6 +100,21 @@ Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> mode
     return Done{};
 }
 
+Result<Done> World::set_material(ClothId id, std::shared_ptr<const ClothModel> model) {
+    assert(contains(id));
+    settle();
+    pending_.drop(id);
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    if (auto set = backend_->set_material(cloth.handle, model); !set) return set;
+    // Of a fabric, plans know nothing but whether it damps.
+    const bool same_passes = (cloth.model->fabric.body.damping > 0) == (model->fabric.body.damping > 0);
+    cloth.model = std::move(model);
+    if (settings_.method == Method::pbd) cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.iterations);
+    list_cloths();
+    if (!same_passes) replan();
+    return Done{};
+}
+
 void World::rebuild_later(ClothId id, BuildModel build) {
     assert(contains(id));
     const std::uint64_t due = frame_.index + frames_to_build(model(id)->particle_count);

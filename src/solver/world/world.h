@@ -45,6 +45,9 @@ class World {
     void remove(ClothId id);
     /// Another model for the same particles, with other material or other pins; what moves goes on moving.
     Result<Done> set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds);
+    /// A model by with_fabric(): other numbers for the rows that there are. Pins stay as they are now. Drops what
+    /// rebuild_later() has pending.
+    Result<Done> set_material(ClothId id, std::shared_ptr<const ClothModel> model);
     /// Other pins for what is there: touches the particles concerned alone. Particles that are pinned stay where they
     /// are, those that are let go get their weight back. `pinned`: in any order, repetitions allowed. Tethers and
     /// coarse levels stay those of the model until set_model().
@@ -53,6 +56,8 @@ class World {
     /// every run. Until then the cloth goes on with the model that it has. Dropped by another call for the same cloth,
     /// by set_model() and with the cloth. Where building fails, the cloth keeps its model.
     void rebuild_later(ClothId id, BuildModel build);
+    /// Whether a model is pending for the cloth.
+    bool is_rebuilding(ClothId id) const { return pending_.contains(id); }
     bool contains(ClothId id) const { return cloths_.contains(id); }
     const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
     const Holds& holds(ClothId id) const { return cloths_[cloths_.find(id)].holds; }

@@ -1,0 +1,93 @@
+// Another fabric for a cloth that is built already.
+
+#include "physics/change_rows.h"
+#include "solver/model/cloth_model.h"
+#include "solver/model/masses.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace weft {
+namespace {
+
+bool same_stiffness(const StretchMaterial& a, const StretchMaterial& b) {
+    return std::ranges::equal(a.stretch, b.stretch) && std::ranges::equal(a.compression, b.compression) &&
+           a.shear == b.shear && a.inextensible == b.inextensible;
+}
+
+// An angle that the mesh has is a NaN.
+bool same_hinges(const BendMaterial& a, const BendMaterial& b) {
+    return a.model == b.model && a.hinges == b.hinges &&
+           std::bit_cast<std::uint32_t>(a.rest_angle) == std::bit_cast<std::uint32_t>(b.rest_angle);
+}
+
+// False where the material needs other rows.
+template <class Material>
+bool change_table(ClothModel& model, ConstraintKind kind, bool (*change)(const RowsToChange&, const Material&),
+                  const Material& material) {
+    ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
+    AlignedVector<float> fields(table.fields.begin(), table.fields.end());
+    const RowsToChange rows{.stride = table.stride,
+                            .particles = table.particles.data(),
+                            .geometry = table.geometry.data(),
+                            .left_out = table.left_out,
+                            .rest_positions = model.start.data(),
+                            .fields = fields.data()};
+    if (!change(rows, material)) return false;
+    table.fields = std::move(fields);
+    return true;
+}
+
+bool change_bending(ClothModel& model, const BendMaterial& material) {
+    switch (material.model) {
+        case BendModel::hinges: return change_table(model, ConstraintKind::bend, change_bend, material);
+        case BendModel::distance: return change_table(model, ConstraintKind::flexion, change_flexion, material);
+        case BendModel::plate: break;  // a factorization per triangle, of what takes more to keep than to find anew
+    }
+    return false;
+}
+
+Result<Done> change_masses(ClothModel& model, float density) {
+    model.mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
+    if (auto weighed = check_masses(model.mass); !weighed) return weighed;
+    AlignedVector<Vec4> start(model.start.begin(), model.start.end());
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+        const float weight = 1 / model.mass[p];
+        start[p].w = start[p].w > 0 ? weight : 0;
+    }
+    model.start = std::move(start);
+    return Done{};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, const Fabric& fabric) {
+    const float density = fabric.body.density;
+    if (auto sound = check_density(density); !sound) return sound.errors();
+    const std::shared_ptr<const ClothModel> other_rows;
+    if (!same_hinges(from.fabric.bend, fabric.bend) || from.tethers_asked != fabric.tether.use ||
+        from.fabric.tether.slack != fabric.tether.slack)
+        return other_rows;
+
+    auto model = std::make_shared<ClothModel>(from);
+    model->fabric = fabric;
+    model->fabric.tether = from.fabric.tether;
+    model->fabric.plate = model->fabric.flexion = fabric.bend;
+    const StretchMaterial& stretch = fabric.stretch;
+    const bool same_stretch = same_stiffness(from.fabric.stretch, stretch);
+    const bool same_bend = std::ranges::equal(from.fabric.bend.bend, fabric.bend.bend);
+    const bool same_density = from.fabric.body.density == density;
+    if (!same_stretch && !change_table(*model, ConstraintKind::stretch, change_stretch, stretch)) return other_rows;
+    if (!same_bend && !change_bending(*model, fabric.bend)) return other_rows;
+    if (!same_density)
+        if (auto changed = change_masses(*model, density); !changed) return changed.errors();
+    model->elasticity = elasticity_of(stretch, density, from.extent);
+    return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+bool limits_differ(const Fabric& a, const Fabric& b) {
+    return !std::ranges::equal(a.stretch.stretch, b.stretch.stretch) || a.stretch.shear != b.stretch.shear ||
+           a.stretch.inextensible != b.stretch.inextensible || a.body.density != b.body.density;
+}
+
+}  // namespace weft
