@@ -220,12 +220,15 @@ void SceneWorld::remove(ColliderId id) {
 // All of them or none.
 Result<Done> SceneWorld::set_models(std::span<Change> changes) {
     std::vector<Change> before;
+    std::vector<ClothId> pending;
     for (Change& change : changes) {
         Change now{change.id, world_->model(change.id), world_->holds(change.id)};
+        if (world_->is_rebuilding(change.id)) pending.push_back(change.id);
         if (auto set = world_->set_model(change.id, std::move(change.model), std::move(change.holds)); !set) {
             // They fit before, and there is room again for each that goes back.
             for (Change& earlier : before)
                 (void)world_->set_model(earlier.id, std::move(earlier.model), std::move(earlier.holds));
+            for (const ClothId id : pending) rebuild_later(place_of(id));
             return set;
         }
         before.push_back(std::move(now));

@@ -313,8 +313,8 @@ TEST(Overlays, of_nothing_are_nothing) {
         // Then a cloth without a triangle or a particle.
         if (cloths == 1) {
             auto empty = std::make_shared<ClothModel>();
-            empty->start.resize(empty->capacity());
-            empty->around = lay_out_around({}, 0);
+            empty->start = AlignedVector<Vec4>(empty->capacity());
+            empty->around = std::make_shared<FacesAround>(lay_out_around({}, 0));
             world.add(std::move(empty));
         }
         for (const Overlay& overlay : overlays()) {

@@ -251,24 +251,25 @@ TEST(VulkanMeasuring, of_what_floats_cannot_square_are_those_of_the_host) {
     EXPECT_NEAR(measures.strain.stretch.max, 4e30, 1e25) << "edges of a quarter of a meter";
 }
 
-std::shared_ptr<ClothModel> three_loose_particles() {
+std::shared_ptr<ClothModel> three_loose_particles(std::array<float, 3> x = {0, 1, 2}) {
     auto loose = std::make_shared<ClothModel>();
     loose->name = "loose";
     loose->particle_count = 3;
-    loose->start.resize(loose->capacity());
-    for (std::uint32_t p = 0; p < 3; ++p) loose->start[p] = {static_cast<float>(p), 0, 0, p == 0 ? 0.0f : 2.0f};
-    loose->mass = {5, 0.5f, 0.5f};
+    AlignedVector<Vec4> start(loose->capacity());
+    for (std::uint32_t p = 0; p < 3; ++p) start[p] = {x[p], 0, 0, p == 0 ? 0.0f : 2.0f};
+    loose->start = std::move(start);
+    loose->mass = std::vector<float>{5, 0.5f, 0.5f};
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         const auto as_kind = static_cast<ConstraintKind>(kind);
         loose->constraints[kind] = pack_rows(as_kind, make_rows(as_kind), 3);
     }
-    loose->around = lay_out_around({.offsets = std::vector<std::uint32_t>(4), .items = {}}, 0);
+    loose->around = std::make_shared<FacesAround>(
+        lay_out_around({.offsets = std::vector<std::uint32_t>(4), .items = {}}, 0));
     return loose;
 }
 
 TEST(VulkanMeasuring, are_nothing_where_there_is_nothing_to_measure) {
-    const auto chain = three_loose_particles();  // two particles of it at the same place, and no shear
-    chain->start[2].x = 1;
+    const auto chain = three_loose_particles({0, 1, 1});  // two particles of it at the same place, and no shear
     chain->edges = std::make_shared<ClothEdges>(
         ClothEdges{.axial_rows = {}, .without_row = {{0, 1}, {1, 2}}, .axial_without_row = 2});
 

@@ -36,8 +36,8 @@ std::shared_ptr<const ClothModel> model_of(const RandomState& state) {
     auto model = std::make_shared<ClothModel>();
     model->name = "random";
     model->particle_count = particle_count;
-    model->start = state.position;
-    model->mass.assign(particle_count, 1);
+    model->start = AlignedVector<Vec4>(state.position);
+    model->mass = std::vector<float>(particle_count, 1);
     model->mean_edge = 1;
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         const auto as_kind = static_cast<ConstraintKind>(kind);
@@ -45,7 +45,8 @@ std::shared_ptr<const ClothModel> model_of(const RandomState& state) {
                                        ? state.table
                                        : pack_rows(as_kind, make_rows(as_kind), particle_count);
     }
-    model->around = lay_out_around({.offsets = std::vector<std::uint32_t>(particle_count + 1), .items = {}}, 0);
+    model->around = std::make_shared<FacesAround>(
+        lay_out_around({.offsets = std::vector<std::uint32_t>(particle_count + 1), .items = {}}, 0));
     return model;
 }
 

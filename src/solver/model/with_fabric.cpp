@@ -65,13 +65,15 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     const float density = fabric.body.density;
     if (auto sound = check_density(density); !sound) return sound.errors();
     const std::shared_ptr<const ClothModel> other_rows;
-    if (!same_hinges(from.fabric.bend, fabric.bend) || from.tethers_asked != fabric.tether.use ||
-        from.fabric.tether.slack != fabric.tether.slack)
+    const Tethers asked = fabric.tether.use;
+    if (!same_hinges(from.fabric.bend, fabric.bend) || from.fabric.tether.slack != fabric.tether.slack ||
+        (asked != from.tethers_asked && asked != from.fabric.tether.use))
         return other_rows;
 
     auto model = std::make_shared<ClothModel>(from);
     model->fabric = fabric;
     model->fabric.tether = from.fabric.tether;
+    model->tethers_asked = asked;
     model->fabric.plate = model->fabric.flexion = fabric.bend;
     const StretchMaterial& stretch = fabric.stretch;
     const bool same_stretch = same_stiffness(from.fabric.stretch, stretch);
