@@ -37,8 +37,12 @@ std::vector<Change> all_changes(std::uint32_t side) {
     return {
         {"preset", "stretch, bend, density and all else: denim, silk, denim, ...",
          set([](int call) { return fabric(call, call % 2 == 0 ? "denim" : "silk"); })},
-        {"stretch", "", set([=](int call) { return fabric(call).set("stretch", {stiffness(call), 4000.0}); })},
-        {"bend", "", set([](int call) { return fabric(call).set("bend", {1e-5 + 1e-7 * call, 9e-6, 7e-6}); })},
+        {"stretch", "", set([=](int call) {
+             return fabric(call).set("stretch", {stiffness(call), 4000.0});
+         })},
+        {"bend", "", set([](int call) {
+             return fabric(call).set("bend", {1e-5 + 1e-7 * call, 9e-6, 7e-6});
+         })},
         {"density", "", set([](int call) { return fabric(call).set("density", 0.14 + 0.001 * call); })},
         {"drag", "no number of any row", set([](int call) { return fabric(call); })},
         {"bend_model", "other rows: the model is built anew",

@@ -22,9 +22,8 @@ class SharedArray {
     SharedArray() = default;
     /// Takes the elements of a vector with any allocator, without copying them.
     template <class Vector>
-        requires(std::is_rvalue_reference_v<Vector &&> && std::is_same_v<typename Vector::value_type, T> &&
-                 !std::is_same_v<Vector, SharedArray>)
-    SharedArray(Vector&& elements) {
+    requires(std::is_rvalue_reference_v<Vector&&>&& std::is_same_v<typename Vector::value_type, T> &&
+             !std::is_same_v<Vector, SharedArray>) SharedArray(Vector&& elements) {
         auto owner = std::make_shared<const Vector>(std::move(elements));
         data_ = owner->data();
         size_ = owner->size();

@@ -20,10 +20,10 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
 }
 
 void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base) {
-    assert(other->particle_count == model->particle_count);
+    assert(other->first_anchor() == model->first_anchor());
     // Anchors of two different sets do not correspond; the new ones start where the model has them.
     const bool same_anchors = other->anchor_count == model->anchor_count;
-    const std::uint32_t kept = same_anchors ? other->point_count() : other->particle_count;
+    const std::uint32_t kept = same_anchors ? other->point_count() : other->first_anchor();
     const auto copy_of = [&](std::span<Vec4> array) {
         return AlignedVector<Vec4>(array.begin(), array.begin() + kept);
     };
@@ -61,14 +61,33 @@ void ClothState::set_material(std::shared_ptr<const ClothModel> other) {
     assert(other->point_count() == model->point_count());
     const bool same_masses = other->mass.shares(model->mass);
     model = std::move(other);
-    if (same_masses) return;
+    if (!same_masses) weigh();
+}
+
+// Pins are those of now, not the model's.
+void ClothState::weigh() {
     face_mass.clear();
     const std::span<Vec4> position = now().position;
     const std::span<float> weight = weights();
     for (std::uint32_t p = 0; p < model->particle_count; ++p) {
         const float unpinned = 1 / model->mass[p];
-        weight[p] = position[p].w = weight[p] > 0 ? unpinned : 0;  // pins are those of now, not the model's
+        weight[p] = position[p].w = weight[p] > 0 ? unpinned : 0;
     }
+}
+
+void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span<const std::uint32_t> copied) {
+    assert(other->capacity() == model->capacity());
+    const Particles mine = now();
+    for (std::size_t i = 0; i < copied.size(); ++i) {
+        const std::size_t to = model->particle_count + i, from = copied[i];
+        for (const auto& array : {mine.position, mine.start, mine.velocity, mine.carry}) array[to] = array[from];
+        mine.position[to].w = weights()[to] = 0;
+    }
+    model = std::move(other);
+    weigh();
+    gather = nullptr;
+    levels.clear();
+    update_normals();
 }
 
 ClothSnapshot ClothState::save() const {
@@ -145,7 +164,7 @@ RowView ClothState::rows(ConstraintKind kind) {
 }
 
 SurfaceView ClothState::surface() {
-    return {&now().position[0].x, model->faces.data(),    model->face_stride,
+    return {&now().position[0].x, model->faces.data(),     model->face_stride,
             &by_face[0].x,        view_of(*model->around), &normals()[0].x};
 }
 

@@ -55,6 +55,8 @@ struct ClothState {
     void set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base);
     /// The same rows, particles and anchors, other numbers.
     void set_material(std::shared_ptr<const ClothModel> other);
+    /// Other rows and triangles for the same points: Backend::set_topology().
+    void set_topology(std::shared_ptr<const ClothModel> other, std::span<const std::uint32_t> copied);
     /// Changes inverse masses, nothing else.
     void set_weights(std::span<const ParticleWeight> changed);
     ClothSnapshot save() const;
@@ -86,6 +88,7 @@ struct ClothState {
     void update_normals();
 
   private:
+    void weigh();
     CarryView carry_from(std::uint32_t i) const;
 };
 

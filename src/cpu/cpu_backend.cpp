@@ -53,6 +53,12 @@ class CpuBackend final : public Backend {
         return Done{};
     }
 
+    Result<Done> set_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
+                              std::span<const std::uint32_t> copied) override {
+        cloth(handle).set_topology(std::move(model), copied);
+        return Done{};
+    }
+
     Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
         cloth(handle).set_weights(changed);
         return Done{};
@@ -101,7 +107,7 @@ class CpuBackend final : public Backend {
         frame.velocities = now.velocity.first(count);
         frame.normals = state.normals().first(count);
         frame.triangles = state.model->triangles();
-        frame.topology_version = first_topology_version;
+        frame.topology_version = state.model->topology_version;
         return true;
     }
 

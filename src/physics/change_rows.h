@@ -14,12 +14,12 @@ inline constexpr float no_area = -1;
 
 /// Rows of one kind, array by array, as their builder made them for another material.
 struct RowsToChange {
-    std::uint32_t stride = 0;                   ///< rows with padding
-    const std::uint32_t* particles = nullptr;   ///< [slot · stride + row]
-    const float* geometry = nullptr;            ///< [number · stride + row]
+    std::uint32_t stride = 0;                  ///< rows with padding
+    const std::uint32_t* particles = nullptr;  ///< [slot · stride + row]
+    const float* geometry = nullptr;           ///< [number · stride + row]
     std::span<const float> left_out = {};
-    const Vec4* rest_positions = nullptr;       ///< of particles, those of padding included
-    float* fields = nullptr;                    ///< [field · stride + row]: read, and written where they differ
+    const Vec4* rest_positions = nullptr;  ///< of particles, those of padding included
+    float* fields = nullptr;               ///< [field · stride + row]: read, and written where they differ
 };
 
 // Each writes the numbers that build_<kind>() gives for `material`, bit by bit. False where that would give other rows;

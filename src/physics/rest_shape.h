@@ -27,8 +27,9 @@ struct RestShape {
     std::vector<float> area_at_edge = {};      ///< per edge: that of its one or two triangles, m²
     std::vector<RestFrame> frames = {};        ///< per particle: means over its triangles (rest_frames.h)
     std::vector<std::uint8_t> held = {};       ///< per particle: 1 if its place is given from outside; empty: none is
-    std::vector<Attachment> attachments = {};  ///< the anchor of number i is particle `topology.particle_count` + i
-    Elasticity elasticity = {};                ///< for one-sided limits
+    std::vector<Attachment> attachments = {};  ///< the anchor of number i is particle `first_anchor` + i
+    std::uint32_t first_anchor = topology.particle_count;
+    Elasticity elasticity = {};  ///< for one-sided limits
 };
 
 /// m²

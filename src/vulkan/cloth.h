@@ -17,8 +17,8 @@ namespace weft::vulkan {
 class Cloth {
   public:
     static Result<std::unique_ptr<Cloth>> create(gpu::Device& device, Programs& programs,
-                                                 std::shared_ptr<ModelBuffers> buffers,
-                                                 const WorldParticles& world, std::uint32_t base);
+                                                 std::shared_ptr<ModelBuffers> buffers, const WorldParticles& world,
+                                                 std::uint32_t base);
 
     const ClothModel& model() const { return state_->model(); }
     ClothState& state() { return *state_; }

@@ -68,7 +68,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         Cloth& old = cloth(handle);
-        assert(model->particle_count == old.model().particle_count);
+        assert(model->first_anchor() == old.model().first_anchor());
         const auto before = old.save();
         if (!before) return before.errors();
         const bool same_anchors = model->anchor_count == old.model().anchor_count;
@@ -99,6 +99,35 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         auto done = state.set_material(*device_, model);
         models_[&state.model()] = known.mapped();
         return done;
+    }
+
+    Result<Done> set_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
+                              std::span<const std::uint32_t> copied) override {
+        Cloth& old = cloth(handle);
+        assert(model->capacity() == old.model().capacity());
+        const auto before = old.save();
+        if (!before) return before.errors();
+        ClothSnapshot snapshot = *before;
+        for (std::size_t i = 0; i < copied.size(); ++i) {
+            const std::size_t to = old.model().particle_count + i, from = copied[i];
+            for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
+                (*array)[to] = (*array)[from];
+            snapshot.position[to].w = 0;
+        }
+        for (std::uint32_t p = 0; p < model->particle_count; ++p)
+            snapshot.position[p].w = snapshot.position[p].w > 0 ? 1 / model->mass[p] : 0;
+        // Where there is no room for both, the old one gets back what it was.
+        auto next = make_cloth(std::move(model), old.state().base());
+        Result<Done> done = Done{};
+        if (!next) done = next.errors();
+        if (done) done = (*next)->restore(snapshot);
+        if (!done) {
+            (void)old.restore(*before);
+            return done;
+        }
+        forget_runs(old);
+        cloths_[handle.value] = std::move(*next);
+        return Done{};
     }
 
     Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
@@ -138,7 +167,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         frame.velocities = one.velocities();
         frame.normals = one.normals();
         frame.triangles = one.model().triangles();
-        frame.topology_version = first_topology_version;
+        frame.topology_version = one.model().topology_version;
         return read;
     }
 
@@ -209,7 +238,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     // Anchors of two different sets do not correspond; the new ones start where the model has them.
     static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& model, bool same_anchors) {
-        const std::size_t kept = same_anchors ? model.point_count() : model.particle_count;
+        const std::size_t kept = same_anchors ? model.point_count() : model.first_anchor();
         for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
             array->resize(kept), array->resize(model.point_count());
         for (std::size_t p = kept; p < model.point_count(); ++p) snapshot.position[p] = model.start[p];

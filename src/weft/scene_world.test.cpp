@@ -31,6 +31,10 @@ class BackendWithoutRoom final : public Backend {
         if (count_++ == room_) return Error::of_machine("device", "has no room");
         return inner_->set_material(cloth, std::move(model));
     }
+    Result<Done> set_topology(ClothHandle cloth, std::shared_ptr<const ClothModel> model,
+                              std::span<const std::uint32_t> copied) override {
+        return inner_->set_topology(cloth, std::move(model), copied);
+    }
     void step(const WorldStep& step) override { inner_->step(step); }
     Result<Done> set_weights(ClothHandle cloth, std::span<const ParticleWeight> changed) override {
         return inner_->set_weights(cloth, changed);

@@ -42,7 +42,8 @@ TEST(LiveFabrics, leave_what_moves_and_pins_as_they_are) {
     run(world, 0.25);
     ASSERT_TRUE(world.set_pins(id, {7, 100}, {}).ok());  // other ones than the model's
     const auto copy = [](std::span<const Vec4> all) { return std::vector<Vec4>(all.begin(), all.end()); };
-    const auto positions = copy(world.frame().cloths[0].positions), velocities = copy(world.frame().cloths[0].velocities);
+    const auto positions = copy(world.frame().cloths[0].positions),
+               velocities = copy(world.frame().cloths[0].velocities);
     ASSERT_TRUE(set_fabric(world, id, heavy_and_soft()).ok());
     const ClothFrame& now = world.frame().cloths[0];
     EXPECT_EQ(now.model, world.model(id).get());
@@ -80,8 +81,9 @@ TEST(LiveFabrics, of_one_cloth_leave_others_of_its_model_alone) {
 
 TEST(LiveFabrics, of_every_part_show_at_once) {
     const auto height_with = [](auto&& change, bool twice) {
-        World world = make_world({.substeps = 4, .air = AirDesc{}},
-                                 {.resolution = {9, 9}, .position = {0, 1, 0}, .pinned = [](Vec3 p) { return p.x < -0.49f; }});
+        World world =
+            make_world({.substeps = 4, .air = AirDesc{}},
+                       {.resolution = {9, 9}, .position = {0, 1, 0}, .pinned = [](Vec3 p) { return p.x < -0.49f; }});
         world.add(make_collider({.name = "ground", .shape = PlaneDesc{{0, 1, 0}, 0.5f}}));
         run(world, 0.1);
         Fabric fabric;

@@ -263,8 +263,8 @@ std::shared_ptr<ClothModel> three_loose_particles(std::array<float, 3> x = {0, 1
         const auto as_kind = static_cast<ConstraintKind>(kind);
         loose->constraints[kind] = pack_rows(as_kind, make_rows(as_kind), 3);
     }
-    loose->around = std::make_shared<FacesAround>(
-        lay_out_around({.offsets = std::vector<std::uint32_t>(4), .items = {}}, 0));
+    loose->around =
+        std::make_shared<FacesAround>(lay_out_around({.offsets = std::vector<std::uint32_t>(4), .items = {}}, 0));
     return loose;
 }
 

@@ -135,7 +135,7 @@ class TrafficCounter {
             case PassKind::place:
             case PassKind::list:
             case PassKind::aim:
-                return {};  // of dynamic lists
+                return {};           // of dynamic lists
             case PassKind::predict:  // four arrays in, four out
                 return {.own = 0, .shared = 8 * block * points};
             case PassKind::velocities:  // four in, two out; all but the last are one pass with the next prediction

@@ -8,6 +8,7 @@
 #include "solver/model/masses.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -43,7 +44,7 @@ Result<Done> place_anchors(const ClothModel& model, const std::vector<Attachment
         if (!(compliance > 0 && std::isfinite(compliance)))
             return Error{where, "compliance must be > 0 m/N, got " + number_text(compliance)};
         if (!finite(place)) return Error{where, "place is not finite"};
-        start[model.particle_count + i] = {place.x, place.y, place.z, 0};
+        start[model.first_anchor() + i] = {place.x, place.y, place.z, 0};
     }
     return Done{};
 }
@@ -53,8 +54,7 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     const auto count = model.triangle_count = static_cast<std::uint32_t>(topology.triangles.size());
     model.face_stride = padded(count);
     AlignedVector<std::uint32_t> faces(std::size_t{3} * model.face_stride);
-    model.around =
-        std::make_shared<const FacesAround>(lay_out_around(topology.particle_triangles, model.face_stride));
+    model.around = std::make_shared<const FacesAround>(lay_out_around(topology.particle_triangles, model.face_stride));
     for (std::uint32_t t = 0; t < model.face_stride; ++t) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             faces[std::size_t{corner} * model.face_stride + t] =
@@ -146,7 +146,7 @@ Result<Done> check_drawn(const TriangleMesh& mesh) {
 }
 
 void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind, const RowList& rows, bool lines,
-               const ColoringOptions& options, BuildClock& clock) {
+               const ColoringOptions& options, std::uint32_t spare, BuildClock& clock) {
     ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
     clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
     if (lines) {
@@ -156,6 +156,7 @@ void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind,
         clock.spent_on(BuildPart::coloring);
         table = pack_rows(kind, rows, model.point_count(), coloring);
     }
+    if (spare > 0 && table.rows > 0) add_spare_rows(table, spare);
     clock.spent_on(BuildPart::tables);
 }
 
@@ -171,13 +172,16 @@ void choose_tethers(ClothModel& model, const RestShape& rest) {
 
 // Everything that material and pins decide.
 Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
-                     const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout) {
+                     const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout,
+                     const ClothReserve& reserve) {
     const float density = fabric.body.density;
     if (auto sound = check_density(density); !sound) return sound;
     BuildClock clock(model.build_times);
     model.fabric = fabric;
     model.tethers_asked = fabric.tether.use;
     model.particle_count = topology.particle_count;
+    model.reserved = reserve;
+    model.reserve = reserve.particles;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
 
     RestShape rest = make_rest_shape(mesh, topology);
@@ -188,6 +192,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     if (auto placed = place_anchors(model, pins.attachments, start); !placed) return placed;
     model.start = std::move(start);
     rest.attachments = pins.attachments;
+    rest.first_anchor = model.first_anchor();
     rest.held.assign(model.particle_count, 0);
     for (std::uint32_t p : pins.particles) rest.held[p] = 1;
     model.extent = extent_of(topology);
@@ -208,7 +213,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     model.fabric.plate = model.fabric.flexion = model.fabric.bend;
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                              \
     add_table(model, topology, ConstraintKind::name, build_##name(rest, model.fabric.name), \
-              layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, clock);
+              layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, reserve.constraints, clock);
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
@@ -223,7 +228,9 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->build_times = desc.build_times;
-    if (auto done = lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout); !done)
+    if (auto done =
+            lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout, desc.reserve);
+        !done)
         return done.errors();
     BuildClock clock(model->build_times);
     if (desc.drawn) {
@@ -255,7 +262,8 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
         model->set_mesh(from.mesh());
     }
     model->vertex_to_particle = from.vertex_to_particle;
-    if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout); !done) return done.errors();
+    if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout, from.reserved); !done)
+        return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 
@@ -263,6 +271,24 @@ void ClothModel::set_mesh(TriangleMesh mesh) {
     drawn_ = std::make_shared<Drawn>();
     drawn_->mesh = std::move(mesh);
     drawn_->mesh.normals = {};
+}
+
+void ClothModel::append_vertices(const std::vector<std::uint32_t>& sources) {
+    assert(mesh_is_of_particles());
+    const auto appended = [&](auto values, const auto& vertex_of) {
+        if (values.empty()) return values;
+        for (const std::uint32_t source : sources) values.push_back(values[vertex_of[source]]);
+        return values;
+    };
+    std::vector<std::uint32_t> vertex(particle_count), particles(vertex_to_particle.begin(), vertex_to_particle.end());
+    for (std::uint32_t v = 0; v < particles.size(); ++v) vertex[particles[v]] = v;
+    for (std::uint32_t i = 0; i < sources.size(); ++i) particles.push_back(particle_count + i);
+    vertex_to_particle = std::move(particles);
+    set_mesh_of_particles(appended(drawn_->mesh.uvs, vertex), appended(drawn_->mesh.colors, vertex));
+}
+
+void ClothModel::reset_mesh() {
+    set_mesh_of_particles(std::vector<Vec2>(drawn_->mesh.uvs), std::vector<Vec4>(drawn_->mesh.colors));
 }
 
 void ClothModel::set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors) {
@@ -313,8 +339,7 @@ EdgesByDirection edges_by_direction(const ClothModel& model) {
 
 std::vector<float> face_masses(const ClothModel& model) {
     std::vector<float> masses(model.face_stride);
-    for (std::uint32_t t = 0; t < model.triangle_count; ++t)
-        masses[t] = model.fabric.body.density * model.face_area[t];
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) masses[t] = model.fabric.body.density * model.face_area[t];
     return masses;
 }
 

@@ -36,6 +36,12 @@ struct ClothLayout {
     friend bool operator==(const ClothLayout&, const ClothLayout&) = default;
 };
 
+/// Room for what is added to a cloth while it moves (cloth_edit.h).
+struct ClothReserve {
+    std::uint32_t particles = 0;
+    std::uint32_t constraints = 0;  ///< of each kind that the cloth has
+};
+
 struct ClothModelDesc {
     std::string name = {};
     TriangleMesh mesh = {};                  ///< what is simulated, in world space, m
@@ -43,6 +49,7 @@ struct ClothModelDesc {
     Fabric fabric = {};
     ClothPins pins = {};
     ClothLayout layout = {};
+    ClothReserve reserve = {};
     ColoringOptions coloring = {};
     BuildTimes build_times = {};  ///< what went before: its topology
 };
@@ -67,7 +74,9 @@ struct ClothModel {
     Tethers tethers_asked = Tethers::automatic;     ///< what `tether.use` was before
 
     std::uint32_t particle_count = 0;
-    std::uint32_t anchor_count = 0;  ///< points without weight behind the particles, which attachments hold on to
+    ClothReserve reserved = {};      ///< when it was built
+    std::uint32_t reserve = 0;       ///< points behind the particles that can become particles
+    std::uint32_t anchor_count = 0;  ///< points without weight behind those, which attachments hold on to
     std::uint32_t pinned_count = 0;
     SharedArray<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to capacity()
     SharedArray<float> mass;  ///< kg, per particle, pinned ones included
@@ -84,6 +93,7 @@ struct ClothModel {
     std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< `nothing` is face_stride
     std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();
     float mean_edge = 0;  ///< m
+    std::uint64_t topology_version = first_topology_version;
 
     BuildTimes build_times;
 
@@ -94,8 +104,16 @@ struct ClothModel {
     /// first, in whatever thread.
     void set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors);
 
-    /// Particles and anchors: what a step moves.
-    std::uint32_t point_count() const { return particle_count + anchor_count; }
+    /// Whether the render mesh is the simulated one, vertex by vertex.
+    bool mesh_is_of_particles() const { return drawn_->of_particles && binding.empty(); }
+    /// Adds vertices to such a mesh, for particles that are about to be appended: copies of those of `sources`.
+    void append_vertices(const std::vector<std::uint32_t>& sources);
+    /// Such a mesh is made anew of the particles and triangles as they are now.
+    void reset_mesh();
+
+    std::uint32_t first_anchor() const { return particle_count + reserve; }
+    /// Particles, those to come, and anchors: what a step moves.
+    std::uint32_t point_count() const { return first_anchor() + anchor_count; }
     std::uint32_t capacity() const { return particle_capacity(point_count()); }
     Vec3 rest_position(std::uint32_t particle) const { return start[particle].xyz(); }
     /// Of particles, as the cloth starts; what they are later stands in ClothFrame.

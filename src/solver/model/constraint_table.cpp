@@ -2,6 +2,8 @@
 
 #include "physics/change_rows.h"
 
+#include "physics/change_rows.h"
+
 namespace weft {
 namespace {
 
@@ -20,7 +22,29 @@ std::vector<Batch> lay_out(const Coloring& coloring) {
     return batches;
 }
 
+// An array with more columns; what is new is `fill`.
+template <class T>
+AlignedVector<T> widened(const SharedArray<T>& from, std::uint32_t stride, std::uint32_t wider, T fill) {
+    AlignedVector<T> to(stride == 0 ? 0 : from.size() / stride * wider, fill);
+    for (std::size_t i = 0; i < from.size(); ++i) to[i / stride * wider + i % stride] = from[i];
+    return to;
+}
+
 }  // namespace
+
+void add_spare_rows(ConstraintTable& table, std::uint32_t count) {
+    const std::uint32_t before = table.stride, stride = before + padded(count);
+    AlignedVector<std::uint32_t> particles = widened(table.particles, before, stride, 0u);
+    for (std::uint32_t slot = 0; slot < table.arity; ++slot)
+        for (std::uint32_t row = before; row < stride; ++row)
+            particles[std::size_t{slot} * stride + row] = dummy(table.first_dummy, slot, row);
+    table.particles = std::move(particles);
+    table.fields = widened(table.fields, before, stride, 0.0f);
+    table.geometry = widened(table.geometry, before, stride, no_area);
+    table.stride = stride;
+    table.first_spare = before;
+    table.spare_rows = count;
+}
 
 Coloring color_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
                     const ColoringOptions& options) {

@@ -45,19 +45,27 @@ inline constexpr std::uint32_t dummy_count = 6 * lane_padding;
 struct ConstraintTable {
     ConstraintKind kind{};
     std::uint32_t arity = 0, field_count = 0;
-    std::uint32_t rows = 0;                  ///< real rows
-    std::uint32_t stride = 0;                ///< rows with padding: length of each array below
-    SharedArray<std::uint32_t> particles;    ///< [slot · stride + row]
-    SharedArray<float> fields;               ///< [field · stride + row]
-    std::uint32_t first_dummy = 0;           ///< so many particles from here on are for padding alone: dummy_count
+    std::uint32_t rows = 0;                ///< real rows
+    std::uint32_t stride = 0;              ///< rows with padding: length of each array below
+    SharedArray<std::uint32_t> particles;  ///< [slot · stride + row]
+    SharedArray<float> fields;             ///< [field · stride + row]
+    std::uint32_t first_dummy = 0;         ///< so many particles from here on are for padding alone: dummy_count
     std::vector<Batch> batches;
-    std::vector<LineBlock> blocks;  ///< in the order of their rows; empty where rows are laid out one by one
+    std::vector<LineBlock> blocks;     ///< in the order of their rows; empty where rows are laid out one by one
     SharedArray<float> geometry = {};  ///< as RowList has it, [number · stride + row]; `no_area` in padding
     SharedArray<float> left_out = {};  ///< likewise
+    /// Padding from first_spare on that constraints may take which are added while the cloth moves (cloth_edit.h): how
+    /// many, and how many have.
+    std::uint32_t first_spare = 0, spare_rows = 0, spare_used = 0;
 
     /// Whether a row is more than padding, which acts on dummies or, along lines, on one particle twice.
     bool is_real(std::uint32_t row) const {
-        return !is_dummy(particles[row]) && !(arity > 1 && particles[row] == particles[std::size_t{stride} + row]);
+        return !is_dummy(particles[row]) && !(arity > 1 && particles[row] == particles[std::size_t{stride} + row]) &&
+               !is_ended(row);
+    }
+    /// Whether a constraint along a line is gone: it keeps its ends, and has no stiffness.
+    bool is_ended(std::uint32_t row) const {
+        return !blocks.empty() && !geometry.empty() && geometry[geometry.size() - stride + row] < 0;
     }
     bool is_dummy(std::uint32_t particle) const { return particle - first_dummy < dummy_count; }
     /// Multipliers of all rows: [multiplier · stride + row].
@@ -78,6 +86,9 @@ constexpr std::uint32_t particle_capacity(std::uint32_t particle_count) {
 constexpr std::uint32_t dummy(std::uint32_t first, std::uint32_t slot, std::uint32_t row) {
     return first + slot * lane_padding + row % lane_padding;
 }
+
+/// Adds padding for so many constraints.
+void add_spare_rows(ConstraintTable& table, std::uint32_t count);
 
 Coloring color_rows(ConstraintKind kind, const RowList& rows, std::uint32_t particle_count,
                     const ColoringOptions& options = {});

@@ -40,9 +40,12 @@ bool change_table(ClothModel& model, ConstraintKind kind, bool (*change)(const R
 
 bool change_bending(ClothModel& model, const BendMaterial& material) {
     switch (material.model) {
-        case BendModel::hinges: return change_table(model, ConstraintKind::bend, change_bend, material);
-        case BendModel::distance: return change_table(model, ConstraintKind::flexion, change_flexion, material);
-        case BendModel::plate: break;  // a factorization per triangle, of what takes more to keep than to find anew
+        case BendModel::hinges:
+            return change_table(model, ConstraintKind::bend, change_bend, material);
+        case BendModel::distance:
+            return change_table(model, ConstraintKind::flexion, change_flexion, material);
+        case BendModel::plate:
+            break;  // a factorization per triangle, of what takes more to keep than to find anew
     }
     return false;
 }

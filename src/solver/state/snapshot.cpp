@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and a version; on a machine of the other byte order it reads as neither.
-constexpr std::uint32_t magic = 0x74666577, version = 3;
+constexpr std::uint32_t magic = 0x74666577, version = 4;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;
@@ -97,6 +97,13 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
             out.one(mover.collider);
             out.list(mover.offsets);
         }
+        out.one<std::uint64_t>(cloth.edits.size());
+        for (const ClothEdit& edit : cloth.edits) {
+            out.list(edit.appended);
+            out.list(edit.triangles);
+            out.list(edit.rows);
+            out.list(edit.added);
+        }
     }
     Writer file;
     file.one(magic);
@@ -134,6 +141,14 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
             SavedMover& mover = cloth.holds.movers.emplace_back();
             mover.collider = in.one<std::uint32_t>();
             mover.offsets = in.list<OffsetKey>();
+        }
+        const auto edits = in.one<std::uint64_t>();
+        for (std::uint64_t e = 0; e < edits && !in.too_short(); ++e) {
+            ClothEdit& edit = cloth.edits.emplace_back();
+            edit.appended = in.list<std::uint32_t>();
+            edit.triangles = in.list<TriangleEdit>();
+            edit.rows = in.list<RowEdit>();
+            edit.added = in.list<RowEdit>();
         }
     }
     if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};

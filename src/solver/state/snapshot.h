@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/transform.h"
+#include "solver/model/cloth_edit.h"
 #include "solver/state/holds.h"
 
 #include <weft/result.h>
@@ -31,6 +32,7 @@ struct ClothSnapshot {
     std::vector<Vec4> position, start, velocity, carry;  ///< per particle and anchor
     std::vector<float> lambda;                           ///< of the rows of stretch, which tell how taut the cloth is
     double substep_seconds = 0;                          ///< of the last frame
+    std::vector<ClothEdit> edits = {};                   ///< since the cloth was built
     SavedHolds holds = {};                               ///< what carries pinned particles and anchors along
 };
 

@@ -74,7 +74,7 @@ void World::remove(ClothId id) {
 }
 
 Result<Done> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model) {
-    assert(model->particle_count == cloth.model->particle_count);
+    assert(model->first_anchor() == cloth.model->first_anchor());
     const std::uint32_t before = cloth.model->capacity(), after = model->capacity();
     const std::uint32_t base = after == before ? cloth.base : space_.take(after);
     if (auto set = backend_->set_model(cloth.handle, model, base); !set) {
@@ -84,6 +84,8 @@ Result<Done> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothMode
     if (base != cloth.base) space_.give_back(cloth.base, before);
     cloth.base = base;
     cloth.model = std::move(model);
+    cloth.unedited = nullptr;
+    cloth.edits.clear();
     cloth.pinned = pinned_in(*cloth.model);
     return Done{};
 }
@@ -105,7 +107,10 @@ Result<Done> World::set_material(ClothId id, std::shared_ptr<const ClothModel> m
     settle();
     pending_.drop(id);
     Cloth& cloth = cloths_[cloths_.find(id)];
+    auto unedited = with_fabric_unedited(cloth, *model);
+    if (!unedited) return unedited.errors();
     if (auto set = backend_->set_material(cloth.handle, model); !set) return set;
+    cloth.unedited = std::move(*unedited);
     // Of a fabric, plans know nothing but whether it damps.
     const bool same_passes = (cloth.model->fabric.body.damping > 0) == (model->fabric.body.damping > 0);
     cloth.model = std::move(model);
@@ -117,6 +122,7 @@ Result<Done> World::set_material(ClothId id, std::shared_ptr<const ClothModel> m
 
 void World::rebuild_later(ClothId id, BuildModel build) {
     assert(contains(id));
+    if (!cloths_[cloths_.find(id)].edits.empty()) return;
     const std::uint64_t due = frame_.index + frames_to_build(model(id)->particle_count);
     pending_.add(id, due, std::move(build));
 }
@@ -432,6 +438,7 @@ Snapshot World::save() {
     for (const Cloth& cloth : cloths_) {
         snapshot.cloths.push_back(backend_->save(cloth.handle));
         snapshot.cloths.back().holds = save_holds(cloth.holds);
+        snapshot.cloths.back().edits = cloth.edits;
     }
     for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
     return snapshot;
@@ -490,8 +497,15 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     complete();
     while (const auto ready = pending_.take_any()) use_model(*ready);
     if (auto fits = check_fits(snapshot); !fits) return fits;
+    std::vector<std::shared_ptr<const ClothModel>> edited;
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        auto model = edited_model(cloths_[i], snapshot.cloths[i].edits);
+        if (!model) return model.errors();
+        edited.push_back(std::move(*model));
+    }
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         Cloth& cloth = cloths_[i];
+        if (auto set = set_edits(cloth, snapshot.cloths[i].edits, std::move(edited[i])); !set) return set;
         if (auto restored = backend_->restore(cloth.handle, snapshot.cloths[i]); !restored) return restored;
         cloth.holds = restore_holds(snapshot.cloths[i].holds);
         cloth.pinned.clear();
@@ -522,7 +536,10 @@ ClothMeasures World::measure() const {
 std::string World::state_hash() const {
     complete();
     StateHash hash;
-    for (const Cloth& cloth : cloths_) backend_->hash(cloth.handle, hash);
+    for (const Cloth& cloth : cloths_) {
+        backend_->hash(cloth.handle, hash);
+        hash_edits(cloth, hash);
+    }
     return hash.text();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/id_list.h"
+#include "solver/model/cloth_edit.h"
 #include "solver/state/address_space.h"
 #include "solver/world/backend.h"
 #include "solver/world/islands.h"
@@ -55,7 +56,11 @@ class World {
     /// Another model for the same particles and pins in a later frame, frames_to_build() from now: the same one on
     /// every run. Until then the cloth goes on with the model that it has. Dropped by another call for the same cloth,
     /// by set_model() and with the cloth. Where building fails, the cloth keeps its model.
+    /// Nothing happens to a cloth that has been edited: the model would not be torn.
     void rebuild_later(ClothId id, BuildModel build);
+    /// Changes single constraints, triangles and particles, within what the model has in reserve; what moves goes on
+    /// moving. Coarse levels go where triangles or particles change. Part of the state until set_model().
+    Result<Done> edit(ClothId id, const ClothEdit& edit);
     /// Whether a model is pending for the cloth.
     bool is_rebuilding(ClothId id) const { return pending_.contains(id); }
     bool contains(ClothId id) const { return cloths_.contains(id); }
@@ -132,8 +137,10 @@ class World {
         ClothHandle handle;
         std::shared_ptr<const ClothModel> model;
         Holds holds;
-        std::uint32_t base = 0;             ///< of its particles in the address space
-        std::vector<std::uint32_t> pinned;  ///< ascending
+        std::uint32_t base = 0;                      ///< of its particles in the address space
+        std::vector<std::uint32_t> pinned;           ///< ascending
+        std::shared_ptr<const ClothModel> unedited;  ///< none without edits
+        std::vector<ClothEdit> edits;                ///< that lead from there to `model`
         PlainStiffness stiffness{};
         std::vector<Pose> mover_poses;
     };
@@ -148,6 +155,12 @@ class World {
     void replan();
     void make_islands();
     void use_model(const PendingModels::Ready& ready);
+    // world_edits.cpp
+    static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,
+                                                                  const std::vector<ClothEdit>& edits);
+    Result<Done> set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits, std::shared_ptr<const ClothModel> model);
+    static Result<std::shared_ptr<const ClothModel>> with_fabric_unedited(const Cloth& cloth, const ClothModel& model);
+    static void hash_edits(const Cloth& cloth, StateHash& hash);
     Result<Done> exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model);
     SavedHolds save_holds(const Holds& holds) const;
     Holds restore_holds(const SavedHolds& saved) const;

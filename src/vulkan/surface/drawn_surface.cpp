@@ -105,7 +105,7 @@ gpu::SurfaceBuffers DrawnSurface::buffers(const Set& set) const {
             .triangles = range_of(mesh_->arena(), mesh_->triangles),
             .vertex_count = mesh_->vertex_count(),
             .triangle_count = static_cast<std::uint32_t>(mesh_->model->mesh().triangles.size()),
-            .topology_version = first_topology_version,
+            .topology_version = cloth_.model().topology_version,
             .ready = {device_.timeline(), set.written}};
 }
 

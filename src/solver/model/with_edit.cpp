@@ -1,0 +1,293 @@
+#include "mesh/grouping.h"
+#include "physics/change_rows.h"
+#include "solver/model/cloth_edit.h"
+#include "solver/model/masses.h"
+
+#include <algorithm>
+#include <string>
+
+namespace weft {
+namespace {
+
+std::string text(std::uint32_t number) {
+    return std::to_string(number);
+}
+
+// A table whose arrays can be written.
+struct OpenTable {
+    explicit OpenTable(const ConstraintTable& from)
+        : table(from),
+          particles(from.particles.begin(), from.particles.end()),
+          fields(from.fields.begin(), from.fields.end()),
+          geometry(from.geometry.begin(), from.geometry.end()) {}
+
+    ConstraintTable close() && {
+        table.particles = std::move(particles);
+        table.fields = std::move(fields);
+        table.geometry = std::move(geometry);
+        return table;
+    }
+
+    std::size_t at(std::uint32_t array, std::uint32_t row) const { return std::size_t{array} * table.stride + row; }
+    std::uint32_t geometry_count() const {
+        return table.stride == 0 ? 0 : static_cast<std::uint32_t>(geometry.size() / table.stride);
+    }
+
+    ConstraintTable table;
+    AlignedVector<std::uint32_t> particles;
+    AlignedVector<float> fields, geometry;
+};
+
+class Editor {
+  public:
+    explicit Editor(const ClothModel& from) : model_(std::make_shared<ClothModel>(from)) {}
+
+    Result<std::shared_ptr<const ClothModel>> run(const ClothEdit& edit) {
+        const bool reshaped = !edit.appended.empty() || !edit.triangles.empty();
+        if (reshaped && !model_->mesh_is_of_particles())
+            return Error{
+                "cloth '" + model_->name + "'",
+                "has a render mesh of its own, or vertices that share a particle: its triangles cannot change"};
+        if (auto done = append(edit.appended); !done) return done.errors();
+        if (auto done = set_triangles(edit.triangles); !done) return done.errors();
+        if (reshaped) reshape();
+        for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+            if (auto done = change_table(static_cast<ConstraintKind>(kind), edit); !done) return done.errors();
+        }
+        return std::shared_ptr<const ClothModel>(std::move(model_));
+    }
+
+  private:
+    Result<Done> check_particle(const std::string& where, std::uint32_t particle) const {
+        if (particle < model_->particle_count) return Done{};
+        return Error{where,
+                     "there are only " + text(model_->particle_count) + " particles, got number " + text(particle)};
+    }
+
+    Result<Done> append(const std::vector<std::uint32_t>& sources) {
+        if (sources.empty()) return Done{};
+        if (sources.size() > model_->reserve)
+            return Error{"cloth '" + model_->name + "'", "has room for " + text(model_->reserve) +
+                                                             " more particles, got " + std::to_string(sources.size())};
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            if (auto known = check_particle("appended particle " + std::to_string(i), sources[i]); !known) return known;
+        AlignedVector<Vec4> start(model_->start.begin(), model_->start.end());
+        AlignedVector<float> mass(model_->mass.begin(), model_->mass.end());
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            start[model_->particle_count + i] = start[sources[i]];
+            mass.push_back(mass[sources[i]]);
+        }
+        model_->start = std::move(start);
+        model_->mass = std::move(mass);
+        model_->append_vertices(sources);
+        model_->particle_count += static_cast<std::uint32_t>(sources.size());
+        model_->reserve -= static_cast<std::uint32_t>(sources.size());
+        return Done{};
+    }
+
+    Result<Done> set_triangles(const std::vector<TriangleEdit>& edits) {
+        if (edits.empty()) return Done{};
+        AlignedVector<std::uint32_t> faces(model_->faces.begin(), model_->faces.end());
+        std::vector<float> area(model_->face_area.begin(), model_->face_area.end());
+        for (const auto& [triangle, corners, alive] : edits) {
+            const std::string where = "triangle " + text(triangle);
+            if (triangle >= model_->triangle_count)
+                return Error{where, "there are only " + text(model_->triangle_count)};
+            for (const std::uint32_t corner : corners)
+                if (auto known = check_particle(where, corner); !known) return known;
+            if (alive && (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]))
+                return Error{where, "must have three different corners"};
+            // One that is gone is a point: nothing draws it, and air passes.
+            for (std::uint32_t k = 0; k < 3; ++k)
+                faces[std::size_t{k} * model_->face_stride + triangle] = alive ? corners[k] : corners[0];
+            if (!alive) area[triangle] = 0;
+        }
+        model_->faces = std::move(faces);
+        model_->face_area = std::move(area);
+        return Done{};
+    }
+
+    // What follows from triangles.
+    void reshape() {
+        const ClothModel& model = *model_;
+        auto around = group_items<std::uint32_t>(model.particle_count, [&](auto put) {
+            for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+                const auto [a, b, c] = model.triangles()[t];
+                if (a == b) continue;
+                put(a, t), put(b, t), put(c, t);
+            }
+        });
+        const std::vector<std::uint32_t> offsets = around.offsets;
+        model_->around = std::make_shared<const FacesAround>(
+            lay_out_around({std::move(around.offsets), std::move(around.items)}, model.face_stride));
+        AlignedVector<float> mass =
+            lump_masses(model.face_area, model.triangles(), model.particle_count, model.fabric.body.density);
+        AlignedVector<Vec4> start(model.start.begin(), model.start.end());
+        for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+            if (offsets[p] == offsets[p + 1]) mass[p] = model.mass[p];
+            start[p].w = start[p].w > 0 ? 1 / mass[p] : 0;
+        }
+        model_->mass = std::move(mass);
+        model_->start = std::move(start);
+        model_->hierarchy = {};
+        model_->pin_spans = {};
+        model_->reset_mesh();
+        ++model_->topology_version;
+    }
+
+    Result<Done> change_table(ConstraintKind kind, const ClothEdit& edit) {
+        const auto concerned = [&](const RowEdit& row) { return row.kind == kind; };
+        if (std::ranges::none_of(edit.rows, concerned) && std::ranges::none_of(edit.added, concerned)) return Done{};
+        OpenTable open(model_->table(kind));
+        for (const RowEdit& row : edit.added) {
+            if (row.kind != kind) continue;
+            if (auto done = add_row(open, row); !done) return done;
+        }
+        std::vector<std::uint32_t> touched;
+        for (const RowEdit& row : edit.rows) {
+            if (row.kind != kind) continue;
+            if (auto done = set_row(open, row); !done) return done;
+            touched.push_back(row.row);
+        }
+        if (auto apart = check_batches(open, touched); !apart) return apart;
+        if (auto done = compute_fields(open); !done) return done;
+        model_->constraints[static_cast<std::uint32_t>(kind)] = std::move(open).close();
+        return Done{};
+    }
+
+    static std::string name_of(const RowEdit& row) {
+        return std::string(constraint_info(row.kind).name) + " constraint " + text(row.row);
+    }
+
+    static bool is_there(const OpenTable& open, std::uint32_t row) {
+        if (open.table.is_dummy(open.particles[row])) return false;
+        return open.table.blocks.empty() || open.geometry_count() == 0 ||
+               !(open.geometry[open.at(open.geometry_count() - 1, row)] < 0);
+    }
+
+    Result<Done> check_row(const OpenTable& open, const RowEdit& row) const {
+        const std::string where = name_of(row);
+        if (row.row >= open.table.stride || !is_there(open, row.row))
+            return Error{where, "there is none of that number"};
+        if (!(row.stiffness >= 0 && row.stiffness <= 1e6f))
+            return Error{where, "stiffness must be 0 to 1e6 times what it is"};
+        const bool scales = row.kind == ConstraintKind::stretch || row.kind == ConstraintKind::bend;
+        if (!scales && row.stiffness != 0 && row.stiffness != 1)
+            return Error{where, "can be there or not: its stiffness must be 0 or 1 times what it is"};
+        for (std::uint32_t slot = 0; slot < open.table.arity; ++slot) {
+            const bool unused = open.table.is_dummy(open.particles[open.at(slot, row.row)]) &&
+                                row.particles[slot] == open.particles[open.at(slot, row.row)];
+            const bool anchor =
+                row.particles[slot] >= model_->first_anchor() && row.particles[slot] < model_->point_count();
+            if (unused || anchor) continue;
+            if (auto known = check_particle(where, row.particles[slot]); !known) return known;
+        }
+        return Done{};
+    }
+
+    static bool lies_in_line(const ConstraintTable& table, std::uint32_t row) {
+        return !table.blocks.empty() && row < table.blocks.back().end() && row >= table.blocks.front().begin;
+    }
+
+    Result<Done> set_row(OpenTable& open, const RowEdit& row) const {
+        if (auto sound = check_row(open, row); !sound) return sound;
+        const bool in_line = lies_in_line(open.table, row.row);
+        for (std::uint32_t slot = 0; slot < open.table.arity; ++slot) {
+            std::uint32_t& particle = open.particles[open.at(slot, row.row)];
+            if (in_line && particle != row.particles[slot])
+                return Error{name_of(row), "lies along a line: its ends cannot change. End it, and add another one"};
+            // One that is gone is padding.
+            particle =
+                row.stiffness > 0 || in_line ? row.particles[slot] : dummy(open.table.first_dummy, slot, row.row);
+        }
+        scale(open, row.row, row.stiffness, in_line);
+        if (row.stiffness == 0) --open.table.rows;
+        return Done{};
+    }
+
+    static void scale(OpenTable& open, std::uint32_t row, float stiffness, bool in_line) {
+        if (stiffness > 0) {
+            // The area at an edge: it stiffens a strip of cloth, and softens a hinge.
+            const std::uint32_t last = open.geometry_count() - 1;
+            if (stiffness != 1)
+                open.geometry[open.at(last, row)] *=
+                    open.table.kind == ConstraintKind::bend ? 1 / stiffness : stiffness;
+            return;
+        }
+        for (std::uint32_t k = 0; k < open.geometry_count(); ++k) open.geometry[open.at(k, row)] = no_area;
+        // Along a line a negative compliance, without stiffness, parts those before from those after.
+        for (std::uint32_t k = in_line ? 1 : 0; k < open.table.field_count; ++k)
+            open.fields[open.at(k, row)] = in_line ? -1.0f : 0.0f;
+    }
+
+    // Constraints of a batch are projected side by side: none may share a particle that one of them moves.
+    Result<Done> check_batches(const OpenTable& open, const std::vector<std::uint32_t>& touched) const {
+        const std::uint32_t moved = constraint_info(open.table.kind).moved;
+        std::vector<std::uint32_t> taken(model_->capacity(), none);
+        for (const Batch& batch : open.table.batches) {
+            const auto inside = [&](std::uint32_t row) { return row >= batch.begin && row < batch.padded_end(); };
+            if (batch.serial || batch.blocks > 0 || std::ranges::none_of(touched, inside)) continue;
+            for (std::uint32_t row = batch.begin; row < batch.begin + batch.rows; ++row) {
+                for (std::uint32_t slot = 0; slot < moved; ++slot) {
+                    const std::uint32_t particle = open.particles[open.at(slot, row)];
+                    if (open.table.is_dummy(particle)) continue;
+                    if (taken[particle] != none && taken[particle] >= batch.begin && taken[particle] != row)
+                        return Error{std::string(constraint_info(open.table.kind).name) + " constraint " + text(row),
+                                     "shares particle " + text(particle) + " with constraint " + text(taken[particle]) +
+                                         ", which is projected at the same time"};
+                    taken[particle] = row;
+                }
+            }
+        }
+        return Done{};
+    }
+
+    // Into the reserve, whose constraints are projected one after another.
+    Result<Done> add_row(OpenTable& open, const RowEdit& row) {
+        if (auto sound = check_row(open, row); !sound) return sound;
+        ConstraintTable& table = open.table;
+        if (!(row.stiffness > 0)) return Error{name_of(row), "is added: its stiffness must be > 0 times what that is"};
+        if (table.spare_used == table.spare_rows)
+            return Error{name_of(row), "there is room for " + text(table.spare_rows) + " more constraints of its kind"};
+        const std::uint32_t at = table.first_spare + table.spare_used++;
+        if (table.spare_used == 1) table.batches.push_back({.begin = table.first_spare, .rows = 0, .serial = true});
+        table.batches.back().rows = table.spare_used;
+        ++table.rows;
+        for (std::uint32_t slot = 0; slot < table.arity; ++slot)
+            open.particles[open.at(slot, at)] = row.particles[slot];
+        for (std::uint32_t k = 0; k < table.field_count; ++k)
+            open.fields[open.at(k, at)] = open.fields[open.at(k, row.row)];
+        for (std::uint32_t k = 0; k < open.geometry_count(); ++k)
+            open.geometry[open.at(k, at)] = open.geometry[open.at(k, row.row)];
+        scale(open, at, row.stiffness, false);
+        if (table.kind == ConstraintKind::stretch) {
+            auto edges = std::make_shared<ClothEdges>(*model_->edges);
+            edges->axial_rows[at] = edges->axial_rows[row.row];
+            model_->edges = std::move(edges);
+        }
+        return Done{};
+    }
+
+    // As with_fabric() would, so that both come to the same bits in either order.
+    Result<Done> compute_fields(OpenTable& open) const {
+        const RowsToChange rows{.stride = open.table.stride,
+                                .particles = open.particles.data(),
+                                .geometry = open.geometry.data(),
+                                .left_out = {},
+                                .rest_positions = model_->start.data(),
+                                .fields = open.fields.data()};
+        if (open.table.kind == ConstraintKind::stretch) (void)change_stretch(rows, model_->fabric.stretch);
+        if (open.table.kind == ConstraintKind::bend) (void)change_bend(rows, model_->fabric.bend);
+        return Done{};
+    }
+
+    std::shared_ptr<ClothModel> model_;
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit) {
+    return Editor(from).run(edit);
+}
+
+}  // namespace weft

@@ -1,0 +1,82 @@
+// Cloths whose constraints, triangles and particles have been changed since they were built.
+#include "base/hash.h"
+#include "solver/world/world.h"
+
+#include <cassert>
+
+namespace weft {
+namespace {
+
+void add(const RowEdit& row, StateHash& hash) {
+    hash.add(static_cast<std::uint32_t>(row.kind)), hash.add(row.row), hash.add(row.stiffness);
+    for (const std::uint32_t particle : row.particles) hash.add(particle);
+}
+
+}  // namespace
+
+Result<Done> World::edit(ClothId id, const ClothEdit& edit) {
+    assert(contains(id));
+    settle();
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    auto model = with_edit(*cloth.model, edit);
+    if (!model) return model.errors();
+    if (auto set = backend_->set_topology(cloth.handle, *model, edit.appended); !set) return set;
+    std::vector<ParticleWeight> copies;
+    for (std::uint32_t p = cloth.model->particle_count; p < (*model)->particle_count; ++p)
+        copies.push_back({p, 1 / (*model)->mass[p]});
+    if (auto set = backend_->set_weights(cloth.handle, copies); !set) return set;
+    if (!cloth.unedited) cloth.unedited = cloth.model;
+    cloth.edits.push_back(edit);
+    cloth.model = std::move(*model);
+    pending_.drop(id);
+    list_cloths();
+    replan();
+    return Done{};
+}
+
+// The model that these edits lead to.
+Result<std::shared_ptr<const ClothModel>> World::edited_model(const Cloth& cloth, const std::vector<ClothEdit>& edits) {
+    if (edits == cloth.edits) return cloth.model;
+    auto model = cloth.unedited ? cloth.unedited : cloth.model;
+    for (const ClothEdit& edit : edits) {
+        auto next = with_edit(*model, edit);
+        if (!next) return next;
+        model = std::move(*next);
+    }
+    return model;
+}
+
+// Those of a saved state: what moves follows.
+Result<Done> World::set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits,
+                              std::shared_ptr<const ClothModel> model) {
+    if (edits == cloth.edits) return Done{};
+    if (auto set = backend_->set_topology(cloth.handle, model, {}); !set) return set;
+    if (!cloth.unedited) cloth.unedited = cloth.model;
+    if (edits.empty()) cloth.unedited = nullptr;
+    cloth.edits = edits;
+    cloth.model = std::move(model);
+    return Done{};
+}
+
+// What a cloth was before its edits, of the fabric of `model`; none without edits.
+Result<std::shared_ptr<const ClothModel>> World::with_fabric_unedited(const Cloth& cloth, const ClothModel& model) {
+    if (!cloth.unedited) return std::shared_ptr<const ClothModel>();
+    auto changed = with_fabric(*cloth.unedited, model.fabric);
+    if (changed && !*changed)
+        return Error{"cloth '" + model.name + "'", "has been edited, and this fabric needs other constraints"};
+    return changed;
+}
+
+void World::hash_edits(const Cloth& cloth, StateHash& hash) {
+    for (const ClothEdit& edit : cloth.edits) {
+        for (const std::uint32_t particle : edit.appended) hash.add(particle);
+        for (const TriangleEdit& triangle : edit.triangles) {
+            hash.add(triangle.triangle), hash.add(triangle.alive);
+            for (const std::uint32_t corner : triangle.corners) hash.add(corner);
+        }
+        for (const RowEdit& row : edit.rows) add(row, hash);
+        for (const RowEdit& row : edit.added) add(row, hash);
+    }
+}
+
+}  // namespace weft
