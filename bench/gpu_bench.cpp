@@ -29,27 +29,34 @@ struct Options {
 
 struct Method {
     const char* name;
-    std::uint32_t substeps, iterations;
-    Projection projection;
-    bool hierarchy;
-    Accumulate accumulate = Accumulate::gather;
+    SolverDesc solver;
     const char* execution = "auto";
     std::uint32_t largest = 4096;  ///< particles along a side of the largest sheet that is worth the time
 };
 // One workgroup for a whole cloth is for small ones.
 constexpr std::uint32_t largest_fused = 64;
-constexpr Method methods[] = {
-    {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "streamed"},
-    {"jacobi", 6, 42, Projection::jacobi, false, Accumulate::gather, "fused", largest_fused},
-    {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "streamed"},
-    {"jacobi, fixed", 6, 42, Projection::jacobi, false, Accumulate::fixed_point, "fused", largest_fused},
-    {"gauss-seidel", 20, 1, Projection::gauss_seidel, false},
-    {"gauss-seidel", 30, 1, Projection::gauss_seidel, false},
-    {"lines+hierarchy", 20, 1, Projection::lines, true},
-    {"lines+hierarchy", 30, 1, Projection::lines, true}};
+constexpr SolverDesc jacobi{.substeps = 6, .iterations = 42, .projection = Projection::jacobi, .hierarchy = false};
+constexpr SolverDesc jacobi_fixed{.substeps = 6,
+                                  .iterations = 42,
+                                  .projection = Projection::jacobi,
+                                  .accumulate = Accumulate::fixed_point,
+                                  .hierarchy = false};
+constexpr SolverDesc gauss_seidel(std::uint32_t substeps) {
+    return {.substeps = substeps, .projection = Projection::gauss_seidel, .hierarchy = false};
+}
+constexpr SolverDesc lines_and_levels(std::uint32_t substeps) {
+    return {.substeps = substeps, .projection = Projection::lines};
+}
+constexpr Method methods[] = {{"jacobi", jacobi, "streamed"},
+                              {"jacobi", jacobi, "fused", largest_fused},
+                              {"jacobi, fixed", jacobi_fixed, "streamed"},
+                              {"jacobi, fixed", jacobi_fixed, "fused", largest_fused},
+                              {"gauss-seidel", gauss_seidel(20)},
+                              {"gauss-seidel", gauss_seidel(30)},
+                              {"lines+hierarchy", lines_and_levels(20)},
+                              {"lines+hierarchy", lines_and_levels(30)}};
 // Of many small cloths at once.
-constexpr Method methods_of_many[] = {{"gauss-seidel", 20, 1, Projection::gauss_seidel, false},
-                                      {"lines+hierarchy", 20, 1, Projection::lines, true}};
+constexpr Method methods_of_many[] = {{"gauss-seidel", gauss_seidel(20)}, {"lines+hierarchy", lines_and_levels(20)}};
 
 // How many frames, the same on every device: hashes can be compared.
 struct Frames {
@@ -61,12 +68,7 @@ constexpr Frames usual_frames{20, 5, 10, 10000}, quick_frames{1, 2, 2, 4};
 constexpr double frame_seconds = 1.0 / 60;
 
 WorldSettings settings_of(const Method& method) {
-    return {.substeps = method.substeps,
-            .iterations = method.iterations,
-            .projection = method.projection,
-            .accumulate = method.accumulate,
-            .hierarchy = method.hierarchy,
-            .surface = false};
+    return {.solver = method.solver, .surface = false};
 }
 
 // 1 m of rigid sheet of 0.2 kg that hangs by two neighboring corners, as in bench/scenes.
@@ -107,7 +109,7 @@ struct Floor {
 Floor floor_of(const World& world, const Method& method) {
     const cli::FrameTraffic traffic = cli::frame_traffic(world);
     const ClothModel& model = *world.summary().cloths[0].model;
-    const double iterations = static_cast<double>(method.substeps) * method.iterations;
+    const double iterations = static_cast<double>(method.solver.substeps) * method.solver.iterations;
     const auto cloths = static_cast<double>(world.summary().cloths.size());
     double projection = 0;  // all that is done again in every iteration
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
@@ -116,7 +118,7 @@ Floor floor_of(const World& world, const Method& method) {
             projection += traffic.bytes[stage];
     }
     const double rest = traffic.all() - projection;
-    if (method.projection == Projection::jacobi) projection = cloths * iterations * gathered_bytes(model);
+    if (method.solver.projection == Projection::jacobi) projection = cloths * iterations * gathered_bytes(model);
     return {rest + projection, projection / iterations / (model.point_count() * cloths)};
 }
 
@@ -202,7 +204,7 @@ struct Sheets {
 void print_line(const Sheets& sheets, const Method& method, const Result<Line>& result, double rate) {
     const std::string many = sheets.count > 1 ? std::to_string(sheets.count) + "x" : "",
                       sheet = many + std::to_string(sheets.side) + "^2",
-                      steps = std::to_string(method.substeps) + "x" + std::to_string(method.iterations);
+                      steps = std::to_string(method.solver.substeps) + "x" + std::to_string(method.solver.iterations);
     std::printf("%-8s %-4s %-15s %-8s %6s ", sheet.c_str(), sheets.bends ? "yes" : "no", method.name, method.execution,
                 steps.c_str());
     if (result) {
@@ -243,7 +245,7 @@ bool print_sheets(Worlds& worlds, const Sheets& sheets, std::span<const Method> 
     ClothLayout last;
     for (Method method : all) {
         if (sheets.side > method.largest) continue;
-        method.iterations = std::min(method.iterations, frames.most_iterations);
+        method.solver.iterations = std::min(method.solver.iterations, frames.most_iterations);
         const ClothLayout layout = settings_of(method).layout();
         if (!model || layout != last) model = make_sheet(sheets.side, sheets.bends, layout);
         last = layout;

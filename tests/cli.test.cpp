@@ -120,7 +120,7 @@ TEST_F(Cli, wrong_usage_is_one_line_and_status_2) {
     expect_usage_error("run sheet.json --seconds 1e9", "--seconds");
     expect_usage_error("run sheet.json --frames 5 --seconds 1", "--frames");
     expect_usage_error("run sheet.json --threads 0", "threads: must be from 1 to 256, got 0");
-    expect_usage_error("run sheet.json --substeps 0", "substeps: must be from 1 to 10000, got 0");
+    expect_usage_error("run sheet.json --substeps 0", "solver/substeps: must be ≥ 1, got 0");
     expect_usage_error("run sheet.json --backend gpu", "backend: must be \"auto\", \"cpu\" or \"vulkan\", got 'gpu'");
     expect_usage_error("run sheet.json --backend cpu --device arc",
                        "device: names a Vulkan device, and the backend is cpu");

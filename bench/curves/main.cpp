@@ -33,12 +33,9 @@ Errors check(const Request& request) {
     range("--repeat", settings.repeat, 1, 1000);
     range("--warmup", settings.warmup, 0, 1000000);
     for (const std::uint32_t side : request.curves.sides) range("side", side, 8, 1024);
-    const auto own = [&](const char* name, bool given) {
-        if (given) errors.push_back({name, "is what the curves go through"});
-    };
-    own("--substeps", settings.common.substeps.has_value());
-    own("--projection", !settings.common.projection.empty());
-    own("--hierarchy", settings.common.hierarchy.has_value());
+    for (const auto& [key, value] : settings.common.solver)
+        if (key == "substeps" || key == "projection" || key == "hierarchy")
+            errors.push_back({"--" + key, "is what the curves go through"});
     if (!errors.empty()) return errors;  // what is out of range need not be tried
     for (const BenchSubject& mesh : curve_meshes(request.curves.sides)) {
         if (const auto session = mesh.open(settings.common); !session) return session.errors();

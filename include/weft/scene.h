@@ -25,6 +25,8 @@ enum class Projection { automatic, lines, gauss_seidel, jacobi };
 /// How averaged Jacobi adds up what rows want of a particle.
 enum class Accumulate { gather, fixed_point };
 
+/// Every option of the solver. The keys of a scene's `solver`, Options::solver and the options of the command line are
+/// those that `solver_keys` (src/scene/scene_keys.h) lists for this struct.
 struct SolverDesc {
     std::uint32_t substeps = 20;   ///< per frame, 1…10000
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
@@ -148,16 +150,16 @@ struct PinDesc {
     friend bool operator==(const PinDesc&, const PinDesc&) = default;
 };
 
-/// A value of a fabric: a number, several, true or false, or a word.
-class FabricValue {
+/// A value of a fabric or a solver option: a number, several, true or false, or a word.
+class ParameterValue {
   public:
     template <class Number>
-    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>) FabricValue(Number number)
+    requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>) ParameterValue(Number number)
         : value_(std::vector<double>{static_cast<double>(number)}) {}
-    FabricValue(std::initializer_list<double> numbers) : value_(std::vector<double>(numbers)) {}
-    FabricValue(bool flag) : value_(flag) {}
-    FabricValue(std::string word) : value_(std::move(word)) {}
-    FabricValue(const char* word) : value_(std::string(word)) {}
+    ParameterValue(std::initializer_list<double> numbers) : value_(std::vector<double>(numbers)) {}
+    ParameterValue(bool flag) : value_(flag) {}
+    ParameterValue(std::string word) : value_(std::move(word)) {}
+    ParameterValue(const char* word) : value_(std::string(word)) {}
 
     const std::variant<std::vector<double>, bool, std::string>& get() const { return value_; }
 
@@ -165,16 +167,19 @@ class FabricValue {
     std::variant<std::vector<double>, bool, std::string> value_;
 };
 
+/// Keys with their values. Of several values for one key the last one is used.
+using ParameterValues = std::vector<std::pair<std::string, ParameterValue>>;
+
 /// A fabric known by name, and what is different from it. Keys, units and ranges are those of a scene's `fabric`
 /// (docs/scene.md): `FabricDesc("silk").set("density", 0.08).set("stretch", {1500, 1200})`.
 struct FabricDesc {
     std::string preset = "cotton";
-    std::vector<std::pair<std::string, FabricValue>> values = {};  ///< later ones win
+    ParameterValues values = {};
 
     FabricDesc() = default;
     FabricDesc(const char* name) : preset(name) {}
     FabricDesc(std::string name) : preset(std::move(name)) {}
-    FabricDesc& set(std::string key, FabricValue value) {
+    FabricDesc& set(std::string key, ParameterValue value) {
         values.emplace_back(std::move(key), std::move(value));
         return *this;
     }

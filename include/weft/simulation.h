@@ -37,12 +37,9 @@ struct Options {
     std::string execution = "auto";
     /// Threads in all, the calling one included, 1…256. The result has the same bits whatever the number.
     unsigned threads = 1;
-    std::optional<std::uint32_t> substeps = {};    ///< per frame, 1…10000
-    std::optional<std::uint32_t> iterations = {};  ///< per substep, 1…10000
-    std::string method = {};                       ///< "xpbd" or "pbd"; empty: as the scene says
-    std::string projection = {};         ///< "auto", "lines", "gauss-seidel", "jacobi"; empty: as the scene says
-    std::string accumulate = {};         ///< "gather" or "fixed-point"; empty: as the scene says
-    std::optional<bool> hierarchy = {};  ///< coarse levels first, instead of what the scene says
+    /// Solver options that replace those of the scene, by the keys of its `solver` (docs/scene.md):
+    /// `{{"substeps", 8}, {"method", "pbd"}, {"hierarchy", false}}`.
+    ParameterValues solver = {};
     /// Instruction set: "avx512", "avx2", "sse4", "neon", "scalar"; empty takes the widest. Same bits for all of them.
     std::string isa = {};
     /// Keep account of what cloth does to colliders: Simulation::feedback().

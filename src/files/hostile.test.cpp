@@ -146,7 +146,8 @@ TEST_F(HostileScene, mesh_files_name_themselves_in_the_error) {
 TEST(HostileSimulation, time_steps) {
     for (const char* method : {"xpbd", "pbd"}) {
         for (const char* projection : {"gauss-seidel", "jacobi"}) {
-            auto simulation = Simulation::create({.air = AirDesc{}}, {.method = method, .projection = projection});
+            auto simulation =
+                Simulation::create({.air = AirDesc{}}, {.solver = {{"method", method}, {"projection", projection}}});
             ASSERT_TRUE(simulation.ok());
             ASSERT_TRUE(simulation->add(ColliderDesc{.shape = SphereDesc{0.2f}}).ok());
             ASSERT_TRUE(

@@ -22,7 +22,7 @@ class OpenScene : public testing::Test {
     Result<SceneWorld> open(const std::string& cloth_keys) {
         return open_scene(folder.write("s.json", R"({"weft": 1, "cloths": [{"name": "it", )" + cloth_keys +
                                                      R"(}], "colliders": [{"plane": {"offset": -1}}]})"),
-                          {.substeps = 5});
+                          {.solver = {{"substeps", 5}}});
     }
     std::vector<std::string> errors_of(const std::string& cloth_keys) {
         std::vector<std::string> messages;

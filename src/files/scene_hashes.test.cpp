@@ -95,7 +95,7 @@ class SceneHash : public testing::TestWithParam<std::string> {
 
 // Labels: no-asan
 TEST_P(SceneHash, of_the_default_solver) {
-    expect_golden("default", {.method = "xpbd", .projection = "auto", .hierarchy = true});
+    expect_golden("default", {.solver = {{"method", "xpbd"}, {"projection", "auto"}, {"hierarchy", true}}});
 }
 
 // Labels: no-asan

@@ -1,11 +1,9 @@
 // From the fabric that a program describes by keys and values to the values themselves.
 #include "scene/check.h"
 #include "scene/nearest_name.h"
+#include "scene/set_value.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
 
 namespace weft {
 namespace {
@@ -28,43 +26,6 @@ std::vector<std::string_view> all_keys() {
     for (const FabricTable& table : fabric_tables())
         for (const Parameter& p : table.parameters) keys.push_back(p.key);
     return keys;
-}
-
-template <class T>
-void store(const Found& to, std::size_t index, T value) {
-    std::memcpy(to.base + to.parameter->offset + index * sizeof(T), &value, sizeof(T));
-}
-
-// Returns what the parameter expects where the value is of another kind.
-std::string store_value(const Found& to, const std::vector<double>& numbers) {
-    const Parameter& p = *to.parameter;
-    if (p.kind != ParameterKind::number && p.kind != ParameterKind::angle_or_mesh) return "must not be a number";
-    if (numbers.size() != 1 && numbers.size() != p.count)
-        return "must be " + std::string(p.count > 1 ? "one number or " : "") + std::to_string(p.count) +
-               (p.count > 1 ? " numbers, got " : " number, got ") + std::to_string(numbers.size());
-    for (std::size_t i = 0; i < p.count; ++i) store(to, i, static_cast<float>(numbers[numbers.size() == 1 ? 0 : i]));
-    // A NaN stands for the mesh's own angle, which has a word of its own.
-    if (p.kind == ParameterKind::angle_or_mesh && std::isnan(numbers.front())) return "must be a number or \"mesh\"";
-    return {};
-}
-
-std::string store_value(const Found& to, bool flag) {
-    if (to.parameter->kind != ParameterKind::flag) return "must not be true or false";
-    store(to, 0, flag);
-    return {};
-}
-
-std::string store_value(const Found& to, const std::string& word) {
-    if (to.parameter->kind == ParameterKind::angle_or_mesh && word == "mesh") {
-        store(to, 0, std::numeric_limits<float>::quiet_NaN());
-        return {};
-    }
-    if (to.parameter->kind != ParameterKind::choice) return "must not be a word, got " + in_quotes(word);
-    const auto names = choice_names(*to.parameter);
-    const auto it = std::ranges::find(names, word);
-    if (it == names.end()) return "must be " + alternatives(names) + ", got " + in_quotes(word);
-    store(to, 0, static_cast<int>(it - names.begin()));
-    return {};
 }
 
 }  // namespace
@@ -97,8 +58,8 @@ Result<Fabric> make_fabric(const FabricDesc& desc, const std::string& pointer) {
             problems.add(at(pointer, key), "unknown key " + in_quotes(key) + suggestion(key, all_keys()));
             continue;
         }
-        std::string wrong = std::visit([&](const auto& v) { return store_value(to, v); }, value.get());
-        if (!wrong.empty()) problems.add(at(pointer, key), std::move(wrong));
+        if (std::string wrong = set_value(*to.parameter, to.base, value); !wrong.empty())
+            problems.add(at(pointer, key), std::move(wrong));
     }
     follow_stretch(fabric, given("stretch"), given("compression"));
     for (const FabricTable& table : fabric_tables())

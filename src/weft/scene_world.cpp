@@ -1,71 +1,32 @@
 #include "weft/scene_world.h"
 
 #include "scene/check.h"
-#include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
+#include "scene/set_value.h"
 #include "weft/stitching.h"
 
 #include <algorithm>
 #include <cassert>
-#include <type_traits>
 #include <utility>
 
 namespace weft {
 namespace {
 
-Errors apply(const Options& options, SceneDesc& scene) {
-    Errors errors;
-    const auto set = [&](const std::optional<std::uint32_t>& from, std::uint32_t& to, const char* name) {
-        if (!from) return;
-        if (*from < 1 || *from > 10000) {
-            errors.push_back({name, "must be from 1 to 10000, got " + std::to_string(*from)});
-        }
-        to = *from;
-    };
-    const auto choose = [&](const std::string& from, const auto& names, auto& to, const char* name) {
-        if (from.empty()) return;
-        const auto it = std::ranges::find(names, from);
-        if (it == names.end()) {
-            errors.push_back({name, "must be " + alternatives(names) + ", got " + in_quotes(from)});
-        } else {
-            to = static_cast<std::remove_reference_t<decltype(to)>>(it - names.begin());
-        }
-    };
-    const auto names_of = [](std::string_view key) {
-        return choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
-    };
-    choose(options.method, names_of("method"), scene.solver.method, "method");
-    choose(options.projection, names_of("projection"), scene.solver.projection, "projection");
-    choose(options.accumulate, names_of("accumulate"), scene.solver.accumulate, "accumulate");
-    if (options.hierarchy) scene.solver.hierarchy = *options.hierarchy;
-    set(options.substeps, scene.solver.substeps, "substeps");
-    set(options.iterations, scene.solver.iterations, "iterations");
-    if (options.threads < 1 || options.threads > 256) {
-        errors.push_back({"threads", "must be from 1 to 256, got " + std::to_string(options.threads)});
-    }
-    return errors;
+Errors apply(const Options& options, SolverDesc& solver) {
+    Problems problems;
+    set_values(solver_keys, &solver, options.solver, "solver", problems);
+    if (problems.none()) check_solver(solver, "solver", problems);
+    if (options.threads < 1 || options.threads > 256)
+        problems.add("threads", "must be from 1 to 256, got " + std::to_string(options.threads));
+    return std::move(problems).take();
 }
 
-/// What a host decides, and no scene: whether contacts are accounted for, and whether there are threads to spare.
-struct HostSettings {
-    bool feedback = false, background = false;
-};
-
-WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, HostSettings host) {
-    return {.gravity = scene.gravity,
-            .substeps = solver.substeps,
-            .iterations = solver.iterations,
-            .method = solver.method,
-            .projection = solver.projection,
-            .accumulate = solver.accumulate,
-            .hierarchy = solver.hierarchy,
-            .air = scene.air,
-            .feedback = host.feedback,
-            .background = host.background};
-}
-
-HostSettings host_of(const World& world) {
-    return {world.settings().feedback, world.settings().background};
+/// `now`, but with the solver and the surroundings that a scene has.
+WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, WorldSettings now) {
+    now.gravity = scene.gravity;
+    now.solver = solver;
+    now.air = scene.air;
+    return now;
 }
 
 template <class Named>
@@ -111,14 +72,14 @@ SceneWorld::~SceneWorld() = default;
 
 Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
                                       const MakeBackend& make) {
-    if (Errors errors = apply(options, scene); !errors.empty()) return errors;
+    if (Errors errors = apply(options, scene.solver); !errors.empty()) return errors;
     auto backend = make ? make(options) : make_backend(options);
     if (!backend) return backend.errors();
     name_unnamed(scene);
     SceneWorld made;
     made.files_ = {options.read_mesh, folder};
-    made.world_ = std::make_unique<World>(std::move(*backend),
-                                          settings_of(scene, scene.solver, {options.feedback, options.threads > 1}));
+    const WorldSettings host{.feedback = options.feedback, .background = options.threads > 1};
+    made.world_ = std::make_unique<World>(std::move(*backend), settings_of(scene, scene.solver, host));
     std::vector<SceneCloth> cloths = std::exchange(scene.cloths, {});
     std::vector<ColliderDesc> colliders = std::exchange(scene.colliders, {});
     std::vector<StitchDesc> stitches = std::exchange(scene.stitches, {});
@@ -334,21 +295,21 @@ void SceneWorld::set_friction(ColliderId id, std::array<float, 2> friction) {
 
 void SceneWorld::set_gravity(Vec3 gravity) {
     scene_.gravity = gravity;
-    world_->configure(settings_of(scene_, scene_.solver, host_of(*world_)));
+    world_->configure(settings_of(scene_, scene_.solver, world_->settings()));
 }
 
 void SceneWorld::set_air(const std::optional<AirDesc>& air) {
     scene_.air = air;
-    world_->configure(settings_of(scene_, scene_.solver, host_of(*world_)));
+    world_->configure(settings_of(scene_, scene_.solver, world_->settings()));
 }
 
 void SceneWorld::set_feedback(bool on) {
-    if (on != world_->settings().feedback)
-        world_->configure(settings_of(scene_, scene_.solver, {on, world_->settings().background}));
+    WorldSettings settings = world_->settings();
+    if (std::exchange(settings.feedback, on) != on) world_->configure(std::move(settings));
 }
 
 Result<Done> SceneWorld::set_solver(const SolverDesc& solver) {
-    const WorldSettings settings = settings_of(scene_, solver, host_of(*world_));
+    const WorldSettings settings = settings_of(scene_, solver, world_->settings());
     if (const ClothLayout layout = settings.layout(); layout != world_->settings().layout()) {
         std::vector<Change> changes;
         for (std::size_t i = 0; i < sources_.size(); ++i) {

@@ -151,7 +151,7 @@ TEST(SceneWorld, takes_all_of_a_change_or_nothing) {
     ASSERT_FALSE(set.ok());
     EXPECT_THAT(set.error().message(), HasSubstr("has no room"));
     EXPECT_TRUE(world.scene() == same.scene());
-    EXPECT_TRUE(world.world().settings().hierarchy);
+    EXPECT_TRUE(world.world().settings().solver.hierarchy);
     EXPECT_EQ(hash_after(world, 5), hash_after(same, 5)) << "a query changes no state";
 
     room = 3;  // one for each sheet has been refused or taken back

@@ -159,8 +159,18 @@ TEST(Simulation, says_what_is_wrong_with_what_it_is_given) {
                 ElementsAre("/solver/substeps: must be ≥ 1, got 0"));
     EXPECT_THAT(messages(Simulation::create({.gravity = {0, NAN, 0}, .frame_rate = -1})), testing::SizeIs(2));
     EXPECT_THAT(messages(Simulation::create({}, {.threads = 0}))[0], HasSubstr("threads"));
-    EXPECT_THAT(messages(Simulation::create({}, {.method = "magic"})),
-                ElementsAre("method: must be \"xpbd\" or \"pbd\", got \"magic\""));
+    EXPECT_THAT(messages(Simulation::create({}, {.solver = {{"method", "magic"},
+                                                            {"substeps", 1.5},
+                                                            {"iterations", -1},
+                                                            {"hierarchy", 1},
+                                                            {"iteration", 1}}})),
+                ElementsAre("solver/method: must be \"xpbd\" or \"pbd\", got \"magic\"",
+                            "solver/substeps: must be a whole number, got 1.5",
+                            "solver/iterations: must be ≥ 1, got -1", "solver/hierarchy: must not be a number",
+                            "solver/iteration: unknown key \"iteration\"; did you mean \"iterations\"?"));
+    EXPECT_THAT(
+        messages(Simulation::create({.solver = {.method = Method::pbd}}, {.solver = {{"projection", "lines"}}})),
+        ElementsAre("solver/projection: must not be \"lines\" with method \"pbd\", which has no such form"));
     Simulation simulation = make_simulation();
     ASSERT_TRUE(simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{0.2f}}).ok());
     EXPECT_THAT(messages(simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{-1}})),

@@ -137,8 +137,8 @@ void simulate(TriangleMesh mesh, ByteReader& in) {
 
     auto backend = make_cpu_backend();
     require(backend.ok(), "no backend");
-    World world(std::move(*backend),
-                {.substeps = 1u + in.take<std::uint8_t>() % 4, .iterations = 1u + in.take<std::uint8_t>() % 2});
+    World world(std::move(*backend), {.solver = {.substeps = 1u + in.take<std::uint8_t>() % 4,
+                                                 .iterations = 1u + in.take<std::uint8_t>() % 2}});
     add_colliders(world, in);
     world.add(*model);
     std::vector<Vec3> positions, normals;

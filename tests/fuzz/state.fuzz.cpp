@@ -44,7 +44,7 @@ World make_world() {
     auto backend = make_cpu_backend();
     require(backend.ok(), "no backend");
     World world(std::move(*backend),
-                {.substeps = 2, .iterations = 2, .air = AirDesc{.wind = {{.velocity = {1, 0, 0}}}}});
+                {.solver = {.substeps = 2, .iterations = 2}, .air = AirDesc{.wind = {{.velocity = {1, 0, 0}}}}});
     world.add(make_collider(
         {.name = "ball", .shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {2, {0, 1, 0}, {90, 0, 0}}}}));
     TriangleMesh mesh = make_grid({0.5f, 0.5f}, {4, 3}, GridDiagonal::alternating);

@@ -30,7 +30,7 @@ TEST(TerminalVelocity, of_a_sheet_that_falls_broadside) {
 
 TEST(TerminalVelocity, does_not_depend_on_the_time_step) {
     for (const std::uint32_t substeps : {5u, 20u, 80u}) {
-        World world = make_world({.substeps = substeps, .air = AirDesc{}}, SheetDesc{});
+        World world = make_world({.solver = {.substeps = substeps}, .air = AirDesc{}}, SheetDesc{});
         run(world, 3);
         const double h = 1.0 / 60 / substeps, v = -world.frame().cloths[0].velocities[40].y;
         const double expected = std::sqrt(2 * 0.14 * 9.81 / (1.225 * 1.28));
@@ -50,7 +50,8 @@ TEST(Air, of_no_density_is_a_vacuum) {
 TEST(Wind, carries_along_and_never_overtakes) {
     SheetDesc sheet{.rotation_degrees = {90, 0, 0}};
     sheet.fabric.body.density = 0.01f;
-    World world = make_world({.gravity = {}, .substeps = 2, .air = AirDesc{.wind = {wind({0, 0, 8})}}}, sheet);
+    World world =
+        make_world({.gravity = {}, .solver = {.substeps = 2}, .air = AirDesc{.wind = {wind({0, 0, 8})}}}, sheet);
     double last = 0;
     for (int frame = 0; frame < 600; ++frame) {
         world.step(1.0 / 60);
@@ -97,7 +98,7 @@ TEST(Wind, of_any_strength_leaves_finite_cloth) {
     for (const float speed : {1e-6f, 100.0f, 1e4f}) {
         for (const float density : {1e-3f, 1e4f}) {
             SheetDesc sheet{.pinned = [](Vec3 p) { return p.x < -0.49f; }};
-            World world = make_world({.substeps = 4,
+            World world = make_world({.solver = {.substeps = 4},
                                       .air = AirDesc{density,
                                                      {{.velocity = {speed, speed, 0},
                                                        .gust = {100, 1000, 1e-6f, GustPhase::scattered},

@@ -67,10 +67,7 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
         for (const auto& [workers, cloths] : {std::pair(0u, 1), {1u, 1}, {1u, 3}}) {
             World world =
-                make_world({.substeps = 3,
-                            .iterations = 2,
-                            .projection = projection,
-                            .hierarchy = true,
+                make_world({.solver = {.substeps = 3, .iterations = 2, .projection = projection, .hierarchy = true},
                             .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .turbulence = {.strength = 0.4f}}}}},
                            {.workers = workers});
             const ColliderId ball =
@@ -98,7 +95,7 @@ TEST(Allocation, of_an_account_of_contacts_is_the_calling_threads) {
     if (!WEFT_COUNTS) GTEST_SKIP() << "a sanitizer counts here";
     is_worker = false;
     for (const auto& [workers, cloths] : {std::pair(1u, 1u), {2u, 5u}}) {  // all threads on one, and one thread each
-        World world = make_world({.substeps = 2, .feedback = true}, {.workers = workers});
+        World world = make_world({.solver = {.substeps = 2}, .feedback = true}, {.workers = workers});
         world.add(make_collider({.shape = SphereDesc{0.3f}}));
         world.add(make_collider({.shape = PlaneDesc{.offset = -0.3f}}));
         const auto model = make_sheet({.resolution = {32, 32}, .position = {0, 0.35f, 0}});

@@ -15,7 +15,7 @@ constexpr const char* golden = "9f2f782be8518280";
 std::string drape(const CpuOptions& options, std::uint32_t iterations, BendModel bend = BendModel::hinges) {
     Fabric silk = find_fabric("silk")->fabric;
     silk.bend.model = bend;
-    World world = make_world({.substeps = 10, .iterations = iterations}, options);
+    World world = make_world({.solver = {.substeps = 10, .iterations = iterations}}, options);
     world.add(make_sheet({.size = {1, 1},
                           .resolution = {40, 37},
                           .position = {0.01f, 0.4f, 0.02f},
@@ -79,7 +79,7 @@ TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
                            .layout = {.lines = true, .hierarchy = true},
                            .pinned = [](Vec3 p) { return p.x < -0.24f; }});
     };
-    const WorldSettings settings{.substeps = 8, .hierarchy = true};
+    const WorldSettings settings{.solver = {.substeps = 8, .hierarchy = true}};
     const auto large = make_sheet({.resolution = {150, 150}, .layout = {.lines = true}});  // this one by all threads
     for (const unsigned workers : {0u, 1u, 3u}) {
         World many = make_world(settings, CpuOptions{workers, ""});
@@ -101,7 +101,7 @@ TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
 // The smallest cloths have a thread each, whether they are enough for all threads or not.
 TEST(Determinism, does_not_tell_which_cloths_are_shared) {
     const auto bits = [](std::uint32_t smallest_shared, unsigned workers) {
-        const WorldSettings settings{.substeps = 4, .hierarchy = true};
+        const WorldSettings settings{.solver = {.substeps = 4, .hierarchy = true}};
         World world(std::move(*make_cpu_backend({.workers = workers, .smallest_shared = smallest_shared})), settings);
         for (const std::uint32_t side : {12u, 20u, 28u})
             world.add(make_sheet({.resolution = {side, side},
@@ -144,7 +144,7 @@ void expect_same_bits(const std::function<World(const CpuOptions&)>& make, doubl
 // Labels: slow no-asan
 TEST(Determinism, holds_along_lines) {
     for (const std::uint32_t iterations : {1u, 3u}) {
-        const WorldSettings settings{.substeps = 3, .iterations = iterations, .hierarchy = true};
+        const WorldSettings settings{.solver = {.substeps = 3, .iterations = iterations, .hierarchy = true}};
         SheetDesc sheet = hung_by_corners(40, settings.layout());
         sheet.fabric.body.density = 0.2f;
         expect_same_bits([&](const CpuOptions& options) { return make_world(settings, sheet, options); }, 0.3);
@@ -155,18 +155,16 @@ TEST(Determinism, holds_along_lines) {
 TEST(Determinism, holds_with_coarse_levels) {
     SheetDesc sheet = hung_by_corners(40, {.hierarchy = true});
     sheet.fabric.tether.use = Tethers::off;
-    const WorldSettings settings{.substeps = 3, .hierarchy = true};
+    const WorldSettings settings{.solver = {.substeps = 3, .hierarchy = true}};
     expect_same_bits([&](const CpuOptions& options) { return make_world(settings, sheet, options); }, 0.3);
 }
 
 // Labels: slow no-asan
 TEST(Determinism, holds_for_averaged_jacobi) {
     for (const Method method : {Method::xpbd, Method::pbd}) {
-        const WorldSettings settings{.substeps = 4,
-                                     .iterations = 3,
-                                     .method = method,
-                                     .projection = Projection::jacobi,
-                                     .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .turbulence = {0.4f}}}}};
+        const WorldSettings settings{
+            .solver = {.substeps = 4, .iterations = 3, .method = method, .projection = Projection::jacobi},
+            .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .turbulence = {0.4f}}}}};
         const auto make = [&](const CpuOptions& options) {
             World world = make_world(settings, options);
             world.add(make_sheet({.resolution = {20, 21}, .pinned = [](Vec3 p) { return p.x < -0.49f; }}));

@@ -52,7 +52,7 @@ void expect_near(Vec3 value, Vec3 expected, double tolerance, const char* what) 
 
 TEST(Feedback, of_a_sheet_at_rest_is_its_weight) {
     for (const std::uint32_t iterations : {1u, 3u}) {
-        World world = make_world({.substeps = 10, .iterations = iterations, .feedback = true});
+        World world = make_world({.solver = {.substeps = 10, .iterations = iterations}, .feedback = true});
         const ColliderId floor = world.add(ground());
         const ClothId sheet = world.add(make_sheet(small({0, 0.001f, 0})));
         run(world, 0.2);
@@ -82,7 +82,7 @@ TEST(Feedback, of_a_sheet_at_rest_is_its_weight) {
 }
 
 TEST(Feedback, of_a_draped_sheet_is_its_weight_on_the_mean) {
-    World world = make_world({.substeps = 10, .feedback = true});
+    World world = make_world({.solver = {.substeps = 10}, .feedback = true});
     world.add(make_collider({.shape = SphereDesc{0.2f}, .friction = {1, 1}}));
     SheetDesc sheet{.size = {0.4f, 0.4f}, .resolution = {13, 13}, .position = {0, 0.202f, 0}};
     sheet.fabric.body.damping = 0.05f;
@@ -101,7 +101,7 @@ TEST(Feedback, of_a_draped_sheet_is_its_weight_on_the_mean) {
 }
 
 TEST(Feedback, of_free_fall_is_none) {
-    World world = make_world({.substeps = 5, .feedback = true});
+    World world = make_world({.solver = {.substeps = 5}, .feedback = true});
     world.add(ground(-9));
     world.add(make_sheet(small({})));
     for (int i = 0; i < 10; ++i) {
@@ -116,7 +116,7 @@ TEST(Feedback, of_free_fall_is_none) {
 }
 
 TEST(Feedback, of_two_tables_adds_up_to_the_weight) {
-    World world = make_world({.substeps = 10, .feedback = true});
+    World world = make_world({.solver = {.substeps = 10}, .feedback = true});
     const ColliderId left = world.add(table({-0.16f, -0.5f, 0}, {0.1f, 0.5f, 0.3f}));
     const ColliderId right = world.add(table({0.16f, -0.5f, 0}, {0.1f, 0.5f, 0.3f}));
     world.add(make_sheet(small({0, 0.001f, 0})));
@@ -136,7 +136,7 @@ TEST(Feedback, of_two_tables_adds_up_to_the_weight) {
 }
 
 TEST(Feedback, of_a_weight_on_a_lever_is_a_torque) {
-    World world = make_world({.substeps = 10, .feedback = true});
+    World world = make_world({.solver = {.substeps = 10}, .feedback = true});
     world.add(table({0, -0.5f, 0}, {2, 0.5f, 2}));
     world.add(make_sheet(small({1, 0.001f, 0.5f})));
     run(world, 0.2);
@@ -151,7 +151,8 @@ TEST(Feedback, of_a_weight_on_a_lever_is_a_torque) {
 // and rows give one side an ulp more than the other.
 TEST(Feedback, balances_the_momentum_of_the_cloth) {
     for (const Projection projection : {Projection::lines, Projection::jacobi}) {
-        World world = make_world({.substeps = 8, .iterations = 2, .projection = projection, .feedback = true});
+        World world =
+            make_world({.solver = {.substeps = 8, .iterations = 2, .projection = projection}, .feedback = true});
         world.add(make_collider({.shape = BoxDesc{{0.3f, 0.1f, 0.3f}},
                                  .friction = {0.6f, 0.5f},
                                  .motion = {{0, {0, -0.1f, 0}, {}}, {1, {0.4f, 0.1f, 0}, {0, 60, 20}}}}));
@@ -178,7 +179,7 @@ TEST(Feedback, balances_the_momentum_of_the_cloth) {
 TEST(Feedback, of_a_ball_without_friction_turns_nothing) {
     Fabric smooth;
     smooth.contact.friction[0] = smooth.contact.friction[1] = 0;
-    World world = make_world({.substeps = 10, .feedback = true});
+    World world = make_world({.solver = {.substeps = 10}, .feedback = true});
     world.add(make_collider({.shape = SphereDesc{0.2f}, .transform = {.position = {0.1f, 0, 0}}}));
     SheetDesc sheet = small({0, 0.25f, 0});
     sheet.fabric = smooth;
@@ -194,7 +195,7 @@ TEST(Feedback, of_a_ball_without_friction_turns_nothing) {
 }
 
 TEST(Feedback, of_what_is_pinned_is_none) {
-    World world = make_world({.substeps = 5, .iterations = 2, .feedback = true});
+    World world = make_world({.solver = {.substeps = 5, .iterations = 2}, .feedback = true});
     world.add(ground());
     SheetDesc sheet = small({0, -0.1f, 0});
     sheet.pinned = [](Vec3) { return true; };
@@ -205,7 +206,7 @@ TEST(Feedback, of_what_is_pinned_is_none) {
 }
 
 TEST(Feedback, is_of_the_frame_before_until_somebody_waits) {
-    World world = make_world({.substeps = 5, .feedback = true});
+    World world = make_world({.solver = {.substeps = 5}, .feedback = true});
     world.add(ground());
     world.add(make_sheet(small({0, 0.001f, 0})));
     EXPECT_EQ(world.feedback().frame, 0u) << "none yet";
@@ -232,7 +233,7 @@ TEST(Feedback, is_of_the_frame_before_until_somebody_waits) {
 
 TEST(Feedback, changes_nothing_and_may_come_and_go) {
     const auto play = [](bool ever, std::vector<std::uint32_t>* contacts) {
-        World world = make_world({.substeps = 5, .iterations = 2});
+        World world = make_world({.solver = {.substeps = 5, .iterations = 2}});
         const ColliderId floor = world.add(ground());
         const ClothId sheet = world.add(make_sheet(small({0, 0.001f, 0})));
         const auto set = [&](bool on) {
@@ -302,7 +303,7 @@ TEST(Feedback, changes_nothing_and_may_come_and_go) {
 }
 
 TEST(Feedback, of_a_frame_that_is_not_finite_is_none) {
-    World world = make_world({.substeps = 5, .feedback = true});
+    World world = make_world({.solver = {.substeps = 5}, .feedback = true});
     world.add(ground());
     world.add(make_sheet(small({0, 0.001f, 0})));
     run(world, 0.05);
@@ -323,7 +324,7 @@ TEST(Feedback, of_a_frame_that_is_not_finite_is_none) {
 }
 
 TEST(Feedback, is_forgotten_where_another_state_is_restored) {
-    World world = make_world({.substeps = 5, .feedback = true});
+    World world = make_world({.solver = {.substeps = 5}, .feedback = true});
     world.add(ground());
     world.add(make_sheet(small({0, 0.001f, 0})));
     run(world, 0.1);
@@ -339,7 +340,7 @@ TEST(Feedback, is_forgotten_where_another_state_is_restored) {
 // Every shape, several cloths: large ones together, small ones side by side.
 TEST(Feedback, has_the_same_bits_on_any_number_of_threads_and_lanes) {
     const auto felt = [](const CpuOptions& options) {
-        World world = make_world({.substeps = 4, .iterations = 2, .feedback = true}, options);
+        World world = make_world({.solver = {.substeps = 4, .iterations = 2}, .feedback = true}, options);
         world.add(ground(-0.1f));
         world.add(make_collider({.shape = SphereDesc{0.1f}}));
         world.add(make_collider({.shape = CapsuleDesc{0.05f, 0.1f}, .transform = {.position = {0.3f, 0, 0}}}));

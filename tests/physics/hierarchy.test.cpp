@@ -26,7 +26,8 @@ double mean_stretch(World& world, double seconds) {
 // Labels: slow no-asan
 TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
     for (const std::uint32_t substeps : {5u, 10u}) {
-        World with = hung(64, {.substeps = substeps, .hierarchy = true}), without = hung(64, {.substeps = substeps});
+        World with = hung(64, {.solver = {.substeps = substeps, .hierarchy = true}}),
+              without = hung(64, {.solver = {.substeps = substeps, .hierarchy = false}});
         const double a = mean_stretch(with, 4), b = mean_stretch(without, 4);
         std::printf("  hung 64²  %2u substeps  stretch %.2f %%, without levels %.2f %%\n", substeps, 100 * a, 100 * b);
         EXPECT_LT(a, 0.5 * b);
@@ -41,7 +42,7 @@ TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
         sheet.layout.hierarchy = true;
         double sags[2] = {};
         for (const bool hierarchy : {false, true}) {
-            World world = make_world({.substeps = 20, .iterations = 20, .hierarchy = hierarchy}, sheet);
+            World world = make_world({.solver = {.substeps = 20, .iterations = 20, .hierarchy = hierarchy}}, sheet);
             run(world, 3);
             sags[hierarchy] = sag(world);
         }
@@ -66,12 +67,12 @@ TEST(HierarchyOf, a_sheet_that_gives_way_along_the_bias_leaves_it_hanging) {
         collect_positions(world.frame(), places);
         return places;
     };
-    const auto exact = hang(Tethers::off, {.substeps = 100});
+    const auto exact = hang(Tethers::off, {.solver = {.substeps = 100, .hierarchy = false}});
     EXPECT_LT(exact[side / 2].y, 0.495);
     EXPECT_GT(exact[side / 2].y, 0.485);
-    const double plain = mean_displacement(exact, hang(Tethers::off, {.substeps = 5}));
+    const double plain = mean_displacement(exact, hang(Tethers::off, {.solver = {.substeps = 5, .hierarchy = false}}));
     for (const Tethers tethers : {Tethers::off, Tethers::on}) {
-        const double off = mean_displacement(exact, hang(tethers, {.substeps = 5, .hierarchy = true}));
+        const double off = mean_displacement(exact, hang(tethers, {.solver = {.substeps = 5, .hierarchy = true}}));
         std::printf("  off by %.1f mm, without levels and tethers %.1f mm\n", 1e3 * off, 1e3 * plain);
         // What is left is the corners' own: the pull there is many times that elsewhere.
         EXPECT_LT(off, 0.0045);
@@ -89,7 +90,7 @@ TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
             SheetDesc sheet{.resolution = {side, side}, .layout = {.lines = true, .hierarchy = true}};
             sheet.pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f && std::abs(p.z) > 0.499f; };
             sheet.fabric.stretch.inextensible = rigid;
-            World world = make_world({.substeps = substeps, .hierarchy = true}, sheet);
+            World world = make_world({.solver = {.substeps = substeps, .hierarchy = true}}, sheet);
             run(world, 20);
             double fastest = 0;
             std::vector<Vec3> before, now;
@@ -115,7 +116,7 @@ TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
 TEST(HierarchyOf, a_soft_sheet_between_four_corners_bounds_what_it_stretches_by) {
     constexpr std::uint32_t side = 65;
     const auto middle_of = [](const WorldSettings& settings) {
-        SheetDesc sheet{.resolution = {side, side}, .layout = {.lines = true, .hierarchy = settings.hierarchy}};
+        SheetDesc sheet{.resolution = {side, side}, .layout = {.lines = true, .hierarchy = settings.solver.hierarchy}};
         sheet.pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f && std::abs(p.z) > 0.499f; };
         sheet.fabric.body.density = 0.187f;
         sheet.fabric.stretch = {.stretch = {33, 69}, .compression = {33, 69}, .shear = 18};
@@ -134,9 +135,9 @@ TEST(HierarchyOf, a_soft_sheet_between_four_corners_bounds_what_it_stretches_by)
         }
         return std::pair{height, fastest};
     };
-    const auto [exact, swing] = middle_of({.substeps = 40});
-    const auto [lower, wild] = middle_of({.substeps = 5});
-    const auto [held, calm] = middle_of({.substeps = 5, .hierarchy = true});
+    const auto [exact, swing] = middle_of({.solver = {.substeps = 40, .hierarchy = false}});
+    const auto [lower, wild] = middle_of({.solver = {.substeps = 5, .hierarchy = false}});
+    const auto [held, calm] = middle_of({.solver = {.substeps = 5, .hierarchy = true}});
     std::printf("  middle at %.3f m, 5 substeps %.3f m, with levels %.3f m; fastest %.2f, %.2f, %.2f m/s\n", exact,
                 lower, held, swing, wild, calm);
     EXPECT_LT(lower, exact - 0.1) << "what levels are for";
@@ -145,7 +146,7 @@ TEST(HierarchyOf, a_soft_sheet_between_four_corners_bounds_what_it_stretches_by)
 }
 
 TEST(HierarchyOf, a_falling_sheet_does_not_disturb_its_fall) {
-    World world = make_world({.hierarchy = true}, {.resolution = {33, 33}, .layout = {.hierarchy = true}});
+    World world = make_world({.solver = {.hierarchy = true}}, {.resolution = {33, 33}, .layout = {.hierarchy = true}});
     run(world, 1);
     const double h = 1.0 / 1200;
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);

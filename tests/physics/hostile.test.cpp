@@ -29,7 +29,7 @@ const SheetDesc hung{.pinned = [](Vec3 p) { return p.z < -0.49f; }};
 
 TEST_F(Hostile, absurd_time_steps) {
     for (const double dt : {1e-9, 1e-3, 1.0, 10.0, 1e6}) {
-        World world = make_world({.substeps = 20}, hung);
+        World world = make_world({.solver = {.substeps = 20}}, hung);
         world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {}}));
         step_and_check(world, dt);
     }
@@ -165,11 +165,12 @@ TEST_F(Hostile, meshes_by_every_method) {
                                             .pins = {.particles = {0}, .attachments = {{1, 1e-3f, {0, 1, 0}}}}},
                                            std::move(*topology));
             ASSERT_TRUE(model.ok()) << model.error().message();
-            World world = make_world({.substeps = 5,
-                                      .iterations = 2,
-                                      .method = choice & 1 ? Method::pbd : Method::xpbd,
-                                      .projection = choice & 2 ? Projection::jacobi : Projection::gauss_seidel,
-                                      .air = AirDesc{.wind = {{.velocity = {10, 0, 0}}}}});
+            World world =
+                make_world({.solver = {.substeps = 5,
+                                       .iterations = 2,
+                                       .method = choice & 1 ? Method::pbd : Method::xpbd,
+                                       .projection = choice & 2 ? Projection::jacobi : Projection::gauss_seidel},
+                            .air = AirDesc{.wind = {{.velocity = {10, 0, 0}}}}});
             world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}}));
             world.add(*model);
             step_and_check(world, 1.0 / 60);
@@ -184,9 +185,9 @@ TEST_F(Hostile, particles_in_one_place_by_every_method) {
     for (int choice = 0; choice < 12; ++choice) {
         SheetDesc sheet = hung;
         sheet.fabric.bend.model = models[static_cast<std::size_t>(choice / 4)];
-        World world = make_world({.substeps = 5,
-                                  .method = choice & 1 ? Method::pbd : Method::xpbd,
-                                  .projection = choice & 2 ? Projection::jacobi : Projection::gauss_seidel},
+        World world = make_world({.solver = {.substeps = 5,
+                                             .method = choice & 1 ? Method::pbd : Method::xpbd,
+                                             .projection = choice & 2 ? Projection::jacobi : Projection::gauss_seidel}},
                                  sheet);
         for (const bool everything : {false, true}) {
             Snapshot snapshot = world.save();
@@ -204,9 +205,9 @@ TEST_F(Hostile, cloth_held_by_springs_alone_however_soft) {
         for (const Method method : {Method::xpbd, Method::pbd}) {
             for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
                 for (const double dt : {1e-9, 1.0 / 60, 10.0}) {
-                    World world =
-                        make_world({.substeps = 5, .iterations = 2, .method = method, .projection = projection},
-                                   {.resolution = {5, 5}, .spring = [=](Vec3) { return compliance; }});
+                    World world = make_world(
+                        {.solver = {.substeps = 5, .iterations = 2, .method = method, .projection = projection}},
+                        {.resolution = {5, 5}, .spring = [=](Vec3) { return compliance; }});
                     step_and_check(world, dt);
                     EXPECT_FALSE(reports & report_non_finite) << compliance << ' ' << dt;
                 }
@@ -217,7 +218,7 @@ TEST_F(Hostile, cloth_held_by_springs_alone_however_soft) {
 
 // Each has a right checksum, so nothing but its numbers can tell.
 TEST_F(Hostile, saved_states_of_no_world) {
-    World world = make_world({.substeps = 5}, hung);
+    World world = make_world({.solver = {.substeps = 5}}, hung);
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}}));
     world.step(1.0 / 60);
     const auto before = world.state_hash();

@@ -12,8 +12,8 @@ namespace {
 
 // Runs a second with a pin added at the start and the model rebuilt for it.
 std::string hash_with_rebuild(bool background, std::atomic<int>& builds, std::uint64_t& used_from) {
-    World world =
-        make_world({.hierarchy = true, .background = background}, hung_upright({.lines = true, .hierarchy = true}));
+    World world = make_world({.solver = {.hierarchy = true}, .background = background},
+                             hung_upright({.lines = true, .hierarchy = true}));
     const ClothId id = world.frame().cloths[0].id;
     SheetDesc with_pin = hung_upright({.lines = true, .hierarchy = true});
     with_pin.pinned = [](Vec3 p) { return p.z < -0.49f && (std::abs(p.x) > 0.49f || std::abs(p.x) < 0.01f); };

@@ -29,7 +29,9 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
     for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
         const auto error = [&](Projection projection, std::uint32_t substeps, bool hierarchy) {
             return residual_after(
-                hung(64, {.substeps = substeps, .projection = projection, .hierarchy = hierarchy}, diagonal), 4);
+                hung(64, {.solver = {.substeps = substeps, .projection = projection, .hierarchy = hierarchy}},
+                     diagonal),
+                4);
         };
         const double rows = error(Projection::gauss_seidel, 20, false), lines = error(Projection::lines, 20, false),
                      all = error(Projection::lines, 5, true), few = error(Projection::gauss_seidel, 5, false);
@@ -48,7 +50,8 @@ TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
     SheetDesc sheet = hanging_strip({9, 33}, 300, 40);
     double sags[2] = {};
     for (const Projection projection : {Projection::gauss_seidel, Projection::lines}) {
-        const WorldSettings settings{.substeps = 20, .iterations = 20, .projection = projection};
+        const WorldSettings settings{
+            .solver = {.substeps = 20, .iterations = 20, .projection = projection, .hierarchy = false}};
         sheet.layout = settings.layout();
         World world = make_world(settings, sheet);
         run(world, 3);
@@ -62,7 +65,7 @@ TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
 
 // Two edges held 2 % too far apart: rigid cloth has no shape that fits, cotton one that is flat.
 double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
-    const WorldSettings settings{.substeps = 20, .hierarchy = true};
+    const WorldSettings settings{.solver = {.substeps = 20, .hierarchy = true}};
     const auto at_edge = [](Vec3 p) { return std::abs(p.x) > 0.49f; };
     const auto model =
         make_sheet({.resolution = {64, 64}, .fabric = fabric, .layout = settings.layout(), .pinned = at_edge});
@@ -98,7 +101,8 @@ TEST(LinesOf, a_sheet_held_too_far_apart_do_not_crumple_it) {
 }
 
 TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
-    World world = make_world({.projection = Projection::lines}, {.resolution = {33, 33}, .layout = {.lines = true}});
+    World world =
+        make_world({.solver = {.projection = Projection::lines}}, {.resolution = {33, 33}, .layout = {.lines = true}});
     run(world, 1);
     const double h = 1.0 / 1200;
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);
@@ -107,7 +111,7 @@ TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
 // Short steps turn what rounding leaves of lengths into speed; nothing may feed on that.
 // Labels: slow no-asan
 TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
-    World world = make_world({.substeps = 200, .projection = Projection::lines, .hierarchy = true},
+    World world = make_world({.solver = {.substeps = 200, .projection = Projection::lines, .hierarchy = true}},
                              {.resolution = {64, 64}, .layout = {.lines = true, .hierarchy = true}});
     run(world, 0.2);
     const auto& positions = world.frame().cloths[0].positions;
@@ -120,10 +124,11 @@ TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
 // Rows laid out along lines serve the other projections too, as before a change of settings builds new ones.
 TEST(LinesOf, a_model_serve_every_projection) {
     for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
-        World lines = hung(24, {.substeps = 10}, GridDiagonal::alternating);
-        lines.configure({.substeps = 10, .projection = projection});
+        World lines = hung(24, {.solver = {.substeps = 10, .hierarchy = false}}, GridDiagonal::alternating);
+        lines.configure({.solver = {.substeps = 10, .projection = projection, .hierarchy = false}});
         run(lines, 1);
-        World rows = hung(24, {.substeps = 10, .projection = projection}, GridDiagonal::alternating);
+        World rows = hung(24, {.solver = {.substeps = 10, .projection = projection, .hierarchy = false}},
+                          GridDiagonal::alternating);
         run(rows, 1);
         EXPECT_NEAR(measure_strain(lines.frame()).stretch.mean, measure_strain(rows.frame()).stretch.mean,
                     0.5 * measure_strain(rows.frame()).stretch.mean);

@@ -47,7 +47,7 @@ TEST(LivePins, are_carried_by_keys_from_where_they_are) {
 }
 
 TEST(LivePins, of_coarse_cloth_stay_where_they_are) {
-    World world = make_world({.hierarchy = true}, hung_upright({.lines = true, .hierarchy = true}));
+    World world = make_world({.solver = {.hierarchy = true}}, hung_upright({.lines = true, .hierarchy = true}));
     const ClothId id = world.frame().cloths[0].id;
     ASSERT_FALSE(world.model(id)->hierarchy.empty());
     run(world, 0.25);

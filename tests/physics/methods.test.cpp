@@ -27,7 +27,8 @@ TEST(PlainDynamics, stretches_by_the_time_step) {
     sheet.fabric.body.stiffness[0] = sheet.fabric.body.stiffness[1] = 0.02f;
     double coarse = 0, fine = 0;
     for (const double rate : {60.0, 240.0, 960.0}) {
-        const double at = sag_after({.substeps = 2, .iterations = 5, .method = Method::pbd}, sheet, rate, 8);
+        const double at =
+            sag_after({.solver = {.substeps = 2, .iterations = 5, .method = Method::pbd}}, sheet, rate, 8);
         std::printf("  plain  1/%3.0f s  sag %.4f m\n", rate, at);
         if (rate == 60) coarse = at;
         if (rate == 960) fine = at;
@@ -56,7 +57,7 @@ TEST(PlainDynamics, with_full_stiffness_is_the_inextensible_cloth) {
     // Compliance 0 and a full part are the same projection.
     SheetDesc sheet = hanging(60);
     sheet.fabric.body.damping = 0;
-    World plain = make_world({.method = Method::pbd}, sheet);
+    World plain = make_world({.solver = {.method = Method::pbd}}, sheet);
     sheet.fabric.stretch.inextensible = true;
     World hard = make_world({}, sheet);
     // Without shear and bend the rows are not the same: the plain cloth leaves the diagonals out.
@@ -74,18 +75,18 @@ TEST(PlainDynamics, has_a_stiffness_for_compression) {
     sheet.pinned = [](Vec3 p) { return p.z > 0.49f; };
     sheet.resolution = {2, 3};
     sheet.fabric.body.stiffness[1] = 0.01f;
-    World soft = make_world({.substeps = 10, .method = Method::pbd}, sheet);
+    World soft = make_world({.solver = {.substeps = 10, .method = Method::pbd}}, sheet);
     sheet.fabric.body.stiffness[1] = 1;
-    World hard = make_world({.substeps = 10, .method = Method::pbd}, sheet);
+    World hard = make_world({.solver = {.substeps = 10, .method = Method::pbd}}, sheet);
     run(soft, 0.3), run(hard, 0.3);
     EXPECT_LT(soft.frame().cloths[0].positions[0].y, hard.frame().cloths[0].positions[0].y - 0.01f);
 }
 
 TEST(Jacobi, comes_to_the_equilibrium_of_gauss_seidel) {
     const SheetDesc sheet = hanging(200);
-    WorldSettings settings{.substeps = 10, .iterations = 20};
+    WorldSettings settings{.solver = {.substeps = 10, .iterations = 20}};
     const double one_by_one = sag_after(settings, sheet, 120, 4);
-    settings.projection = Projection::jacobi;
+    settings.solver.projection = Projection::jacobi;
     const double together = sag_after(settings, sheet, 120, 4);
     const double law = 0.2 * 9.81 / (2 * 200);
     std::printf("  sag  Gauss-Seidel %.5f m, Jacobi %.5f m, law %.5f m\n", one_by_one, together, law);
@@ -95,9 +96,9 @@ TEST(Jacobi, comes_to_the_equilibrium_of_gauss_seidel) {
 
 TEST(Jacobi, is_further_from_the_goal_than_gauss_seidel_after_as_many_iterations) {
     const SheetDesc sheet = hanging(4000);
-    WorldSettings settings{.substeps = 5, .iterations = 2};
+    WorldSettings settings{.solver = {.substeps = 5, .iterations = 2}};
     const double one_by_one = sag_after(settings, sheet, 60, 3);
-    settings.projection = Projection::jacobi;
+    settings.solver.projection = Projection::jacobi;
     EXPECT_GT(sag_after(settings, sheet, 60, 3), 1.2 * one_by_one);
 }
 
@@ -109,7 +110,8 @@ TEST(Jacobi, keeps_momentum_where_stiffness_is_in_newtons_per_meter) {
         sheet.rotation_degrees = {20, 30, 0};
         sheet.fabric.body.damping = 0;
         const auto model = make_sheet(sheet);
-        LoneCloth cloth(model, {.substeps = 20, .contacts = false, .method = method, .projection = Projection::jacobi});
+        LoneCloth cloth(
+            model, {.solver = {.substeps = 20, .method = method, .projection = Projection::jacobi}, .contacts = false});
         // Pulled out of shape, unevenly.
         for (std::uint32_t p = 0; p < model->particle_count; ++p) {
             Vec4& x = cloth.now().position[p];
@@ -135,7 +137,7 @@ TEST(Attachment, gives_way_by_its_compliance) {
         const float compliance = 0.05f;
         SheetDesc sheet{.size = {0.5f, 0.5f}, .resolution = {3, 3}, .spring = [=](Vec3) { return compliance; }};
         sheet.fabric.stretch.inextensible = true;
-        World world = make_world({.substeps = 10, .iterations = iterations}, sheet);
+        World world = make_world({.solver = {.substeps = 10, .iterations = iterations}}, sheet);
         run(world, 6);
         // All nine together carry the sheet, whoever carries most.
         const double weight = 0.25 * 0.14 * 9.81;

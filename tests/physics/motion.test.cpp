@@ -42,7 +42,7 @@ TEST(Oscillator, has_the_period_and_decay_of_implicit_euler) {
 
 TEST(FreeFall, is_that_of_semi_implicit_euler) {
     for (const std::uint32_t substeps : {1u, 20u, 60u}) {
-        World world = make_world({.substeps = substeps}, {.position = {0.3f, 10, -0.2f}});
+        World world = make_world({.solver = {.substeps = substeps}}, {.position = {0.3f, 10, -0.2f}});
         const double y0 = center_of_mass(world.frame().cloths[0]).y;
         run(world, 1);
         const double h = 1.0 / 60 / substeps, g = -9.81;
@@ -79,7 +79,7 @@ TEST(FreeFall, constraints_and_damping_keep_momentum) {
     Fabric fabric;
     fabric.body.damping = 5;
     const auto model = make_sheet({.rotation_degrees = {30, 0, 0}, .fabric = fabric});
-    LoneCloth cloth(model, {.substeps = 20, .iterations = 1, .contacts = false});
+    LoneCloth cloth(model, {.solver = {.substeps = 20, .iterations = 1}, .contacts = false});
     for (std::uint32_t p = 0; p < model->particle_count; ++p) {
         const Vec3 x = cloth.now().position[p].xyz();
         const Vec3 v = Vec3{0.3f, 0.1f, -0.2f} + cross({0.5f, 2, 1}, x) + Vec3{0, std::abs(x.x), 0};
@@ -98,9 +98,10 @@ TEST(FreeFall, constraints_and_damping_keep_momentum) {
 }
 
 TEST(Energy, never_rises_without_something_that_drives) {
-    World world = make_world({.substeps = 20}, {.rotation_degrees = {90, 0, 0}, .position = {}, .pinned = [](Vec3 p) {
-                                                    return p.z < -0.49f && std::abs(p.x) > 0.49f;
-                                                }});
+    World world =
+        make_world({.solver = {.substeps = 20}}, {.rotation_degrees = {90, 0, 0}, .position = {}, .pinned = [](Vec3 p) {
+                                                      return p.z < -0.49f && std::abs(p.x) > 0.49f;
+                                                  }});
     const auto energy = [&] {
         const ClothFrame& cloth = world.frame().cloths[0];
         double potential = 0;

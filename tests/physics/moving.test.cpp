@@ -40,7 +40,7 @@ TEST(Shapes, signed_distance_is_that_of_the_true_surface) {
 double carried(float friction) {
     Fabric fabric;
     fabric.contact.friction[0] = fabric.contact.friction[1] = friction;
-    World world = make_world({.substeps = 20});
+    World world = make_world({.solver = {.substeps = 20}});
     world.add(make_collider({.shape = BoxDesc{{5, 0.5f, 5}},
                              .transform = {.position = {0, -0.5f, 0}},
                              .friction = {friction, friction},
@@ -57,7 +57,7 @@ TEST(MovingCollider, carries_what_rests_on_it_by_friction_alone) {
 }
 
 TEST(MovingCollider, pushes_cloth_ahead_and_does_not_tunnel) {
-    World world = make_world({.substeps = 20});
+    World world = make_world({.solver = {.substeps = 20}});
     world.add(make_collider({.shape = SphereDesc{0.2f}, .motion = {{0, {0, 0, -1}, {}}, {0.5f, {0, 0, 1}, {}}}}));
     world.add(make_sheet(
         {.resolution = {25, 25}, .rotation_degrees = {90, 0, 0}, .pinned = [](Vec3 p) { return p.z < -0.49f; }}));
@@ -84,7 +84,7 @@ const SheetDesc hung{
 // Labels: slow no-asan
 TEST(Pins, follow_their_offsets_and_take_the_cloth_along) {
     for (const unsigned workers : {0u, 2u}) {
-        World world = make_world({.substeps = 20}, {.workers = workers});
+        World world = make_world({.solver = {.substeps = 20}}, {.workers = workers});
         const auto model = make_sheet(hung);
         world.add(model, hold_all(*model, {.offsets = {{0, {}}, {1, {0, 0.5f, 0.3f}}}}, {}));
         run(world, 0.5);
@@ -102,7 +102,7 @@ TEST(Pins, follow_their_offsets_and_take_the_cloth_along) {
 }
 
 TEST(Pins, ride_on_a_turning_collider) {
-    World world = make_world({.substeps = 20});
+    World world = make_world({.solver = {.substeps = 20}});
     world.add(make_collider({.shape = SphereDesc{0.01f},
                              .transform = {.position = {0, 0.5f, 0}},
                              .motion = {{0, {0, 0.5f, 0}, {}}, {1, {0, 0.5f, 0}, {0, 90, 0}}}}));
@@ -122,7 +122,7 @@ double hanging_stretch(bool tethers) {
     fabric.stretch.inextensible = true;
     fabric.tether = {.use = tethers ? Tethers::on : Tethers::off};
     World world =
-        make_world({.substeps = 10},
+        make_world({.solver = {.substeps = 10}},
                    {.resolution = {49, 49}, .rotation_degrees = {90, 0, 0}, .fabric = fabric, .pinned = [](Vec3 p) {
                         return p.z < -0.49f && std::abs(p.x) > 0.49f;
                     }});
@@ -161,7 +161,7 @@ TEST(Tethers, come_by_themselves_where_cloth_cannot_stretch_and_hangs_by_few_pla
 TEST(Tethers, do_not_pull_cloth_through_an_obstacle) {
     Fabric fabric;
     fabric.tether.use = Tethers::on;
-    World world = make_world({.substeps = 20});
+    World world = make_world({.solver = {.substeps = 20}});
     world.add(make_collider({.shape = CapsuleDesc{0.15f, 1}, .transform = {.rotation_degrees = {90, 0, 0}}}));
     world.add(make_sheet({.resolution = {33, 33}, .position = {0.4f, 0.16f, 0}, .fabric = fabric, .pinned = [](Vec3 p) {
                               return p.x < -0.49f;

@@ -15,12 +15,13 @@ TEST(HangingSheet, stretches_under_its_own_weight_as_its_stiffness_says) {
     fabric.body = {.density = density, .damping = 10};
     fabric.stretch = {.stretch = {stiffness, stiffness}, .compression = {stiffness, stiffness}, .shear = 0};
     fabric.bend = {.bend = {0, 0, 0}};
-    World world = make_world({.substeps = 40, .iterations = 4}, {.size = {side, side},
-                                                                 .resolution = {n, n},
-                                                                 .rotation_degrees = {90, 0, 0},
-                                                                 .position = {},
-                                                                 .fabric = fabric,
-                                                                 .pinned = [](Vec3 p) { return p.z < -0.49f; }});
+    World world =
+        make_world({.solver = {.substeps = 40, .iterations = 4}}, {.size = {side, side},
+                                                                   .resolution = {n, n},
+                                                                   .rotation_degrees = {90, 0, 0},
+                                                                   .position = {},
+                                                                   .fabric = fabric,
+                                                                   .pinned = [](Vec3 p) { return p.z < -0.49f; }});
     run(world, 12);
     const ClothFrame& cloth = world.frame().cloths[0];
     const double g = 9.81, s = side / (n - 1);
@@ -45,11 +46,11 @@ double slide(double degrees, float static_friction, float kinetic_friction, std:
     fabric.contact = {.thickness = 0.002f, .friction = {static_friction, kinetic_friction}};
     const Mat3 turn = rotation_from_degrees({0, 0, -tilt});
     const Vec3 up = turn * Vec3{0, 1, 0}, down_hill = turn * Vec3{1, 0, 0};
-    World world = make_world({.substeps = 20, .iterations = iterations}, {.size = {0.2f, 0.2f},
-                                                                          .resolution = {7, 7},
-                                                                          .rotation_degrees = {0, 0, -tilt},
-                                                                          .position = up * 0.001f,
-                                                                          .fabric = fabric});
+    World world = make_world({.solver = {.substeps = 20, .iterations = iterations}}, {.size = {0.2f, 0.2f},
+                                                                                      .resolution = {7, 7},
+                                                                                      .rotation_degrees = {0, 0, -tilt},
+                                                                                      .position = up * 0.001f,
+                                                                                      .fabric = fabric});
     ColliderDesc plane{.name = "plane",
                        .shape = PlaneDesc{},
                        .transform = {.rotation_degrees = {0, 0, -tilt}},
@@ -93,7 +94,8 @@ INSTANTIATE_TEST_SUITE_P(Iterations, Incline, testing::Values(1u, 4u));
 // Dropped onto a ball: it lies still, does not sink in, does not slide off.
 // Labels: slow no-asan
 TEST(Drape, on_a_sphere_comes_to_rest_outside_of_it) {
-    World world = make_world({.substeps = 20}, {.size = {1, 1}, .resolution = {33, 33}, .position = {0, 0.45f, 0}});
+    World world =
+        make_world({.solver = {.substeps = 20}}, {.size = {1, 1}, .resolution = {33, 33}, .position = {0, 0.45f, 0}});
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {.position = {0, 0.1f, 0}}}));
     world.add(make_collider({.name = "ground", .shape = PlaneDesc{}, .transform = {.position = {0, -0.5f, 0}}}));
     run(world, 4);

@@ -20,7 +20,7 @@ class LoneCloth {
           executor_(*cpu::available_passes().front(), team_),
           plan_(plan_world(settings, {{{.model = state_.model.get()}}})),
           passes_(plan_, {{{.model = state_.model.get()}}}, nullptr),
-          stiffness_(plain_stiffness(state_.model->fabric, settings.iterations)) {}
+          stiffness_(plain_stiffness(state_.model->fabric, settings.solver.iterations)) {}
 
     const ClothModel& model() const { return *state_.model; }
     cpu::Particles now() const { return state_.now(); }
@@ -59,8 +59,9 @@ class Specimen {
     };
 
     Specimen(std::shared_ptr<const ClothModel> model, const Steps& steps)
-        : cloth_(std::move(model),
-                 {.substeps = steps.substeps, .iterations = steps.iterations, .contacts = false, .surface = false}),
+        : cloth_(std::move(model), {.solver = {.substeps = steps.substeps, .iterations = steps.iterations},
+                                    .contacts = false,
+                                    .surface = false}),
           dt_(steps.dt) {}
 
     const ClothModel& model() const { return cloth_.model(); }

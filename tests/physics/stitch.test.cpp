@@ -45,7 +45,7 @@ Patchwork fill(World world, float compliance) {
     return work;
 }
 
-Patchwork make_patchwork(const WorldSettings& settings = {.substeps = 20}, float compliance = 0) {
+Patchwork make_patchwork(const WorldSettings& settings = {.solver = {.substeps = 20}}, float compliance = 0) {
     return fill(make_world(settings), compliance);
 }
 
@@ -109,7 +109,7 @@ TEST(Stitches, go_with_a_cloth_of_theirs) {
 
 TEST(Stitches, with_compliance_give_way_by_their_share_of_the_weight) {
     constexpr float compliance = 0.02f;
-    Patchwork work = make_patchwork({.substeps = 20}, compliance);
+    Patchwork work = make_patchwork({.solver = {.substeps = 20}}, compliance);
     work.world.add(work.stitches);
     for (int i = 0; i < 600; ++i) work.world.step(1.0 / 60);
     // The lower half hangs by 18 stitches.
@@ -138,7 +138,7 @@ TEST(Stitches, between_points_inside_triangles_hold) {
 }
 
 TEST(Stitches, of_one_cloth_close_it_to_a_tube) {
-    World world = make_world({.substeps = 20});
+    World world = make_world({.solver = {.substeps = 20}});
     const ClothId id = world.add(make_sheet(patch(0, 0, true)));
     std::vector<Stitch> seam;
     for (std::uint32_t k = 1; k < side; ++k) seam.push_back({id, id, vertex(0, k), vertex(side - 1, k)});
@@ -150,7 +150,7 @@ TEST(Stitches, of_one_cloth_close_it_to_a_tube) {
 
 TEST(Stitches, have_the_same_bits_on_every_thread_count) {
     const auto hash = [](unsigned workers) {
-        Patchwork work = fill(make_world({.substeps = 20}, CpuOptions{.workers = workers}), 0);
+        Patchwork work = fill(make_world({.solver = {.substeps = 20}}, CpuOptions{.workers = workers}), 0);
         work.world.add(work.stitches);
         for (int i = 0; i < 20; ++i) work.world.step(1.0 / 60);
         return work.world.state_hash();
@@ -191,8 +191,8 @@ TEST(Stitches, survive_iterations_methods_and_projections) {
     for (const Method method : {Method::xpbd, Method::pbd}) {
         for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
             if (method == Method::pbd && projection == Projection::lines) continue;
-            Patchwork work =
-                make_patchwork({.substeps = 10, .iterations = 2, .method = method, .projection = projection}, 1e-5f);
+            Patchwork work = make_patchwork(
+                {.solver = {.substeps = 10, .iterations = 2, .method = method, .projection = projection}}, 1e-5f);
             work.world.add(work.stitches);
             for (int i = 0; i < 60; ++i) work.world.step(1.0 / 60);
             EXPECT_EQ(work.world.frame().reports, 0u);

@@ -10,8 +10,7 @@ SheetDesc small(Vec3 position) {
 }
 
 World lively_world(unsigned workers = 0) {
-    World world = make_world({.substeps = 6,
-                              .iterations = 2,
+    World world = make_world({.solver = {.substeps = 6, .iterations = 2},
                               .air = AirDesc{.wind = {{.velocity = {1, 0, 0.3f}, .turbulence = {.strength = 0.5f}}}}},
                              {.workers = workers});
     world.add(make_collider(
@@ -207,8 +206,8 @@ TEST(World, takes_new_settings_between_steps) {
     run(world, 0.2);
     WorldSettings settings = world.settings();
     settings.gravity = {};
-    settings.substeps = 3;
-    settings.projection = Projection::jacobi;
+    settings.solver.substeps = 3;
+    settings.solver.projection = Projection::jacobi;
     world.configure(settings);
     const float v = world.frame().cloths[0].velocities[0].y;
     run(world, 0.2);

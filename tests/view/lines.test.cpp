@@ -91,7 +91,7 @@ TEST(PinsOverlay, marks_what_is_pinned) {
 }
 
 TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
-    World world = make_world({.substeps = 2});
+    World world = make_world({.solver = {.substeps = 2}});
     const ColliderId bar = world.add(make_collider({.shape = SphereDesc{0.1f}, .transform = {.position = {0, 3, 0}}}));
     const auto model = make_sheet(
         {.pinned = [](Vec3 p) { return p.z < -0.49f; }, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }});
@@ -122,7 +122,7 @@ TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
 }
 
 TEST(PinsOverlay, shows_springs_where_keys_have_moved_them) {
-    World world = make_world({.substeps = 2});
+    World world = make_world({.solver = {.substeps = 2}});
     const auto model = make_sheet({.spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }});
     const std::uint32_t anchor = model->particle_count + 4;
     world.add(model, {.movers = {{.offsets = {{0, {}}, {2, {0, 1, 0}}}}},
@@ -165,7 +165,7 @@ TEST(ConstraintsOverlay, has_a_line_for_each_row_in_the_color_of_its_batch) {
 TEST(ConstraintsOverlay, shows_plates_springs_and_rows_along_lines) {
     SheetDesc desc{.layout = {.lines = true}, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }};
     desc.fabric.bend.model = BendModel::plate;
-    World world = make_world({.projection = Projection::lines}, desc);
+    World world = make_world({.solver = {.projection = Projection::lines}}, desc);
     Shown shown(world);
     const ClothModel& model = *shown.frame().cloths[0].model;
     ASSERT_FALSE(model.table(ConstraintKind::stretch).blocks.empty());
@@ -176,7 +176,7 @@ TEST(ConstraintsOverlay, shows_plates_springs_and_rows_along_lines) {
 }
 
 TEST(ContactsOverlay, of_a_sheet_at_rest_are_all_its_particles) {
-    World world = make_world({.substeps = 10, .feedback = true});
+    World world = make_world({.solver = {.substeps = 10}, .feedback = true});
     world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
     world.add(make_sheet({.size = {0.4f, 0.4f}, .position = {0, 0.001f, 0}}));
     run(world, 0.2);
@@ -242,7 +242,7 @@ TEST(WindOverlay, shows_the_wind_as_it_is) {
     AirDesc air;
     air.wind.push_back({.velocity = {3, 0, 1}, .gust = {.amplitude = 0.4f}, .turbulence = {.strength = 0.5f}});
     air.wind.push_back({.velocity = {0, 0.5f, 0}});
-    World world = make_world({.substeps = 1, .air = air}, SheetDesc{.pinned = [](Vec3) { return true; }});
+    World world = make_world({.solver = {.substeps = 1}, .air = air}, SheetDesc{.pinned = [](Vec3) { return true; }});
     run(world, 0.5);
     Shown shown(world);
     const OverlayOutput output = shown.draw("wind");

@@ -92,24 +92,25 @@ void expect_same(const WorldSettings& settings, const std::vector<const char*>& 
     for (const char* execution : executions) {
         const Felt felt = play(checked_vulkan_backend({.execution = execution}), settings, exact);
         if (!exact) continue;
-        EXPECT_EQ(felt.bits, expected.bits) << execution << ", " << settings.iterations << " iterations";
+        EXPECT_EQ(felt.bits, expected.bits) << execution << ", " << settings.solver.iterations << " iterations";
         EXPECT_EQ(felt.hash, expected.hash);
     }
 }
 
 // Labels: slow no-asan
 TEST(VulkanFeedback, has_the_bits_of_the_cpu_however_a_frame_is_executed) {
-    expect_same({.substeps = 4, .feedback = true}, {"streamed"});
-    expect_same({.substeps = 5, .iterations = 3, .hierarchy = true, .air = AirDesc{}, .feedback = true},
+    expect_same({.solver = {.substeps = 4, .hierarchy = false}, .feedback = true}, {"streamed"});
+    expect_same({.solver = {.substeps = 5, .iterations = 3, .hierarchy = true}, .air = AirDesc{}, .feedback = true},
                 {"streamed", "grouped", "fused"});
-    expect_same({.substeps = 3, .iterations = 2, .projection = Projection::jacobi, .feedback = true},
+    expect_same({.solver = {.substeps = 3, .iterations = 2, .projection = Projection::jacobi, .hierarchy = false},
+                 .feedback = true},
                 {"streamed", "fused"});
 }
 
 // More particles than a workgroup has, so that sums of several come together.
 TEST(VulkanFeedback, adds_up_what_many_workgroups_find) {
     const auto force = [](std::unique_ptr<Backend> backend) {
-        World world(std::move(backend), {.substeps = 2, .feedback = true});
+        World world(std::move(backend), {.solver = {.substeps = 2}, .feedback = true});
         world.add(ground(0));
         world.add(sheet(40, {0, 0.001f, 0}));
         for (int i = 0; i < 3; ++i) world.step(frame_seconds);
@@ -128,7 +129,7 @@ TEST(VulkanFeedback, adds_up_what_many_workgroups_find) {
 // Three grounds, each higher than the one before by less than gravity pulls in a substep: each of them pushes all.
 TEST(VulkanFeedback, says_when_the_list_is_full_and_has_room_in_the_next_frame) {
     for (const char* execution : {"streamed", "fused"}) {
-        World world(checked_vulkan_backend({.execution = execution}), {.substeps = 2, .feedback = true});
+        World world(checked_vulkan_backend({.execution = execution}), {.solver = {.substeps = 2}, .feedback = true});
         World reference(cpu_backend(), world.settings());
         for (World* one : {&world, &reference}) {
             one->add(sheet(13, {0, 0.001f, 0}));
@@ -163,7 +164,7 @@ TEST(VulkanFeedback, says_when_the_list_is_full_and_has_room_in_the_next_frame) 
 
 // While the device is at the next frame, what is read is in another buffer than what it writes.
 TEST(VulkanFeedback, is_read_while_the_next_frame_runs) {
-    World world(checked_vulkan_backend(), {.substeps = 3, .feedback = true});
+    World world(checked_vulkan_backend(), {.solver = {.substeps = 3}, .feedback = true});
     World reference(cpu_backend(), world.settings());
     for (World* one : {&world, &reference}) {
         add_colliders(*one);
@@ -195,7 +196,7 @@ TEST(VulkanFeedback, is_read_while_the_next_frame_runs) {
 // Whatever comes between an advance and its end: nothing of it is lost, nothing touches what the device is at.
 TEST(VulkanFeedback, of_a_world_that_changes_while_a_frame_runs_is_sound) {
     const auto play = [](std::unique_ptr<Backend> backend) {
-        World world(std::move(backend), {.substeps = 3, .feedback = true});
+        World world(std::move(backend), {.solver = {.substeps = 3}, .feedback = true});
         const ColliderId floor = world.add(ground(-0.1f));
         const ClothId first = world.add(sheet(9, {0, 0, 0}));
         world.advance(frame_seconds);
@@ -218,7 +219,7 @@ TEST(VulkanFeedback, of_a_world_that_changes_while_a_frame_runs_is_sound) {
         world.advance(frame_seconds);
         (void)world.stretch_residual();
         WorldSettings settings = world.settings();
-        settings.substeps = 2;
+        settings.solver.substeps = 2;
         world.advance(frame_seconds);
         world.configure(settings);
         world.advance(frame_seconds);
@@ -240,7 +241,7 @@ TEST(VulkanFeedback, of_a_world_that_changes_while_a_frame_runs_is_sound) {
 
 TEST(VulkanFeedback, of_a_frame_that_is_not_finite_is_none_and_the_next_has_its_own) {
     for (const char* execution : {"streamed", "fused"}) {
-        World world(checked_vulkan_backend({.execution = execution}), {.substeps = 2, .feedback = true});
+        World world(checked_vulkan_backend({.execution = execution}), {.solver = {.substeps = 2}, .feedback = true});
         World reference(cpu_backend(), world.settings());
         for (World* one : {&world, &reference}) {
             one->add(ground(0));
@@ -268,7 +269,8 @@ TEST(VulkanFeedback, of_a_frame_that_is_not_finite_is_none_and_the_next_has_its_
 
 TEST(VulkanFeedback, of_a_device_that_fails_is_none) {
     for (const int lost_after : {0, 1}) {  // of a frame's two submits
-        World world(checked_vulkan_backend({.intercept = losing_device::intercept}), {.substeps = 2, .feedback = true});
+        World world(checked_vulkan_backend({.intercept = losing_device::intercept}),
+                    {.solver = {.substeps = 2}, .feedback = true});
         world.add(ground(0));
         world.add(sheet(7, {0, 0.001f, 0}));
         for (int i = 0; i < 3; ++i) EXPECT_EQ(world.step(frame_seconds).reports, report_none);

@@ -149,7 +149,7 @@ TEST_F(VulkanHosts, go_on_after_changes) {
 TEST_F(VulkanHosts, may_load_scenes_and_bring_their_own_functions) {
     host.get_instance_proc_addr = vkGetInstanceProcAddr;
     const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / "hanging_sheet.json";
-    auto simulation = load_on(host, scene, {.substeps = 2});
+    auto simulation = load_on(host, scene, {.solver = {{"substeps", 2}}});
     ASSERT_TRUE(simulation.ok()) << simulation.error().message();
     simulation->step();
     expect_same_surface(*simulation, simulation->cloths().front(), host);

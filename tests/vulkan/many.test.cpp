@@ -68,7 +68,7 @@ std::unique_ptr<Backend> vulkan_backend(const char* execution) {
 
 // Cloths of one model: their number, and what takes a frame of them.
 void expect_as_many_dispatches(std::uint32_t side, std::span<const char* const> executions) {
-    const WorldSettings settings{.substeps = 3, .hierarchy = true};
+    const WorldSettings settings{.solver = {.substeps = 3, .hierarchy = true}};
     const auto model = sheet(side, settings.layout(), true);
     std::map<std::string, int> of_one;
     for (const std::size_t count : {1u, 16u, 256u}) {
@@ -104,7 +104,8 @@ TEST(ManyCloths, take_one_dispatch_when_fused) {
 // Of other sizes, with other constraints, with and without coarse levels, lines and pins: none notices the others.
 TEST(ManyCloths, that_differ_do_what_each_does_alone) {
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
-        const WorldSettings settings{.substeps = 4, .iterations = 2, .projection = projection, .hierarchy = true};
+        const WorldSettings settings{
+            .solver = {.substeps = 4, .iterations = 2, .projection = projection, .hierarchy = true}};
         ClothLayout flat = settings.layout();
         flat.hierarchy = false;
         const std::vector models{sheet(9, flat, false), sheet(30, settings.layout(), true), sheet(14, flat, true, 0),

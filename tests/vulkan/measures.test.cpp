@@ -89,7 +89,7 @@ void expect_as_on_host(World& world, const std::vector<std::shared_ptr<const Clo
 class VulkanMeasures : public testing::TestWithParam<const char*> {
   protected:
     static World world_of(const std::vector<std::shared_ptr<const ClothModel>>& models,
-                          const WorldSettings& settings = {.substeps = 3}) {
+                          const WorldSettings& settings = {.solver = {.substeps = 3}}) {
         World world(checked_vulkan_backend({.execution = GetParam()}), settings);
         for (const auto& model : models) EXPECT_TRUE(world.try_add(model).ok());
         return world;
@@ -105,10 +105,10 @@ TEST_P(VulkanMeasures, are_those_of_the_host_frame_by_frame) {
                             {grid(20), {0, 19}, Projection::lines, {.lines = true, .hierarchy = true}}};
     for (const Sheet& sheet : sheets) {
         const std::vector models{model_of(sheet)};
-        World world = world_of(models, {.substeps = 3,
-                                        .iterations = sheet.projection == Projection::jacobi ? 6u : 2u,
-                                        .projection = sheet.projection,
-                                        .hierarchy = sheet.layout.hierarchy});
+        World world = world_of(models, {.solver = {.substeps = 3,
+                                                   .iterations = sheet.projection == Projection::jacobi ? 6u : 2u,
+                                                   .projection = sheet.projection,
+                                                   .hierarchy = sheet.layout.hierarchy}});
         expect_as_on_host(world, models);  // at rest
         for (int frame = 0; frame < 2; ++frame) {
             world.advance(1.0 / 60);
@@ -123,7 +123,7 @@ TEST_P(VulkanMeasures, are_those_of_the_host_frame_by_frame) {
 TEST_P(VulkanMeasures, of_several_cloths_weigh_each_by_its_edges) {
     const auto small = model_of({grid(8), {0}}), large = model_of({irregular(25), {0, 24}});
     const std::vector models{small, large, small};
-    World world = world_of(models, {.substeps = 2, .projection = Projection::gauss_seidel});
+    World world = world_of(models, {.solver = {.substeps = 2, .projection = Projection::gauss_seidel}});
     for (int frame = 0; frame < 2; ++frame) world.advance(1.0 / 60);
     expect_as_on_host(world, models);
 }

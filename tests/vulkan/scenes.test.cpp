@@ -65,7 +65,8 @@ TEST(VulkanScenes, are_as_on_the_cpu) {
 TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / "sheet_on_sphere.json";
     const auto run = [&](const char* execution, std::uint32_t substeps) {
-        auto session = open_scene(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
+        auto session =
+            open_scene(scene, {.backend = "vulkan", .execution = execution, .solver = {{"substeps", substeps}}});
         if (!session) {
             ADD_FAILURE() << session.error().message();
             return std::string();
@@ -107,7 +108,8 @@ TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
         const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
         for (const std::uint32_t substeps : {4u, 7u}) {
             const auto run = [&](const char* execution) {
-                auto session = open_scene(scene, {.backend = "vulkan", .execution = execution, .substeps = substeps});
+                auto session = open_scene(
+                    scene, {.backend = "vulkan", .execution = execution, .solver = {{"substeps", substeps}}});
                 if (!session) {
                     ADD_FAILURE() << session.error().message();
                     return std::string();
@@ -135,12 +137,12 @@ TEST(VulkanScenes, do_not_tell_how_averages_are_executed) {
         const auto run = [&](const char* execution) {
             auto session = open_scene(scene, {.backend = "vulkan",
                                               .execution = execution,
-                                              .substeps = 2,
-                                              .iterations = 5,
-                                              .method = method,
-                                              .projection = "jacobi",
-                                              .accumulate = accumulate,
-                                              .hierarchy = false});
+                                              .solver = {{"substeps", 2},
+                                                         {"iterations", 5},
+                                                         {"method", method},
+                                                         {"projection", "jacobi"},
+                                                         {"accumulate", accumulate},
+                                                         {"hierarchy", false}}});
             if (!session) {
                 ADD_FAILURE() << session.error().message();
                 return std::string();

@@ -79,7 +79,7 @@ class VulkanSurfaces : public testing::Test {
   protected:
     VulkanSurfaces() { open(); }
 
-    void open(const WorldSettings& settings = {.substeps = 4}, VulkanOptions options = {}) {
+    void open(const WorldSettings& settings = {.solver = {.substeps = 4}}, VulkanOptions options = {}) {
         reader_.reset();
         world_.reset();
         world_ = std::make_unique<World>(checked_vulkan_backend(std::move(options)), settings);
@@ -345,7 +345,7 @@ TEST_F(VulkanSurfaces, of_one_model_share_what_does_not_move) {
 }
 
 TEST_F(VulkanSurfaces, have_normals_where_the_frame_has_none) {
-    open({.substeps = 4, .surface = false});
+    open({.solver = {.substeps = 4}, .surface = false});
     const ClothId id = add({.mesh = sheet()});
     step(5);
     const gpu::SurfaceBuffers buffers = surface(id);
@@ -359,7 +359,7 @@ TEST_F(VulkanSurfaces, have_normals_where_the_frame_has_none) {
 }
 
 TEST_F(VulkanSurfaces, for_which_there_is_no_room_are_an_error) {
-    open({.substeps = 4}, {.memory_limit = 3 << 20});
+    open({.solver = {.substeps = 4}}, {.memory_limit = 3 << 20});
     const ClothId small = add({.mesh = sheet()});
     const ClothId large = add({.mesh = sheet(), .drawn = make_grid({1, 1}, {150, 150}, GridDiagonal::uniform)});
     step();
@@ -373,7 +373,7 @@ TEST_F(VulkanSurfaces, for_which_there_is_no_room_are_an_error) {
 }
 
 TEST_F(VulkanSurfaces, of_a_lost_device_are_an_error) {
-    open({.substeps = 4}, {.intercept = losing_device::intercept});
+    open({.solver = {.substeps = 4}}, {.intercept = losing_device::intercept});
     const ClothId id = add({.mesh = sheet()});
     step();
     losing_device::submits_left = 0;

@@ -158,8 +158,8 @@ void describe(const SceneWorld& session, const Options& options, SceneFigures& f
     figures.isa = options.isa.empty() ? std::string(cpu_instruction_sets().front()) : options.isa;
     figures.threads = world.backend().threads();
     figures.solver = solver_text(world.settings());
-    figures.substeps = world.settings().substeps;
-    figures.iterations = world.settings().iterations;
+    figures.substeps = world.settings().solver.substeps;
+    figures.iterations = world.settings().solver.iterations;
     figures.frame_rate = session.scene().frame_rate;
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         figures.constraints.push_back({std::string(constraint_info(static_cast<ConstraintKind>(kind)).name), 0, 0});

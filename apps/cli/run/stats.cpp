@@ -108,8 +108,8 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["device"] = world.backend().device();
     stats["threads"] = world.backend().threads();
     stats["solver"] = solver_text(world.settings());
-    stats["substeps"] = world.settings().substeps;
-    stats["iterations"] = world.settings().iterations;
+    stats["substeps"] = world.settings().solver.substeps;
+    stats["iterations"] = world.settings().solver.iterations;
     stats["frames"] = step_ms_.size();
     stats["particles"] = particles;
     stats["triangles"] = triangles;
@@ -139,10 +139,10 @@ std::string solver_text(const WorldSettings& settings) {
         const auto names = choice_names(*std::ranges::find(solver_keys, key, &Parameter::key));
         return std::string(names[static_cast<std::size_t>(value)]);
     };
-    const Projection projection = resolve(settings.projection, settings.method);
-    return name("method", settings.method) + ", " + name("projection", projection) +
-           (projection == Projection::jacobi ? " by " + name("accumulate", settings.accumulate) : "") +
-           (settings.hierarchy ? ", hierarchy" : "");
+    const Projection projection = resolve(settings.solver.projection, settings.solver.method);
+    return name("method", settings.solver.method) + ", " + name("projection", projection) +
+           (projection == Projection::jacobi ? " by " + name("accumulate", settings.solver.accumulate) : "") +
+           (settings.solver.hierarchy ? ", hierarchy" : "");
 }
 
 Result<Done> write_stats(const Json& stats, const std::filesystem::path& file) {

@@ -1,5 +1,9 @@
 #include "cli/shell/command.h"
 
+#include "scene/check.h"
+#include "scene/nearest_name.h"
+#include "scene/scene_keys.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -22,6 +26,24 @@ void print_warning(const std::string& text) {
     std::cerr << "weft: warning: " << text << '\n';
 }
 
+namespace {
+
+// --substeps 8, --method pbd, --hierarchy, --no-hierarchy.
+void add_solver_option(CLI::App& command, const Parameter& option, ParameterValues& values) {
+    const std::string key(option.key), what = std::string(option.what) + "; instead of the scene's";
+    const auto set = [&values, key](const auto& value) { values.emplace_back(key, value); };
+    if (option.kind == ParameterKind::flag)
+        // add_flag would set an option that was not given, too.
+        command.add_flag_function(
+            "--" + key + ",!--no-" + key, [set](std::int64_t count) { set(count > 0); }, what);
+    else if (option.kind == ParameterKind::choice)
+        command.add_option_function<std::string>("--" + key, set, alternatives(choice_names(option)) + ": " + what);
+    else
+        command.add_option_function<double>("--" + key, set, what);
+}
+
+}  // namespace
+
 void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--backend", options.backend, "auto, cpu or vulkan")->capture_default_str();
     command.add_option("--device", options.device, "Vulkan device: part of its name, see weft info");
@@ -32,17 +54,7 @@ void add_common_options(CLI::App& command, Options& options) {
     command.add_option("--threads", options.threads, "threads in all, 1 to 256; never changes the result")
         ->capture_default_str();
     command.add_option("--isa", options.isa, "instruction set, see weft info; never changes the result");
-    command.add_option("--substeps", options.substeps, "per frame, instead of the scene's");
-    command.add_option("--iterations", options.iterations, "per substep, instead of the scene's");
-    // add_flag would set an option that was not given, too.
-    command.add_flag_function(
-        "--hierarchy,!--no-hierarchy", [&options](std::int64_t count) { options.hierarchy = count > 0; },
-        "coarse levels first, or not, whatever the scene says");
-    command.add_option("--method", options.method, "xpbd or pbd, instead of the scene's");
-    command.add_option("--projection", options.projection,
-                       "auto, lines, gauss-seidel or jacobi, instead of the scene's");
-    command.add_option("--accumulate", options.accumulate,
-                       "gather or fixed-point, instead of the scene's; with jacobi");
+    for (const Parameter& option : solver_keys) add_solver_option(command, option, options.solver);
 }
 
 void add_length_options(CLI::App& command, Length& length, const std::string& verb) {

@@ -99,7 +99,7 @@ std::shared_ptr<const ClothModel> make_model(std::uint32_t side, float damping) 
 TEST(WorldPlan, has_the_passes_of_the_cloth_with_most) {
     const auto small = make_model(5, 0), large = make_model(33, 0.1f);
     const PlannedCloth cloths[] = {{small.get(), false}, {large.get(), true}};
-    const StepSettings settings{.substeps = 3, .hierarchy = true};
+    const StepSettings settings{.solver = {.substeps = 3}};
     const WorldPlan both = plan_world(settings, cloths);
     const WorldPlan of_large = plan_world(settings, std::span(cloths).subspan(1));
     EXPECT_EQ(both.substep, of_large.substep);
@@ -128,7 +128,7 @@ TEST(WorldPlan, finds_what_sticks_once_a_frame_and_projects_it_before_contact) {
 TEST(IslandPlan, has_the_passes_in_which_somebody_has_work) {
     const auto small = make_model(5, 0), large = make_model(33, 0.1f);
     const PlannedCloth cloths[] = {{small.get(), false}, {large.get(), true}};
-    const WorldPlan plan = plan_world({.substeps = 4, .hierarchy = true}, cloths);
+    const WorldPlan plan = plan_world({.solver = {.substeps = 4}}, cloths);
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
         std::vector<std::pair<Pass, std::uint32_t>> expected, found;
         for_each_pass(plan, [&](const Pass& pass, std::uint32_t substep) {

@@ -17,14 +17,8 @@ class Planner {
         : settings_(settings), cloths_(cloths), links_(links) {}
 
     WorldPlan run() {
-        WorldPlan plan{.substeps = settings_.substeps,
-                       .iterations = settings_.iterations,
-                       .method = settings_.method,
-                       .projection = resolve(settings_.projection, settings_.method),
-                       .accumulate = settings_.accumulate,
-                       .frame_begin = {},
-                       .substep = {},
-                       .frame_end = {}};
+        WorldPlan plan{settings_.solver, {}, {}, {}};
+        plan.projection = resolve(plan.projection, plan.method);
         for (const ConstraintKind kind : found()) {
             for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
                 plan.frame_begin.push_back(dynamic(pass, kind));
@@ -37,7 +31,7 @@ class Planner {
         plan.substep.push_back({.kind = PassKind::predict});
         if (std::ranges::any_of(cloths_, &PlannedCloth::held)) plan.substep.push_back({.kind = PassKind::hold});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
-        for (std::uint32_t i = 0; i < settings_.iterations; ++i) add_iteration(i == 0, plan.substep);
+        for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) add_iteration(i == 0, plan.substep);
         plan.substep.push_back({.kind = PassKind::velocities});
 
         add_damping(plan.frame_end);
@@ -105,8 +99,8 @@ class Planner {
     }
 
     void add_iteration(bool first, Passes& passes) const {
-        if (settings_.hierarchy) add_hierarchy(first, passes);
-        if (settings_.projection == Projection::jacobi) {
+        if (settings_.solver.hierarchy) add_hierarchy(first, passes);
+        if (settings_.solver.projection == Projection::jacobi) {
             bool any = false;
             for_each_kind([&](ConstraintKind kind) {
                 if (most([&](const ClothModel& model) { return model.table(kind).rows; }) == 0) return;

@@ -20,18 +20,15 @@ constexpr Projection resolve(Projection projection, Method method) {
     return method == Method::xpbd ? Projection::lines : Projection::gauss_seidel;
 }
 
+/// What decides which passes a plan has, apart from the cloths. Models without coarse levels have no work in passes of
+/// `solver.hierarchy`.
 struct StepSettings {
-    std::uint32_t substeps = 20;
-    std::uint32_t iterations = 1;
-    bool contacts = true;    ///< there is something to touch
-    bool air = false;        ///< there is air
-    bool wind = false;       ///< and it moves
-    bool adhesion = false;   ///< some of it sticks to cloth
-    bool surface = true;     ///< compute normals
-    bool hierarchy = false;  ///< coarse levels first, where models have them
-    Method method = Method::xpbd;
-    Projection projection = Projection::automatic;
-    Accumulate accumulate = Accumulate::gather;
+    SolverDesc solver = {};
+    bool contacts = true;  ///< there is something to touch
+    bool air = false;      ///< there is air
+    bool wind = false;     ///< and it moves
+    bool adhesion = false; ///< some of it sticks to cloth
+    bool surface = true;   ///< compute normals
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
@@ -45,13 +42,9 @@ struct PlannedCloth {
     bool held = false;  ///< some of its particles are carried along
 };
 
-/// `frame_begin` once, `substep` `substeps` times, then `frame_end` once.
-struct WorldPlan {
-    std::uint32_t substeps = 0;
-    std::uint32_t iterations = 0;
-    Method method = Method::xpbd;
-    Projection projection = Projection::lines;  ///< resolved; lines where a model has them
-    Accumulate accumulate = Accumulate::gather;
+/// `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those that the passes
+/// were made for; `projection` is never `automatic` here.
+struct WorldPlan : SolverDesc {
     std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;

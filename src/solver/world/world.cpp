@@ -28,7 +28,7 @@ std::vector<std::uint32_t> pinned_in(const ClothModel& model) {
 
 World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
     : backend_(std::move(backend)), settings_(std::move(settings)) {
-    assert(settings_.substeps > 0 && settings_.iterations > 0);
+    assert(settings_.solver.substeps > 0 && settings_.solver.iterations > 0);
 }
 
 Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
@@ -153,7 +153,7 @@ Result<Done> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Hold
     cloth.pinned = std::move(pinned);
     const bool replanned = cloth.holds.particles.empty() != holds.particles.empty();
     cloth.holds = std::move(holds);
-    cloth.mover_poses.resize((std::size_t{settings_.substeps} + 1) * cloth.holds.movers.size());
+    cloth.mover_poses.resize((std::size_t{settings_.solver.substeps} + 1) * cloth.holds.movers.size());
     unread_ = true;
     if (replanned) replan();
     return Done{};
@@ -210,7 +210,7 @@ void World::move(ColliderId id, const Pose& to) {
 }
 
 void World::configure(WorldSettings settings) {
-    assert(settings.substeps > 0 && settings.iterations > 0);
+    assert(settings.solver.substeps > 0 && settings.solver.iterations > 0);
     settle();
     settings_ = std::move(settings);
     if (!settings_.feedback) {
@@ -242,24 +242,18 @@ const Frame& World::frame() const {
 
 void World::replan() {
     const bool air = settings_.air && settings_.air->density > 0;
-    const StepSettings settings{
-        .substeps = settings_.substeps,
-        .iterations = settings_.iterations,
-        .contacts = !colliders_.empty(),
-        .air = air,
-        .wind = air && !settings_.air->wind.empty(),
-        .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
-        .surface = settings_.surface,
-        .hierarchy = settings_.hierarchy,
-        .method = settings_.method,
-        .projection = settings_.projection,
-        .accumulate = settings_.accumulate};
-    const std::size_t places = std::size_t{settings_.substeps} + 1;
+    const StepSettings settings{.solver = settings_.solver,
+                                .contacts = !colliders_.empty(),
+                                .air = air,
+                                .wind = air && !settings_.air->wind.empty(),
+                                .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
+                                .surface = settings_.surface};
+    const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
     std::vector<PlannedCloth> planned;
     for (Cloth& cloth : cloths_) {
         planned.push_back({cloth.model.get(), !cloth.holds.particles.empty()});
-        if (settings_.method == Method::pbd)
-            cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.iterations);
+        if (settings_.solver.method == Method::pbd)
+            cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
         cloth.mover_poses.resize(places * cloth.holds.movers.size());
     }
     poses_.resize(places * colliders_.size());
@@ -311,9 +305,9 @@ void World::make_islands() {
 // Where every collider is at the start of the frame and after each substep.
 void World::place_colliders(double dt) {
     const std::size_t count = colliders_.size();
-    for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
-        const double time = frame_.time + dt * substep / settings_.substeps;
-        const float fraction = static_cast<float>(substep) / static_cast<float>(settings_.substeps);
+    for (std::uint32_t substep = 0; substep <= settings_.solver.substeps; ++substep) {
+        const double time = frame_.time + dt * substep / settings_.solver.substeps;
+        const float fraction = static_cast<float>(substep) / static_cast<float>(settings_.solver.substeps);
         for (std::size_t i = 0; i < count; ++i) {
             const Collider& collider = colliders_[i];
             poses_[substep * count + i] =
@@ -327,8 +321,8 @@ void World::place_movers(Cloth& cloth, double dt) const {
     for (std::size_t i = 0; i < count; ++i) {
         const Mover& mover = cloth.holds.movers[i];
         const std::size_t collider = colliders_.find(mover.collider);
-        for (std::uint32_t substep = 0; substep <= settings_.substeps; ++substep) {
-            const double time = frame_.time + dt * substep / settings_.substeps;
+        for (std::uint32_t substep = 0; substep <= settings_.solver.substeps; ++substep) {
+            const double time = frame_.time + dt * substep / settings_.solver.substeps;
             cloth.mover_poses[substep * count + i] = collider < colliders_.size()
                                                          ? poses_[substep * colliders_.size() + collider]
                                                          : Pose{{}, offset_at(mover.offsets, time)};
@@ -384,7 +378,7 @@ void World::advance(double dt) {
     backend_->step(step_);
     running_ = true;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
-        colliders_[i].pose = poses_[settings_.substeps * colliders_.size() + i];
+        colliders_[i].pose = poses_[settings_.solver.substeps * colliders_.size() + i];
         colliders_[i].next_pose.reset();
     }
     frame_.step_ms = ms_since(begin);
