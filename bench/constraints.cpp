@@ -68,8 +68,9 @@ void project(benchmark::State& state, const cpu::Passes* passes, ConstraintKind 
 int main(int argc, char** argv) {
     for (const cpu::Passes* passes : cpu::available_passes()) {
         for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+            const auto constraint = static_cast<ConstraintKind>(kind);
+            if (constraint_info(constraint).source != RowSource::model) continue;
             for (const std::uint32_t side : {64u, 256u}) {
-                const auto constraint = static_cast<ConstraintKind>(kind);
                 const std::string name = std::string(constraint_info(constraint).name) + "/" + std::to_string(side) +
                                          "x" + std::to_string(side) + "/" + std::string(passes->isa);
                 benchmark::RegisterBenchmark(name.c_str(), project, passes, constraint, side)

@@ -71,8 +71,9 @@ std::string shader_for(const ConstraintInfo& info, const std::string& type) {
     }
     text += "    project_" + name + "(" + list(info.arity, "p") + ", " + list(info.arity, "w") + ", " +
             list(info.lambdas, "lambda") + ", row, h);\n";
-    text += "    damp_" + name + "(" + list(info.arity, "v") + ", " + list(info.arity, "p") + ", " +
-            list(info.arity, "w") + ", row, n[1]);\n";
+    if (info.damped)
+        text += "    damp_" + name + "(" + list(info.arity, "v") + ", " + list(info.arity, "p") + ", " +
+                list(info.arity, "w") + ", row, n[1]);\n";
     for (std::uint32_t k = 0; k < info.lambdas; ++k) {
         const std::string s = std::to_string(k);
         text += "    n[i+" + s + "] = lambda" + s + ";\n";
@@ -85,7 +86,7 @@ std::string shader_for(const ConstraintInfo& info, const std::string& type) {
 }
 
 TEST_F(Glsl, every_constraint_compiles) {
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) \
     EXPECT_EQ(compile(shader_for(constraint_info(ConstraintKind::name), #Name)), "") << #name;
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT

@@ -125,6 +125,7 @@ struct SurfaceView {
     float* normals;  ///< blocks of four
 };
 
+/// By constraint, a loop is nullptr where no plan asks for it (physics/constraint_parts.h).
 struct Passes {
     std::string_view isa;
     int lanes;

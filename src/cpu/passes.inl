@@ -79,7 +79,7 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
 #define WEFT_LOAD_FIELD(field) row.field = load(next), next += stride;
 
 // What the generic loops below need to know of a constraint.
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                                                                 \
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                                                                 \
     struct Name##Traits {                                                                                      \
         static constexpr int arity = particles, moves = moved, multipliers = lambdas;                                                                \
         using Row = Name##Row;                                                                                 \
@@ -91,10 +91,11 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
             project_##name(WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w),                        \
                            WEFT_LAMBDAS_##lambdas(lambda), row, step);                                         \
         }                                                                                                      \
+        WEFT_IF_DAMPED_##damping(                                                                              \
         WEFT_FN static void damp(vec3* v, const vec3* x, const real* w, const Row& row, real viscous) {        \
             damp_##name(WEFT_PARTICLES_##particles(v), WEFT_PARTICLES_##particles(x), WEFT_PARTICLES_##particles(w), \
                         row, viscous);                                                                         \
-        }                                                                                                      \
+        })                                                                                                     \
     };
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
@@ -436,38 +437,22 @@ inline bool all_finite_pass(const float* data, std::size_t begin, std::size_t en
 }
 
 inline constexpr Passes make_passes(std::string_view isa) {
-    return {
+    Passes passes{
         .isa = isa,
         .lanes = lane_count,
         .predict = predict_pass,
         .velocities = velocities_pass,
         .advance = advance_pass,
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) project_pass<Name##Traits>,
-        .project = {
-#include "physics/constraints.def"
-        },
-#undef WEFT_CONSTRAINT
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) project_plain_pass<Name##Traits>,
-        .project_plain = {
-#include "physics/constraints.def"
-        },
-#undef WEFT_CONSTRAINT
+        .project = {},
+        .project_plain = {},
         .lines = lines_pass,
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) correct_pass<Name##Traits>,
-        .correct = {
-#include "physics/constraints.def"
-        },
-#undef WEFT_CONSTRAINT
+        .correct = {},
         .average = average_pass,
         .collect = collect_pass,
         .lift = lift_pass,
         .settle = settle_pass,
         .spread = spread_pass,
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) damp_pass<Name##Traits>,
-        .damp = {
-#include "physics/constraints.def"
-        },
-#undef WEFT_CONSTRAINT
+        .damp = {},
 #define WEFT_SHAPE(name, Name) contact_pass<Name##Shape, false>,
         .contact = {
 #include "physics/contact/shapes.def"
@@ -489,6 +474,17 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .normals = normals_around_pass,
         .all_finite = all_finite_pass,
     };
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                       \
+    {                                                                                                 \
+        constexpr auto kind = static_cast<std::uint32_t>(ConstraintKind::name);                       \
+        passes.project[kind] = project_pass<Name##Traits>;                                            \
+        WEFT_IF_PLAIN_##source(passes.project_plain[kind] = project_plain_pass<Name##Traits>;)        \
+        WEFT_IF_SIDE_BY_SIDE_##source(passes.correct[kind] = correct_pass<Name##Traits>;)                 \
+        WEFT_IF_DAMPED_##damping(passes.damp[kind] = damp_pass<Name##Traits>;)                        \
+    }
+#include "physics/constraints.def"
+#undef WEFT_CONSTRAINT
+    return passes;
 }
 
 #undef WEFT_PARTICLES_1

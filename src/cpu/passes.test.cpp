@@ -90,6 +90,7 @@ TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
                     }
                 });
             }
+            if (!constraint_info(static_cast<ConstraintKind>(kind)).damped) continue;
             compare(state, [&](const Passes& passes, Fixture& f) {
                 for (const Batch& batch : f.table.batches) {
                     if (!batch.serial) passes.damp[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()}, 1e-3f);
@@ -101,16 +102,22 @@ TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
 
 TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
+        const RowSource source = constraint_info(static_cast<ConstraintKind>(kind)).source;
+        if (source == RowSource::level) continue;
         for (unsigned seed = 0; seed < 10; ++seed) {
             const bool nasty = seed % 2;
             Fixture state = random_state(seed, nasty);
             add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
-            compare(state, [&](const Passes& passes, Fixture& f) {
-                for (const Batch& batch : f.table.batches) {
-                    if (!batch.serial)
-                        passes.project_plain[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()}, {0.3f, 0.8f});
-                }
-            });
+            const bool plain_too = source != RowSource::dynamic;
+            if (plain_too)
+                compare(state, [&](const Passes& passes, Fixture& f) {
+                    for (const Batch& batch : f.table.batches) {
+                        if (!batch.serial)
+                            passes.project_plain[kind](f.view(), f.rows(), {batch.begin, batch.padded_end()},
+                                                       {0.3f, 0.8f});
+                    }
+                });
+            if (source == RowSource::links) continue;
             // Corrections stand in for positions, so that the comparison sees them.
             for (const bool plain : {false, true}) {
                 compare(state, [&](const Passes& passes, Fixture& f) {

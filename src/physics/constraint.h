@@ -1,6 +1,7 @@
 // The kinds of constraint, and their rows as the builders make them.
 #pragma once
 
+#include "physics/constraint_parts.h"
 #include "physics/constraints.data.h"
 #include "physics/rest_shape.h"
 
@@ -12,16 +13,26 @@
 namespace weft {
 
 enum class ConstraintKind : std::uint32_t {
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) name,
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) name,
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 };
 
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) +1
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) +1
 inline constexpr std::uint32_t constraint_kind_count = 0
 #include "physics/constraints.def"
     ;
 #undef WEFT_CONSTRAINT
+
+/// Which table the rows of a constraint stand in.
+enum class RowSource : std::uint8_t {
+    model,  ///< that of each cloth's model
+    level,  ///< that of a coarse level
+    links,  ///< the island's, of constraints between cloths, whose particles are numbered over the world
+    /// A list that the passes find, place and list make anew while the world moves: how long it is, only the device
+    /// knows. It has a capacity; a frame in which it is full is run again with a larger one (ListCounts).
+    dynamic,
+};
 
 struct ConstraintInfo {
     std::string_view name;
@@ -29,6 +40,8 @@ struct ConstraintInfo {
     std::uint32_t moved;                       ///< of them, how many, from the first, a row may move
     std::uint32_t lambdas;                     ///< Lagrange multipliers per row
     std::span<const std::string_view> fields;  ///< names of the row's numbers
+    RowSource source;
+    bool damped;
 };
 
 const ConstraintInfo& constraint_info(ConstraintKind kind);
@@ -59,9 +72,10 @@ struct RowList {
 /// An empty list for rows of that kind.
 RowList make_rows(ConstraintKind kind);
 
-// One builder per kind: build_stretch, build_bend, …
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
-    RowList build_##name(const RestShape& rest, const Name##Material& material);
+// One builder per kind of a model's rows: build_stretch, build_bend, …
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                           \
+    WEFT_IF_FABRIC_##source(RowList build_##name(const RestShape& rest, const Name##Material& material);) \
+        WEFT_IF_PINS_##source(RowList build_##name(const RestShape& rest);)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 

@@ -46,7 +46,8 @@ constexpr FabricPreset presets[] = {
 
 constexpr FabricTable tables[] = {
     {body_parameters, offsetof(Fabric, body)},
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) {name##_parameters, offsetof(Fabric, name)},
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) \
+    WEFT_IF_FABRIC_##source({name##_parameters, offsetof(Fabric, name)}, )
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
     {contact_parameters, offsetof(Fabric, contact)},

@@ -3,6 +3,7 @@
 
 #include "base/parameter.h"
 #include "physics/air/air.data.h"
+#include "physics/constraint_parts.h"
 #include "physics/constraints.data.h"
 #include "physics/contact/contact.data.h"
 
@@ -40,7 +41,8 @@ struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
     AirMaterial air;
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) Name##Material name;
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) \
+    WEFT_IF_FABRIC_##source(Name##Material name;)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 

@@ -48,7 +48,7 @@ std::uint64_t expected_rows(const World& world) {
 }
 
 TEST(Adhesion, finds_the_nearest_points_anew_in_every_frame) {
-    Fall fall = make_fall(make_world({.substeps = 10}), 1.0f);
+    Fall fall = make_fall(make_world({.solver = {.substeps = 10}}), 1.0f);
     std::uint64_t most = 0;
     for (int i = 0; i < 40; ++i) {
         const std::uint64_t expected = expected_rows(fall.world);
@@ -61,7 +61,7 @@ TEST(Adhesion, finds_the_nearest_points_anew_in_every_frame) {
 }
 
 TEST(Adhesion, carries_the_sheet_along_with_the_spheres) {
-    Fall fall = make_fall(make_world({.substeps = 20}));
+    Fall fall = make_fall(make_world({.solver = {.substeps = 20}}));
     run(fall.world, 0.5);
     const Vec3 before = center_of_mass(fall.world.frame().cloths[0]);
     for (int i = 1; i <= 60; ++i) {
@@ -80,7 +80,7 @@ TEST(Adhesion, carries_the_sheet_along_with_the_spheres) {
 
 TEST(Adhesion, holds_a_sheet_from_above_and_soft_springs_let_it_go) {
     for (const float compliance : {0.0f, 1.0f}) {
-        World world = make_world({.substeps = 20});
+        World world = make_world({.solver = {.substeps = 20}});
         for (const float x : {-0.3f, 0.3f})
             for (const float z : {-0.3f, 0.3f}) world.add(sticky({x, radius + 0.002f, z}, compliance));
         world.add(make_sheet({.resolution = {33, 33}}));
@@ -97,7 +97,7 @@ TEST(Adhesion, holds_a_sheet_from_above_and_soft_springs_let_it_go) {
 }
 
 TEST(Adhesion, leaves_pinned_particles_alone) {
-    World world = make_world({.substeps = 5});
+    World world = make_world({.solver = {.substeps = 5}});
     world.add(sticky({0, radius, 0}));
     SheetDesc sheet{.resolution = {17, 17}};
     sheet.pinned = [](Vec3) { return true; };
@@ -113,11 +113,9 @@ TEST(Adhesion, has_the_same_bits_however_long_the_list_is) {
         std::string of_projection;
         for (const std::uint32_t capacity : {1u, 40u, 100'000u}) {
             const ClothLayout layout{.lines = projection == Projection::automatic, .hierarchy = true};
-            World world = make_world({.substeps = 5,
-                                      .iterations = 2,
-                                      .projection = projection,
-                                      .hierarchy = true,
-                                      .list_capacity = capacity});
+            World world =
+                make_world({.solver = {.substeps = 5, .iterations = 2, .projection = projection, .hierarchy = true},
+                            .list_capacity = capacity});
             Fall fall = make_fall(std::move(world));
             fall.world.add(make_sheet({.resolution = {33, 33}, .position = {0, 0.2f, 0}, .layout = layout}));
             std::uint64_t repeats = 0;
@@ -137,7 +135,7 @@ TEST(Adhesion, has_the_same_bits_however_long_the_list_is) {
 }
 
 TEST(Adhesion, goes_on_with_the_same_bits_after_a_restore) {
-    const auto begin = [] { return make_fall(make_world({.substeps = 5, .list_capacity = 1})); };
+    const auto begin = [] { return make_fall(make_world({.solver = {.substeps = 5}, .list_capacity = 1})); };
     Fall fall = begin();
     run(fall.world, 0.3);
     const Snapshot snapshot = fall.world.save();
@@ -151,7 +149,7 @@ TEST(Adhesion, goes_on_with_the_same_bits_after_a_restore) {
 TEST(Adhesion, of_two_cloths_in_an_island_is_that_of_each) {
     std::uint64_t rows[2] = {};
     for (const bool tied : {false, true}) {
-        Fall fall = make_fall(make_world({.substeps = 5}));
+        Fall fall = make_fall(make_world({.solver = {.substeps = 5}}));
         SheetDesc far_away{.resolution = {9, 9}, .position = {10, 0, 0}};
         const ClothId second = fall.world.add(make_sheet(far_away));
         // A spring so soft that it does nothing.
@@ -166,7 +164,7 @@ TEST(Adhesion, of_two_cloths_in_an_island_is_that_of_each) {
 }
 
 TEST(Adhesion, with_a_frame_that_is_not_finite_goes_back_to_where_it_began) {
-    Fall fall = make_fall(make_world({.substeps = 5, .list_capacity = 1}));
+    Fall fall = make_fall(make_world({.solver = {.substeps = 5}, .list_capacity = 1}));
     run(fall.world, 0.3);
     const std::string before = fall.world.state_hash();
     Pose nowhere = fall.world.collider(fall.spheres[4]).pose;
@@ -181,10 +179,10 @@ TEST(Adhesion, with_a_frame_that_is_not_finite_goes_back_to_where_it_began) {
 
 #ifdef WEFT_VULKAN
 TEST(Adhesion, is_the_same_on_both_backends) {
-    Fall cpu = make_fall(make_world({.substeps = 5, .iterations = 2, .list_capacity = 1}, CpuOptions{}));
+    Fall cpu = make_fall(make_world({.solver = {.substeps = 5, .iterations = 2}, .list_capacity = 1}, CpuOptions{}));
     for (const char* execution : {"streamed", "grouped", "fused"}) {
         Fall device = make_fall(World(checked_vulkan_backend({.execution = execution}),
-                                      {.substeps = 5, .iterations = 2, .list_capacity = 1}));
+                                      {.solver = {.substeps = 5, .iterations = 2}, .list_capacity = 1}));
         if (device.world.backend().device().find("llvmpipe") == std::string::npos) GTEST_SKIP();
         if (cpu.world.index() == 0) run(cpu.world, 0.3);
         run(device.world, 0.3);

@@ -52,7 +52,7 @@ TEST(Determinism, holds_with_iterations_too) {
 // Which particles stick is found by all threads, each its own.
 TEST(Determinism, holds_where_cloth_sticks_to_colliders) {
     const auto fall = [](unsigned workers, std::uint32_t capacity) {
-        World world = make_world({.substeps = 5, .list_capacity = capacity}, CpuOptions{workers});
+        World world = make_world({.solver = {.substeps = 5}, .list_capacity = capacity}, CpuOptions{workers});
         for (const float x : {-0.2f, 0.2f}) {
             Collider ball =
                 make_collider({.name = "ball", .shape = SphereDesc{0.1f}, .transform = {.position = {x, 0, 0}}});

@@ -78,9 +78,9 @@ void expect_two_pieces(const ClothModel& model) {
 TEST(Edits, cut_a_sheet_in_two) {
     for (const ClothLayout layout : {ClothLayout{}, ClothLayout{.lines = true, .hierarchy = true}}) {
         const auto model = make_cuttable(layout);
-        World world = make_world({.substeps = 20,
-                                  .projection = layout.lines ? Projection::lines : Projection::gauss_seidel,
-                                  .hierarchy = layout.hierarchy});
+        World world = make_world({.solver = {.substeps = 20,
+                                             .projection = layout.lines ? Projection::lines : Projection::gauss_seidel,
+                                             .hierarchy = layout.hierarchy}});
         const ClothId id = world.add(model);
         run(world, 0.2);
         const double mass = halves(world).mass;
@@ -103,7 +103,7 @@ TEST(Edits, cut_a_sheet_in_two) {
 TEST(Edits, of_nothing_change_no_bit) {
     std::string hash[2];
     for (const bool edited : {false, true}) {
-        World world = make_world({.substeps = 10});
+        World world = make_world({.solver = {.substeps = 10}});
         const auto model = make_cuttable({.lines = true}, edited ? ClothReserve{32, 128} : ClothReserve{});
         world.add(model);
         run(world, 0.3);
@@ -116,7 +116,7 @@ TEST(Edits, go_on_with_the_same_bits_after_a_restore) {
     const auto model = make_cuttable({.lines = true});
     const ClothEdit edit = cut_in_two(*model);
     const auto begin = [&] {
-        World world = make_world({.substeps = 10});
+        World world = make_world({.solver = {.substeps = 10}});
         world.add(model);
         return world;
     };
@@ -149,7 +149,7 @@ TEST(Edits, go_on_with_the_same_bits_after_a_restore) {
 
 TEST(Edits, stay_when_a_frame_is_not_finite) {
     const auto model = make_cuttable({.lines = true});
-    World world = make_world({.substeps = 10});
+    World world = make_world({.solver = {.substeps = 10}});
     const ClothId id = world.add(model);
     const ColliderId ball =
         world.add(make_collider({.name = "ball", .shape = SphereDesc{0.1f}, .transform = {.position = {5, 0, 0}}}));
@@ -170,7 +170,7 @@ TEST(Edits, keep_fabrics_and_pins_changeable) {
     stiff.body.density *= 2;
     std::string hash[2];
     for (const bool fabric_first : {false, true}) {
-        World world = make_world({.substeps = 10});
+        World world = make_world({.solver = {.substeps = 10}});
         const ClothId id = world.add(model);
         const auto change_fabric = [&] {
             auto changed = with_fabric(*world.model(id), stiff);
@@ -213,7 +213,7 @@ TEST(Edits, end_and_weaken_single_constraints_and_triangles) {
 
 TEST(Edits, that_cannot_be_are_refused_and_change_nothing) {
     const auto model = make_cuttable({.lines = true}, {2, 1});
-    World world = make_world({.substeps = 5});
+    World world = make_world({.solver = {.substeps = 5}});
     const ClothId id = world.add(model);
     run(world, 0.1);
     const std::string before = world.state_hash();
@@ -267,7 +267,7 @@ TEST(Edits, are_the_same_on_both_backends) {
         run(world, 0.2);
         return world.state_hash();
     };
-    const WorldSettings settings{.substeps = 5, .hierarchy = true};
+    const WorldSettings settings{.solver = {.substeps = 5, .hierarchy = true}};
     World device(checked_vulkan_backend({}), settings);
     if (device.backend().device().find("llvmpipe") == std::string::npos) GTEST_SKIP();
     EXPECT_EQ(hash_of(std::move(device)), hash_of(make_world(settings, CpuOptions{})));

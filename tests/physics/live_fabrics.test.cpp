@@ -23,7 +23,7 @@ Result<Done> set_fabric(World& world, ClothId id, const Fabric& fabric) {
 
 TEST(LiveFabrics, move_cloth_as_a_model_that_is_built_anew_does) {
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
-        const WorldSettings settings{.substeps = 4, .projection = projection, .air = AirDesc{}};
+        const WorldSettings settings{.solver = {.substeps = 4, .projection = projection}, .air = AirDesc{}};
         SheetDesc sheet = hung_upright(settings.layout());
         World here = make_world(settings, sheet), there = make_world(settings, sheet);
         run(here, 0.25), run(there, 0.25);
@@ -37,7 +37,7 @@ TEST(LiveFabrics, move_cloth_as_a_model_that_is_built_anew_does) {
 }
 
 TEST(LiveFabrics, leave_what_moves_and_pins_as_they_are) {
-    World world = make_world({.substeps = 4}, hung_upright());
+    World world = make_world({.solver = {.substeps = 4}}, hung_upright());
     const ClothId id = world.cloth_id(0);
     run(world, 0.25);
     ASSERT_TRUE(world.set_pins(id, {7, 100}, {}).ok());  // other ones than the model's
@@ -59,7 +59,7 @@ TEST(LiveFabrics, leave_what_moves_and_pins_as_they_are) {
 }
 
 TEST(LiveFabrics, of_one_cloth_leave_others_of_its_model_alone) {
-    const WorldSettings settings{.substeps = 4};
+    const WorldSettings settings{.solver = {.substeps = 4}};
     const auto model = make_sheet(hung_upright(settings.layout()));
     World changing = make_world(settings), still = make_world(settings);
     for (World* world : {&changing, &still}) world->add(model), world->add(model);
@@ -82,7 +82,7 @@ TEST(LiveFabrics, of_one_cloth_leave_others_of_its_model_alone) {
 TEST(LiveFabrics, of_every_part_show_at_once) {
     const auto height_with = [](auto&& change, bool twice) {
         World world =
-            make_world({.substeps = 4, .air = AirDesc{}},
+            make_world({.solver = {.substeps = 4}, .air = AirDesc{}},
                        {.resolution = {9, 9}, .position = {0, 1, 0}, .pinned = [](Vec3 p) { return p.x < -0.49f; }});
         world.add(make_collider({.name = "ground", .shape = PlaneDesc{{0, 1, 0}, 0.5f}}));
         run(world, 0.1);
@@ -110,7 +110,7 @@ TEST(LiveFabrics, of_every_part_show_at_once) {
 
 TEST(LiveFabrics, change_how_stiff_plain_dynamics_are) {
     const auto run_with = [](float stiffness) {
-        World world = make_world({.substeps = 4, .method = Method::pbd}, hung_upright());
+        World world = make_world({.solver = {.substeps = 4, .method = Method::pbd}}, hung_upright());
         Fabric fabric;
         fabric.body.stiffness[0] = stiffness;
         EXPECT_TRUE(set_fabric(world, world.cloth_id(0), fabric).ok());
@@ -121,7 +121,7 @@ TEST(LiveFabrics, change_how_stiff_plain_dynamics_are) {
 }
 
 TEST(LiveFabrics, are_kept_by_a_state_that_is_restored) {
-    World world = make_world({.substeps = 4}, hung_upright());
+    World world = make_world({.solver = {.substeps = 4}}, hung_upright());
     run(world, 0.1);
     ASSERT_TRUE(set_fabric(world, world.cloth_id(0), heavy_and_soft()).ok());
     run(world, 0.1);

@@ -60,7 +60,8 @@ std::array<std::vector<Vec4>, 2> run(std::unique_ptr<Backend> backend, const Wor
 TEST(Fabrics, change_on_the_device_as_on_the_cpu) {
     for (const Projection projection : {Projection::lines, Projection::jacobi}) {
         for (const BendModel bend : {BendModel::hinges, BendModel::distance}) {
-            const WorldSettings settings{.substeps = 4, .projection = projection, .hierarchy = true, .air = AirDesc{}};
+            const WorldSettings settings{.solver = {.substeps = 4, .projection = projection, .hierarchy = true},
+                                         .air = AirDesc{}};
             auto cpu = make_cpu_backend();
             ASSERT_TRUE(cpu.ok());
             const auto here = run(std::move(*cpu), settings, bend);

@@ -52,6 +52,22 @@ std::shared_ptr<const ClothModel> model_of(const RandomState& state) {
 
 enum class Way { project, plain, side_by_side, fixed_point, damp };
 
+// Whether there is a loop for it: constraints.def.
+bool exists(const ConstraintInfo& info, Way way) {
+    switch (way) {
+        case Way::project:
+            return true;
+        case Way::plain:
+            return info.source == RowSource::model || info.source == RowSource::links;
+        case Way::side_by_side:
+        case Way::fixed_point:
+            return info.source == RowSource::model || info.source == RowSource::dynamic;
+        case Way::damp:
+            return info.damped;
+    }
+    return false;
+}
+
 // Two iterations of one constraint and nothing else.
 WorldPlan plan_of(const ConstraintTable& table, Way way) {
     constexpr std::uint32_t iterations = 2;
@@ -189,10 +205,10 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
             const bool nasty = seed % 2;
             RandomState state = random_points(seed, nasty);
             add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
+            const ConstraintInfo& info = constraint_info(static_cast<ConstraintKind>(kind));
             for (const auto& [way, name] : ways) {
-                compare(state, way, nasty,
-                        std::string(constraint_info(static_cast<ConstraintKind>(kind)).name) + ", " + name + ", seed " +
-                            std::to_string(seed));
+                if (exists(info, way))
+                    compare(state, way, nasty, std::string(info.name) + ", " + name + ", seed " + std::to_string(seed));
             }
         }
     }

@@ -7,20 +7,4 @@
 //   compliance           m/N  inverse stiffness of the spring; 0: rigid
 #define WEFT_ROW_adhesion(FIELD) FIELD(target_x) FIELD(target_y) FIELD(target_z) FIELD(compliance)
 
-#ifdef __cplusplus
-#include "base/parameter.h"
-
-#include <array>
-
-namespace weft {
-
-struct AdhesionMaterial {
-    static constexpr int plain[2] = {-1, -1};
-};
-
-// A collider has the numbers.
-inline constexpr std::array<Parameter, 0> adhesion_parameters{};
-
-}  // namespace weft
-#endif
 #endif

@@ -16,8 +16,3 @@ WEFT_FN void project_adhesion(inout_(vec3) x, real w, inout_(real) lambda, Adhes
     lambda = lambda + s * len;
     x = x + d * (w * s);
 }
-
-// A row that does not move all of its particles is not damped: the step's own damping is what it has.
-WEFT_FN void damp_adhesion(inout_(vec3) v, vec3 x, real w, AdhesionRow row, real viscous)
-{
-}

@@ -6,20 +6,4 @@
 //   compliance  m/N  inverse stiffness of the spring
 #define WEFT_ROW_attachment(FIELD) FIELD(compliance)
 
-#ifdef __cplusplus
-#include "base/parameter.h"
-
-#include <array>
-
-namespace weft {
-
-struct AttachmentMaterial {
-    static constexpr int plain[2] = {-1, -1};
-};
-
-// A scene says this of a pin.
-inline constexpr std::array<Parameter, 0> attachment_parameters{};
-
-}  // namespace weft
-#endif
 #endif

@@ -14,9 +14,3 @@ WEFT_FN void project_attachment(inout_(vec3) x, inout_(vec3) anchor, real w, rea
     lambda = lambda + s * len;
     x = x + d * (w * s);
 }
-
-// A row that does not move all of its particles is not damped: the step's own damping is what it has.
-WEFT_FN void damp_attachment(inout_(vec3) v, inout_(vec3) anchor_v, vec3 x, vec3 anchor, real w, real anchor_w,
-                             AttachmentRow row, real viscous)
-{
-}

@@ -62,7 +62,7 @@ TEST(AttachmentRows, tie_each_particle_to_an_anchor_of_its_own) {
     const auto topology = build_topology(mesh);
     RestShape rest = make_rest_shape(mesh, *topology);
     rest.attachments = {{4, 0.5f}, {7, 0.25f}};
-    const RowList rows = build_attachment(rest, {});
+    const RowList rows = build_attachment(rest);
     EXPECT_EQ(rows.particles, (std::vector<std::uint32_t>{4, 9, 7, 10}));
     EXPECT_EQ(rows.fields, (std::vector<float>{0.5f, 0.25f}));
 }

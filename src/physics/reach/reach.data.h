@@ -7,20 +7,4 @@
 //   give   m²/N   so much more for every N/m of tension in the cloth
 #define WEFT_ROW_reach(FIELD) FIELD(limit) FIELD(give)
 
-#ifdef __cplusplus
-#include "base/parameter.h"
-
-#include <array>
-
-namespace weft {
-
-struct ReachMaterial {
-    static constexpr int plain[2] = {-1, -1};
-};
-
-// Its rows are between the nodes of coarse levels, not between particles: solver/model/hierarchy.h makes them.
-inline constexpr std::array<Parameter, 0> reach_parameters{};
-
-}  // namespace weft
-#endif
 #endif

@@ -1,4 +1,5 @@
 // Reach: C = |a - b| - (limit + give tension) allowed, at most 0; beyond it as elastic as the cloth is.
+// One-sided, so not damped.
 
 struct ReachRow { WEFT_ROW_reach(WEFT_ROW_MEMBER) };
 
@@ -18,9 +19,4 @@ WEFT_FN void project_reach(inout_(vec3) a, inout_(vec3) b, real wa, real wb,
     lambda = lambda + s * len;
     a = a + d * (wa * s);
     b = b - d * (wb * s);
-}
-
-// One-sided: nothing to damp.
-WEFT_FN void damp_reach(inout_(vec3) va, inout_(vec3) vb, vec3 a, vec3 b, real wa, real wb, ReachRow row, real viscous)
-{
 }

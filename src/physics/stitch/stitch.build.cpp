@@ -2,11 +2,6 @@
 
 namespace weft {
 
-// A mesh alone has none: stitches tie points that a scene names.
-RowList build_stitch(const RestShape&, const StitchMaterial&) {
-    return make_rows(ConstraintKind::stitch);
-}
-
 bool add_stitch(RowList& rows, const StitchPoint& a, const StitchPoint& b, float gap, float compliance) {
     constexpr std::uint32_t most = 6;
     std::array<std::uint32_t, most> particles;

@@ -8,20 +8,4 @@
 //   compliance  m/N  inverse stiffness
 #define WEFT_ROW_stitch(FIELD) FIELD(c0) FIELD(c1) FIELD(c2) FIELD(c3) FIELD(c4) FIELD(c5) FIELD(gap) FIELD(compliance)
 
-#ifdef __cplusplus
-#include "base/parameter.h"
-
-#include <array>
-
-namespace weft {
-
-struct StitchMaterial {
-    static constexpr int plain[2] = {-1, -1};
-};
-
-// A scene says this of each stitch, not of a fabric.
-inline constexpr std::array<Parameter, 0> stitch_parameters{};
-
-}  // namespace weft
-#endif
 #endif

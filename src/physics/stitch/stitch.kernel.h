@@ -34,22 +34,3 @@ WEFT_FN void project_stitch(inout_(vec3) x0, inout_(vec3) x1, inout_(vec3) x2, i
     x4 = x4 + d * (w4 * row.c4 * s);
     x5 = x5 + d * (w5 * row.c5 * s);
 }
-
-// As of stretch: an impulse along d against the rate at which its length changes.
-WEFT_FN void damp_stitch(inout_(vec3) v0, inout_(vec3) v1, inout_(vec3) v2, inout_(vec3) v3, inout_(vec3) v4,
-                         inout_(vec3) v5, vec3 x0, vec3 x1, vec3 x2, vec3 x3, vec3 x4, vec3 x5, real w0, real w1,
-                         real w2, real w3, real w4, real w5, StitchRow row, real viscous)
-{
-    vec3 d = across_stitch(x0, x1, x2, x3, x4, x5, row);
-    real len2 = dot(d, d);
-    real w = stitch_weight(w0, w1, w2, w3, w4, w5, row);
-    mask able = w > real(0) && len2 > real(1e-20);
-    real rate = dot(d, across_stitch(v0, v1, v2, v3, v4, v5, row));
-    real s = select(able, -rate / ((w + row.compliance / viscous) * len2), real(0));
-    v0 = v0 + d * (w0 * row.c0 * s);
-    v1 = v1 + d * (w1 * row.c1 * s);
-    v2 = v2 + d * (w2 * row.c2 * s);
-    v3 = v3 + d * (w3 * row.c3 * s);
-    v4 = v4 + d * (w4 * row.c4 * s);
-    v5 = v5 + d * (w5 * row.c5 * s);
-}

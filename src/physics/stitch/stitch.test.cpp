@@ -105,24 +105,6 @@ TEST(Stitch, of_pinned_or_coincident_points_does_nothing) {
     for (int k = 0; k < 6; ++k) EXPECT_EQ(norm(six.x[k] - vec3(1, 2, 3)), 0);
 }
 
-TEST(Stitch, damping_stops_the_points_from_parting_at_most) {
-    Random random(5);
-    for (const double viscous : {1e-6, 1.0, 1e6}) {
-        StitchRow row{};
-        Six six = random_points(random, row, 0.1, 1e-3);
-        std::array<vec3, 6> v;
-        for (vec3& one : v) one = random.vector(2);
-        const auto rate = [&] {
-            return reference::dot(six.across(row), reference::across_stitch(v[0], v[1], v[2], v[3], v[4], v[5], row));
-        };
-        const double before = rate();
-        reference::damp_stitch(v[0], v[1], v[2], v[3], v[4], v[5], six.x[0], six.x[1], six.x[2], six.x[3], six.x[4],
-                               six.x[5], six.w[0], six.w[1], six.w[2], six.w[3], six.w[4], six.w[5], row, viscous);
-        EXPECT_LE(std::abs(rate()), std::abs(before));
-        EXPECT_GE(rate() * before, -1e-9);
-    }
-}
-
 TEST(AddStitch, leaves_out_particles_without_a_share) {
     RowList rows = make_rows(ConstraintKind::stitch);
     EXPECT_TRUE(add_stitch(rows, {{7, 8, 9}, {1, 0, 0}}, {{20, 21, 22}, {0, 1, 0}}, 0.01f, 1e-4f));

@@ -1,4 +1,5 @@
 // Tether: C = |x - anchor| - (radius + give tension) allowed, at most 0. Only the particle moves; the anchor is held by something stronger.
+// One-sided, so not damped.
 
 struct TetherRow { WEFT_ROW_tether(WEFT_ROW_MEMBER) };
 
@@ -13,10 +14,4 @@ WEFT_FN void project_tether(inout_(vec3) x, inout_(vec3) anchor, real w, real an
     real c = select(taut, len - radius, real(0));
     lambda = lambda - c / max(w, real(1e-30));
     x = x - d * (c / len);
-}
-
-// One-sided: nothing to damp.
-WEFT_FN void damp_tether(inout_(vec3) v, inout_(vec3) anchor_v, vec3 x, vec3 anchor, real w, real anchor_w,
-                         TetherRow row, real viscous)
-{
 }

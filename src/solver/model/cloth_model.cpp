@@ -211,9 +211,14 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     choose_tethers(model, rest);
     // The same values for all three; which of them makes rows is one of the values.
     model.fabric.plate = model.fabric.flexion = model.fabric.bend;
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas)                              \
-    add_table(model, topology, ConstraintKind::name, build_##name(rest, model.fabric.name), \
-              layout.lines&& ConstraintKind::name == ConstraintKind::stretch, coloring, reserve.constraints, clock);
+    const auto add = [&](ConstraintKind kind, const RowList& rows) {
+        const bool lines = layout.lines && kind == ConstraintKind::stretch;
+        add_table(model, topology, kind, rows, lines, coloring, reserve.constraints, clock);
+    };
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                \
+    WEFT_IF_FABRIC_##source(add(ConstraintKind::name, build_##name(rest, model.fabric.name));) \
+        WEFT_IF_PINS_##source(add(ConstraintKind::name, build_##name(rest));)                  \
+            WEFT_IF_NOT_IN_MODEL_##source(add(ConstraintKind::name, make_rows(ConstraintKind::name));)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 

@@ -115,7 +115,7 @@ TEST(WorldPlan, has_the_passes_of_the_cloth_with_most) {
 TEST(WorldPlan, finds_what_sticks_once_a_frame_and_projects_it_before_contact) {
     const auto model = make_model(5, 0);
     const PlannedCloth cloth{model.get(), false};
-    const StepSettings settings{.substeps = 3, .iterations = 2, .adhesion = true};
+    const StepSettings settings{.solver = {.substeps = 3, .iterations = 2}, .adhesion = true};
     EXPECT_EQ(describe(plan_world(settings, {&cloth, 1})).substr(0, 17), "first:\n  find x3\n");
     const WorldPlan plan = plan_world(settings, {&cloth, 1});
     std::vector<PassKind> found;

@@ -21,16 +21,6 @@ inline constexpr std::uint32_t pass_kind_count = 0
     ;
 #undef WEFT_PASS
 
-/// Where a pass takes its constraints from.
-enum class RowSource : std::uint8_t {
-    model,  ///< the table of each cloth's model
-    level,  ///< the table of a coarse level
-    links,  ///< the island's table of constraints between cloths, whose particles are numbered over the world
-    /// A list that the passes find, place and list make anew while the world moves: how long it is, only the device
-    /// knows. It has a capacity; a frame in which it is full is run again with a larger one (ListCounts).
-    dynamic,
-};
-
 struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list

@@ -136,8 +136,7 @@ class Planner {
     // Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
     void add_damping(Passes& passes) const {
         for_each_kind([&](ConstraintKind kind) {
-            const ConstraintInfo& info = constraint_info(kind);
-            if (info.moved != info.arity) return;
+            if (!constraint_info(kind).damped) return;
             const std::uint32_t batches = most(
                 [&](const ClothModel& model) { return model.fabric.body.damping > 0 ? batches_of(model, kind) : 0; });
             for (std::uint32_t batch = 0; batch < batches; ++batch)
@@ -184,9 +183,11 @@ std::array<float, 2> stiffness_of(const Fabric& fabric, std::uint32_t iterations
 }  // namespace
 
 PlainStiffness plain_stiffness(const Fabric& fabric, std::uint32_t iterations) {
-    PlainStiffness stiffness{};
-#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas) \
-    stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = stiffness_of<Name##Material>(fabric, iterations);
+    PlainStiffness stiffness;
+    stiffness.fill({1, 1});
+#define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)           \
+    WEFT_IF_FABRIC_##source(stiffness[static_cast<std::uint32_t>(ConstraintKind::name)] = \
+                                stiffness_of<Name##Material>(fabric, iterations);)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
     return stiffness;

@@ -24,11 +24,11 @@ constexpr Projection resolve(Projection projection, Method method) {
 /// `solver.hierarchy`.
 struct StepSettings {
     SolverDesc solver = {};
-    bool contacts = true;  ///< there is something to touch
-    bool air = false;      ///< there is air
-    bool wind = false;     ///< and it moves
-    bool adhesion = false; ///< some of it sticks to cloth
-    bool surface = true;   ///< compute normals
+    bool contacts = true;   ///< there is something to touch
+    bool air = false;       ///< there is air
+    bool wind = false;      ///< and it moves
+    bool adhesion = false;  ///< some of it sticks to cloth
+    bool surface = true;    ///< compute normals
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 

@@ -242,12 +242,13 @@ const Frame& World::frame() const {
 
 void World::replan() {
     const bool air = settings_.air && settings_.air->density > 0;
-    const StepSettings settings{.solver = settings_.solver,
-                                .contacts = !colliders_.empty(),
-                                .air = air,
-                                .wind = air && !settings_.air->wind.empty(),
-                                .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
-                                .surface = settings_.surface};
+    const StepSettings settings{
+        .solver = settings_.solver,
+        .contacts = !colliders_.empty(),
+        .air = air,
+        .wind = air && !settings_.air->wind.empty(),
+        .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
+        .surface = settings_.surface};
     const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
     std::vector<PlannedCloth> planned;
     for (Cloth& cloth : cloths_) {

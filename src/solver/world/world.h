@@ -17,11 +17,11 @@ namespace weft {
 struct WorldSettings {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s²
     SolverDesc solver = {};
-    std::optional<AirDesc> air = {};  ///< without, a vacuum
-    bool surface = true;              ///< keep normals up to date
-    bool feedback = false;            ///< keep account of what contacts do
+    std::optional<AirDesc> air = {};                      ///< without, a vacuum
+    bool surface = true;                                  ///< keep normals up to date
+    bool feedback = false;                                ///< keep account of what contacts do
     std::uint32_t list_capacity = default_list_capacity;  ///< rows that dynamic lists have room for at first
-    bool background = false;          ///< models are rebuilt on a thread of their own, one after another
+    bool background = false;  ///< models are rebuilt on a thread of their own, one after another
 
     /// What the models of a world with these settings should have.
     ClothLayout layout() const {

@@ -72,6 +72,18 @@ void run_all_lines()
         }                                                                                   \
         break;
 
+// By where rows come from, and by whether they are damped (constraints.def).
+#define WEFT_EACH_OF_MODEL(name)                          \
+    WEFT_EACH_ROW(WEFT_ID_plain_##name, plain_row_##name) \
+    WEFT_EACH_ROW(WEFT_ID_side_by_side_##name, side_by_side_row_##name)
+#define WEFT_EACH_fabric(name) WEFT_EACH_OF_MODEL(name)
+#define WEFT_EACH_pins(name) WEFT_EACH_OF_MODEL(name)
+#define WEFT_EACH_level(name)
+#define WEFT_EACH_links(name) WEFT_EACH_ROW(WEFT_ID_plain_##name, plain_row_##name)
+#define WEFT_EACH_dynamic(name) WEFT_EACH_ROW(WEFT_ID_side_by_side_##name, side_by_side_row_##name)
+#define WEFT_EACH_damped(name) WEFT_EACH_ROW(WEFT_ID_damp_##name, damp_row_##name)
+#define WEFT_EACH_undamped(name)
+
 void run_command(uint me, uint all)
 {
     uint invocations = CommandRef(command).invocations;
@@ -100,11 +112,10 @@ void run_command(uint me, uint all)
     case WEFT_ID_limits:
         if (uses(WEFT_ID_limits)) run_limits();
         break;
-#define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas)                      \
-    WEFT_EACH_ROW(WEFT_ID_project_##name, project_row_##name)                   \
-    WEFT_EACH_ROW(WEFT_ID_plain_##name, plain_row_##name)                       \
-    WEFT_EACH_ROW(WEFT_ID_side_by_side_##name, side_by_side_row_##name)         \
-    WEFT_EACH_ROW(WEFT_ID_damp_##name, damp_row_##name)
+#define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas, source, damping) \
+    WEFT_EACH_ROW(WEFT_ID_project_##name, project_row_##name)               \
+    WEFT_EACH_##source(name)                                                \
+    WEFT_EACH_##damping(name)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
     }

@@ -26,33 +26,35 @@ void add_quanta(Uints sums, uint p, vec3 change)
     for (uint axis = 0u; axis < 3u; ++axis) add_to_sum(sums, p, axis, uint(int(to_quanta(change[axis]))));
 }
 
-#define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas)                                                            \
-    Name##Row load_##name(uint r)                                                                                     \
-    {                                                                                                                 \
-        Name##Row row;                                                                                                \
-        uint field_at = r;                                                                                            \
-        WEFT_ROW_##name(WEFT_LOAD_FIELD)                                                                              \
-        return row;                                                                                                   \
-    }                                                                                                                 \
-    void project_row_##name(uint r)                                                                                   \
-    {                                                                                                                 \
-        uint p[arity];                                                                                                \
-        vec3 x[arity];                                                                                                \
-        float w[arity], lambda[lambdas];                                                                              \
-        for (uint k = 0u; k < arity; ++k) {                                                                           \
-            p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                              \
-            vec4 point = load_point(row_args.at.position, p[k]);                                                      \
-            x[k] = point.xyz, w[k] = point.w;                                                                         \
-        }                                                                                                             \
-        for (uint k = 0u; k < lambdas; ++k)                                                                           \
-            lambda[k] = lambda_before(k, r);                                                                          \
-        project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),          \
-                       load_##name(r), substep_with(row_args.at.frame, row_args.at.limits));                          \
-        if (row_args.at.lambda_use != WEFT_LAMBDA_DISCARD)                                                            \
-            for (uint k = 0u; k < lambdas; ++k) row_args.at.lambda.at[k * row_args.at.stride + r] = lambda[k];        \
-        for (uint k = 0u; k < moved; ++k) store_point(row_args.at.position, p[k], vec4(x[k], w[k]));                  \
-    }                                                                                                                 \
-    /* What the row wants of its particles. */                                                                        \
+#define WEFT_PROJECT_ROW(name, Name, arity, moved, lambdas)                                                    \
+    Name##Row load_##name(uint r)                                                                              \
+    {                                                                                                          \
+        Name##Row row;                                                                                         \
+        uint field_at = r;                                                                                     \
+        WEFT_ROW_##name(WEFT_LOAD_FIELD)                                                                       \
+        return row;                                                                                            \
+    }                                                                                                          \
+    void project_row_##name(uint r)                                                                            \
+    {                                                                                                          \
+        uint p[arity];                                                                                         \
+        vec3 x[arity];                                                                                         \
+        float w[arity], lambda[lambdas];                                                                       \
+        for (uint k = 0u; k < arity; ++k) {                                                                    \
+            p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                       \
+            vec4 point = load_point(row_args.at.position, p[k]);                                               \
+            x[k] = point.xyz, w[k] = point.w;                                                                  \
+        }                                                                                                      \
+        for (uint k = 0u; k < lambdas; ++k)                                                                    \
+            lambda[k] = lambda_before(k, r);                                                                   \
+        project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),   \
+                       load_##name(r), substep_with(row_args.at.frame, row_args.at.limits));                   \
+        if (row_args.at.lambda_use != WEFT_LAMBDA_DISCARD)                                                     \
+            for (uint k = 0u; k < lambdas; ++k) row_args.at.lambda.at[k * row_args.at.stride + r] = lambda[k]; \
+        for (uint k = 0u; k < moved; ++k) store_point(row_args.at.position, p[k], vec4(x[k], w[k]));           \
+    }
+
+// What the row wants of its particles.
+#define WEFT_CORRECT_ROW(name, arity, lambdas)                                                                        \
     void correct_row_##name(uint r, out uint p[arity], out vec3 change[arity], out float w[arity])                    \
     {                                                                                                                 \
         vec3 x[arity], before[arity];                                                                                 \
@@ -77,50 +79,77 @@ void add_quanta(Uints sums, uint p, vec3 change)
             for (uint k = 0u; k < lambdas; ++k)                                                                       \
                 row_args.at.lambda.at[k * row_args.at.stride + r] = before_it[k] + (lambda[k] - before_it[k]) * part; \
         for (uint k = 0u; k < arity; ++k) change[k] = (x[k] - before[k]) * part;                                      \
-    }                                                                                                                 \
-    void plain_row_##name(uint r)                                                                                     \
-    {                                                                                                                 \
-        uint p[arity];                                                                                                \
-        vec3 change[arity];                                                                                           \
-        float w[arity];                                                                                               \
-        correct_row_##name(r, p, change, w);                                                                          \
-        vec3 before[moved];                                                                                           \
-        for (uint k = 0u; k < moved; ++k) before[k] = load_point(row_args.at.position, p[k]).xyz;                     \
-        for (uint k = 0u; k < moved; ++k)                                                                             \
-            store_point(row_args.at.position, p[k], vec4(before[k] + change[k], w[k]));                               \
-    }                                                                                                                 \
-    void side_by_side_row_##name(uint r)                                                                              \
-    {                                                                                                                 \
-        uint p[arity];                                                                                                \
-        vec3 change[arity];                                                                                           \
-        float w[arity];                                                                                               \
-        correct_row_##name(r, p, change, w);                                                                          \
-        if (is_none(uvec2(row_args.at.sums))) {                                                                       \
-            for (uint k = 0u; k < moved; ++k)                                                                         \
-                row_args.at.corrections.at[k * row_args.at.stride + r] = vec4(change[k], 0.0);                        \
-        } else {                                                                                                      \
-            for (uint k = 0u; k < moved; ++k) {                                                                       \
-                /* Of a particle that a row names twice, the last one counts (solver/model/jacobi.cpp). */            \
-                bool counts = arity == 1 || p[0] != p[min(1, arity - 1)];                                             \
-                for (uint later = k + 1u; later < moved; ++later) counts = counts && p[later] != p[k];                \
-                if (counts) add_quanta(row_args.at.sums, p[k], change[k]);                                            \
-            }                                                                                                         \
-        }                                                                                                             \
-    }                                                                                                                 \
-    void damp_row_##name(uint r)                                                                                      \
-    {                                                                                                                 \
-        uint p[arity];                                                                                                \
-        vec3 x[arity], v[arity];                                                                                      \
-        float w[arity], dropped[arity];                                                                               \
-        for (uint k = 0u; k < arity; ++k) {                                                                           \
-            p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                              \
-            vec4 point = load_point(row_args.at.position, p[k]), speed = row_args.at.velocity.at[p[k]];               \
-            x[k] = point.xyz, w[k] = point.w, v[k] = speed.xyz, dropped[k] = speed.w;                                 \
-        }                                                                                                             \
-        damp_##name(WEFT_PARTICLES_##arity(v), WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w),                  \
-                    load_##name(r), row_args.at.frame.at.viscous);                                                    \
-        for (uint k = 0u; k < moved; ++k) row_args.at.velocity.at[p[k]] = vec4(v[k], dropped[k]);                     \
     }
+
+#define WEFT_PLAIN_ROW(name, arity, moved)                                                        \
+    void plain_row_##name(uint r)                                                                 \
+    {                                                                                             \
+        uint p[arity];                                                                            \
+        vec3 change[arity];                                                                       \
+        float w[arity];                                                                           \
+        correct_row_##name(r, p, change, w);                                                      \
+        vec3 before[moved];                                                                       \
+        for (uint k = 0u; k < moved; ++k) before[k] = load_point(row_args.at.position, p[k]).xyz; \
+        for (uint k = 0u; k < moved; ++k)                                                         \
+            store_point(row_args.at.position, p[k], vec4(before[k] + change[k], w[k]));           \
+    }
+
+#define WEFT_SIDE_BY_SIDE_ROW(name, arity, moved)                                                          \
+    void side_by_side_row_##name(uint r)                                                                   \
+    {                                                                                                      \
+        uint p[arity];                                                                                     \
+        vec3 change[arity];                                                                                \
+        float w[arity];                                                                                    \
+        correct_row_##name(r, p, change, w);                                                               \
+        if (is_none(uvec2(row_args.at.sums))) {                                                            \
+            for (uint k = 0u; k < moved; ++k)                                                              \
+                row_args.at.corrections.at[k * row_args.at.stride + r] = vec4(change[k], 0.0);             \
+        } else {                                                                                           \
+            for (uint k = 0u; k < moved; ++k) {                                                            \
+                /* Of a particle that a row names twice, the last one counts (solver/model/jacobi.cpp). */ \
+                bool counts = arity == 1 || p[0] != p[min(1, arity - 1)];                                  \
+                for (uint later = k + 1u; later < moved; ++later) counts = counts && p[later] != p[k];     \
+                if (counts) add_quanta(row_args.at.sums, p[k], change[k]);                                 \
+            }                                                                                              \
+        }                                                                                                  \
+    }
+
+#define WEFT_DAMP_ROW_damped(name, arity, moved)                                                        \
+    void damp_row_##name(uint r)                                                                        \
+    {                                                                                                   \
+        uint p[arity];                                                                                  \
+        vec3 x[arity], v[arity];                                                                        \
+        float w[arity], dropped[arity];                                                                 \
+        for (uint k = 0u; k < arity; ++k) {                                                             \
+            p[k] = row_args.at.particles.at[k * row_args.at.stride + r];                                \
+            vec4 point = load_point(row_args.at.position, p[k]), speed = row_args.at.velocity.at[p[k]]; \
+            x[k] = point.xyz, w[k] = point.w, v[k] = speed.xyz, dropped[k] = speed.w;                   \
+        }                                                                                               \
+        damp_##name(WEFT_PARTICLES_##arity(v), WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w),    \
+                    load_##name(r), row_args.at.frame.at.viscous);                                      \
+        for (uint k = 0u; k < moved; ++k) row_args.at.velocity.at[p[k]] = vec4(v[k], dropped[k]);       \
+    }
+#define WEFT_DAMP_ROW_undamped(name, arity, moved)
+
+// By where rows come from (constraints.def).
+#define WEFT_ROWS_OF_MODEL(name, arity, moved, lambdas) \
+    WEFT_CORRECT_ROW(name, arity, lambdas)              \
+    WEFT_PLAIN_ROW(name, arity, moved)                  \
+    WEFT_SIDE_BY_SIDE_ROW(name, arity, moved)
+#define WEFT_ROWS_fabric(name, arity, moved, lambdas) WEFT_ROWS_OF_MODEL(name, arity, moved, lambdas)
+#define WEFT_ROWS_pins(name, arity, moved, lambdas) WEFT_ROWS_OF_MODEL(name, arity, moved, lambdas)
+#define WEFT_ROWS_level(name, arity, moved, lambdas)
+#define WEFT_ROWS_links(name, arity, moved, lambdas) \
+    WEFT_CORRECT_ROW(name, arity, lambdas)           \
+    WEFT_PLAIN_ROW(name, arity, moved)
+#define WEFT_ROWS_dynamic(name, arity, moved, lambdas) \
+    WEFT_CORRECT_ROW(name, arity, lambdas)             \
+    WEFT_SIDE_BY_SIDE_ROW(name, arity, moved)
+
+#define WEFT_CONSTRAINT(name, Name, arity, moved, lambdas, source, damping) \
+    WEFT_PROJECT_ROW(name, Name, arity, moved, lambdas)                     \
+    WEFT_ROWS_##source(name, arity, moved, lambdas)                         \
+    WEFT_DAMP_ROW_##damping(name, arity, moved)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
