@@ -5,7 +5,6 @@
 #include "files/open_scene.h"
 #include "io/files/atomic_file.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -82,28 +81,24 @@ int run(Request request) {
 }
 
 int run_program(int argc, char** argv) {
-    CLI::App program{"Error against time: hung sheets, every method, 3 to 40 substeps.", "weft_bench_curves"};
+    Program program("Error against time: hung sheets, every method, 3 to 40 substeps.", "weft_bench_curves");
+    Arguments arguments = program.arguments();
     Request request;
     BenchSettings& settings = request.curves.bench;
     settings.warmup = 180;  // 5 s with the default length: the sheets have come to rest as far as they will
-    program.add_option("side", request.curves.sides, "particles along a side of the sheets, 8 to 1024")->required();
-    add_length_options(program, settings.length, "measure");
-    program.add_option("--warmup", settings.warmup, "frames before those, not counted")->capture_default_str();
-    program.add_option("--repeat", settings.repeat, "how often 10 frames are timed")->capture_default_str();
-    program
-        .add_option("--point-seconds", request.curves.most_seconds,
-                    "leave out points of the curves that would take longer")
-        ->capture_default_str();
-    program.add_option("--json", request.json, "write all figures to this file");
-    program.add_option("--plot", request.plot, "draw the curves into this SVG file");
-    program.add_flag("--quiet", settings.quiet, "no progress, no figures");
-    add_common_options(program, settings.common);
-    program.footer("Example:\n  weft_bench_curves 32 64 128 --json curves.json --plot curves.svg");
-    try {
-        program.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return error.get_exit_code() == 0 ? program.exit(error) : usage_error(program, error);
-    }
+    arguments.add("side", request.curves.sides, "particles along a side of the sheets, 8 to 1024").required();
+    add_length_options(arguments, settings.length, "measure");
+    arguments.add("--warmup", settings.warmup, "frames before those, not counted").with_default();
+    arguments.add("--repeat", settings.repeat, "how often 10 frames are timed").with_default();
+    arguments
+        .add("--point-seconds", request.curves.most_seconds, "leave out points of the curves that would take longer")
+        .with_default();
+    arguments.add("--json", request.json, "write all figures to this file");
+    arguments.add("--plot", request.plot, "draw the curves into this SVG file");
+    arguments.add("--quiet", settings.quiet, "no progress, no figures");
+    add_common_options(arguments, settings.common);
+    arguments.footer("Example:\n  weft_bench_curves 32 64 128 --json curves.json --plot curves.svg");
+    if (const auto status = program.parse(argc, argv)) return *status;
     return run(std::move(request));
 }
 

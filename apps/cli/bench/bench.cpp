@@ -3,7 +3,6 @@
 #include "io/files/atomic_file.h"
 #include "weft/scene_world.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -113,21 +112,20 @@ int bench(BenchOptions options) {
 
 }  // namespace
 
-Command add_bench(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("bench", "measures speed and quality, and compares them with before");
+Command add_bench(Program& program) {
+    Arguments arguments = program.add_command("bench", "measures speed and quality, and compares them with before");
     auto options = std::make_shared<BenchOptions>();
-    command->add_option("scene", options->scenes, "scene files; without any, hung sheets of 32² to 256² particles");
-    add_length_options(*command, options->settings.length, "measure");
-    command->add_option("--warmup", options->settings.warmup, "frames before those, not counted")
-        ->capture_default_str();
-    command->add_option("--repeat", options->settings.repeat, "runs, each from a fresh load")->capture_default_str();
-    command->add_option("--json", options->json, "write all figures to this file");
-    command->add_option("--compare", options->compare, "print ratios to the figures of this file, now / before");
-    command->add_option("--build", options->build,
-                        "hung sheets of these sides, with tethers and coarse levels: how long a cloth takes to make");
-    command->add_flag("--quiet", options->settings.quiet, "no progress, no figures but the ratios");
-    add_common_options(*command, options->settings.common);
-    command->footer(
+    arguments.add("scene", options->scenes, "scene files; without any, hung sheets of 32² to 256² particles");
+    add_length_options(arguments, options->settings.length, "measure");
+    arguments.add("--warmup", options->settings.warmup, "frames before those, not counted").with_default();
+    arguments.add("--repeat", options->settings.repeat, "runs, each from a fresh load").with_default();
+    arguments.add("--json", options->json, "write all figures to this file");
+    arguments.add("--compare", options->compare, "print ratios to the figures of this file, now / before");
+    arguments.add("--build", options->build,
+                  "hung sheets of these sides, with tethers and coarse levels: how long a cloth takes to make");
+    arguments.add("--quiet", options->settings.quiet, "no progress, no figures but the ratios");
+    add_common_options(arguments, options->settings.common);
+    arguments.footer(
         "Examples:\n"
         "  weft bench --json before.json\n"
         "  weft bench --compare before.json\n"

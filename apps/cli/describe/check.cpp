@@ -4,8 +4,6 @@
 #include "io/meshes/mesh_file.h"
 #include "scene/looks.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <iostream>
 
@@ -22,11 +20,11 @@ void warn_of_missing_pictures(const SceneDesc& scene, const std::string& scene_f
 
 }  // namespace
 
-Command add_check(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("check", "every problem of a scene, each with its place");
+Command add_check(Program& program) {
+    Arguments arguments = program.add_command("check", "every problem of a scene, each with its place");
     auto scene = std::make_shared<std::string>();
-    command->add_option("scene", *scene, "scene file")->required();
-    command->footer("Example:\n  weft check scenes/hanging_bunny.json");
+    arguments.add("scene", *scene, "scene file").required();
+    arguments.footer("Example:\n  weft check scenes/hanging_bunny.json");
     return [scene] {
         auto session = open_scene(*scene, {});
         if (!session) {

@@ -4,8 +4,6 @@
 #include "io/files/atomic_file.h"
 #include "io/scenes/scene_file.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <filesystem>
 
@@ -45,13 +43,13 @@ int convert(const ConvertOptions& options) {
 
 }  // namespace
 
-Command add_convert(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("convert", "a scene as weft understands it, written to another file");
+Command add_convert(Program& program) {
+    Arguments arguments = program.add_command("convert", "a scene as weft understands it, written to another file");
     auto options = std::make_shared<ConvertOptions>();
-    command->add_option("scene", options->scene, "scene file")->required();
-    command->add_option("--out", options->output, "file to write, .json")->required();
-    command->add_flag("--quiet", options->quiet, "print errors only");
-    command->footer(
+    arguments.add("scene", options->scene, "scene file").required();
+    arguments.add("--out", options->output, "file to write, .json").required();
+    arguments.add("--quiet", options->quiet, "print errors only");
+    arguments.footer(
         "Keys stand in one order, values that are the default are left out, and so are comments. Files that the\n"
         "scene names are found from the new file's folder.\n"
         "Example:\n  weft convert scenes/hanging_bunny.json --out bunny.json");

@@ -15,7 +15,6 @@
 
 #include <weft/weft.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -195,15 +194,15 @@ void print_text(const Json& info) {
 
 }  // namespace
 
-Command add_info(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("info",
-                               "instruction sets, threads, Vulkan devices, formats, fabrics and materials with their "
-                               "values");
+Command add_info(Program& program) {
+    Arguments arguments =
+        program.add_command("info",
+                            "instruction sets, threads, Vulkan devices, formats, fabrics and materials with their "
+                            "values");
     auto json = std::make_shared<bool>(false);
     auto schema = std::make_shared<bool>(false);
-    auto* as_json = command->add_flag("--json", *json, "as JSON");
-    command->add_flag("--schema", *schema, "instead, the JSON Schema of scene files")->excludes(as_json);
+    const Argument as_json = arguments.add("--json", *json, "as JSON");
+    arguments.add("--schema", *schema, "instead, the JSON Schema of scene files").excludes(as_json);
     return [json, schema] {
         if (*schema) {
             std::cout << scene_schema();

@@ -16,8 +16,6 @@
 #include <cstdio>
 #endif
 
-#include <CLI/CLI.hpp>
-
 namespace weft::cli {
 namespace {
 
@@ -245,31 +243,30 @@ std::string overlay_names() {
 
 }  // namespace
 
-Command add_render(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("render", "simulates a scene and makes pictures of it, or a film");
+Command add_render(Program& program) {
+    Arguments arguments = program.add_command("render", "simulates a scene and makes pictures of it, or a film");
     auto options = std::make_shared<RenderOptions>();
-    command->add_option("scene", options->scene, "scene file")->required();
-    add_length_options(*command, options->length, "simulate; 0 is the start alone");
-    const auto out = command->add_option(
-        "--out", options->outputs,
-        ".png (last frame), DIR/%04d.png (sequence), .mp4 (film, by the program ffmpeg); repeatable");
-    out->allow_extra_args(false);
-    command->add_option("--size", options->size, "of the picture, in pixels")->capture_default_str();
-    command->add_option("--samples", options->samples, "a pixel: 1 to 256, a power of two; more than 4 take longer")
-        ->capture_default_str();
-    command->add_option("--camera", options->camera,
-                        "px,py,pz,tx,ty,tz[,fov]: position, target (m), degrees; instead of the scene's");
-    command->add_option("--orbit", options->orbit,
-                        "degrees that the camera has gone around its target by the last frame");
-    command->add_option("--fps", options->fps, "pictures a second of a film or sequence, instead of all frames");
-    command->add_option("--overlay", options->overlays, "drawn on top, repeatable: " + overlay_names())
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    command->add_flag("--transparent", options->transparent, "no background; .png alone");
-    command->add_flag("--window", options->window, "shows it as it moves, instead of writing it")->excludes(out);
-    command->add_flag("--quiet", options->quiet, "no progress, no word of what was written");
-    add_common_options(*command, options->common);
-    command->footer(
+    arguments.add("scene", options->scene, "scene file").required();
+    add_length_options(arguments, options->length, "simulate; 0 is the start alone");
+    Argument out =
+        arguments.add("--out", options->outputs,
+                      ".png (last frame), DIR/%04d.png (sequence), .mp4 (film, by the program ffmpeg); repeatable");
+    out.one_at_a_time();
+    arguments.add("--size", options->size, "of the picture, in pixels").with_default();
+    arguments.add("--samples", options->samples, "a pixel: 1 to 256, a power of two; more than 4 take longer")
+        .with_default();
+    arguments.add("--camera", options->camera,
+                  "px,py,pz,tx,ty,tz[,fov]: position, target (m), degrees; instead of the scene's");
+    arguments.add("--orbit", options->orbit, "degrees that the camera has gone around its target by the last frame");
+    arguments.add("--fps", options->fps, "pictures a second of a film or sequence, instead of all frames");
+    arguments.add("--overlay", options->overlays, "drawn on top, repeatable: " + overlay_names())
+        .separated_by(',')
+        .one_at_a_time();
+    arguments.add("--transparent", options->transparent, "no background; .png alone");
+    arguments.add("--window", options->window, "shows it as it moves, instead of writing it").excludes(out);
+    arguments.add("--quiet", options->quiet, "no progress, no word of what was written");
+    add_common_options(arguments, options->common);
+    arguments.footer(
         window_help() +
         "\n"
         "With --backend cpu, --device names the Vulkan device that draws.\n"

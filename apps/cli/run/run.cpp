@@ -7,7 +7,6 @@
 #include "io/files/atomic_file.h"
 #include "weft/drawn_frame.h"
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -142,21 +141,21 @@ Result<Done> check_step(const Frame& frame, bool& warned) {
     return Done{};
 }
 
-Command add_run(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("run", "simulates a scene, exports it, measures it");
+Command add_run(Program& program) {
+    Arguments arguments = program.add_command("run", "simulates a scene, exports it, measures it");
     auto options = std::make_shared<RunOptions>();
-    command->add_option("scene", options->scene, "scene file")->required();
-    add_length_options(*command, options->length, "simulate");
-    command
-        ->add_option("--out", options->outputs,
-                     ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
-        ->allow_extra_args(false);
-    command->add_option("--stats", options->stats, "write the run's figures to this JSON file");
-    command->add_flag("--feedback", options->common.feedback,
-                      "force and torque of the cloths on each collider, in the last frame");
-    command->add_flag("--quiet", options->quiet, "no progress, no summary");
-    add_common_options(*command, options->common);
-    command->footer(
+    arguments.add("scene", options->scene, "scene file").required();
+    add_length_options(arguments, options->length, "simulate");
+    arguments
+        .add("--out", options->outputs,
+             ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
+        .one_at_a_time();
+    arguments.add("--stats", options->stats, "write the run's figures to this JSON file");
+    arguments.add("--feedback", options->common.feedback,
+                  "force and torque of the cloths on each collider, in the last frame");
+    arguments.add("--quiet", options->quiet, "no progress, no summary");
+    add_common_options(arguments, options->common);
+    arguments.footer(
         "Examples:\n"
         "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb --stats stats.json\n"
         "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.ply --threads 2");

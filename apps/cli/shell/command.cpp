@@ -4,8 +4,6 @@
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,37 +27,34 @@ void print_warning(const std::string& text) {
 namespace {
 
 // --substeps 8, --method pbd, --hierarchy, --no-hierarchy.
-void add_solver_option(CLI::App& command, const Parameter& option, ParameterValues& values) {
-    const std::string key(option.key), what = std::string(option.what) + "; instead of the scene's";
+void add_solver_option(Arguments arguments, const Parameter& option, ParameterValues& values) {
+    const std::string key(option.key), help = std::string(option.what) + "; instead of the scene's";
     const auto set = [&values, key](const auto& value) { values.emplace_back(key, value); };
     if (option.kind == ParameterKind::flag)
-        // add_flag would set an option that was not given, too.
-        command.add_flag_function(
-            "--" + key + ",!--no-" + key, [set](std::int64_t count) { set(count > 0); }, what);
+        arguments.add_switch(key, set, help);
     else if (option.kind == ParameterKind::choice)
-        command.add_option_function<std::string>("--" + key, set, alternatives(choice_names(option)) + ": " + what);
+        arguments.add_text("--" + key, set, alternatives(choice_names(option)) + ": " + help);
     else
-        command.add_option_function<double>("--" + key, set, what);
+        arguments.add_number("--" + key, set, help);
 }
 
 }  // namespace
 
-void add_common_options(CLI::App& command, Options& options) {
-    command.add_option("--backend", options.backend, "auto, cpu or vulkan")->capture_default_str();
-    command.add_option("--device", options.device, "Vulkan device: part of its name, see weft info");
-    command
-        .add_option("--execution", options.execution,
-                    "Vulkan: auto, streamed, grouped or fused; never changes the result on a device")
-        ->capture_default_str();
-    command.add_option("--threads", options.threads, "threads in all, 1 to 256; never changes the result")
-        ->capture_default_str();
-    command.add_option("--isa", options.isa, "instruction set, see weft info; never changes the result");
-    for (const Parameter& option : solver_keys) add_solver_option(command, option, options.solver);
+void add_common_options(Arguments arguments, Options& options) {
+    arguments.add("--backend", options.backend, "auto, cpu or vulkan").with_default();
+    arguments.add("--device", options.device, "Vulkan device: part of its name, see weft info");
+    arguments
+        .add("--execution", options.execution,
+             "Vulkan: auto, streamed, grouped or fused; never changes the result on a device")
+        .with_default();
+    arguments.add("--threads", options.threads, "threads in all, 1 to 256; never changes the result").with_default();
+    arguments.add("--isa", options.isa, "instruction set, see weft info; never changes the result");
+    for (const Parameter& option : solver_keys) add_solver_option(arguments, option, options.solver);
 }
 
-void add_length_options(CLI::App& command, Length& length, const std::string& verb) {
-    auto* frames = command.add_option("--frames", length.frames, "how many frames to " + verb);
-    command.add_option("--seconds", length.seconds, "how many seconds instead (default 2)")->excludes(frames);
+void add_length_options(Arguments arguments, Length& length, const std::string& verb) {
+    const Argument frames = arguments.add("--frames", length.frames, "how many frames to " + verb);
+    arguments.add("--seconds", length.seconds, "how many seconds instead (default 2)").excludes(frames);
 }
 
 Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, unsigned least) {
@@ -76,18 +71,6 @@ Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, un
         return Error{name, text};
     }
     return static_cast<std::uint64_t>(frames);
-}
-
-// CLI11 answers a wrong word with several lines; the house says one.
-int usage_error(const CLI::App& program, const CLI::ParseError& error) {
-    std::string text = error.what();
-    for (char& c : text) {
-        if (c == '\n') c = ' ';
-    }
-    std::string command = program.get_name();
-    for (const CLI::App* chosen : program.get_subcommands()) command += ' ' + chosen->get_name();
-    std::cerr << "weft: error: " << text << "; see " << command << " --help\n";
-    return exit_usage;
 }
 
 }  // namespace weft::cli

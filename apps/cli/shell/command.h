@@ -1,6 +1,8 @@
 // What the subcommands share.
 #pragma once
 
+#include "cli/shell/arguments.h"
+
 #include <weft/result.h>
 #include <weft/simulation.h>
 
@@ -8,11 +10,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-
-namespace CLI {
-class App;
-class ParseError;
-}  // namespace CLI
 
 namespace weft {
 struct Frame;
@@ -27,18 +24,16 @@ int exit_code(const Errors& errors);
 /// `weft: error: …`, a line each, on stderr.
 void print_errors(const Errors& errors);
 void print_warning(const std::string& text);
-/// `weft: error: …; see weft … --help` for words that the program does not know. Returns the exit status.
-int usage_error(const CLI::App& program, const CLI::ParseError& error);
 
 /// --backend, --threads, … with their checks.
-void add_common_options(CLI::App& command, Options& options);
+void add_common_options(Arguments arguments, Options& options);
 
 /// How much simulated time: one of the two, or neither.
 struct Length {
     std::optional<double> frames, seconds;
 };
 /// --frames and --seconds; `verb` is what happens to them.
-void add_length_options(CLI::App& command, Length& length, const std::string& verb);
+void add_length_options(Arguments arguments, Length& length, const std::string& verb);
 Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, unsigned least = 1);
 
 /// Fails where the device was lost in the step, and warns, once, of cloth that was held.
@@ -46,11 +41,11 @@ Result<Done> check_step(const Frame& frame, bool& warned);
 
 /// A subcommand: adds itself to the program and returns what to run if it is the one chosen.
 using Command = std::function<int()>;
-Command add_run(CLI::App& program);
-Command add_render(CLI::App& program);
-Command add_check(CLI::App& program);
-Command add_convert(CLI::App& program);
-Command add_bench(CLI::App& program);
-Command add_info(CLI::App& program);
+Command add_run(Program& program);
+Command add_render(Program& program);
+Command add_check(Program& program);
+Command add_convert(Program& program);
+Command add_bench(Program& program);
+Command add_info(Program& program);
 
 }  // namespace weft::cli

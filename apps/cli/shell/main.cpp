@@ -5,8 +5,6 @@
 #include <unistd.h>
 #include <weft/weft.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -20,10 +18,10 @@ namespace weft::cli {
 namespace {
 
 int run_program(int argc, char** argv) {
-    CLI::App program{"weft: real-time cloth. Simulates a scene, exports it, and says how well it did.", "weft"};
-    program.set_version_flag("--version", std::string("weft ") + version());
-    program.require_subcommand(1);
-    program.footer(
+    Program program("weft: real-time cloth. Simulates a scene, exports it, and says how well it did.", "weft");
+    program.set_version(std::string("weft ") + version());
+    program.require_command();
+    program.arguments().footer(
         "Examples:\n"
         "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb\n"
         "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.obj --stats stats.json\n"
@@ -48,13 +46,8 @@ int run_program(int argc, char** argv) {
         std::cerr << "weft: error: unknown command '" << argv[1] << "'; there are " << known << '\n';
         return exit_usage;
     }
-    try {
-        program.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-        return usage_error(program, error);
-    }
-    return commands.at(program.get_subcommands().front()->get_name())();
+    if (const auto status = program.parse(argc, argv)) return *status;
+    return commands.at(program.command())();
 }
 
 // What was printed may stand in a buffer still, and the file that it is sent to on a full disk.
