@@ -67,9 +67,16 @@ function(weft_precompile name group)
     endif()
     # GCC 12 warns of the standard library's own strings, once they are precompiled. `cmake --preset core` is without
     # precompiled headers and has these warnings.
-    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND group STREQUAL libraries)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND NOT group MATCHES tests)
         target_compile_options(${name} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     endif()
+endfunction()
+
+# What most files of a library include, and with it nlohmann's JSON, whose header takes a second, for those that use it.
+set(weft_library_headers <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional> <limits> <memory>
+    <numbers> <optional> <random> <span> <string> <string_view> <utility> <vector>)
+function(weft_precompile_json name)
+    weft_precompile(${name} json ${weft_library_headers} <iostream> <nlohmann/json.hpp>)
 endfunction()
 
 # weft_discover_tests(<program> <source>… [PREFIX text] [FILTER gtest-filter] [LABELS label…] [ENVIRONMENT …]): one test
@@ -95,9 +102,10 @@ include("@PROJECT_SOURCE_DIR@/cmake/weft_test_labels.cmake")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${file})
 endfunction()
 
-# weft_test(<program> SOURCES <file>… LINK <library>… [LABELS label…])
+# weft_test(<program> [WORLD] SOURCES <file>… LINK <library>… [LABELS label…]). WORLD: most of the files run a World, whose
+# header is precompiled with the others.
 function(weft_test name)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "WORLD" "" "SOURCES;LINK;LABELS" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
     weft_program(${name})
     target_link_libraries(${name} PRIVATE ${ARG_LINK} weft_options GTest::gtest_main GTest::gmock)
@@ -105,13 +113,18 @@ function(weft_test name)
         WEFT_BINARY_DIR="${PROJECT_BINARY_DIR}")
     # The code under test is optimized; the checks themselves compile in half the time at this level.
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-    weft_precompile(${name} tests <gtest/gtest.h> <gmock/gmock.h> <algorithm> <array> <cmath> <filesystem> <fstream>
-        <functional> <memory> <numeric> <optional> <random> <span> <string> <string_view> <vector>)
+    set(headers <gtest/gtest.h> <gmock/gmock.h> <algorithm> <array> <cmath> <filesystem> <fstream> <functional>
+        <memory> <numeric> <optional> <random> <span> <string> <string_view> <vector>)
+    if(ARG_WORLD)
+        weft_precompile(${name} world_tests ${headers} ${PROJECT_SOURCE_DIR}/src/solver/world/world.h)
+    else()
+        weft_precompile(${name} tests ${headers})
+    endif()
     weft_discover_tests(${name} SOURCES ${ARG_SOURCES} LABELS ${ARG_LABELS})
 endfunction()
 
 function(weft_module name)
-    cmake_parse_arguments(ARG "" "FOLDER" "DEPENDS;WITHOUT" ${ARGN})
+    cmake_parse_arguments(ARG "JSON" "FOLDER" "DEPENDS;WITHOUT" ${ARGN})
     if(NOT ARG_FOLDER)
         set(ARG_FOLDER ${name})
     endif()
@@ -135,8 +148,11 @@ function(weft_module name)
     if(EXISTS ${folder}/dependencies.cmake)   # third-party packages of this folder alone
         include(${folder}/dependencies.cmake)
     endif()
-    weft_precompile(weft_${name} libraries <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional>
-        <limits> <memory> <numbers> <optional> <random> <span> <string> <string_view> <utility> <vector>)
+    if(ARG_JSON)
+        weft_precompile_json(weft_${name})
+    else()
+        weft_precompile(weft_${name} libraries ${weft_library_headers})
+    endif()
 
     if(WEFT_TESTS AND tests)
         weft_test(${name}_tests SOURCES ${tests} LINK weft_${name})
