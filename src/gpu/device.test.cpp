@@ -155,7 +155,7 @@ VKAPI_ATTR VkResult VKAPI_CALL formats_of_another(VkPhysicalDevice, VkFormat, Vk
 }
 
 // volk's variables are those of the instance that was made last, which may come of another loader.
-TEST_F(DeviceTest, asks_its_own_instance_whoever_has_made_the_last_one) {
+TEST_F(DeviceTest, calls_the_functions_of_its_own_instance_after_another_one_was_made) {
     open();
     if (!device) return;
     const auto disturb = [] {

@@ -82,7 +82,7 @@ TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
 }
 
 // Shared memory may have room for a cloth's particles and none for its lines, for both, or for the lines alone.
-TEST(VulkanScenes, do_not_tell_what_is_at_hand) {
+TEST(VulkanScenes, do_not_depend_on_what_fits_into_shared_memory) {
     for (const std::uint32_t side : {20u, 40u, 50u}) {
         const auto run = [&](const char* execution) {
             auto made = Simulation::create({.solver = {.substeps = 3}}, {.backend = "vulkan", .execution = execution});
