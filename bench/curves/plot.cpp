@@ -216,10 +216,7 @@ Result<Done> write_curves(const std::vector<CurvePoint>& points, const std::file
                             fixed(bottom, 0) + "\" viewBox=\"0 0 " + size +
                             "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
                             "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + panels + "</svg>\n";
-    auto out = AtomicFile::create(file);
-    if (!out) return out.errors();
-    if (auto written = out->write(svg); !written) return written;
-    return out->commit();
+    return write_atomically(file, [&](AtomicFile& out) { return out.write(svg); });
 }
 
 }  // namespace weft::bench

@@ -146,10 +146,7 @@ std::string solver_text(const WorldSettings& settings) {
 }
 
 Result<Done> write_stats(const Json& stats, const std::filesystem::path& file) {
-    auto out = AtomicFile::create(file);
-    if (!out) return out.errors();
-    if (auto written = out->write(stats.dump(2) + '\n'); !written) return written;
-    return out->commit();
+    return write_atomically(file, [&](AtomicFile& out) { return out.write(stats.dump(2) + '\n'); });
 }
 
 void print_summary(const Json& s) {

@@ -47,10 +47,7 @@ constexpr std::array<Writers, formats.size()> writers = {{
 
 Result<Done> write_still(StillWriter writer, const ExportFrame& frame, const fs::path& path) {
     if (Result<Done> checked = check_frame(frame, path.string()); !checked) return checked;
-    Result<AtomicFile> file = AtomicFile::create(path);
-    if (!file) return file.errors();
-    if (Result<Done> written = writer(frame, *file); !written) return written;
-    return file->commit();
+    return write_atomically(path, [&](AtomicFile& file) { return writer(frame, file); });
 }
 
 /// Holds on to the newest frame, because only finish knows that it was the last.
@@ -144,19 +141,12 @@ class SequenceExporter : public Exporter {
     FilePattern pattern_;
 };
 
-/// ".glb, .obj, .ply": all endings, or those of formats that make sequences.
-std::string list_endings(bool sequences_only) {
-    std::string list;
-    for (std::size_t i = 0; i < formats.size(); ++i) {
-        if (sequences_only && writers[i].still == nullptr) continue;
-        list += (list.empty() ? "" : ", ") + std::string(formats[i].ending);
-    }
-    return list;
-}
-
-Error unknown_ending(const fs::path& path, const std::string& ending) {
-    const std::string problem = ending.empty() ? "has no ending" : "unknown ending \"" + ending + "\"";
-    return {path.string(), problem + "; known are " + list_endings(false)};
+/// The endings of formats that make sequences.
+std::string list_still_endings() {
+    std::vector<ExportFormat> still;
+    for (std::size_t i = 0; i < formats.size(); ++i)
+        if (writers[i].still) still.push_back(formats[i]);
+    return list_endings(still);
 }
 
 Result<std::unique_ptr<Exporter>> make_sequence(const fs::path& path, const Writers& writer) {
@@ -165,7 +155,7 @@ Result<std::unique_ptr<Exporter>> make_sequence(const fs::path& path, const Writ
     if (writer.still == nullptr) {
         return Error{path.string(), "a " + path.extension().string() +
                                         " holds the whole animation in one file; sequences are made of " +
-                                        list_endings(true)};
+                                        list_still_endings()};
     }
     return std::unique_ptr<Exporter>(std::make_unique<SequenceExporter>(writer, path, *std::move(pattern)));
 }
@@ -177,9 +167,8 @@ std::span<const ExportFormat> export_formats() {
 }
 
 Result<std::unique_ptr<Exporter>> make_exporter(const fs::path& path) {
-    const std::string ending = ending_of(path);
-    const auto format = std::ranges::find(formats, ending, &ExportFormat::ending);
-    if (format == formats.end()) return unknown_ending(path, ending);
+    const auto format = std::ranges::find(formats, ending_of(path), &ExportFormat::ending);
+    if (format == formats.end()) return unknown_ending(path, "known are " + list_endings(formats));
     const Writers& writer = writers[static_cast<std::size_t>(format - formats.begin())];
 
     std::unique_ptr<Exporter> exporter;
@@ -193,9 +182,7 @@ Result<std::unique_ptr<Exporter>> make_exporter(const fs::path& path) {
         exporter = std::make_unique<LastFrameExporter>(writer, path);
     }
 
-    std::error_code error;
-    fs::create_directories(folder_of(path), error);
-    if (error) return Error{path.string(), "its folder cannot be made: " + error.message()};
+    if (auto made = make_folder_of(path); !made) return made.errors();
     return exporter;
 }
 

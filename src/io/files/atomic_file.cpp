@@ -99,4 +99,18 @@ Result<Done> AtomicFile::commit() {
     return Done{};
 }
 
+Result<Done> write_atomically(const fs::path& path, const std::function<Result<Done>(AtomicFile&)>& fill) {
+    Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file) return file.errors();
+    if (Result<Done> filled = fill(*file); !filled) return filled;
+    return file->commit();
+}
+
+Result<Done> make_folder_of(const fs::path& file) {
+    std::error_code error;
+    fs::create_directories(folder_of(file), error);
+    if (error) return Error{file.string(), "its folder cannot be made: " + error.message()};
+    return Done{};
+}
+
 }  // namespace weft

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -42,6 +43,12 @@ class AtomicFile {
     bool prepared_ = false;
     BufferedFile content_;
 };
+
+/// Makes the file, lets `fill` write it, and commits it unless that fails.
+Result<Done> write_atomically(const std::filesystem::path& path, const std::function<Result<Done>(AtomicFile&)>& fill);
+
+/// Makes the folder that the file is going to be in.
+Result<Done> make_folder_of(const std::filesystem::path& file);
 
 /// The folder a file is in, "." for a bare name.
 std::filesystem::path folder_of(const std::filesystem::path& file);

@@ -39,4 +39,10 @@ std::string ending_of(const std::filesystem::path& path) {
     return ending;
 }
 
+Error unknown_ending(const std::filesystem::path& path, const std::string& known) {
+    const std::string ending = ending_of(path);
+    const std::string problem = ending.empty() ? "has no ending" : "unknown ending \"" + ending + "\"";
+    return {path.string(), problem + "; " + known};
+}
+
 }  // namespace weft

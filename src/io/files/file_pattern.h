@@ -1,6 +1,8 @@
 // File names with a place for a number: frames/%04d.obj.
 #pragma once
 
+#include <weft/result.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -28,5 +30,14 @@ std::optional<FilePattern> parse_pattern(const std::string& file_name);
 
 /// With the dot, in lower case.
 std::string ending_of(const std::filesystem::path& path);
+/// ".glb, .obj": of some formats.
+template <class Formats>
+std::string list_endings(const Formats& formats) {
+    std::string list;
+    for (const auto& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.ending);
+    return list;
+}
+/// Of a file whose ending is that of no format. `known`: "known are .glb, .obj".
+Error unknown_ending(const std::filesystem::path& path, const std::string& known);
 
 }  // namespace weft

@@ -102,10 +102,7 @@ class Mp4Writer : public PictureWriter {
         if (Result<Done> finished = child_->finish(); !finished) return finished;
         // ffmpeg calls it well done, too, where the disk is full.
         if (!is_whole(film_.descriptor())) return child_->failure("has not written the whole film");
-        Result<AtomicFile> file = AtomicFile::create(path_);
-        if (!file) return file.errors();
-        if (Result<Done> moved = film_.move_to(file->content()); !moved) return moved;
-        return file->commit();
+        return write_atomically(path_, [&](AtomicFile& file) { return film_.move_to(file.content()); });
     }
 
   private:

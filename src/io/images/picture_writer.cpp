@@ -43,10 +43,7 @@ constexpr std::array<Makers, formats.size()> makers = {{
 }};
 
 Result<Done> write_one(ImageWriter writer, const Image8& picture, const fs::path& path) {
-    Result<AtomicFile> file = AtomicFile::create(path);
-    if (!file) return file.errors();
-    if (Result<Done> written = writer(picture, *file); !written) return written;
-    return file->commit();
+    return write_atomically(path, [&](AtomicFile& file) { return writer(picture, file); });
 }
 
 /// Holds on to the newest picture, because only finish knows that it was the last.
@@ -102,13 +99,6 @@ class PictureSequence : public PictureWriter {
     std::uint64_t number_ = 0;
 };
 
-Error unknown_ending(const fs::path& path, const std::string& ending) {
-    std::string list;
-    for (const PictureFormat& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.ending);
-    const std::string problem = ending.empty() ? "has no ending" : "unknown ending \"" + ending + "\"";
-    return {path.string(), problem + "; pictures are written as " + list};
-}
-
 }  // namespace
 
 std::span<const PictureFormat> picture_formats() {
@@ -116,9 +106,7 @@ std::span<const PictureFormat> picture_formats() {
 }
 
 Result<Done> prepare_place(const fs::path& path) {
-    std::error_code error;
-    fs::create_directories(folder_of(path), error);
-    if (error) return Error{path.string(), "its folder cannot be made: " + error.message()};
+    if (Result<Done> made = make_folder_of(path); !made) return made;
     return check_writable(path);
 }
 
@@ -136,7 +124,7 @@ Result<Done> check_picture(const Image8& picture, const PictureInfo& info, const
 Result<std::unique_ptr<PictureWriter>> make_picture_writer(const fs::path& path) {
     const std::string ending = ending_of(path);
     const auto format = std::ranges::find(formats, ending, &PictureFormat::ending);
-    if (format == formats.end()) return unknown_ending(path, ending);
+    if (format == formats.end()) return unknown_ending(path, "pictures are written as " + list_endings(formats));
     const Makers& maker = makers[static_cast<std::size_t>(format - formats.begin())];
 
     std::unique_ptr<PictureWriter> writer;
