@@ -237,7 +237,7 @@ Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cl
     scene_.cloths[place].fabric = cloth.fabric;
     scene_.cloths[place].fabric_name = cloth.fabric_name;
     // A cloth that has no coarse levels yet may get some.
-    const bool limited = world_->settings().hierarchy || before->table(ConstraintKind::tether).rows > 0;
+    const bool limited = world_->settings().solver.hierarchy || before->table(ConstraintKind::tether).rows > 0;
     if (pending || (limited && limits_differ(before->fabric, fabric))) rebuild_later(place);
     return true;
 }

@@ -114,7 +114,8 @@ Result<Done> World::set_material(ClothId id, std::shared_ptr<const ClothModel> m
     // Of a fabric, plans know nothing but whether it damps.
     const bool same_passes = (cloth.model->fabric.body.damping > 0) == (model->fabric.body.damping > 0);
     cloth.model = std::move(model);
-    if (settings_.method == Method::pbd) cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.iterations);
+    if (settings_.solver.method == Method::pbd)
+        cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
     list_cloths();
     if (!same_passes) replan();
     return Done{};

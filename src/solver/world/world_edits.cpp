@@ -7,7 +7,7 @@
 namespace weft {
 namespace {
 
-void add(const RowEdit& row, StateHash& hash) {
+void hash_row(const RowEdit& row, StateHash& hash) {
     hash.add(static_cast<std::uint32_t>(row.kind)), hash.add(row.row), hash.add(row.stiffness);
     for (const std::uint32_t particle : row.particles) hash.add(particle);
 }
@@ -74,8 +74,8 @@ void World::hash_edits(const Cloth& cloth, StateHash& hash) {
             hash.add(triangle.triangle), hash.add(triangle.alive);
             for (const std::uint32_t corner : triangle.corners) hash.add(corner);
         }
-        for (const RowEdit& row : edit.rows) add(row, hash);
-        for (const RowEdit& row : edit.added) add(row, hash);
+        for (const RowEdit& row : edit.rows) hash_row(row, hash);
+        for (const RowEdit& row : edit.added) hash_row(row, hash);
     }
 }
 
