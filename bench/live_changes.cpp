@@ -43,7 +43,7 @@ std::vector<Change> all_changes(std::uint32_t side) {
         {"bend", "", set([](int call) {
              return fabric(call).set("bend", {1e-5 + 1e-7 * call, 9e-6, 7e-6});
          })},
-        {"density", "", set([](int call) { return fabric(call).set("density", 0.14 + 0.001 * call); })},
+        {"density", "", set([](int call) { return fabric(call).set("density", 0.15 + 0.001 * call); })},
         {"drag", "no number of any row", set([](int call) { return fabric(call); })},
         {"bend_model", "other rows: the model is built anew",
          set([](int call) { return fabric(call).set("bend_model", call % 2 == 0 ? "distance" : "hinges"); })},

@@ -123,6 +123,11 @@ class WEFT_API Simulation {
 
     // Change while it runs. Cloth goes on moving as it was.
 
+    /// Acts from the next step on. The model of the cloth is built anew only where it needs other constraints: where
+    /// the cloth loses all stiffness in a direction or gets some, where `bend_model`, `hinges` or `rest_angle` change,
+    /// and where `bend` changes with the bend model `plate`. Otherwise this computes new numbers for the constraints
+    /// that there are (docs/performance.md has the times). Coarse levels and tethers are then those of the former
+    /// fabric for some frames; they change in the same frame on every run.
     Result<Done> set_fabric(ClothId id, const FabricDesc& fabric);
     /// In place of those that it has. Particles are held where they are now; a box selects those that are in it now.
     /// The cost is that of the particles concerned where no pin, old or new, has a compliance; otherwise the cloth's

@@ -224,7 +224,6 @@ Result<Done> SceneWorld::set_fabric(ClothId id, const Fabric& fabric, const std:
     return change_cloth(id, std::move(cloth), sources_[place].pins, world_->holds(id));
 }
 
-// Its fabric alone, without building anything anew. False, and nothing is changed, where that is not possible.
 Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cloth) {
     const ClothId id = world_->cloth_id(place);
     const auto before = world_->model(id);

@@ -50,7 +50,8 @@ class SceneWorld {
     void remove(ClothId id);
     /// Pins that it carried stay where they are.
     void remove(ColliderId id);
-    /// Cloth goes on moving as it was. `preset`: the name of the one that the fabric began as.
+    /// Cloth goes on moving as it was. `preset`: the name of the one that the fabric began as. Builds a model only
+    /// where with_fabric() cannot make one; coarse levels and tethers may follow some frames later.
     Result<Done> set_fabric(ClothId id, const Fabric& fabric, const std::string& preset);
     /// Particles are held where they are now; boxes are where particles are now. Touches the particles concerned alone,
     /// where pins hold without giving way before and after; what else pins decide follows some frames later.
@@ -94,6 +95,7 @@ class SceneWorld {
     std::size_t place_of(ColliderId id) const;
     Result<Done> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, Holds holds);
     Result<Done> set_models(std::span<Change> changes);
+    /// False, and nothing is changed, where the fabric needs a model that is built anew.
     Result<bool> change_material(std::size_t place, const SceneCloth& cloth);
     void rebuild_later(std::size_t place);
     Result<Done> hold_at_once(std::size_t place, const Pinned& pinned);

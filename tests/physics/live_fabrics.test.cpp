@@ -2,7 +2,9 @@
 
 #include "sheet.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace weft::physical {
 namespace {
@@ -107,6 +109,28 @@ TEST(LiveFabrics, of_every_part_show_at_once) {
     EXPECT_TRUE(differs([](Fabric& f) { f.bend.bend[0] = 0.01f; }));
     EXPECT_TRUE(differs([](Fabric& f) { f.stretch.inextensible = true; }));
     EXPECT_TRUE(differs([](Fabric& f) { f.contact.thickness = 0.1f; }));
+}
+
+// Nobody builds the levels anew here: a cloth must hang quietly by those of any other fabric.
+TEST(LiveFabrics, hang_quietly_by_coarse_levels_of_another_fabric) {
+    Fabric soft = heavy_and_soft(), rigid;
+    rigid.stretch.inextensible = true;
+    rigid.body.density = 0.05f;
+    for (const auto& [before, after] : {std::pair(soft, rigid), std::pair(rigid, soft), std::pair(Fabric(), soft)}) {
+        SheetDesc sheet = hung_by_corners(24, {.lines = true, .hierarchy = true});
+        sheet.fabric = before;
+        World world = make_world({.solver = {.substeps = 8, .hierarchy = true}}, sheet);
+        ASSERT_FALSE(world.model(world.cloth_id(0))->hierarchy.empty());
+        run(world, 0.5);
+        ASSERT_TRUE(set_fabric(world, world.cloth_id(0), after).ok());
+        float fastest = 0;
+        for (int i = 0; i < 120; ++i) {
+            world.step(1.0 / 60);
+            ASSERT_EQ(world.frame().reports & report_non_finite, 0u);
+            for (const Vec4& v : world.frame().cloths[0].velocities) fastest = std::max(fastest, length(v.xyz()));
+        }
+        EXPECT_LT(fastest, 6.3f) << "it has fallen no farther than 2 m";
+    }
 }
 
 TEST(LiveFabrics, change_how_stiff_plain_dynamics_are) {
