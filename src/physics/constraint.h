@@ -1,7 +1,6 @@
 // The kinds of constraint, and their rows as the builders make them.
 #pragma once
 
-#include "physics/constraint_parts.h"
 #include "physics/constraints.data.h"
 #include "physics/rest_shape.h"
 

@@ -15,4 +15,8 @@
 #include "physics/stretch/stretch.data.h"
 #include "physics/tether/tether.data.h"
 
+#ifdef __cplusplus
+#include "physics/constraint_parts.h"
+#endif
+
 #endif

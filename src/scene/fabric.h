@@ -3,7 +3,6 @@
 
 #include "base/parameter.h"
 #include "physics/air/air.data.h"
-#include "physics/constraint_parts.h"
 #include "physics/constraints.data.h"
 #include "physics/contact/contact.data.h"
 
