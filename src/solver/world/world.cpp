@@ -30,6 +30,9 @@ World::World(std::unique_ptr<Backend> backend, WorldSettings settings)
     : backend_(std::move(backend)), settings_(std::move(settings)) {
     assert(settings_.solver.substeps > 0 && settings_.solver.iterations > 0);
 }
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
 
 Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
     settle();

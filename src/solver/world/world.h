@@ -33,6 +33,10 @@ struct WorldSettings {
 class World {
   public:
     World(std::unique_ptr<Backend> backend, WorldSettings settings);
+    // Defined in world.cpp, so that other files do not compile the destruction of all members again.
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+    ~World();
 
     /// `holds` names colliders that are there already. Fails where the backend's device has no room for the cloth.
     Result<ClothId> try_add(std::shared_ptr<const ClothModel> model, Holds holds = {});
