@@ -53,6 +53,12 @@ std::vector<Change> all_changes(std::uint32_t side) {
              if (call % 2 == 0) vertices.push_back(side / 2);
              return simulation.set_pins(cloth, {{.select = VertexPins{vertices}}});
          }},
+        {"spring", "a pin that gives way, or none",
+         [side](Simulation& simulation, ClothId cloth, int call) {
+             std::vector<PinDesc> pins = {{.select = VertexPins{{0, side - 1}}}};
+             if (call % 2 == 0) pins.push_back({.select = VertexPins{{side / 2}}, .compliance = 0.01f});
+             return simulation.set_pins(cloth, pins);
+         }},
     };
 }
 

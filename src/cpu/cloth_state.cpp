@@ -83,11 +83,24 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
         for (const auto& array : {mine.position, mine.start, mine.velocity, mine.carry}) array[to] = array[from];
         mine.position[to].w = weights()[to] = 0;
     }
+    const bool same_masses = other->mass.shares(model->mass);
+    const bool same_levels = other->hierarchy.shares(model->hierarchy);
+    const bool same_faces = other->faces.shares(model->faces);
     model = std::move(other);
-    weigh();
     gather = nullptr;
-    levels.clear();
-    update_normals();
+    if (!same_masses) weigh();
+    if (!same_levels) levels.clear();
+    if (!same_faces) update_normals();
+}
+
+void ClothState::place_points(std::uint32_t first, std::span<const Vec3> places) {
+    const Particles mine = now();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::size_t p = first + i;
+        mine.position[p] = mine.start[p] = {places[i].x, places[i].y, places[i].z, 0};
+        mine.velocity[p] = mine.carry[p] = {};
+        weights()[p] = 0;
+    }
 }
 
 ClothSnapshot ClothState::save() const {

@@ -57,6 +57,7 @@ struct ClothState {
     void set_material(std::shared_ptr<const ClothModel> other);
     /// Other rows and triangles for the same points: Backend::set_topology().
     void set_topology(std::shared_ptr<const ClothModel> other, std::span<const std::uint32_t> copied);
+    void place_points(std::uint32_t first, std::span<const Vec3> places);
     /// Changes inverse masses, nothing else.
     void set_weights(std::span<const ParticleWeight> changed);
     ClothSnapshot save() const;

@@ -59,6 +59,11 @@ class CpuBackend final : public Backend {
         return Done{};
     }
 
+    Result<Done> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
+        cloth(handle).place_points(first, places);
+        return Done{};
+    }
+
     Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
         cloth(handle).set_weights(changed);
         return Done{};

@@ -37,12 +37,12 @@ std::vector<Vec3> anchor_places(const World& world, const ClothFrame& cloth, dou
     const ClothModel& model = *cloth.model;
     std::vector<Vec3> places;
     for (std::uint32_t i = 0; i < model.anchor_count; ++i)
-        places.push_back(model.start[model.particle_count + i].xyz());
+        places.push_back(model.start[model.first_anchor() + i].xyz());
     const Holds& holds = world.holds(cloth.id);
     for (const HeldParticle& held : holds.particles) {
-        if (held.particle < model.particle_count || held.particle >= model.point_count()) continue;
+        if (held.particle < model.first_anchor() || held.particle >= model.point_count()) continue;
         const Mover& mover = holds.movers[held.mover];
-        places[held.particle - model.particle_count] = world.contains(mover.collider)
+        places[held.particle - model.first_anchor()] = world.contains(mover.collider)
                                                            ? to_world(world.collider(mover.collider).pose, held.local)
                                                            : held.local + offset_at(mover.offsets, time);
     }

@@ -165,6 +165,22 @@ Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<Model
     return Done{};
 }
 
+Result<Done> ClothState::place_points(gpu::Device& device, std::uint32_t first, std::span<const Vec3> places) {
+    std::vector<Vec4> at;
+    for (const Vec3& place : places) at.push_back({place.x, place.y, place.z, 0});
+    std::vector<Vec4> zeros(at.size());
+    const std::uint64_t skipped = first * sizeof(Vec4);
+    for (const auto& [array, values] :
+         {std::pair{PointArray::position, &at}, std::pair{PointArray::start, &at},
+          std::pair{PointArray::velocity, &zeros}, std::pair{PointArray::carry, &zeros}}) {
+        auto done = upload(device, world_.buffer(), offset(array) + skipped, std::as_bytes(std::span(*values)));
+        if (!done) return done;
+    }
+    const std::vector<float> weightless(at.size());
+    return upload(device, arena_.buffer(), weights.offset + first * sizeof(float),
+                  std::as_bytes(std::span(weightless)));
+}
+
 Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {
     ClothSnapshot snapshot;
     snapshot.substep_seconds = substep_seconds;

@@ -65,6 +65,7 @@ class ClothState {
     /// The same in place of buffers that it shares with other cloths.
     Result<Done> set_material(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers);
     Result<Done> set_weights(gpu::Device& device, std::span<const ParticleWeight> changed);
+    Result<Done> place_points(gpu::Device& device, std::uint32_t first, std::span<const Vec3> places);
     Result<ClothSnapshot> save(gpu::Device& device) const;
     /// Normals are not brought up to date.
     Result<Done> restore(gpu::Device& device, const ClothSnapshot& snapshot);

@@ -116,6 +116,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         for (std::uint32_t p = 0; p < model->particle_count; ++p)
             snapshot.position[p].w = snapshot.position[p].w > 0 ? 1 / model->mass[p] : 0;
+        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
+            array->resize(model->point_count());
         // Where there is no room for both, the old one gets back what it was.
         auto next = make_cloth(std::move(model), old.state().base());
         Result<Done> done = Done{};
@@ -128,6 +130,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         forget_runs(old);
         cloths_[handle.value] = std::move(*next);
         return Done{};
+    }
+
+    Result<Done> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
+        auto done = cloth(handle).state().place_points(*device_, first, places);
+        cloth(handle).changed(true);
+        return done;
     }
 
     Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {

@@ -245,9 +245,9 @@ Result<Done> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const std::size_t place = place_of(id);
     auto pinned = select_pins_now(*world_, id, sources_[place], pins);
     if (!pinned) return pinned.errors();
-    // Springs to anchors are constraints, which a model has.
-    if (sources_[place].pins.attachments.empty() && pinned->pins.attachments.empty()) {
-        if (auto held = hold_at_once(place, *pinned); !held) return held;
+    auto held = hold_at_once(place, *pinned);
+    if (!held) return held.errors();
+    if (*held) {
         scene_.cloths[place].pins = std::move(pins);
         return Done{};
     }
@@ -256,16 +256,23 @@ Result<Done> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->holds));
 }
 
-Result<Done> SceneWorld::hold_at_once(std::size_t place, const Pinned& pinned) {
+// False, and nothing is changed, where the model has no room for so many springs.
+Result<bool> SceneWorld::hold_at_once(std::size_t place, const Pinned& pinned) {
     const ClothId id = world_->cloth_id(place);
-    if (auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds); !set) return set;
+    const auto& springs = pinned.pins.attachments;
+    if (sources_[place].pins.attachments.empty() && springs.empty()) {
+        if (auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds); !set) return set.errors();
+    } else {
+        auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds, springs);
+        if (!set || !*set) return set;
+    }
     sources_[place].pins = pinned.pins;
     // Coarse levels and tethers start from pins. What is pending already has other pins.
     const auto& now = world_->model(id);
     if (!now->hierarchy.empty() || now->table(ConstraintKind::tether).rows > 0 ||
         scene_.cloths[place].tethers == Tethers::on || world_->is_rebuilding(id))
         rebuild_later(place);
-    return Done{};
+    return true;
 }
 
 // The model that the document says, in the background: coarse levels and tethers take long to build.

@@ -98,7 +98,7 @@ class SceneWorld {
     /// False, and nothing is changed, where the fabric needs a model that is built anew.
     Result<bool> change_material(std::size_t place, const SceneCloth& cloth);
     void rebuild_later(std::size_t place);
-    Result<Done> hold_at_once(std::size_t place, const Pinned& pinned);
+    Result<bool> hold_at_once(std::size_t place, const Pinned& pinned);
     Result<Done> change_stitches(const SceneDesc& next);
     void forget_look(const std::string& name);
     void remove_what_is_not_in(const SceneDesc& next);

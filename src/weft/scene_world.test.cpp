@@ -31,6 +31,9 @@ class BackendWithoutRoom final : public Backend {
         if (count_++ == room_) return Error::of_machine("device", "has no room");
         return inner_->set_material(cloth, std::move(model));
     }
+    Result<Done> place_points(ClothHandle cloth, std::uint32_t first, std::span<const Vec3> places) override {
+        return inner_->place_points(cloth, first, places);
+    }
     Result<Done> set_topology(ClothHandle cloth, std::shared_ptr<const ClothModel> model,
                               std::span<const std::uint32_t> copied) override {
         return inner_->set_topology(cloth, std::move(model), copied);

@@ -46,6 +46,75 @@ TEST(LivePins, are_carried_by_keys_from_where_they_are) {
     EXPECT_LT(world.frame().cloths[0].positions[100].y, at.y + 0.25f);
 }
 
+TEST(LivePins, that_give_way_come_and_go_with_the_rows_that_there_are) {
+    World world = make_world({.solver = {.substeps = 20}}, hung_upright({.lines = true}));
+    const ClothId id = world.frame().cloths[0].id;
+    run(world, 0.25);
+    const auto before = world.model(id);
+    constexpr float compliance = 0.05f;
+    const Vec3 at = world.frame().cloths[0].positions[150].xyz();
+    const auto held = world.set_pins(id, {}, {}, {{150, compliance, at}});
+    ASSERT_TRUE(held.ok() && *held);
+    EXPECT_TRUE(world.model(id)
+                    ->table(ConstraintKind::stretch)
+                    .particles.shares(before->table(ConstraintKind::stretch).particles))
+        << "nothing is built anew";
+    // It hangs by that spring alone, and swings: 0.53 s up and down.
+    const auto mean_height = [&] {
+        run(world, 0.5);
+        double sum = 0;
+        for (int i = 0; i < 159; ++i) sum += world.step(1.0 / 60).cloths[0].positions[150].y;
+        return sum / 159;
+    };
+    double mass = 0;
+    for (const float one : world.model(id)->mass) mass += one;
+    const double sag = compliance * mass * 9.81;
+    EXPECT_NEAR(at.y - mean_height(), sag, 0.25 * sag);
+    const auto moved = world.set_pins(id, {}, {}, {{150, compliance, at + Vec3{0, 1, 0}}});
+    ASSERT_TRUE(moved.ok() && *moved);
+    EXPECT_NEAR(mean_height(), at.y + 1 - sag, 0.25 * sag);
+    const auto none = world.set_pins(id, {}, {}, std::vector<Attachment>{});
+    ASSERT_TRUE(none.ok() && *none);
+    run(world, 0.75);
+    EXPECT_LT(world.frame().cloths[0].positions[150].y, at.y - 1);
+    EXPECT_EQ(world.frame().reports & report_non_finite, 0u);
+}
+
+TEST(LivePins, that_give_way_are_refused_where_there_is_no_room_or_no_sense_in_them) {
+    World world = make_world({.solver = {.substeps = 5}}, hung_upright());
+    const ClothId id = world.frame().cloths[0].id;
+    run(world, 0.1);
+    const std::string before = world.state_hash();
+    std::vector<Attachment> many;
+    for (std::uint32_t p = 0; p < 200; ++p) many.push_back({p, 0.1f, {}});
+    const auto held = world.set_pins(id, {}, {}, many);
+    ASSERT_TRUE(held.ok());
+    EXPECT_FALSE(*held);
+    EXPECT_FALSE(world.set_pins(id, {}, {}, {{100'000, 0.1f, {}}}).ok());
+    EXPECT_FALSE(world.set_pins(id, {}, {}, {{5, 0, {}}}).ok());
+    EXPECT_EQ(world.state_hash(), before);
+}
+
+TEST(LivePins, that_give_way_are_saved_and_restored) {
+    const auto begin = [] { return make_world({.solver = {.substeps = 10}}, hung_upright({.lines = true})); };
+    const auto hold = [](World& world) {
+        const auto held =
+            world.set_pins(world.cloth_id(0), {3}, {}, {{150, 0.01f, {0.1f, -0.2f, 0.05f}}, {9, 0.1f, {}}});
+        EXPECT_TRUE(held.ok() && *held);
+    };
+    World world = begin();
+    run(world, 0.2);
+    hold(world);
+    run(world, 0.2);
+    const Snapshot snapshot = world.save();
+    run(world, 0.2);
+    World other = begin();
+    hold(other);
+    ASSERT_TRUE(other.restore(snapshot).ok());
+    run(other, 0.2);
+    EXPECT_EQ(other.state_hash(), world.state_hash());
+}
+
 TEST(LivePins, of_coarse_cloth_stay_where_they_are) {
     World world = make_world({.solver = {.hierarchy = true}}, hung_upright({.lines = true, .hierarchy = true}));
     const ClothId id = world.frame().cloths[0].id;

@@ -1,13 +1,16 @@
-#include "physics/constraint.h"
+#include "physics/attachment/attachment.h"
 
 namespace weft {
 
-RowList build_attachment(const RestShape& rest) {
+RowList attachment_rows(std::span<const Attachment> attachments, std::uint32_t first_anchor) {
     RowList rows = make_rows(ConstraintKind::attachment);
-    for (std::uint32_t i = 0; i < rest.attachments.size(); ++i) {
-        rows.add({rest.attachments[i].particle, rest.first_anchor + i}, {rest.attachments[i].compliance});
-    }
+    for (std::uint32_t i = 0; i < attachments.size(); ++i)
+        rows.add({attachments[i].particle, first_anchor + i}, {attachments[i].compliance});
     return rows;
+}
+
+RowList build_attachment(const RestShape& rest) {
+    return attachment_rows(rest.attachments, rest.first_anchor);
 }
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 #include "solver/model/cloth_model.h"
 
 #include "mesh/grouping.h"
+#include "physics/attachment/attachment.h"
 #include "physics/tether/held_places.h"
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
@@ -49,6 +50,9 @@ Result<Done> place_anchors(const ClothModel& model, const std::vector<Attachment
     return Done{};
 }
 
+// A hand or two that pull at a cloth need no other model.
+constexpr std::uint32_t spare_anchors = 8;
+
 void lay_out_faces(ClothModel& model, const RestShape& rest) {
     const Topology& topology = rest.topology;
     const auto count = model.triangle_count = static_cast<std::uint32_t>(topology.triangles.size());
@@ -59,7 +63,7 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             faces[std::size_t{corner} * model.face_stride + t] =
                 t < count ? topology.triangles[t][corner]
-                          : first_dummy(model.point_count()) + corner * lane_padding + t % lane_padding;
+                          : first_dummy(model.room()) + corner * lane_padding + t % lane_padding;
         }
     }
     model.faces = std::move(faces);
@@ -150,11 +154,11 @@ void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind,
     ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
     clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
     if (lines) {
-        table = pack_lines(rows, topology.rest_positions, model.point_count(), options);
+        table = pack_lines(rows, topology.rest_positions, model.room(), options);
     } else {
-        const Coloring coloring = color_rows(kind, rows, model.point_count(), options);
+        const Coloring coloring = color_rows(kind, rows, model.room(), options);
         clock.spent_on(BuildPart::coloring);
-        table = pack_rows(kind, rows, model.point_count(), coloring);
+        table = pack_rows(kind, rows, model.room(), coloring);
     }
     if (spare > 0 && table.rows > 0) add_spare_rows(table, spare);
     clock.spent_on(BuildPart::tables);
@@ -183,6 +187,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     model.reserved = reserve;
     model.reserve = reserve.particles;
     model.anchor_count = static_cast<std::uint32_t>(pins.attachments.size());
+    model.anchor_room = padded(model.anchor_count + spare_anchors);
 
     RestShape rest = make_rest_shape(mesh, topology);
     lay_out_faces(model, rest);
@@ -252,6 +257,22 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
         model->set_mesh(std::move(desc.mesh));
     }
     clock.spent_on(BuildPart::rest);
+    return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& from,
+                                                           const std::vector<Attachment>& attachments) {
+    if (attachments.size() > from.anchor_room) return std::shared_ptr<const ClothModel>();
+    auto model = std::make_shared<ClothModel>(from);
+    model->anchor_count = static_cast<std::uint32_t>(attachments.size());
+    AlignedVector<Vec4> start(from.start.begin(), from.start.end());
+    std::fill(start.begin() + model->first_anchor(), start.begin() + model->room(), Vec4{});
+    if (auto placed = place_anchors(*model, attachments, start); !placed) return placed.errors();
+    model->start = std::move(start);
+    constexpr auto kind = ConstraintKind::attachment;
+    const RowList rows = attachment_rows(attachments, model->first_anchor());
+    model->constraints[static_cast<std::uint32_t>(kind)] =
+        pack_rows(kind, rows, model->room(), color_rows(kind, rows, model->room(), {}));
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

@@ -77,6 +77,7 @@ struct ClothModel {
     ClothReserve reserved = {};      ///< when it was built
     std::uint32_t reserve = 0;       ///< points behind the particles that can become particles
     std::uint32_t anchor_count = 0;  ///< points without weight behind those, which attachments hold on to
+    std::uint32_t anchor_room = 0;   ///< so many there can be
     std::uint32_t pinned_count = 0;
     SharedArray<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to capacity()
     SharedArray<float> mass;  ///< kg, per particle, pinned ones included
@@ -114,7 +115,9 @@ struct ClothModel {
     std::uint32_t first_anchor() const { return particle_count + reserve; }
     /// Particles, those to come, and anchors: what a step moves.
     std::uint32_t point_count() const { return first_anchor() + anchor_count; }
-    std::uint32_t capacity() const { return particle_capacity(point_count()); }
+    /// And the anchors to come.
+    std::uint32_t room() const { return first_anchor() + anchor_room; }
+    std::uint32_t capacity() const { return particle_capacity(room()); }
     Vec3 rest_position(std::uint32_t particle) const { return start[particle].xyz(); }
     /// Of particles, as the cloth starts; what they are later stands in ClothFrame.
     TriangleView triangles() const { return {faces.data(), face_stride, triangle_count}; }
@@ -167,6 +170,10 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
 /// constraints lose all stiffness or get some, other edges bend, by another model or from another angle, plates get
 /// another stiffness, or tethers are asked for in another way. Fails as build_cloth_model() does.
 Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, const Fabric& fabric);
+/// The same cloth with other springs in place of those that it has. All other arrays are shared with `from`, but for
+/// `start`. Null where there is no room for so many; fails as build_cloth_model() does.
+Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& from,
+                                                           const std::vector<Attachment>& attachments);
 /// Whether coarse levels or tethers would not be the same for both.
 bool limits_differ(const Fabric& a, const Fabric& b);
 

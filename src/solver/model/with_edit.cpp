@@ -167,6 +167,7 @@ class Editor {
 
     Result<Done> check_row(const OpenTable& open, const RowEdit& row) const {
         const std::string where = name_of(row);
+        if (row.kind == ConstraintKind::attachment) return Error{where, "comes of a pin: change the pins"};
         if (row.row >= open.table.stride || !is_there(open, row.row))
             return Error{where, "there is none of that number"};
         if (!(row.stiffness >= 0 && row.stiffness <= 1e6f))

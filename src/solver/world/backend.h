@@ -88,11 +88,13 @@ class Backend {
     /// A model by with_fabric() in place of the one that it has: the same rows, particles and pins, other numbers.
     /// What moved goes on moving, pinned particles stay pinned. Where it fails, all is as it was.
     virtual Result<Done> set_material(ClothHandle cloth, std::shared_ptr<const ClothModel> model) = 0;
-    /// A model by with_edit() in place of the one that it has, or the other way round: as many points, and as much room
-    /// for constraints. `copied`: particles of which the ones that it has more are copies, without weight. What moved
+    /// A model by with_edit() or with_attachments() in place of the one that it has, or the other way round: as much
+    /// room for points.  `copied`: particles of which the ones that it has more are copies, without weight. What moved
     /// goes on moving, pinned particles stay pinned. Where it fails, all is as it was.
     virtual Result<Done> set_topology(ClothHandle cloth, std::shared_ptr<const ClothModel> model,
                                       std::span<const std::uint32_t> copied) = 0;
+    /// Puts points from `first` on, which have no weight, to other places, at rest.
+    virtual Result<Done> place_points(ClothHandle cloth, std::uint32_t first, std::span<const Vec3> places) = 0;
     /// Changes inverse masses of single particles and nothing else.
     virtual Result<Done> set_weights(ClothHandle cloth, std::span<const ParticleWeight> changed) = 0;
     /// Advances the world by a frame; times of what runs side by side are shares of the time that passes. A device may

@@ -52,6 +52,10 @@ class World {
     /// are, those that are let go get their weight back. `pinned`: in any order, repetitions allowed. Tethers and
     /// coarse levels stay those of the model until set_model().
     Result<Done> set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds);
+    /// The same with springs: `attachments` in place of those that there are, with anchors at their places. False, and
+    /// nothing is changed, where the model has no room for so many.
+    Result<bool> set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds,
+                          const std::vector<Attachment>& attachments);
     /// Another model for the same particles and pins in a later frame, frames_to_build() from now: the same one on
     /// every run. Until then the cloth goes on with the model that it has. Dropped by another call for the same cloth,
     /// by set_model() and with the cloth. Where building fails, the cloth keeps its model.

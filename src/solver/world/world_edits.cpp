@@ -34,6 +34,35 @@ Result<Done> World::edit(ClothId id, const ClothEdit& edit) {
     return Done{};
 }
 
+Result<bool> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds,
+                             const std::vector<Attachment>& attachments) {
+    assert(contains(id));
+    settle();
+    Cloth& cloth = cloths_[cloths_.find(id)];
+    auto model = with_attachments(*cloth.model, attachments);
+    if (!model) return model.errors();
+    if (!*model) return false;
+    std::shared_ptr<const ClothModel> unedited;
+    if (cloth.unedited) {
+        auto other = with_attachments(*cloth.unedited, attachments);
+        if (!other) return other.errors();
+        unedited = std::move(*other);
+    }
+    std::vector<Vec3> places;
+    for (const Attachment& attachment : attachments) places.push_back(attachment.place);
+    if (auto set = backend_->set_topology(cloth.handle, *model, {}); !set) return set.errors();
+    if (auto placed = backend_->place_points(cloth.handle, (*model)->first_anchor(), places); !placed) {
+        (void)backend_->set_topology(cloth.handle, cloth.model, {});
+        return placed.errors();
+    }
+    cloth.model = std::move(*model);
+    cloth.unedited = std::move(unedited);
+    list_cloths();
+    replan();
+    if (auto set = set_pins(id, std::move(pinned), std::move(holds)); !set) return set.errors();
+    return true;
+}
+
 // The model that these edits lead to.
 Result<std::shared_ptr<const ClothModel>> World::edited_model(const Cloth& cloth, const std::vector<ClothEdit>& edits) {
     if (edits == cloth.edits) return cloth.model;
