@@ -130,8 +130,10 @@ class WEFT_API Simulation {
     /// fabric for some frames; they change in the same frame on every run.
     Result<Done> set_fabric(ClothId id, const FabricDesc& fabric);
     /// In place of those that it has. Particles are held where they are now; a box selects those that are in it now.
-    /// The cost is that of the particles concerned where no pin, old or new, has a compliance; otherwise the cloth's
-    /// model is built anew. Coarse levels and tethers follow some frames later, in the same frame on every run.
+    /// The cost is that of the particles concerned; where pins with a compliance come, go or change, springs are made
+    /// anew and the rest of the cloth's model is kept. It is built anew where more of these are added than it has room
+    /// for: eight more than it began with. Coarse levels and tethers follow some frames later, in the same frame on
+    /// every run.
     Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
     /// During the next frame the collider moves there from where it is, and takes cloth along; then it stays there.
     /// Rotation as in a scene, in degrees. Ends a motion by keys.

@@ -30,6 +30,19 @@ class SharedArray {
         owner_ = std::move(owner);
     }
 
+    SharedArray(const SharedArray&) = default;
+    SharedArray& operator=(const SharedArray&) = default;
+    SharedArray(SharedArray&& other) noexcept
+        : owner_(std::move(other.owner_)),
+          data_(std::exchange(other.data_, nullptr)),
+          size_(std::exchange(other.size_, 0)) {}
+    SharedArray& operator=(SharedArray&& other) noexcept {
+        owner_ = std::move(other.owner_);
+        data_ = std::exchange(other.data_, nullptr);
+        size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
+
     const T* data() const { return data_; }
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }

@@ -23,9 +23,10 @@ float distance(const Collider& collider, scalar::vec3 local) {
     return 0;
 }
 
-// Particles of a cloth that a thread works on.
+// Particles of a cloth that a thread works on: those that it has in all other passes, so that passes which touch their
+// own particles alone need no barrier between them.
 Share particles_of(const ClothState& cloth, Rank rank) {
-    Share share = rank.of(padded(cloth.model->particle_count));
+    Share share = rank.of(padded(cloth.model->point_count()));
     share.end = std::min(share.end, cloth.model->particle_count);
     return share;
 }
@@ -35,6 +36,8 @@ Share particles_of(const ClothState& cloth, Rank rank) {
 void AdhesionList::prepare(const ListContext& context) {
     std::uint32_t items = 0;
     first_item_.clear();
+    const ClothState& first = *context.cloths.front();
+    first_dummy_ = first.base + first_dummy(first.model->room());
     for (const ClothState* cloth : context.cloths) {
         first_item_.push_back(items);
         items += cloth->model->particle_count;
@@ -49,7 +52,7 @@ void AdhesionList::run(const ListContext& context, const Pass& pass, std::uint32
         case PassKind::find:
             return find(context, rank);
         case PassKind::place:
-            if (rank.number == 0) rows_.place();
+            if (rank.number == 0) rows_.place(first_dummy_);
             return;
         case PassKind::list:
             return list(context, rank);

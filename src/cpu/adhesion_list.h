@@ -46,6 +46,7 @@ class AdhesionList {
     DynamicList rows_;
     std::vector<Hold> holds_;
     std::vector<std::uint32_t> first_item_;  ///< by cloth
+    std::uint32_t first_dummy_ = 0;          ///< of the island's first cloth
     std::uint32_t wanted_capacity_ = 0;
 };
 

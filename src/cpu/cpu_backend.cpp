@@ -148,7 +148,7 @@ class CpuBackend final : public Backend {
         if (arrays_.size() < end) arrays_.resize(end);
     }
 
-    // An island whose list was too short goes back to where the frame began, and has another go with a longer one.
+    // An island whose list was too short goes back to where the frame began and runs the frame again with a longer one.
     void complete_lists(const WorldStep& step, cpu::Executor::Job& job) {
         while (job.adhesion->rows().is_full()) {
             for (cpu::ClothState* state : job.cloths) state->roll_back();

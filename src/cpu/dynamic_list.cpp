@@ -26,7 +26,7 @@ void DynamicList::prepare(ConstraintKind kind, std::uint32_t items, std::uint32_
     std::iota(items_.begin(), items_.end(), 0u);
 }
 
-void DynamicList::place() {
+void DynamicList::place(std::uint32_t first_dummy) {
     std::uint32_t sum = 0;
     for (std::size_t item = 0; item < found_.size(); ++item) {
         places_[item] = std::min(sum, capacity_);
@@ -38,9 +38,8 @@ void DynamicList::place() {
         const std::uint32_t begin = places_[item], end = places_[item + 1];
         for (std::uint32_t row = begin; row < end; ++row) share_[row] = 1.0f / static_cast<float>(end - begin);
     }
-    // Dummies stand at the beginning of the world.
     for (std::uint32_t row = rows(); row < padded(rows()); ++row) {
-        particles_[row] = dummy(0, 0, row);
+        particles_[row] = dummy(first_dummy, 0, row);
         for (std::size_t at = row; at < fields_.size(); at += stride_) fields_[at] = 0;
         share_[row] = 0;
     }

@@ -21,8 +21,9 @@ class DynamicList {
 
     /// Rows that each item has: who looks for rows writes them, before place().
     std::span<std::uint32_t> found() { return found_; }
-    /// Decides where each item's rows go. Rows that there is no room for have no place.
-    void place();
+    /// Decides where each item's rows go. Rows that there is no room for have no place. Padding acts on dummies from
+    /// `first_dummy` on.
+    void place(std::uint32_t first_dummy);
     /// Where rows [first_row(item), first_row(item + 1)) of an item lie.
     std::uint32_t first_row(std::uint32_t item) const { return places_[item]; }
     /// Number of the only particle of a row.

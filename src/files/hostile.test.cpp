@@ -186,7 +186,7 @@ TEST(HostileSimulation, states_that_nobody_saved) {
     EXPECT_EQ(refusal(std::span(whole).first(whole.size() / 2)), "state: is damaged: its checksum does not fit");
     std::vector<std::byte> later = whole;
     later[4] = std::byte{77};
-    EXPECT_EQ(refusal(later), "state: has version 77, this weft reads 3");
+    EXPECT_EQ(refusal(later), "state: has version 77, this weft reads 4");
     EXPECT_EQ(refusal(whole), "none");
 }
 

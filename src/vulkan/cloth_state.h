@@ -48,6 +48,7 @@ class ClothState {
     const ModelBuffers& buffers() const { return *buffers_; }
     /// Whether no other cloth has them.
     bool owns_buffers() const { return buffers_.use_count() == 1; }
+    const std::shared_ptr<ModelBuffers>& shared_buffers() const { return buffers_; }
     const Arena& arena() const { return arena_; }
     std::uint64_t address(Slot slot) const { return arena_.address(slot); }
     /// Of the cloth's first particle.

@@ -245,7 +245,7 @@ Result<std::string> FrameRun::replay(std::size_t member) {
     Result<std::string> found = std::string(late_non_finite);
     run_through(plan.check, plan.repeat, [&](std::size_t i, std::uint32_t substep) {
         const Command& command = plan.commands[i];
-        if (auto done = run(command, substep); !done) return found = done.errors(), false;
+        if (auto done = run(command, substep, member); !done) return found = done.errors(), false;
         if (command.pass.kind == PassKind::damp) return true;
         const auto place = download_place(cloth);
         if (!place) return found = place.errors(), false;
@@ -258,11 +258,12 @@ Result<std::string> FrameRun::replay(std::size_t member) {
 }
 
 // One command by itself.
-Result<Done> FrameRun::run(const Command& command, std::uint32_t substep) {
+Result<Done> FrameRun::run(const Command& command, std::uint32_t substep, std::size_t member) {
     Result<Done> recorded = Done{};
     auto done = gpu::run_once(device_, [&](gpu::Commands& now) {
         if (command.pass.source == RowSource::dynamic) {
-            recorded = adhesion_->record(now, command.pass, command.substep + substep);
+            recorded =
+                adhesion_->record(now, command.pass, command.substep + substep, static_cast<std::uint32_t>(member));
         } else {
             record(now, command, substep, device_.limits());
         }
@@ -280,7 +281,7 @@ Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInpu
     auto found = replay(member);
     // The report still says that the frame was not finite, so this goes back.
     const CompiledPlan& plan = plans_[member];
-    if (auto done = run(plan.commands[plan.roll_back], 0); !done) return done.errors();
+    if (auto done = run(plan.commands[plan.roll_back], 0, member); !done) return done.errors();
     if (auto updated = cloth.update_normals(); !updated) return updated.errors();
     return found;
 }

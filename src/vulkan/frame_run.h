@@ -87,7 +87,7 @@ class FrameRun {
     Result<Done> end_recording();
     Result<Place> download_place(const Cloth& cloth) const;
     Result<std::string> replay(std::size_t member);
-    Result<Done> run(const Command& command, std::uint32_t substep);
+    Result<Done> run(const Command& command, std::uint32_t substep, std::size_t member);
     const std::string& name() const { return members_.front().cloth->model().name; }
 
     gpu::Device& device_;

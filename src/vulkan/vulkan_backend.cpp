@@ -91,13 +91,14 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         vulkan::ClothState& state = cloth(handle).state();
         // Commands that are recorded already have numbers of the fabric in them.
         forget_runs(cloth(handle));
-        if (!state.owns_buffers()) {
+        if (!state.owns_buffers() || models_[model.get()].lock()) {
             auto buffers = buffers_of(std::move(model));
             return buffers ? state.set_material(*device_, std::move(*buffers)) : Result<Done>(buffers.errors());
         }
-        const auto known = models_.extract(&state.model());
-        auto done = state.set_material(*device_, model);
-        models_[&state.model()] = known.mapped();
+        const std::weak_ptr<ModelBuffers> mine = state.shared_buffers();
+        models_.erase(&state.model());
+        auto done = state.set_material(*device_, std::move(model));
+        models_[&state.model()] = mine;
         return done;
     }
 
@@ -309,6 +310,10 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         const auto value = (*run)->submit(step.input, group.steps);
         if (!value) return fail(group, value.error());
         group.run = *run;
+        mark_changed(step, group);
+    }
+
+    void mark_changed(const WorldStep& step, const Group& group) const {
         const auto& end = step.plan->frame_end;
         const bool normals = std::ranges::find(end, PassKind::normals, &Pass::kind) != end.end();
         for (const ClothStep* one : group.steps) cloth(one->cloth).changed(normals);
@@ -336,13 +341,16 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     bool complete_lists(Group& group) {
         while (group.run->list_was_full()) {
             ++counts_.repeats;
+            const std::uint32_t before = list_capacity_;
             list_capacity_ = grown_list_capacity(group.run->adhesion()->wanted());
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
             auto run = find_run(*step_, group);
+            if (!run) list_capacity_ = before;  // there may be less to list in the next frame
             if (!run) return fail(group, run.error()), false;
             const auto value = (*run)->submit(step_->input, group.steps, true);
             if (!value) return fail(group, value.error()), false;
+            mark_changed(*step_, group);
             if (auto done = device_->wait(*value); !done) return fail(group, done.error()), false;
             group.run = *run;
         }

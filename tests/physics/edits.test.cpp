@@ -87,7 +87,7 @@ TEST(Edits, cut_a_sheet_in_two) {
         ASSERT_TRUE(world.edit(id, cut_in_two(*model)).ok());
         expect_two_pieces(*world.model(id));
         EXPECT_NEAR(halves(world).mass, mass, 1e-6 * mass);
-        EXPECT_EQ(cloth_of(world).topology_version, first_topology_version + 1);
+        EXPECT_GT(cloth_of(world).topology_version, first_topology_version);
         EXPECT_EQ(cloth_of(world).positions.size(), side * side + side);
         EXPECT_EQ(cloth_of(world).render_mesh().positions.size(), side * side + side);
         EXPECT_EQ(cloth_of(world).render_mesh().triangles.size(), model->triangle_count);
@@ -135,7 +135,7 @@ TEST(Edits, go_on_with_the_same_bits_after_a_restore) {
     const auto torn = snapshot_from_bytes(bytes);
     ASSERT_TRUE(torn.ok());
     ASSERT_TRUE(other.restore(*torn).ok());
-    EXPECT_EQ(cloth_of(other).topology_version, first_topology_version + 1);
+    EXPECT_GT(cloth_of(other).topology_version, first_topology_version);
     run(other, 0.3);
     EXPECT_EQ(other.state_hash(), world.state_hash());
 
@@ -206,6 +206,7 @@ TEST(Edits, end_and_weaken_single_constraints_and_triangles) {
 
     const auto holed = with_edit(*model, {.triangles = {{.triangle = 5, .corners = {0, 1, 2}, .alive = 0}}});
     ASSERT_TRUE(holed.ok());
+    EXPECT_FALSE(with_edit(**holed, {.triangles = {{.triangle = 5, .corners = {0, 1, 2}}}}).ok()) << "gone for good";
     double before = 0, after = 0;
     for (std::uint32_t p = 0; p < model->particle_count; ++p) before += model->mass[p], after += (*holed)->mass[p];
     EXPECT_NEAR(before - after, model->fabric.body.density * model->face_area[5], 1e-6);
@@ -233,6 +234,8 @@ TEST(Edits, that_cannot_be_are_refused_and_change_nothing) {
         {.rows = {stretch(0, ends[0], ends[1], nan)}},
         {.rows = {stretch(0, ends[0], ends[1], -1)}},
         {.rows = {stretch(0, ends[1], ends[0])}},
+        {.rows = {stretch(0, ends[0], ends[1], 1e-30f)}},
+        {.added = {stretch(0, 5, 5)}},
         {.added = {stretch(0, 0, 5), stretch(0, 0, 6)}},
         {.added = {stretch(0, 0, 5, 0)}},
         {.added = {stretch(0, 0, 100'000)}},

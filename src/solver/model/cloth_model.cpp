@@ -50,7 +50,7 @@ Result<Done> place_anchors(const ClothModel& model, const std::vector<Attachment
     return Done{};
 }
 
-// A hand or two that pull at a cloth need no other model.
+// Room for some springs that are added while the cloth moves, such as those of a mouse that pulls at it.
 constexpr std::uint32_t spare_anchors = 8;
 
 void lay_out_faces(ClothModel& model, const RestShape& rest) {

@@ -2,8 +2,6 @@
 
 #include "physics/change_rows.h"
 
-#include "physics/change_rows.h"
-
 namespace weft {
 namespace {
 

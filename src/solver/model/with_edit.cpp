@@ -4,10 +4,15 @@
 #include "solver/model/masses.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <string>
 
 namespace weft {
 namespace {
+
+// Two edits never lead to the same number, whichever cloth and world they are of.
+std::atomic<std::uint64_t> versions = first_topology_version;
 
 std::string text(std::uint32_t number) {
     return std::to_string(number);
@@ -50,7 +55,9 @@ class Editor {
                 "has a render mesh of its own, or vertices that share a particle: its triangles cannot change"};
         if (auto done = append(edit.appended); !done) return done.errors();
         if (auto done = set_triangles(edit.triangles); !done) return done.errors();
-        if (reshaped) reshape();
+        if (reshaped) {
+            if (auto done = reshape(); !done) return done.errors();
+        }
         for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
             if (auto done = change_table(static_cast<ConstraintKind>(kind), edit); !done) return done.errors();
         }
@@ -75,6 +82,7 @@ class Editor {
         AlignedVector<float> mass(model_->mass.begin(), model_->mass.end());
         for (std::size_t i = 0; i < sources.size(); ++i) {
             start[model_->particle_count + i] = start[sources[i]];
+            start[model_->particle_count + i].w = 1 / mass[sources[i]];  // not pinned
             mass.push_back(mass[sources[i]]);
         }
         model_->start = std::move(start);
@@ -95,9 +103,11 @@ class Editor {
                 return Error{where, "there are only " + text(model_->triangle_count)};
             for (const std::uint32_t corner : corners)
                 if (auto known = check_particle(where, corner); !known) return known;
+            const auto [a, b, c] = model_->triangles()[triangle];
+            if (a == b) return Error{where, "is gone already"};
             if (alive && (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]))
                 return Error{where, "must have three different corners"};
-            // One that is gone is a point: nothing draws it, and air passes.
+            // A triangle that is gone has one corner three times: it has no area to draw or to catch air with.
             for (std::uint32_t k = 0; k < 3; ++k)
                 faces[std::size_t{k} * model_->face_stride + triangle] = alive ? corners[k] : corners[0];
             if (!alive) area[triangle] = 0;
@@ -108,7 +118,7 @@ class Editor {
     }
 
     // What follows from triangles.
-    void reshape() {
+    Result<Done> reshape() {
         const ClothModel& model = *model_;
         auto around = group_items<std::uint32_t>(model.particle_count, [&](auto put) {
             for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
@@ -127,12 +137,14 @@ class Editor {
             if (offsets[p] == offsets[p + 1]) mass[p] = model.mass[p];
             start[p].w = start[p].w > 0 ? 1 / mass[p] : 0;
         }
+        if (auto weighed = check_masses(mass); !weighed) return weighed;
         model_->mass = std::move(mass);
         model_->start = std::move(start);
         model_->hierarchy = {};
         model_->pin_spans = {};
         model_->reset_mesh();
-        ++model_->topology_version;
+        model_->topology_version = ++versions;
+        return Done{};
     }
 
     Result<Done> change_table(ConstraintKind kind, const ClothEdit& edit) {
@@ -167,11 +179,13 @@ class Editor {
 
     Result<Done> check_row(const OpenTable& open, const RowEdit& row) const {
         const std::string where = name_of(row);
-        if (row.kind == ConstraintKind::attachment) return Error{where, "comes of a pin: change the pins"};
+        if (row.kind == ConstraintKind::attachment) return Error{where, "belongs to a pin: change the pins instead"};
         if (row.row >= open.table.stride || !is_there(open, row.row))
             return Error{where, "there is none of that number"};
-        if (!(row.stiffness >= 0 && row.stiffness <= 1e6f))
-            return Error{where, "stiffness must be 0 to 1e6 times what it is"};
+        if (row.stiffness != 0 && !(row.stiffness >= 1e-6f && row.stiffness <= 1e6f))
+            return Error{where, "stiffness must be 0, or 1e-6 to 1e6 times what it is"};
+        for (std::uint32_t slot = 1; slot < open.table.arity; ++slot)
+            if (row.particles[slot] == row.particles[slot - 1]) return Error{where, "must have different ends"};
         const bool scales = row.kind == ConstraintKind::stretch || row.kind == ConstraintKind::bend;
         if (!scales && row.stiffness != 0 && row.stiffness != 1)
             return Error{where, "can be there or not: its stiffness must be 0 or 1 times what it is"};
@@ -279,7 +293,11 @@ class Editor {
                                 .fields = open.fields.data()};
         if (open.table.kind == ConstraintKind::stretch) (void)change_stretch(rows, model_->fabric.stretch);
         if (open.table.kind == ConstraintKind::bend) (void)change_bend(rows, model_->fabric.bend);
-        return Done{};
+        const auto unsound = std::ranges::find_if_not(open.fields, [](float field) { return std::isfinite(field); });
+        if (unsound == open.fields.end()) return Done{};
+        const auto row = static_cast<std::size_t>(unsound - open.fields.begin()) % open.table.stride;
+        return Error{std::string(constraint_info(open.table.kind).name) + " constraint " + std::to_string(row),
+                     "would have no finite compliance: its ends coincide at rest, or its stiffness is out of range"};
     }
 
     std::shared_ptr<ClothModel> model_;

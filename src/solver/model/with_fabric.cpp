@@ -50,8 +50,13 @@ bool change_bending(ClothModel& model, const BendMaterial& material) {
     return false;
 }
 
-Result<Done> change_masses(ClothModel& model, float density) {
-    model.mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
+Result<Done> change_masses(ClothModel& model, float before_density, float density) {
+    const SharedArray<float> before = model.mass;
+    const float ratio = density / before_density;
+    AlignedVector<float> mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
+    for (std::uint32_t p = 0; p < model.particle_count; ++p)
+        if (!(mass[p] > 0)) mass[p] = before[p] * ratio;  // it has lost its triangles (cloth_edit.h)
+    model.mass = std::move(mass);
     if (auto weighed = check_masses(model.mass); !weighed) return weighed;
     AlignedVector<Vec4> start(model.start.begin(), model.start.end());
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
@@ -85,7 +90,7 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     if (!same_stretch && !change_table(*model, ConstraintKind::stretch, change_stretch, stretch)) return other_rows;
     if (!same_bend && !change_bending(*model, fabric.bend)) return other_rows;
     if (!same_density)
-        if (auto changed = change_masses(*model, density); !changed) return changed.errors();
+        if (auto changed = change_masses(*model, from.fabric.body.density, density); !changed) return changed.errors();
     model->elasticity = elasticity_of(stretch, density, from.extent);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }

@@ -18,18 +18,19 @@ struct ListCounts {
     friend bool operator==(const ListCounts&, const ListCounts&) = default;
 };
 
+inline constexpr std::uint32_t most_list_rows = 1u << 30;
+
 /// Rows that a new list has room for. It depends on nothing but the settings: a list that is too short costs a frame
 /// that is run twice, and no bit of a result depends on how long it is.
 constexpr std::uint32_t first_list_capacity(std::uint32_t wanted) {
-    return std::max(wanted, 16u);
+    return std::clamp(wanted, 16u, most_list_rows);
 }
 inline constexpr std::uint32_t default_list_capacity = 1024;
 
 /// After a frame that wanted so many: half as many again, so that a list that grows slowly does not run every frame
 /// twice.
 constexpr std::uint32_t grown_list_capacity(std::uint64_t wanted) {
-    constexpr std::uint64_t most = std::uint64_t{1} << 30;
-    return static_cast<std::uint32_t>(std::min(wanted + wanted / 2, most));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted + wanted / 2, most_list_rows));
 }
 
 }  // namespace weft

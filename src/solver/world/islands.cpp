@@ -28,7 +28,7 @@ std::vector<std::vector<std::uint32_t>> group_islands(std::uint32_t count,
     return groups;
 }
 
-LinkTables make_links(std::span<const PlacedStitch> stitches) {
+LinkTables make_links(std::span<const PlacedStitch> stitches, std::uint32_t first_dummy) {
     LinkTables tables;
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
         tables[kind].kind = static_cast<ConstraintKind>(kind);
@@ -48,7 +48,7 @@ LinkTables make_links(std::span<const PlacedStitch> stitches) {
         p = static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, p) - numbers.begin());
     const Coloring coloring = color_rows(particles, rows.arity, static_cast<std::uint32_t>(numbers.size()));
     tables[static_cast<std::uint32_t>(ConstraintKind::stitch)] =
-        pack_rows_with_dummies(ConstraintKind::stitch, rows, 0, coloring);
+        pack_rows_with_dummies(ConstraintKind::stitch, rows, first_dummy, coloring);
     return tables;
 }
 

@@ -25,12 +25,13 @@ struct Stitch {
 std::vector<std::vector<std::uint32_t>> group_islands(std::uint32_t count,
                                                       std::span<const std::array<std::uint32_t, 2>> ties);
 
-/// Stitches between particles that are numbered over the world, with dummies at the beginning of it. Those of a point
-/// to itself are left out. In the order of the list, so that the bits do not depend on anything else.
+/// Stitches between particles that are numbered over the world. Padding acts on dummies from `first_dummy` on, which
+/// must be the island's own: islands are projected side by side. Those of a point to itself are left out. In the order
+/// of the list, so that the bits do not depend on anything else.
 struct PlacedStitch {
     StitchPoint from, to;
     float gap = 0, compliance = 0;
 };
-LinkTables make_links(std::span<const PlacedStitch> stitches);
+LinkTables make_links(std::span<const PlacedStitch> stitches, std::uint32_t first_dummy);
 
 }  // namespace weft

@@ -28,7 +28,7 @@ TEST(Links, of_one_color_share_no_particle) {
     std::vector<PlacedStitch> stitches;
     for (std::uint32_t i = 0; i < 40; ++i)
         stitches.push_back({.from = {{200 + i, 201 + i, 300}, {0.5f, 0.5f, 0}}, .to = {{400 + i, 0, 0}, {1, 0, 0}}});
-    const LinkTables tables = make_links(stitches);
+    const LinkTables tables = make_links(stitches, 0);
     const ConstraintTable& table = tables[static_cast<std::uint32_t>(ConstraintKind::stitch)];
     EXPECT_EQ(table.rows, 40u);
     std::uint32_t real = 0;
@@ -49,7 +49,7 @@ TEST(Links, of_one_color_share_no_particle) {
 }
 
 TEST(Links, of_points_to_themselves_are_none) {
-    const LinkTables tables = make_links(std::vector<PlacedStitch>{{.from = {{120, 0, 0}}, .to = {{120, 0, 0}}}});
+    const LinkTables tables = make_links(std::vector<PlacedStitch>{{.from = {{120, 0, 0}}, .to = {{120, 0, 0}}}}, 0);
     for (const ConstraintTable& table : tables) EXPECT_TRUE(table.batches.empty());
 }
 

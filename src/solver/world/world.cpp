@@ -108,11 +108,11 @@ Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> mode
 Result<Done> World::set_material(ClothId id, std::shared_ptr<const ClothModel> model) {
     assert(contains(id));
     settle();
-    pending_.drop(id);
     Cloth& cloth = cloths_[cloths_.find(id)];
     auto unedited = with_fabric_unedited(cloth, *model);
     if (!unedited) return unedited.errors();
     if (auto set = backend_->set_material(cloth.handle, model); !set) return set;
+    pending_.drop(id);
     cloth.unedited = std::move(*unedited);
     // Of a fabric, plans know nothing but whether it damps.
     const bool same_passes = (cloth.model->fabric.body.damping > 0) == (model->fabric.body.damping > 0);
@@ -203,6 +203,7 @@ void World::remove(ColliderId id) {
 
 void World::set_friction(ColliderId id, std::array<float, 2> friction) {
     assert(contains(id));
+    complete();  // the frame that runs has the friction that it began with
     colliders_[colliders_.find(id)].friction = friction;
 }
 
@@ -302,7 +303,8 @@ void World::make_islands() {
                 {in_world(stitch.from, stitch.a), in_world(stitch.to, stitch.b), stitch.gap, stitch.compliance});
     }
     for (std::size_t i = 0; i < islands_.size(); ++i) {
-        islands_[i].links = make_links(placed[i]);
+        const Cloth& first = cloths_[islands_[i].cloths.front()];
+        islands_[i].links = make_links(placed[i], first.base + first_dummy(first.model->room()));
         islands_[i].linked = !placed[i].empty();
     }
 }

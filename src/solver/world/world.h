@@ -59,7 +59,7 @@ class World {
     /// Another model for the same particles and pins in a later frame, frames_to_build() from now: the same one on
     /// every run. Until then the cloth goes on with the model that it has. Dropped by another call for the same cloth,
     /// by set_model() and with the cloth. Where building fails, the cloth keeps its model.
-    /// Nothing happens to a cloth that has been edited: the model would not be torn.
+    /// Does nothing for a cloth that has been edited: the new model would not have the edits.
     void rebuild_later(ClothId id, BuildModel build);
     /// Changes single constraints, triangles and particles, within what the model has in reserve; what moves goes on
     /// moving. Coarse levels go where triangles or particles change. Part of the state until set_model().

@@ -24,7 +24,10 @@ Result<Done> World::edit(ClothId id, const ClothEdit& edit) {
     std::vector<ParticleWeight> copies;
     for (std::uint32_t p = cloth.model->particle_count; p < (*model)->particle_count; ++p)
         copies.push_back({p, 1 / (*model)->mass[p]});
-    if (auto set = backend_->set_weights(cloth.handle, copies); !set) return set;
+    if (auto set = backend_->set_weights(cloth.handle, copies); !set) {
+        (void)backend_->set_topology(cloth.handle, cloth.model, {});
+        return set;
+    }
     if (!cloth.unedited) cloth.unedited = cloth.model;
     cloth.edits.push_back(edit);
     cloth.model = std::move(*model);
@@ -50,16 +53,24 @@ Result<bool> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Hold
     }
     std::vector<Vec3> places;
     for (const Attachment& attachment : attachments) places.push_back(attachment.place);
+    const auto before = cloth.model;
+    const ClothSnapshot state = backend_->save(cloth.handle);
+    const auto go_back = [&](const Errors& errors) {
+        (void)backend_->set_topology(cloth.handle, before, {});
+        (void)backend_->restore(cloth.handle, state);
+        cloth.model = before;
+        list_cloths();
+        replan();
+        return errors;
+    };
     if (auto set = backend_->set_topology(cloth.handle, *model, {}); !set) return set.errors();
-    if (auto placed = backend_->place_points(cloth.handle, (*model)->first_anchor(), places); !placed) {
-        (void)backend_->set_topology(cloth.handle, cloth.model, {});
-        return placed.errors();
-    }
+    if (auto placed = backend_->place_points(cloth.handle, (*model)->first_anchor(), places); !placed)
+        return go_back(placed.errors());
     cloth.model = std::move(*model);
-    cloth.unedited = std::move(unedited);
     list_cloths();
     replan();
-    if (auto set = set_pins(id, std::move(pinned), std::move(holds)); !set) return set.errors();
+    if (auto set = set_pins(id, std::move(pinned), std::move(holds)); !set) return go_back(set.errors());
+    cloth.unedited = std::move(unedited);
     return true;
 }
 
@@ -90,7 +101,9 @@ Result<Done> World::set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits,
 // What a cloth was before its edits, of the fabric of `model`; none without edits.
 Result<std::shared_ptr<const ClothModel>> World::with_fabric_unedited(const Cloth& cloth, const ClothModel& model) {
     if (!cloth.unedited) return std::shared_ptr<const ClothModel>();
-    auto changed = with_fabric(*cloth.unedited, model.fabric);
+    Fabric fabric = model.fabric;
+    fabric.tether.use = cloth.unedited->tethers_asked;
+    auto changed = with_fabric(*cloth.unedited, fabric);
     if (changed && !*changed)
         return Error{"cloth '" + model.name + "'", "has been edited, and this fabric needs other constraints"};
     return changed;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t word = sizeof(std::uint32_t);
 
 // The layout that GLSL has.
-static_assert(sizeof(ListMemberIn) == 48 && sizeof(ListArgs) == 104);
+static_assert(sizeof(ListMemberIn) == 48 && sizeof(ListArgs) == 112);
 
 }  // namespace
 
@@ -32,8 +32,10 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
                         .first = static_cast<std::uint32_t>(items),
                         .unused0 = 0,
                         .unused1 = 0});
+        self->first_item_.push_back(static_cast<std::uint32_t>(items));
         items += member.particles;
     }
+    self->first_item_.push_back(static_cast<std::uint32_t>(items));
     if (items > most_elements) return too_many(items, "particles that may stick");
     const auto& info = constraint_info(ConstraintKind::adhesion);
     const std::uint64_t stride = padded(capacity);
@@ -68,7 +70,9 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
                    .substep = 0,
                    .mean = plan.method == Method::pbd ? 1u : 0u,
                    .group = (*rows)->workgroup(),
-                   .widest = device.limits().workgroup_count[0]};
+                   .widest = device.limits().workgroup_count[0],
+                   .first = 0,
+                   .end = static_cast<std::uint32_t>(items)};
     // No fabric says how stiff these are as plain constraints: they are full ones.
     self->rows_ = {.position = position,
                    .velocity = 0,
@@ -120,9 +124,11 @@ Result<Done> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass
     return Done{};
 }
 
-Result<Done> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
+Result<Done> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
+                                  std::uint32_t member) const {
     ListArgs args = args_;
     args.substep = substep;
+    if (member != none) args.first = first_item_[member], args.end = first_item_[member + 1];
     switch (pass.kind) {
         case PassKind::find:
             return run(commands, "find_adhesion", args, args.items);
@@ -140,7 +146,7 @@ Result<Done> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std
         case PassKind::correct:
             return record_rows(commands, pass, substep);
         default:
-            return run(commands, "list_gather", args, args.items);
+            return run(commands, "list_gather", args, args.end - args.first);
     }
 }
 

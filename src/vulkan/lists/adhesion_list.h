@@ -32,8 +32,10 @@ class AdhesionList {
                                                         std::uint64_t limits, std::uint32_t capacity,
                                                         const std::string& name);
 
-    /// One of the passes with RowSource::dynamic, behind a barrier.
-    Result<Done> record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const;
+    /// One of the passes with RowSource::dynamic, behind a barrier. `member`: moves particles of that one alone;
+    /// `none`: of all.
+    Result<Done> record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
+                        std::uint32_t member = none) const;
     /// At the end of a frame, for wanted().
     void record_end(gpu::Commands& commands) const;
 
@@ -51,6 +53,7 @@ class AdhesionList {
     gpu::Device& device_;
     Programs& programs_;
     const WorldPlan& plan_;
+    std::vector<std::uint32_t> first_item_;  ///< by member, and the end
     ListArgs args_{};
     RowArgs rows_{};  ///< but for what a pass says
     Arena arena_;

@@ -46,6 +46,8 @@ struct ListArgs {
     uint mean;      // 1: an item takes the sum of its rows divided by their number
     uint group;     // rows of a workgroup
     uint widest;    // workgroups along an axis at most
+    uint first;     // of gather: items [first, end)
+    uint end;
 };
 
 #ifdef __cplusplus

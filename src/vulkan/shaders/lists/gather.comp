@@ -5,8 +5,8 @@
 
 void main()
 {
-    uint item = invocation();
-    if (item >= list.items) return;
+    uint item = list.first + invocation();
+    if (item >= list.end) return;
     uint begin = first_row(item), end = first_row(item + 1u);
     if (begin == end) return;
     vec3 sum = vec3(0.0);
