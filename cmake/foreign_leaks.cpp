@@ -1,6 +1,6 @@
-// Linked into every program under the address sanitizer: memory that others lose is not ours to answer for. Assimp
-// loses some when it gives up on a damaged file; Vulkan drivers and layers hold theirs to the end. What is unloaded
-// has no name any more that a suppression could match, so nothing is unloaded.
+// Linked into every program under the address sanitizer, to ignore leaks of other libraries. Assimp leaks when it
+// rejects a damaged file; Vulkan drivers and layers keep memory until the end. Suppressions match names of loaded
+// libraries only, so dlclose() does nothing.
 #define WEFT_SEEN_BY_ALL extern "C" __attribute__((visibility("default")))
 
 WEFT_SEEN_BY_ALL int dlclose(void*) {

@@ -1,5 +1,5 @@
-# find_package(weft) and find_package(weft COMPONENTS core io) read this. weft::core is always there; weft::weft is all that
-# is installed.
+# Read by find_package(weft) and find_package(weft COMPONENTS core io). weft::core always exists; weft::weft contains
+# all installed components.
 include(${CMAKE_CURRENT_LIST_DIR}/weft-core-targets.cmake)
 set(weft_core_FOUND TRUE)
 set(weft_io_FOUND FALSE)

@@ -1,5 +1,5 @@
-# What `cmake --install` puts in place. Whoever links these libraries needs no other package: their own dependencies are
-# behind them.
+# What `cmake --install` installs. Programs that link these libraries need no other packages, because the libraries
+# contain or load their own dependencies.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -17,7 +17,7 @@ foreach(component ${components})
     install(EXPORT weft-${component} FILE weft-${component}-targets.cmake NAMESPACE weft:: DESTINATION ${package})
 endforeach()
 install(DIRECTORY include/weft DESTINATION include PATTERN vulkan.h EXCLUDE)
-if(WEFT_VULKAN)   # the only one that needs Vulkan's headers, for those who include it
+if(WEFT_VULKAN)   # the only header that includes Vulkan's headers
     install(FILES include/weft/vulkan.h DESTINATION include/weft)
 endif()
 if(WEFT_APPS)

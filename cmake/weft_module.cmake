@@ -1,48 +1,64 @@
-# One static library per folder of src/, from every .cpp in it. Files named *.test.cpp go into that folder's own test
-# program. FOLDER names a folder that is not called as the library; WITHOUT names folders below it that have a library of
-# their own. A new constraint, exporter or shape is therefore a file in its folder and nothing here.
+# One static library per folder of src/, from all of its .cpp files. Files named *.test.cpp go into the test program of
+# the folder. FOLDER names a folder with another name than the library; WITHOUT names subfolders that have their own
+# library. A new constraint, exporter or shape is a file in its folder and needs no change here.
 
 find_package(Threads REQUIRED)
 
-# All of it goes into one shared library, which shows nothing but what is marked WEFT_API.
+# All modules go into one shared library, which exports only symbols marked WEFT_API.
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-# How every target is compiled.
+# Compiler options of all targets.
 add_library(weft_flags INTERFACE)
 target_compile_features(weft_flags INTERFACE cxx_std_20)
 target_compile_options(weft_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
     # No silent fused multiply-add: the same source must give the same bits on every instruction set.
     -ffp-contract=off
-    # GCC 12 sees overlaps in std::string's own code (its bug 105651).
+    # GCC 12 reports false overlaps in std::string (its bug 105651).
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+# Included headers take most of the time to compile a file. Files that are compiled together share them. Names in their
+# unnamed namespaces must differ.
+if(WEFT_UNITY)
+    set(CMAKE_UNITY_BUILD ON)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+    # A local name may equal a constant in another file, and GCC takes classes of a .cpp file for classes of a header.
+    # Builds without unity have these warnings.
+    target_compile_options(weft_flags INTERFACE -Wno-shadow
+        $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(WEFT_SANITIZE)
     target_compile_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE} -fno-omit-frame-pointer
         -fno-sanitize-recover=all
-        # Instrumented code confuses this one, in the standard library's own headers.
+        # Instrumented code causes false warnings in headers of the standard library.
         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    if(WEFT_SANITIZE MATCHES undefined AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+        # GCC compiles twice as long with these. The address sanitizer finds most of the same errors; the preset `fuzz`,
+        # with clang, has all of them.
+        target_compile_options(weft_flags INTERFACE
+            -fno-sanitize=null,vptr,object-size,pointer-overflow,alignment)
+    endif()
     target_link_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE})
 endif()
-if(WEFT_FUZZ)   # every file counts the paths taken; the fuzzers alone have the loop that tries inputs
+if(WEFT_FUZZ)   # all files are instrumented; only the fuzzers have libFuzzer's main loop
     target_compile_options(weft_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# ccache stores nothing that was compiled with precompiled headers unless it is told to trust them.
+# ccache does not cache files with precompiled headers unless it is told to trust them.
 if(WEFT_PCH AND "${CMAKE_CXX_COMPILER_LAUNCHER}" MATCHES "ccache")
     list(PREPEND CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros)
     target_compile_options(weft_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
 
-# And what sees the inside of the house.
+# For targets that include internal headers.
 add_library(weft_options INTERFACE)
 target_link_libraries(weft_options INTERFACE weft_flags)
 target_include_directories(weft_options INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
 target_compile_definitions(weft_options INTERFACE WEFT_VERSION="${PROJECT_VERSION}")
 
-# Every program says this of itself: under the address sanitizer what libraries and drivers lose is not its
-# own (foreign_leaks.cpp).
+# Linked into every program: ignores leaks of third-party libraries and drivers under the address sanitizer
+# (foreign_leaks.cpp).
 if(WEFT_SANITIZE MATCHES address)
     add_library(weft_foreign_leaks OBJECT ${PROJECT_SOURCE_DIR}/cmake/foreign_leaks.cpp)
 endif()
@@ -52,8 +68,8 @@ function(weft_program name)
     endif()
 endfunction()
 
-# weft_precompile(<target> <group> <header>…): the first target of a group compiles these headers, the others take them
-# from it. All targets of a group must have the same flags.
+# weft_precompile(<target> <group> <header>…): the first target of a group compiles these headers, the others reuse the
+# result. All targets of a group must have the same flags.
 function(weft_precompile name group)
     if(NOT WEFT_PCH)
         return()
@@ -65,22 +81,22 @@ function(weft_precompile name group)
         set_property(GLOBAL PROPERTY weft_precompiled_${group} ${name})
         target_precompile_headers(${name} PRIVATE ${ARGN})
     endif()
-    # GCC 12 warns of the standard library's own strings, once they are precompiled. `cmake --preset core` is without
-    # precompiled headers and has these warnings.
+    # GCC 12 gives false warnings for the standard library's strings once they are precompiled. `cmake --preset core`
+    # has no precompiled headers and keeps these warnings.
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND NOT group MATCHES tests)
         target_compile_options(${name} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     endif()
 endfunction()
 
-# What most files of a library include, and with it nlohmann's JSON, whose header takes a second, for those that use it.
+# Headers that most files of a library include, plus nlohmann's JSON, which takes a second to compile, for its users.
 set(weft_library_headers <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional> <limits> <memory>
     <numbers> <optional> <random> <span> <string> <string_view> <utility> <vector>)
 function(weft_precompile_json name)
     weft_precompile(${name} json ${weft_library_headers} <iostream> <nlohmann/json.hpp>)
 endfunction()
 
-# weft_discover_tests(<program> <source>… [PREFIX text] [FILTER gtest-filter] [LABELS label…] [ENVIRONMENT …]): one test
-# of CTest for each of GoogleTest, with the labels that LABELS and comments in the sources give it
+# weft_discover_tests(<program> <source>… [PREFIX text] [FILTER gtest-filter] [LABELS label…] [ENVIRONMENT …]): makes
+# one CTest test per GoogleTest test, with the labels from LABELS and from comments in the sources
 # (cmake/weft_test_labels.cmake).
 function(weft_discover_tests name)
     cmake_parse_arguments(ARG "" "PREFIX;FILTER" "SOURCES;LABELS;ENVIRONMENT" ${ARGN})
@@ -102,8 +118,8 @@ include("@PROJECT_SOURCE_DIR@/cmake/weft_test_labels.cmake")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${file})
 endfunction()
 
-# weft_test(<program> [WORLD] SOURCES <file>… LINK <library>… [LABELS label…]). WORLD: most of the files run a World, whose
-# header is precompiled with the others.
+# weft_test(<program> [WORLD] SOURCES <file>… LINK <library>… [LABELS label…]). WORLD: most of the files use a World,
+# whose header is then precompiled too.
 function(weft_test name)
     cmake_parse_arguments(ARG "WORLD" "" "SOURCES;LINK;LABELS" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
@@ -111,7 +127,7 @@ function(weft_test name)
     target_link_libraries(${name} PRIVATE ${ARG_LINK} weft_options GTest::gtest_main GTest::gmock)
     target_compile_definitions(${name} PRIVATE WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
         WEFT_BINARY_DIR="${PROJECT_BINARY_DIR}")
-    # The code under test is optimized; the checks themselves compile in half the time at this level.
+    # The code under test is optimized; the tests themselves compile in half the time at this level.
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
     set(headers <gtest/gtest.h> <gmock/gmock.h> <algorithm> <array> <cmath> <filesystem> <fstream> <functional>
         <memory> <numeric> <optional> <random> <span> <string> <string_view> <vector>)
@@ -138,14 +154,14 @@ function(weft_module name)
     list(FILTER sources EXCLUDE REGEX "\\.test\\.cpp$")
 
     add_library(weft_${name} STATIC ${sources})
-    if(NOT name MATCHES "^(weft|io)$")   # weft::weft and weft::io are what others link (weft_library.cmake)
+    if(NOT name MATCHES "^(weft|io)$")   # weft::weft and weft::io are the installed libraries (weft_library.cmake)
         add_library(weft::${name} ALIAS weft_${name})
     endif()
     target_link_libraries(weft_${name} PUBLIC weft_options Threads::Threads)
     foreach(floor ${ARG_DEPENDS})
         target_link_libraries(weft_${name} PUBLIC weft_${floor})
     endforeach()
-    if(EXISTS ${folder}/dependencies.cmake)   # third-party packages of this folder alone
+    if(EXISTS ${folder}/dependencies.cmake)   # third-party packages for this folder only
         include(${folder}/dependencies.cmake)
     endif()
     if(ARG_JSON)

@@ -1,11 +1,11 @@
 # Shaders, compiled by glslc and embedded.
 #
-# Without the compiler's optimizer: it makes one fused operation of a product and a sum, and joins constants across sums,
-# before with_exact_arithmetic() could forbid it. Drivers optimize anyway.
+# glslc's optimizer is not used: it fuses products and sums, and merges constants across sums, before
+# with_exact_arithmetic() could forbid it. Drivers optimize anyway.
 find_program(GLSLC glslc REQUIRED)
 
-# weft_compile_shader(<folder> <name> <source> [flag…]): <folder>/<name>.spv.inc, made again when anything that it is made of
-# has changed.
+# weft_compile_shader(<folder> <name> <source> [flag…]): makes <folder>/<name>.spv.inc, and again whenever one of its
+# sources changes.
 function(weft_compile_shader output name source)
     set(file ${output}/${name}.spv.inc)
     add_custom_command(OUTPUT ${file}
@@ -13,8 +13,8 @@ function(weft_compile_shader output name source)
         DEPENDS ${source} DEPFILE ${file}.d COMMENT "Shader ${name}" VERBATIM)
 endfunction()
 
-# weft_embed_shaders(<folder> <table> <name>…): <folder>/<table>.inc with an array of that name, of gpu::Shader. What whoever
-# includes it depends on is in <table>_depends.
+# weft_embed_shaders(<folder> <table> <name>…): makes <folder>/<table>.inc with an array of gpu::Shader of that name.
+# <table>_depends lists the dependencies of files that include it.
 function(weft_embed_shaders output table)
     set(files ${output}/${table}.inc)
     set(arrays)
@@ -29,8 +29,8 @@ function(weft_embed_shaders output table)
     set(${table}_depends ${files} PARENT_SCOPE)
 endfunction()
 
-# weft_shader_table(<table> <file.comp>…): both, of a handful of shaders, for tests and benchmarks. Its folder is in
-# <table>_folder.
+# weft_shader_table(<table> <file.comp>…): compiles and embeds a few shaders, for tests and benchmarks. Their folder is
+# in <table>_folder.
 function(weft_shader_table table)
     set(output ${PROJECT_BINARY_DIR}/shaders/${table})
     file(MAKE_DIRECTORY ${output})

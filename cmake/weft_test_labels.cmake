@@ -1,15 +1,15 @@
-# Labels for the tests of one program. CTest reads this file when it starts, after the list of that program's tests, so a
-# changed label needs no build.
+# Labels for the tests of one program. CTest reads this file at its start, after the list of that program's tests, so
+# changing a label needs no build.
 #
 # A comment in the line before a test gives it labels, words separated by spaces:
 #
 #     // Labels: slow no-asan
 #     TEST(Suite, name) {
 #
-# `// Labels of this file: …` gives them to every test of the file; `// Labels on Vulkan: …` to a test in the run on the
-# other backend alone. docs/architecture.md says what each label means. A test that is not `slow` gets `quick`.
+# `// Labels of this file: …` applies to every test of the file; `// Labels on Vulkan: …` to a test only in the run on
+# the Vulkan backend. docs/architecture.md explains each label. A test that is not `slow` gets `quick`.
 #
-# In: weft_discovered (names of tests), weft_prefix (of these names), weft_labels (of all of them), weft_sources.
+# Input: weft_discovered (names of tests), weft_prefix (of these names), weft_labels (of all of them), weft_sources.
 
 cmake_policy(VERSION 3.25)
 set(test_macro "TEST(_F|_P)?\\([ \n]*([A-Za-z0-9_]+),[ \n]*([A-Za-z0-9_]+)\\)")
