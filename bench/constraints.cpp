@@ -1,4 +1,5 @@
-// Nanoseconds per row and iteration of every constraint, on a square sheet, for every instruction set of this machine.
+// Nanoseconds per constraint and iteration for every constraint type, on a square sheet, for every instruction set of
+// this machine.
 
 #include "cpu/cloth_state.h"
 #include "cpu/passes.h"
@@ -31,12 +32,12 @@ std::shared_ptr<const ClothModel> sheet(std::uint32_t side, BendModel bend) {
 }
 
 BendModel bend_model(ConstraintKind kind) {
-    return kind == ConstraintKind::plate     ? BendModel::plate
-           : kind == ConstraintKind::flexion ? BendModel::distance
-                                             : BendModel::hinges;
+    return kind == ConstraintKind::plate           ? BendModel::plate
+           : kind == ConstraintKind::distance_bend ? BendModel::distance
+                                                   : BendModel::dihedral;
 }
 
-// All batches of one constraint, once per iteration, as a step does with one iteration a substep.
+// Projects all batches of one constraint type once per iteration, as a step with one iteration per substep does.
 void project(benchmark::State& state, const cpu::Passes* passes, ConstraintKind kind, std::uint32_t side) {
     const auto model = sheet(side, bend_model(kind));
     cpu::WorldArrays arrays;

@@ -1,5 +1,5 @@
-// Square sheets on a Vulkan device, by the device's own clock: milliseconds a frame, method by method, beside what the
-// memory alone would take. Needs nothing but a driver where it runs.
+// Square sheets on a Vulkan device, timed with the device's clock: milliseconds per frame by method, compared with the
+// time of their memory traffic. Needs only a driver at run time.
 
 #include "cli/bench/bench_reference.h"
 #include "gpu/device.h"
@@ -31,9 +31,9 @@ struct Method {
     const char* name;
     SolverDesc solver;
     const char* execution = "auto";
-    std::uint32_t largest = 4096;  ///< particles along a side of the largest sheet that is worth the time
+    std::uint32_t largest = 4096;  ///< particles along a side of the largest sheet that is measured
 };
-// One workgroup for a whole cloth is for small ones.
+// Executing a whole cloth in one workgroup is for small cloths.
 constexpr std::uint32_t largest_fused = 64;
 constexpr SolverDesc jacobi{.substeps = 6, .iterations = 42, .projection = Projection::jacobi, .hierarchy = false};
 constexpr SolverDesc jacobi_fixed{.substeps = 6,
@@ -55,10 +55,10 @@ constexpr Method methods[] = {{"jacobi", jacobi, "streamed"},
                               {"gauss-seidel", gauss_seidel(30)},
                               {"lines+hierarchy", lines_and_levels(20)},
                               {"lines+hierarchy", lines_and_levels(30)}};
-// Of many small cloths at once.
+// For many small cloths at once.
 constexpr Method methods_of_many[] = {{"gauss-seidel", gauss_seidel(20)}, {"lines+hierarchy", lines_and_levels(20)}};
 
-// How many frames, the same on every device: hashes can be compared.
+// Numbers of frames, the same on every device, so that hashes can be compared.
 struct Frames {
     unsigned warmup, runs, per_run;
     std::uint32_t most_iterations;
@@ -90,9 +90,9 @@ Result<std::shared_ptr<const ClothModel>> make_sheet(std::uint32_t side, bool be
                              std::move(*topology));
 }
 
-// What an iteration of averaged Jacobi moves if each particle collects its rows itself and nothing is written between:
-// its own place in and out, and of each of its rows the other particles' indices and the numbers. The places of its
-// neighbors come from a cache.
+// Bytes that an iteration of averaged Jacobi moves if each particle gathers its constraints itself and nothing is
+// written in between: its position read and written, and for each of its constraints the indices of the other particles
+// and the fields. The positions of its neighbors come from a cache.
 double gathered_bytes(const ClothModel& model) {
     double bytes = 32.0 * model.point_count();
     for (const ConstraintTable& table : model.constraints) {
@@ -103,7 +103,7 @@ double gathered_bytes(const ClothModel& model) {
 }
 
 struct Floor {
-    double frame_bytes = 0, iteration_bytes = 0;  ///< of a frame; of its iterations, per particle and iteration
+    double frame_bytes = 0, iteration_bytes = 0;  ///< per frame; of its iterations, per particle and iteration
 };
 
 Floor floor_of(const World& world, const Method& method) {
@@ -111,7 +111,7 @@ Floor floor_of(const World& world, const Method& method) {
     const ClothModel& model = *world.summary().cloths[0].model;
     const double iterations = static_cast<double>(method.solver.substeps) * method.solver.iterations;
     const auto cloths = static_cast<double>(world.summary().cloths.size());
-    double projection = 0;  // all that is done again in every iteration
+    double projection = 0;  // everything that is repeated in each iteration
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) {
         const std::string_view name = stage_name(stage);
         if (stage < constraint_kind_count || name == "average" || name == "hierarchy")
@@ -129,7 +129,7 @@ struct Line {
     Floor floor;
     std::string hash;
     std::string reports;  ///< of any frame
-    bool failed = false;  ///< one of them is that the device or the numbers gave up
+    bool failed = false;  ///< whether the device failed or values became non-finite
 };
 
 Result<Line> measure(World& world, const std::shared_ptr<const ClothModel>& model, std::uint32_t cloths,
@@ -218,7 +218,7 @@ void print_line(const Sheets& sheets, const Method& method, const Result<Line>& 
     std::fflush(stdout);
 }
 
-// A world for each way to execute: it is the backend's.
+// One world per execution mode, because the mode belongs to the backend.
 class Worlds {
   public:
     explicit Worlds(std::string device) : device_(std::move(device)) {}
@@ -237,7 +237,7 @@ class Worlds {
     std::map<std::string, std::unique_ptr<World>> worlds_;
 };
 
-// Every method on sheets of one size. False if one failed.
+// Prints every method for sheets of one size. False if one failed.
 bool print_sheets(Worlds& worlds, const Sheets& sheets, std::span<const Method> all, const Frames& frames,
                   double rate) {
     bool fine = true;
@@ -310,7 +310,7 @@ std::optional<std::vector<std::uint32_t>> parse_sizes(std::string_view text) {
     return sizes;
 }
 
-// None where the arguments are not understood.
+// Nothing if the arguments are invalid.
 std::optional<Options> parse(std::span<char* const> arguments) {
     Options options;
     std::optional<std::vector<std::uint32_t>> sizes;

@@ -1,4 +1,4 @@
-# PROGRAM --quick prints its table, every line of it, and says that all went well.
+# PROGRAM --quick prints its table completely and reports success.
 execute_process(COMMAND ${PROGRAM} --quick --sizes 16 OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE result)
 if(result EQUAL 2 AND err MATCHES "Vulkan: there is no (loader|driver|device)")
     message("skipped: ${err}")
@@ -18,7 +18,7 @@ list(LENGTH lines count)
 if(NOT count EQUAL 20)
     message(FATAL_ERROR "${count} lines in place of 20")
 endif()
-# It is to run where there is a driver and nothing else.
+# The program must run on machines that have only a driver.
 find_program(LDD ldd)
 if(LDD)
     execute_process(COMMAND ${LDD} ${PROGRAM} OUTPUT_VARIABLE libraries)

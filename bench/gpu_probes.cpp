@@ -23,7 +23,7 @@ void push(gpu::Commands& commands, const gpu::Pipeline& pipeline, const Args& ar
     commands.push(std::as_bytes(std::span(&args, 1)).first(pipeline.push_constants()));
 }
 
-// Milliseconds of what `work` records.
+// Milliseconds that the commands recorded by `work` take.
 Result<double> time_of(gpu::Device& device, unsigned runs, const std::function<void(gpu::Commands&)>& work) {
     auto commands = gpu::Commands::create(device, 2);
     if (!commands) return commands.errors();
@@ -45,7 +45,7 @@ Result<double> time_of(gpu::Device& device, unsigned runs, const std::function<v
     return median(std::move(times));
 }
 
-Result<Done> probe_dispatch(gpu::Device& device, bool quick, Probes& out) {
+Result<void> probe_dispatch(gpu::Device& device, bool quick, Probes& out) {
     auto empty = make_pipeline(device, "empty", workgroup);
     if (!empty) return empty.errors();
     const unsigned dispatches = 300, runs = quick ? 5 : 25;
@@ -60,10 +60,10 @@ Result<Done> probe_dispatch(gpu::Device& device, bool quick, Probes& out) {
         if (!ms) return ms.errors();
         (ordered ? out.dispatch_us : out.unordered_us) = *ms * 1e3 / dispatches;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> probe_barrier(gpu::Device& device, bool quick, Probes& out) {
+Result<void> probe_barrier(gpu::Device& device, bool quick, Probes& out) {
     struct Args {
         std::uint64_t to;
         std::uint32_t rounds, unused;
@@ -75,7 +75,7 @@ Result<Done> probe_barrier(gpu::Device& device, bool quick, Probes& out) {
     auto result =
         device.memory().buffer(invocations * sizeof(std::uint32_t), gpu::MemoryKind::readback, "result of barriers");
     if (!result) return result.errors();
-    // What a dispatch costs by itself is in both, and goes with the difference.
+    // Both measurements contain the cost of the dispatch itself, which the difference removes.
     const std::array<std::uint32_t, 2> rounds = {quick ? 10u : 500u, quick ? 60u : 5500u};
     std::array<double, 2> ms{};
     for (unsigned i = 0; i < 2; ++i) {
@@ -94,10 +94,10 @@ Result<Done> probe_barrier(gpu::Device& device, bool quick, Probes& out) {
     }
     out.invocations = invocations;
     out.barrier_us = (ms[1] - ms[0]) * 1e3 / (2.0 * (rounds[1] - rounds[0]));
-    return Done{};
+    return {};
 }
 
-Result<Done> probe_copy(gpu::Device& device, bool quick, Probes& out) {
+Result<void> probe_copy(gpu::Device& device, bool quick, Probes& out) {
     struct Args {
         std::uint64_t from, to;
         std::uint32_t count, unused;
@@ -135,7 +135,7 @@ Result<Done> probe_copy(gpu::Device& device, bool quick, Probes& out) {
         (command ? out.copy_rate : out.stream_rate) = 2.0 * static_cast<double>(bytes) * copies / (*ms * 1e-3);
     }
     out.copied_bytes = bytes;
-    return Done{};
+    return {};
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ Result<Done> probe_copy(gpu::Device& device, bool quick, Probes& out) {
 Result<Probes> probe(gpu::Device& device, bool quick) {
     if (device.limits().timestamp_bits == 0) return Error::of_machine(device.info().name, "has no clock");
     Probes probes;
-    if (auto done = probe_copy(device, quick, probes); !done) return done.errors();  // this one gets the device warm
+    if (auto done = probe_copy(device, quick, probes); !done) return done.errors();  // also warms up the device
     if (auto done = probe_dispatch(device, quick, probes); !done) return done.errors();
     if (auto done = probe_barrier(device, quick, probes); !done) return done.errors();
     return probes;

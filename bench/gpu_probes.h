@@ -1,4 +1,4 @@
-// What a device needs for the smallest of things: the measure for all that is made of them.
+// Costs of the smallest operations of a device, as a reference for everything built from them.
 #pragma once
 
 #include "gpu/device.h"
@@ -17,19 +17,19 @@ inline double median(std::vector<double> values) {
 }
 
 struct Probes {
-    double dispatch_us = 0;          ///< a dispatch of one workgroup that does nothing, and the barrier after it
+    double dispatch_us = 0;          ///< an empty dispatch of one workgroup and the barrier after it
     double unordered_us = 0;         ///< without the barrier
-    std::uint32_t invocations = 0;   ///< of the workgroup that meets at
-    double barrier_us = 0;           ///< a barrier(), with a number to and from shared memory
-    std::uint64_t copied_bytes = 0;  ///< so many from one buffer to another
-    double copy_rate = 0;            ///< bytes a second, read and written ones together: by a copy command
-    double stream_rate = 0;          ///< by a shader
+    std::uint32_t invocations = 0;   ///< of the workgroup that runs the barriers
+    double barrier_us = 0;           ///< a barrier(), with a number written to and read from shared memory
+    std::uint64_t copied_bytes = 0;  ///< bytes copied from one buffer to another
+    double copy_rate = 0;            ///< bytes per second, reads plus writes, by a copy command
+    double stream_rate = 0;          ///< the same by a shader
 
     double best_rate() const { return std::max(copy_rate, stream_rate); }
 };
 
-/// Medians of several runs, by the device's clock, after some to get warm. `quick`: few and small, for a device that is
-/// played by a CPU. Fails without a clock.
+/// Medians of several runs on the device's clock, after some warmup. `quick`: few and small runs, for software drivers.
+/// Fails if the device has no clock.
 Result<Probes> probe(gpu::Device& device, bool quick);
 
 }  // namespace weft::bench

@@ -1,4 +1,4 @@
-// What changes of a running cloth take on one thread: other fabrics, other pins.
+// Times edits of a running cloth on one thread: other fabrics, other pins.
 #include <weft/weft.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ using namespace weft;
 struct Change {
     const char* name;
     const char* what;
-    std::function<Result<Done>(Simulation&, ClothId, int call)> make;
+    std::function<Result<void>(Simulation&, ClothId, int call)> make;
 };
 
-// Every call makes a difference.
+// Different values in every call.
 FabricDesc fabric(int call, const char* preset = "cotton") {
     FabricDesc desc(preset);
     desc.set("drag", 1 + 0.001 * call);
@@ -46,7 +46,7 @@ std::vector<Change> all_changes(std::uint32_t side) {
         {"density", "", set([](int call) { return fabric(call).set("density", 0.15 + 0.001 * call); })},
         {"drag", "no number of any row", set([](int call) { return fabric(call); })},
         {"bend_model", "other rows: the model is built anew",
-         set([](int call) { return fabric(call).set("bend_model", call % 2 == 0 ? "distance" : "hinges"); })},
+         set([](int call) { return fabric(call).set("bend_model", call % 2 == 0 ? "distance" : "dihedral"); })},
         {"set_pins", "one pin more or less",
          [side](Simulation& simulation, ClothId cloth, int call) {
              std::vector<std::uint32_t> vertices = {0, side - 1};
@@ -62,7 +62,7 @@ std::vector<Change> all_changes(std::uint32_t side) {
     };
 }
 
-double ms_of(const std::function<Result<Done>()>& run) {
+double ms_of(const std::function<Result<void>()>& run) {
     const auto begin = std::chrono::steady_clock::now();
     if (const auto done = run(); !done) {
         std::fprintf(stderr, "%s\n", done.error().message().c_str());
@@ -81,10 +81,10 @@ void measure(const Change& change, std::uint32_t side, int calls) {
     std::vector<double> change_ms, step_ms;
     for (int call = 0; call < calls; ++call) {
         change_ms.push_back(ms_of([&] { return change.make(*simulation, *cloth, call); }));
-        // The caches are those of a program that steps.
+        // Steps in between, so that the caches are in the state of a stepping program.
         step_ms.push_back(ms_of([&] {
             simulation->step();
-            return Result<Done>(Done{});
+            return Result<void>();
         }));
     }
     const auto median_after_first = [](std::vector<double> all) {

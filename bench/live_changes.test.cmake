@@ -1,4 +1,4 @@
-# PROGRAM --quick prints a line for each change.
+# PROGRAM --quick prints one line per edit.
 execute_process(COMMAND ${PROGRAM} --quick OUTPUT_VARIABLE out ERROR_VARIABLE err RESULT_VARIABLE result)
 message("${out}${err}")
 if(NOT result EQUAL 0)

@@ -1,6 +1,5 @@
-// What drawing a sheet takes: milliseconds from handing a frame over until it is there, on the host's clock, and of the
-// processor, all threads together. The sheet stands still, on the device: nothing is simulated, nothing is brought
-// there, nothing is read back.
+// Times drawing a sheet: milliseconds on the host's clock from submitting a frame to its completion, and CPU time of
+// all threads. The sheet is static and on the device: nothing is simulated, uploaded or read back.
 
 #include "gpu/commands.h"
 #include "gpu/device.h"
@@ -33,7 +32,7 @@ struct Options {
     bool quick = false;
 };
 
-/// How many frames of what size.
+/// The number of frames and their size.
 struct Frames {
     std::uint32_t width, height;
     unsigned warmup, runs, per_run;
@@ -67,12 +66,12 @@ Sheet make_sheet(std::uint32_t side) {
 
 struct Line {
     double ms = 0, least = 0;
-    double cpu_ms = 0;   ///< all threads; where a CPU plays the GPU, that is the work, whoever else is at work
+    double cpu_ms = 0;   ///< all threads; with a software driver this is the rendering itself
     double spread = 0;   ///< of the runs' medians, largest over smallest - 1
-    double covered = 0;  ///< share of the picture
+    double covered = 0;  ///< fraction of the image
 };
 
-/// Of a picture without a ground.
+/// Renders without ground to measure the covered fraction of the image.
 Result<double> covered(render::Renderer& renderer, render::Drawing drawing, const Frames& frames) {
     drawing.background = render::Background::transparent;
     drawing.grounds = {};
@@ -135,7 +134,7 @@ void print_head(const gpu::DeviceInfo& info, const Frames& frames) {
                 "runs +%", "covers %");
 }
 
-Result<Done> print_sheet(const std::shared_ptr<gpu::Device>& device, std::uint32_t side, std::uint32_t samples,
+Result<void> print_sheet(const std::shared_ptr<gpu::Device>& device, std::uint32_t side, std::uint32_t samples,
                          const Frames& frames) {
     auto renderer = render::Renderer::create(device, {.samples = samples});
     if (!renderer) return renderer.errors();
@@ -157,7 +156,7 @@ Result<Done> print_sheet(const std::shared_ptr<gpu::Device>& device, std::uint32
     drawing.objects = {&object, 1};
     drawing.grounds = {&ground, 1};
     for (const float occlusion : {1.0f, 0.0f}) {
-        drawing.lighting.occlusion = occlusion;
+        drawing.lighting.ambient_occlusion = occlusion;
         const auto line = measure(*renderer, drawing, frames);
         if (!line) return line.errors();
         std::printf("%-8s %7u %9s %9.2f %9.2f %9.2f %7.1f %9.1f\n", (std::to_string(side) + "^2").c_str(), samples,
@@ -165,10 +164,10 @@ Result<Done> print_sheet(const std::shared_ptr<gpu::Device>& device, std::uint32
                     line->covered * 100);
         std::fflush(stdout);
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> run(const Options& options) {
+Result<void> run(const Options& options) {
     auto instance = gpu::Instance::create();
     if (!instance) return instance.errors();
     const auto info = gpu::choose_device((*instance)->devices(), options.device, true);
@@ -180,7 +179,7 @@ Result<Done> run(const Options& options) {
     for (const std::uint32_t side : sides)
         for (const std::uint32_t samples : sample_counts)
             if (auto printed = print_sheet(*device, side, samples, frames); !printed) return printed;
-    return Done{};
+    return {};
 }
 
 constexpr const char* usage =
@@ -188,7 +187,7 @@ constexpr const char* usage =
     "  --quick   few and small frames: whether it works, not how fast it is\n"
     "  --device  part of the device's name; without, the best GPU, or else a CPU that plays one\n";
 
-// None where the arguments are not understood.
+// Nothing if the arguments are invalid.
 std::optional<Options> parse(std::span<char* const> arguments) {
     Options options;
     for (std::size_t i = 0; i < arguments.size(); ++i) {

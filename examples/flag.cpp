@@ -1,4 +1,4 @@
-// Builds a flag in the wind from a program's own numbers, and saves every tenth frame.
+// Builds a flag in the wind from numbers in the program, and saves every tenth frame.
 #include <weft/weft.h>
 
 #include <iostream>

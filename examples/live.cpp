@@ -1,4 +1,4 @@
-// Changes a world while it runs: a hand lifts a cloth and lets go, then time turns back and it never did.
+// Changes a world while it runs: a moved collider lifts a cloth by a pin, the pin is removed, a saved state restored.
 #include <weft/weft.h>
 
 #include <iostream>

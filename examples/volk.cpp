@@ -1,3 +1,3 @@
-// volk's own code, once: it finds the Vulkan loader when the program runs.
+// Compiles volk, which loads the Vulkan library at run time.
 #define VOLK_IMPLEMENTATION
 #include <volk.h>

@@ -1,5 +1,5 @@
-// A program with a Vulkan device of its own, on which its cloth is simulated: it copies the surface from the buffers
-// that the simulation fills, where another would draw from them, and looks whether they hold what they should.
+// A program with its own Vulkan device, on which weft simulates its cloth. It copies the surface from the buffers that
+// the simulation fills, where another program would draw from them, and checks their content.
 #include <volk.h>  // or <vulkan/vulkan.h> and the loader
 
 #include <weft/vulkan.h>
@@ -20,7 +20,7 @@ void must(bool worked, const char* what) {
     std::exit(1);
 }
 
-// Everything that weft needs to be told of is in VulkanHost.
+// VulkanHost describes everything that weft needs to know.
 weft::VulkanHost open_device() {
     weft::VulkanHost host;
     must(volkInitialize() == VK_SUCCESS, "to find a Vulkan loader");
@@ -59,7 +59,7 @@ weft::VulkanHost open_device() {
     return host;
 }
 
-// Memory that both sides see, and commands that fill it.
+// Memory that host and device share, and commands that fill it.
 class Reader {
   public:
     Reader(const weft::VulkanHost& host, VkDeviceSize bytes) : host_(host) {
@@ -95,9 +95,9 @@ class Reader {
     }
     Reader(const Reader&) = delete;
 
-    /// What the array holds when `ready` has come.
+    /// The content of the array once `ready` is reached.
     template <class T>
-    std::vector<T> read(const weft::VulkanArray& array, weft::VulkanMoment ready) {
+    std::vector<T> read(const weft::VulkanArray& array, weft::TimelinePoint ready) {
         vkResetCommandPool(host_.device, pool_, 0);
         VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
         vkBeginCommandBuffer(commands_, &begin);
@@ -172,7 +172,7 @@ void drape(const weft::VulkanHost& host) {
 
 int main() {
     const weft::VulkanHost host = open_device();
-    drape(host);  // the simulation ends before its device does
+    drape(host);  // the simulation must be destroyed before its device
     vkDestroyDevice(host.device, nullptr);
     vkDestroyInstance(host.instance, nullptr);
 }

@@ -1,4 +1,4 @@
-# Pictures of an exported film as Blender reads it:
+# Renders images of an exported animation as Blender reads it:
 #
 #   blender --background --factory-startup --python scripts/blender_frames.py -- FILE.glb OUT_PREFIX FRAME...
 #
@@ -13,12 +13,12 @@ import bpy
 import numpy
 from mathutils import Vector
 
-# Debian 12 pairs Blender 3.4, whose glTF importer says numpy.bool, with a numpy that no longer has that name.
+# Debian 12 combines Blender 3.4, whose glTF importer uses numpy.bool, with a numpy that does not have that name.
 if 'bool' not in vars(numpy):
     numpy.bool = bool
 
 SAMPLES = 48
-FIT_FRAMES = 12  # how many frames, spread over the film, the camera is fitted to
+FIT_FRAMES = 12  # number of frames, spread over the animation, that the camera must show
 
 
 def key_times(path):
@@ -37,7 +37,7 @@ def key_times(path):
 
 
 def show(scene, time):
-    # The importer puts a key at time * fps, which need not be a whole frame.
+    # The importer puts keys at time * fps, which may be between frames.
     frame = time * scene.render.fps
     scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
 
@@ -78,7 +78,7 @@ def add_light(scene):
     sun = bpy.data.objects.new('sun', bpy.data.lights.new('sun', 'SUN'))
     sun.data.energy = 2.5
     sun.data.angle = 0.1
-    sun.rotation_euler = (math.radians(15), math.radians(-38), 0)  # low enough, so that folds show
+    sun.rotation_euler = (math.radians(15), math.radians(-38), 0)  # low enough to show folds
     scene.collection.objects.link(sun)
     scene.world = bpy.data.worlds.new('sky')
     scene.world.color = (0.16, 0.18, 0.21)

@@ -1,11 +1,11 @@
-# Whether Blender moves a .pc2's mesh as weft did. The same run must have written a sequence of .obj:
+# Checks that Blender moves the mesh of a .pc2 as weft did. The same run must have written a sequence of .obj:
 #
 #   weft run SCENE --out film.pc2 --out frames/%04d.obj
 #   blender --background --factory-startup --python scripts/check_pc2.py -- film.pc2 frames/%04d.obj
 #
-# Imports film.obj with the importer's defaults (up to Blender 3 also with the older importer), gives it film.pc2 by a
-# Mesh Cache modifier with the modifier's defaults, and compares every vertex of several frames, in world space, with the
-# .obj of that frame. Exit status says.
+# Imports film.obj with the importer's defaults (up to Blender 3 also with the older importer), adds film.pc2 with a
+# Mesh Cache modifier and its defaults, and compares every vertex of several frames, in world space, with the .obj of
+# that frame. The exit status is the result.
 import os
 import sys
 
@@ -13,7 +13,7 @@ import bpy
 from mathutils import Vector
 
 TOLERANCE = 1e-5  # m
-CHECKED = 7  # frames, spread over the film
+CHECKED = 7  # frames, spread over the animation
 
 
 def expected(path):

@@ -1,4 +1,4 @@
-// One line per file, and one per message of Khronos' glTF validator. Started by scripts/validate_gltf.
+// Prints one line per file and one per message of Khronos' glTF validator. Started by scripts/validate_gltf.
 'use strict';
 
 const fs = require('fs');

@@ -245,8 +245,8 @@ TEST_F(CliBench, refuses_what_is_no_report) {
     };
     refused("no report", "line 1, column 2: ");
     refused("", "is empty");
-    refused("[1, 2]", "is no report of weft bench");
-    refused(R"({ "frames": 3 })", "is no report of weft bench");
+    refused("[1, 2]", "is not a report of weft bench");
+    refused(R"({ "frames": 3 })", "is not a report of weft bench");
     refused(R"({ "weft_bench": 2 })", "/weft_bench: must be 1");
     expect_usage_error("bench sheet.json --compare nowhere.json", "nowhere.json: cannot be opened: No such file");
     expect_usage_error("bench sheet.json --compare .", ".: is a folder");
@@ -270,7 +270,7 @@ TEST_F(CliBench, wrong_usage_is_one_line_and_status_2) {
     expect_usage_error("bench sheet.json --repeat 0", "--repeat: must be from 1 to 1000, got 0");
     expect_usage_error("bench sheet.json --warmup 1000001", "--warmup: must be from 0 to 1000000");
     expect_usage_error("bench sheet.json --warmup -1", "--warmup");
-    expect_usage_error("bench sheet.json --frames 0", "--frames: must come to 1 to 1000000 frames, got 0");
+    expect_usage_error("bench sheet.json --frames 0", "--frames: must give 1 to 1000000 frames, got 0");
     expect_usage_error("bench sheet.json --frames 5 --seconds 1", "--frames");
     expect_usage_error("bench sheet.json --json nowhere/b.json", "nowhere/b.json");
 }

@@ -42,7 +42,7 @@ TEST_F(CliRender, wrong_usage_is_one_line_and_status_2) {
     for (const char* size : {"0x720", "720", "axb", "1280x", "x720", "16385x1", "-1x5", "1280x720x3", "12.5x3",
                              "99999999999x1", "''", "'12 x 13'"})
         refused(std::string("--size ") + size, "--size: must be width x height, each from 1 to 16384");
-    refused("--size 16384x16384", "134217728 pixels at most");
+    refused("--size 16384x16384", "at most 134217728 pixels");
     for (const char* samples : {"0", "3", "-4", "512"})
         refused(std::string("--samples ") + samples, "--samples: must be");
     refused("--samples many", "--samples");
@@ -58,20 +58,20 @@ TEST_F(CliRender, wrong_usage_is_one_line_and_status_2) {
     refused("--fps nan", "--fps");
     refused("--overlay no_such_overlay", "--overlay: ");
     expect_usage_error("render sheet.json --out a.png --frames 1.5", "whole number");
-    refused("--out b.gif", "unknown ending \".gif\"; pictures are written as .png, .mp4");
-    refused("--out ./a.png", "two of --out");
+    refused("--out b.gif", "unknown ending \".gif\"; images are written as .png, .mp4");
+    refused("--out ./a.png", "two --out options");
     refused("--out %s.png", "%04d");
     refused("--out %d.mp4", "in one file");
     refused("--out sheet.json/b.png", "its folder cannot be made");
     refused("--out film.mp4 --transparent", "no transparency");
-    refused("--out film.mp4 --size 65x37", "66x38 will do");
+    refused("--out film.mp4 --size 65x37", "use 66x38");
     refused("--seconds 1", "--frames");
     expect_no_pictures();
 }
 
 TEST_F(CliRender, an_overlay_that_is_misspelled_is_told_the_nearest) {
     const Outcome help = weft("render --help");
-    const std::string before = "drawn on top, repeatable: ";
+    const std::string before = "draw on top; may be repeated: ";
     ASSERT_NE(help.out.find(before), std::string::npos) << help.out;
     std::string name = help.out.substr(help.out.find(before) + before.size());
     name = name.substr(0, name.find_first_of(", \n"));
@@ -224,7 +224,7 @@ TEST_F(CliPictures, a_film_has_every_picture) {
 
 TEST_F(CliPictures, every_overlay_can_be_asked_for) {
     const std::string help = weft("render --help").out;
-    std::string names = help.substr(help.find("repeatable: ", help.find("--overlay")) + 12);
+    std::string names = help.substr(help.find("repeated: ", help.find("--overlay")) + 10);
     names = names.substr(0, names.find("--"));
     std::erase_if(names, [](unsigned char c) { return std::isspace(c); });
     render("--frames 30 --out plain.png");

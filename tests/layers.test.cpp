@@ -1,4 +1,4 @@
-// The house stands on its floors: a folder includes only what stands below it.
+// The layers: a folder includes only folders of lower layers.
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Floors = std::map<std::string, std::set<std::string>>;
+using Layers = std::map<std::string, std::set<std::string>>;
 
 // What each folder may include besides itself and <weft/...>'s vocabulary (below).
-const Floors floors = {
+const Layers layers = {
     {"base", {}},
     {"mesh", {"base"}},
     {"physics", {"base", "mesh"}},
@@ -38,9 +38,9 @@ const Floors floors = {
     {"files", {"base", "mesh", "physics", "collide", "scene", "look", "solver", "cpu", "weft", "io"}},
 };
 
-// Public headers that every floor may use; the rest of include/weft is for src/weft, src/files and the apps.
-const std::set<std::string> vocabulary = {"bounds.h", "feedback.h", "ids.h",   "mesh.h",
-                                          "result.h", "scene.h",    "vector.h"};
+// Public headers that every layer may use; the rest of include/weft is for src/weft, src/files and the apps.
+const std::set<std::string> vocabulary = {"bounds.h", "contact_forces.h", "ids.h",   "mesh.h",
+                                          "result.h", "scene.h",          "vector.h"};
 
 // A library of its own: scene text is read and written without mesh import and exports.
 const std::regex scenes_may_include(
@@ -75,11 +75,11 @@ std::vector<std::string> violations(const fs::path& source_root) {
                 const std::string target = match[1];
                 const std::string other = target.substr(0, target.find('/'));
                 if (std::regex_match(target, made_by_the_build)) continue;
-                if (!floors.count(folder)) {
-                    found.push_back(place + "src/" + folder + " has no floor in tests/layers.test.cpp");
-                } else if (!floors.count(other)) {
+                if (!layers.count(folder)) {
+                    found.push_back(place + "src/" + folder + " has no layer in tests/layers.test.cpp");
+                } else if (!layers.count(other)) {
                     found.push_back(place + "\"" + target + "\" is not a path from src/");
-                } else if (other != folder && !floors.at(folder).count(other)) {
+                } else if (other != folder && !layers.at(folder).count(other)) {
                     found.push_back(place + folder + " must not include " + other);
                 } else if (folder == "scene" && other == "physics" && !std::regex_match(target, scene_may_include)) {
                     found.push_back(place + "scene may know only the tables of physics, not " + target);
@@ -97,7 +97,7 @@ std::vector<std::string> violations(const fs::path& source_root) {
     return found;
 }
 
-TEST(Layers, no_include_runs_up_the_house) {
+TEST(Layers, no_include_leads_to_a_higher_layer) {
     for (const std::string& violation : violations(fs::path(WEFT_SOURCE_DIR) / "src")) ADD_FAILURE() << violation;
 }
 

@@ -23,7 +23,7 @@ struct MethodSettings {
     bool tethers, hierarchy;
     Projection projection;
 };
-// Those that may be expected to win come first: what they leave and take tells how far the others need to be followed.
+// Methods that are expected to win come first: their stretch and times decide how far the others are followed.
 constexpr MethodSettings methods[] = {
     {"lines, hierarchy", false, true, Projection::lines},
     {"lines, hierarchy, tethers", true, true, Projection::lines},
@@ -36,7 +36,7 @@ constexpr MethodSettings methods[] = {
 constexpr std::uint32_t substep_counts[] = {3, 5, 10, 20, 40};
 constexpr std::uint32_t largest_irregular = 128;
 
-// Numbered like a grid, so that the corners are where they are there.
+// Numbered like a grid, so that the corners have the same numbers.
 TriangleMesh irregular_sheet(std::uint32_t side) {
     TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::uniform);
     std::mt19937 random(side);
@@ -67,7 +67,7 @@ TriangleMesh irregular_sheet(std::uint32_t side) {
 SceneDesc hung_sheet(std::uint32_t side, bool irregular, const MethodSettings& method, std::uint32_t substeps) {
     SceneCloth sheet{.name = "sheet",
                      .mesh = irregular ? MeshDesc(irregular_sheet(side)) : GridDesc{.resolution = {side, side}},
-                     .transform = {.rotation_degrees = {85, 0, 0}},  // leaning, so that it may leave its plane
+                     .transform = {.rotation_degrees = {85, 0, 0}},  // tilted, so that it can leave its plane
                      .pins = {{.select = VertexPins{{0, side - 1}}}},
                      .tethers = method.tethers ? Tethers::on : Tethers::off};
     SceneDesc scene{.name = "hung sheet", .cloths = {std::move(sheet)}};
@@ -77,7 +77,7 @@ SceneDesc hung_sheet(std::uint32_t side, bool irregular, const MethodSettings& m
     return scene;
 }
 
-// --- One after another
+// --- Candidates
 
 struct Candidate {
     std::uint32_t side;
@@ -85,7 +85,7 @@ struct Candidate {
     const MethodSettings* method;
     std::uint32_t substeps;
     BenchSubject subject;
-    std::uint64_t work;  ///< of a frame, as far as it can be known: progress goes by it
+    std::uint64_t work;  ///< per frame, estimated; for the progress display
 };
 
 std::vector<Candidate> candidates(const std::vector<std::uint32_t>& sides) {
@@ -112,8 +112,9 @@ bool better(const SceneFigures& a, double ms, double stretch) {
     return a.ms.median < ms && a.stretch.mean < stretch;
 }
 
-// The best that may come of `next`, going by what its method has left with fewer substeps: time is nearly proportional
-// to substeps, and stretch goes down with their square at best, unless the sheet has hardly held together.
+// Lower bounds for the time and stretch of `next`, from the last result of its method with fewer substeps: time is
+// nearly proportional to substeps, and stretch decreases at best with their square, or with their cube above 10 %
+// stretch.
 struct Hope {
     double ms, stretch;
 };
@@ -129,8 +130,8 @@ double seconds_of(const Candidate& next, const CurvePoint& last) {
     return frames * f.ms.median / 1e3 * next.substeps / last.substeps;
 }
 
-// Why neither the first of `next` nor those after it, of the same method with more substeps, need be tried, given all
-// that has been measured; empty if the first should be.
+// Why the first of `next` and the following ones, of the same method with more substeps, can be skipped, given all
+// measured points; empty if the first should be measured.
 std::string why_not(std::span<const Candidate> next, const std::vector<CurvePoint>& points, double most_seconds) {
     const Candidate& first = next.front();
     if (points.empty() || points.back().mesh != first.mesh || points.back().method != first.method->name) return {};
@@ -180,7 +181,7 @@ Result<Curves> measure_curves(const CurveSettings& settings) {
         if (std::string why = why_not(std::span(all).subspan(i), curves.points, settings.most_seconds); !why.empty()) {
             for (; i < all.size() && all[i].mesh == next.mesh && all[i].method == next.method; ++i)
                 total -= all[i].work * of_each;
-            --i;  // more substeps of the same
+            --i;  // skips more substeps of the same method
             progress.set_total(total);
             curves.left_out.push_back(next.subject.name + " and more: " + why);
             continue;

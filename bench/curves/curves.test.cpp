@@ -1,4 +1,4 @@
-// weft_bench_curves: what it writes, what it leaves out, what it refuses.
+// Tests of weft_bench_curves: its output, the points that it skips, the arguments that it rejects.
 
 #include "../../tests/cli_fixture.h"
 
@@ -36,7 +36,7 @@ TEST_F(BenchCurves, draws_curves_of_error_against_time) {
     expect_usage_error("sheet.json", "side");
     expect_usage_error("--plot c.svg", "side is required");
     expect_usage_error("8 --substeps 3", "--substeps: is what the curves go through");
-    expect_usage_error("8 --frames 0", "--frames: must come to 1 to 1000000 frames, got 0");
+    expect_usage_error("8 --frames 0", "--frames: must give 1 to 1000000 frames, got 0");
     expect_usage_error("8 --plot nowhere/c.svg", "nowhere/c.svg");
 }
 

@@ -20,7 +20,7 @@ struct Request {
     std::string json, plot;
 };
 
-// What is wrong with the input, known before the first run rather than after the last: the curves may take minutes.
+// Checks the input before the first run, because the curves may take minutes.
 Errors check(const Request& request) {
     Errors errors;
     const auto range = [&](const char* name, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
@@ -35,19 +35,19 @@ Errors check(const Request& request) {
     for (const auto& [key, value] : settings.common.solver)
         if (key == "substeps" || key == "projection" || key == "hierarchy")
             errors.push_back({"--" + key, "is what the curves go through"});
-    if (!errors.empty()) return errors;  // what is out of range need not be tried
+    if (!errors.empty()) return errors;  // do not open scenes with options that are out of range
     for (const BenchSubject& mesh : curve_meshes(request.curves.sides)) {
         if (const auto session = mesh.open(settings.common); !session) return session.errors();
     }
     if (const auto frames = frame_count(settings.length, 1.0 / SceneDesc{}.frame_rate); !frames) return frames.errors();
-    for (const std::string& file : {request.json, request.plot}) {  // made and gone again
+    for (const std::string& file : {request.json, request.plot}) {  // creates and removes the files
         if (file.empty()) continue;
         if (const auto made = AtomicFile::create(file); !made) return made.errors();
     }
     return errors;
 }
 
-Result<Done> write_files(const Request& request, const Curves& curves) {
+Result<void> write_files(const Request& request, const Curves& curves) {
     if (!request.json.empty()) {
         BenchReport report = empty_report();
         for (const CurvePoint& point : curves.points) report.scenes.push_back(point.figures);
@@ -55,7 +55,7 @@ Result<Done> write_files(const Request& request, const Curves& curves) {
         if (auto written = write_stats(to_json(report), request.json); !written) return written;
     }
     if (!request.plot.empty()) return write_curves(curves.points, request.plot);
-    return Done{};
+    return {};
 }
 
 int run(Request request) {
@@ -85,7 +85,7 @@ int run_program(int argc, char** argv) {
     Arguments arguments = program.arguments();
     Request request;
     BenchSettings& settings = request.curves.bench;
-    settings.warmup = 180;  // 5 s with the default length: the sheets have come to rest as far as they will
+    settings.warmup = 180;  // 5 s with the default length: the sheets have almost come to rest
     arguments.add("side", request.curves.sides, "particles along a side of the sheets, 8 to 1024").required();
     add_length_options(arguments, settings.length, "measure");
     arguments.add("--warmup", settings.warmup, "frames before those, not counted").with_default();

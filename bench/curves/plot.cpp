@@ -1,4 +1,4 @@
-// The picture of error against time.
+// The plot of error against time.
 #include "curves.h"
 
 #include "cli/shell/table.h"
@@ -19,8 +19,8 @@ constexpr double panel_width = 440, panel_height = 340;
 constexpr double left_margin = 62, right_margin = 14, top_margin = 36, bottom_margin = 52;
 constexpr double legend_line = 20;
 
-// In the order in which methods come first: told apart by those too who do not see all colors (Okabe and Ito), and by
-// shape.
+// Styles in the order in which methods first appear: colors that color-blind readers can distinguish (Okabe and Ito),
+// and different marks.
 struct Look {
     const char* color;
     const char* mark;  ///< an SVG path around the origin
@@ -31,7 +31,7 @@ constexpr const char* triangle = "M0,-4.2l4,7h-8z";
 constexpr Look looks[] = {{"#000000", disc},     {"#999999", square},   {"#009e73", disc},  {"#0072b2", disc},
                           {"#56b4e9", triangle}, {"#e69f00", triangle}, {"#cc79a7", square}};
 
-/// Names in the order in which they come first.
+/// Names in the order of their first appearance.
 template <class Get>
 std::vector<std::string> names_of(const std::vector<CurvePoint>& points, Get get) {
     std::vector<std::string> names;
@@ -48,7 +48,7 @@ double percent(const CurvePoint& point) {
     return std::max(100 * point.figures.stretch.mean, 1e-6);
 }
 
-// A sheet stretched to twice its size has come apart, and would leave no room for the others.
+// A sheet stretched beyond twice its size has failed; its points would compress the scale for the others.
 constexpr double most_percent = 100;
 
 // --- Axes
@@ -59,7 +59,7 @@ std::string tick_text(double value) {
     return fixed(value, value < 1 ? static_cast<int>(std::ceil(-std::log10(value) - 1e-9)) : 0);
 }
 
-/// Logarithmic, from one round number to another.
+/// A logarithmic axis between two round numbers.
 struct Axis {
     double least, most;  ///< values
     double from, to;     ///< pixels
@@ -81,7 +81,7 @@ Axis axis_over(const std::vector<double>& values, double from, double to) {
     constexpr std::size_t most_ticks = 13;
     const Axis axis{used.front(), used.back(), from, to, {}};
     if (used.size() <= most_ticks) return {axis.least, axis.most, from, to, used};
-    std::vector<double> powers;  // over many decades the powers of ten are enough
+    std::vector<double> powers;  // over many decades only powers of ten
     for (const double tick : used) {
         if (const double power = std::log10(tick); std::abs(power - std::round(power)) < 1e-6) powers.push_back(tick);
     }
@@ -151,7 +151,7 @@ std::string panel(const std::string& mesh, const std::vector<CurvePoint>& all, c
     svg += text_at(middle, y.from + 34, "middle", "ms a frame");
     svg += text_at(left + 16, height, "middle", "mean stretch, %",
                    " transform=\"rotate(-90 " + fixed(left + 16, 1) + ' ' + fixed(height, 1) + ")\"");
-    for (std::size_t m = methods.size(); m-- > 0;) {  // the first on top
+    for (std::size_t m = methods.size(); m-- > 0;) {  // draws the first method on top
         std::vector<const CurvePoint*> mine;
         for (const CurvePoint& point : points) {
             if (point.method == methods[m]) mine.push_back(&point);
@@ -173,7 +173,7 @@ std::string substeps_of(const std::vector<CurvePoint>& points) {
            " % is not drawn";
 }
 
-// As many beside each other as fit. `bottom` is moved below it.
+// Puts as many entries side by side as fit. Moves `bottom` below the legend.
 std::string legend(const std::vector<CurvePoint>& points, const std::vector<std::string>& methods, double width,
                    double& bottom) {
     std::string svg;
@@ -197,10 +197,10 @@ std::string legend(const std::vector<CurvePoint>& points, const std::vector<std:
 
 }  // namespace
 
-Result<Done> write_curves(const std::vector<CurvePoint>& points, const std::filesystem::path& file) {
+Result<void> write_curves(const std::vector<CurvePoint>& points, const std::filesystem::path& file) {
     const auto methods = names_of(points, [](const CurvePoint& point) { return point.method; });
     std::string panels;
-    // Grids beside each other, and below each its irregular twin.
+    // Grids side by side, each with its irregular variant below.
     std::array<double, 2> ends{};
     const auto irregular = [](const std::string& mesh) { return mesh.starts_with("irregular") ? 1u : 0u; };
     for (const std::string& mesh : names_of(points, [](const CurvePoint& point) { return point.mesh; })) {

@@ -1,5 +1,5 @@
 #version 450
-// Two barriers a round, and between them each invocation takes what its neighbor has written.
+// Two barriers per round; between them each invocation reads what its neighbor has written.
 #extension GL_EXT_buffer_reference : require
 layout(local_size_x_id = 0) in;
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Uints { uint at[]; };

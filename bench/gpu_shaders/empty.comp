@@ -1,5 +1,5 @@
 #version 450
-// Nothing: what is left is what a dispatch costs.
+// Empty, to measure the cost of a dispatch itself.
 layout(local_size_x_id = 0) in;
 
 void main() {}

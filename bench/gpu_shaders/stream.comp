@@ -1,5 +1,5 @@
 #version 450
-// A copy as a shader makes it.
+// A copy by a shader.
 #extension GL_EXT_buffer_reference : require
 layout(local_size_x_id = 0) in;
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Vec4s { vec4 at[]; };

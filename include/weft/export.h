@@ -1,4 +1,4 @@
-// What the shared library shows; everything else in it is hidden.
+// Marks the symbols that the shared library exports; all others are hidden.
 #pragma once
 
 #if !defined(_WIN32)

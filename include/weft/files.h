@@ -1,4 +1,4 @@
-// Files: what Simulation::load reads meshes with. In the library weft::io.
+// Reading of mesh files. Part of the library weft::io.
 #pragma once
 
 #include <weft/export.h>
@@ -10,8 +10,9 @@
 
 namespace weft {
 
-/// Reads a triangle mesh: OBJ, PLY, glTF, FBX, STL or 3DS. A relative name is looked for in `folder`, then in the
-/// folders of the environment variable WEFT_ASSETS, then where Linux packages put models. For Options::read_mesh.
+/// Reads a triangle mesh from an OBJ, PLY, glTF, GLB, FBX, STL or 3DS file. A relative name is searched in `folder`,
+/// then in the folders of the environment variable WEFT_ASSETS (separated by ':'), then where Debian's packages install
+/// models. Fails if no file is found or it cannot be read. It is the default Options::read_mesh of Simulation::load.
 WEFT_API Result<TriangleMesh> read_mesh_file(const std::string& file, const std::filesystem::path& folder);
 
 }  // namespace weft

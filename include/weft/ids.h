@@ -1,15 +1,16 @@
-// Names for what is in a world. An id stays valid until what it names is removed; after that it names nothing, even if
-// something else has taken the place.
+// Ids of the objects in a simulation. An id is valid until its object is removed. After that it names nothing, also if
+// a new object takes the same index.
 #pragma once
 
 #include <cstdint>
 
 namespace weft {
 
+/// A handle of an object. A default-constructed id names nothing and converts to false.
 template <class Tag>
 struct Id {
     std::uint32_t index = 0;
-    std::uint32_t generation = 0;  ///< 0 is no id
+    std::uint32_t generation = 0;  ///< 0: names nothing
 
     constexpr explicit operator bool() const { return generation != 0; }
     friend constexpr bool operator==(Id, Id) = default;
@@ -17,6 +18,6 @@ struct Id {
 
 using ClothId = Id<struct ClothTag>;
 using ColliderId = Id<struct ColliderTag>;
-using StitchId = Id<struct StitchTag>;  ///< of stitches that were added together
+using StitchId = Id<struct StitchTag>;  ///< names the stitches of one StitchDesc
 
 }  // namespace weft

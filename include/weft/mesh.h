@@ -1,4 +1,4 @@
-// Triangles: what a file holds and a picture shows. A mesh keeps its seams and hard edges; the simulation welds a copy.
+// Triangle meshes. A mesh keeps the vertices of seams and hard edges; the simulation welds them in a copy.
 #pragma once
 
 #include <weft/vector.h>
@@ -12,7 +12,7 @@ namespace weft {
 /// Three vertex or particle indices, counter-clockwise seen from the front.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// "No such element": a missing neighbor, a vertex without a particle.
+/// Index of no element: a missing neighbor, a vertex without a particle.
 inline constexpr std::uint32_t none = 0xffffffffu;
 
 struct TriangleMesh {

@@ -1,4 +1,4 @@
-// Errors at loading time: where and what, as values. Stepping never fails this way; it sets report bits (frame.h).
+// Errors as return values. Errors inside a step are not returned; Simulation::reports() names them.
 #pragma once
 
 #include <cassert>
@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// What a problem lies with.
+/// The cause of a problem.
 enum class Fault {
-    input,    ///< what was asked for: another file, another value will do
-    machine,  ///< what it was to be done with: a driver that is missing, memory, a device that is lost
+    input,    ///< the request: another file or another value can succeed
+    machine,  ///< the machine: missing driver, not enough memory, lost device
 };
 
 /// One problem: the place (`scenes/flag.json: /cloths/0/fabric/density`) and what is wrong there
@@ -22,15 +22,17 @@ struct Error {
     std::string what;
     Fault fault = Fault::input;
 
+    /// An error with Fault::machine.
     static Error of_machine(std::string where, std::string what) {
         return {std::move(where), std::move(what), Fault::machine};
     }
+    /// `where: what`, or `what` if `where` is empty.
     std::string message() const { return where.empty() ? what : where + ": " + what; }
 };
 
 using Errors = std::vector<Error>;
 
-/// A value, or every problem that stood in its way (at least one).
+/// A value, or at least one error. Call value() only if ok() is true, errors() and error() only if it is false.
 template <class T>
 class [[nodiscard]] Result {
   public:
@@ -51,14 +53,29 @@ class [[nodiscard]] Result {
     const T* operator->() const { return &value(); }
 
     const Errors& errors() const { return std::get<Errors>(state_); }
-    /// The first problem.
+    /// The first error.
     const Error& error() const { return errors().front(); }
 
   private:
     std::variant<T, Errors> state_;
 };
 
-/// For actions that return nothing: `return Done{};`
-struct Done {};
+/// Result of an action without a value: `return {};` means success.
+template <>
+class [[nodiscard]] Result<void> {
+  public:
+    Result() = default;
+    Result(Error error) : errors_{std::move(error)} {}
+    Result(Errors errors) : errors_(std::move(errors)) { assert(!errors_.empty()); }
+
+    bool ok() const { return errors_.empty(); }
+    explicit operator bool() const { return ok(); }
+
+    const Errors& errors() const { return errors_; }
+    const Error& error() const { return errors().front(); }
+
+  private:
+    Errors errors_;
+};
 
 }  // namespace weft

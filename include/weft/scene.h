@@ -1,5 +1,5 @@
-// What can be simulated and how: the parts of a scene as values, in SI units, with their defaults. The ranges and more
-// words are in docs/scene.md; whoever takes one of these says what is wrong with it.
+// The parts of a scene as plain structs with their defaults, in SI units. docs/scene.md describes them in more detail.
+// Functions that take one of these structs check its ranges and return an error for each value that is out of range.
 #pragma once
 
 #include <weft/bounds.h>
@@ -18,139 +18,159 @@
 
 namespace weft {
 
+/// `xpbd`: extended position-based dynamics, with stiffness in SI units, independent of the substeps. `pbd`: plain
+/// position-based dynamics with the fabric's `stiffness`, for comparison.
 enum class Method { xpbd, pbd };
-/// `automatic`: lines with xpbd, gauss_seidel with pbd.
+/// `gauss_seidel`: one constraint after another, color by color. `lines`: the same, but the stretch constraints of a
+/// whole line of edges are solved at once; not with `pbd`. `jacobi`: all constraints at once, averaged per particle;
+/// converges more slowly. `automatic`: `lines` with `xpbd`, `gauss_seidel` with `pbd`.
 enum class Projection { automatic, lines, gauss_seidel, jacobi };
 
-/// How averaged Jacobi adds up what rows want of a particle.
+/// How `jacobi` sums the corrections of a particle. `gather`: as floats in a fixed order. `fixed_point`: as multiples
+/// of 1/65536 m in any order.
 enum class Accumulate { gather, fixed_point };
 
-/// Every option of the solver. The keys of a scene's `solver`, Options::solver and the options of the command line are
-/// those that `solver_keys` (src/scene/scene_keys.h) lists for this struct.
+/// All options of the solver. Scene files, Options::solver and the command line use the keys that
+/// solver_keys lists (src/scene/scene_keys.h).
 struct SolverDesc {
     std::uint32_t substeps = 20;   ///< per frame, 1…10000
     std::uint32_t iterations = 1;  ///< per substep, 1…10000
     Method method = Method::xpbd;
     Projection projection = Projection::automatic;
     Accumulate accumulate = Accumulate::gather;
-    bool hierarchy = true;  ///< coarse levels first: large cloths stretch less
+    bool hierarchy = true;  ///< solve coarse levels first: large cloths stretch less
     friend bool operator==(const SolverDesc&, const SolverDesc&) = default;
 };
 
-/// Particles held within their way over the cloth from where it is pinned. `automatic`: where coarse levels are on, the
-/// fabric is inextensible and the cloth hangs by few places.
+/// Limits each particle's distance to its pins by the geodesic distance at rest. `automatic`: on if
+/// SolverDesc::hierarchy is on, the fabric is inextensible and the cloth hangs by at most 16 places.
 enum class Tethers { automatic, on, off };
 
+/// `directional`: the same velocity everywhere.
 enum class WindKind { directional };
 
-/// `smooth`: neighbors feel a gust at nearly the same time. `scattered`: every triangle has a phase and a frequency of
-/// its own.
+/// `smooth`: neighboring triangles get the same gust. `scattered`: each triangle has its own phase and frequency.
 enum class GustPhase { smooth, scattered };
 
+/// Change of a wind over time.
 struct GustDesc {
-    float amplitude = 0;     ///< of the velocity
-    float frequency = 0.5f;  ///< 1/s
-    float scale = 4;         ///< m: distance over which gusts fall out of step
+    float amplitude = 0;     ///< largest change, as a fraction of the velocity, 0…100
+    float frequency = 0.5f;  ///< gusts per second, 0…1000
+    float scale = 4;         ///< m, > 0: distance across the wind at which gusts become independent
     GustPhase phase = GustPhase::smooth;
     friend bool operator==(const GustDesc&, const GustDesc&) = default;
 };
 
+/// Change of a wind from place to place.
 struct TurbulenceDesc {
-    float strength = 0;  ///< of the velocity
-    float scale = 0.5f;  ///< m: size of an eddy, across the wind
-    float period = 1;    ///< s: how long an eddy lives; 0 keeps them still
+    float strength = 0;  ///< largest change, as a fraction of the velocity, 0…100
+    float scale = 0.5f;  ///< m, > 0: size of an eddy across the wind
+    float period = 1;    ///< s, ≥ 0: lifetime of an eddy; 0: eddies do not change
     friend bool operator==(const TurbulenceDesc&, const TurbulenceDesc&) = default;
 };
 
+/// One wind source.
 struct WindDesc {
     WindKind kind = WindKind::directional;
-    Vec3 velocity = {};  ///< m/s
+    Vec3 velocity = {};  ///< m/s, each component within ±1e4
     GustDesc gust = {};
     TurbulenceDesc turbulence = {};
-    std::uint32_t seed = 0;
+    std::uint32_t seed = 0;  ///< selects the random gusts and eddies, 0…16777215
     friend bool operator==(const WindDesc&, const WindDesc&) = default;
 };
 
+/// The air around the cloths.
 struct AirDesc {
-    float density = 1.225f;           ///< kg/m³
-    std::vector<WindDesc> wind = {};  ///< the sum acts
+    float density = 1.225f;           ///< kg/m³, 0…1e4
+    std::vector<WindDesc> wind = {};  ///< their velocities add up
     friend bool operator==(const AirDesc&, const AirDesc&) = default;
 };
 
-/// How the cells of a grid are cut. `uniform`: all along +x+z. `alternating`: a checkerboard of both directions.
-/// `cross`: both, with one more vertex in the middle of each cell.
+/// Diagonals of the cells of a grid. `uniform`: all along +x+z. `alternating`: a checkerboard of both directions.
+/// `cross`: both, with an additional vertex in the middle of each cell.
 enum class GridDiagonal { uniform, alternating, cross };
 
-/// A flat sheet in the xz plane, centered, facing +y, its warp along x. Particle (ix, iz) is vertex
+/// A flat sheet in the xz plane, centered, facing +y. Its warp runs along x. Particle (ix, iz) is vertex
 /// iz · resolution[0] + ix.
 struct GridDesc {
-    std::array<float, 2> size{1, 1};                  ///< m along x and z
-    std::array<std::uint32_t, 2> resolution{64, 64};  ///< particles along x and z
+    std::array<float, 2> size{1, 1};                  ///< m, > 0, along x and z
+    std::array<std::uint32_t, 2> resolution{64, 64};  ///< particles along x and z, 2…4096 each
     GridDiagonal diagonal = GridDiagonal::alternating;
     friend bool operator==(const GridDesc&, const GridDesc&) = default;
 };
 
+/// A closed sphere about the origin with 10 · 4^subdivisions + 2 particles. The warp runs along x.
 struct SphereMeshDesc {
-    float radius = 0.5f;             ///< m
-    std::uint32_t subdivisions = 4;  ///< 0…7
+    float radius = 0.5f;             ///< m, > 0
+    std::uint32_t subdivisions = 4;  ///< how often the 20 triangles of an icosahedron are split into four, 0…7
     friend bool operator==(const SphereMeshDesc&, const SphereMeshDesc&) = default;
 };
 
+/// A closed box, centered at the origin.
 struct BoxMeshDesc {
-    std::array<float, 3> size{1, 1, 1};                   ///< m along x, y and z
-    std::array<std::uint32_t, 3> resolution{32, 32, 32};  ///< particles along x, y and z
+    std::array<float, 3> size{1, 1, 1};                   ///< m, > 0, along x, y and z
+    std::array<std::uint32_t, 3> resolution{32, 32, 32};  ///< particles along x, y and z, 2…4096 each
     friend bool operator==(const BoxMeshDesc&, const BoxMeshDesc&) = default;
 };
 
+/// The axis of a file that points up; it is rotated to +y.
 enum class UpAxis { x, y, z };
 
+/// A mesh file, read by Options::read_mesh.
 struct MeshFileDesc {
-    std::string file = {};  ///< looked for beside the scene, then in WEFT_ASSETS, then where packages put models
-    float scale = 1;        ///< m per unit of the file
+    std::string file = {};  ///< name of the file; read_mesh_file() lists the folders that are searched
+    float scale = 1;        ///< m per unit of the file, > 0
     UpAxis up = UpAxis::y;
     friend bool operator==(const MeshFileDesc&, const MeshFileDesc&) = default;
 };
 
-/// Made from numbers, read from a file, or given as it is.
+/// The mesh of a cloth: generated, read from a file, or given in memory.
 using MeshDesc = std::variant<GridDesc, SphereMeshDesc, BoxMeshDesc, MeshFileDesc, TriangleMesh>;
 
+/// A point of a mesh is placed at R · (scale · point) + position.
 struct TransformDesc {
     Vec3 position = {};          ///< m
     Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
-    float scale = 1;
+    float scale = 1;             ///< > 0
     friend bool operator==(const TransformDesc&, const TransformDesc&) = default;
 };
 
+/// Selects particles by number. Fails if a number is out of range, or the vertex belongs to no triangle.
 struct VertexPins {
     std::vector<std::uint32_t> vertices = {};  ///< welded vertices, numbered in order of first appearance in the file
     friend bool operator==(const VertexPins&, const VertexPins&) = default;
 };
+/// Selects all particles in a box. Fails if there are none.
 struct BoxPins {
-    Bounds box = {};  ///< world space, after the transform
+    Bounds box = {};  ///< m, in world space, after the transform
     friend bool operator==(const BoxPins&, const BoxPins&) = default;
 };
+/// Selects all particles with this vertex color. Fails if there are none.
 struct ColorPins {
-    Vec3 color = {};         ///< linear RGB
-    float threshold = 0.5f;  ///< largest distance from `color`, per channel
+    Vec3 color = {};         ///< linear RGB, 0…1
+    float threshold = 0.5f;  ///< largest difference from `color`, per channel, 0…1
     friend bool operator==(const ColorPins&, const ColorPins&) = default;
 };
 
-/// Where a pin is, relative to where it started.
+/// Offset of a pin from its start position at a time. Offsets are interpolated linearly between keys and constant
+/// before the first and after the last one.
 struct OffsetKey {
     float time = 0;    ///< s
     Vec3 offset = {};  ///< m
     friend bool operator==(const OffsetKey&, const OffsetKey&) = default;
 };
 
+/// Particles whose positions are given. If several pins select a particle, the last one counts. `attach` and `motion`
+/// exclude each other.
 struct PinDesc {
-    std::variant<VertexPins, BoxPins, ColorPins> select = {};
+    std::variant<VertexPins, BoxPins, ColorPins> select = {};  ///< the pinned particles
     std::string attach = {};             ///< name of the collider that the particles follow; empty: none
-    std::vector<OffsetKey> motion = {};  ///< by ascending time; empty: they stay
-    float compliance = 0;                ///< m/N: of the spring between particle and place; 0: the particle is there
+    std::vector<OffsetKey> motion = {};  ///< by ascending time; empty: they do not move
+    float compliance = 0;                ///< m/N, 0…1e6, of the spring that holds a particle; 0: rigid
     friend bool operator==(const PinDesc&, const PinDesc&) = default;
 };
 
-/// A value of a fabric or a solver option: a number, several, true or false, or a word.
+/// A value of a fabric or a solver option: one or several numbers, a flag, or text.
 class ParameterValue {
   public:
     template <class Number>
@@ -167,11 +187,12 @@ class ParameterValue {
     std::variant<std::vector<double>, bool, std::string> value_;
 };
 
-/// Keys with their values. Of several values for one key the last one is used.
+/// Keys with their values. If a key has several values, the last one is used.
 using ParameterValues = std::vector<std::pair<std::string, ParameterValue>>;
 
-/// A fabric known by name, and what is different from it. Keys, units and ranges are those of a scene's `fabric`
-/// (docs/scene.md): `FabricDesc("silk").set("density", 0.08).set("stretch", {1500, 1200})`.
+/// A fabric: a preset and values that replace some of its own. Presets, keys, units and ranges are those of a scene's
+/// `fabric` (docs/scene.md): `FabricDesc("silk").set("density", 0.08).set("stretch", {1500, 1200})`. Unknown names and
+/// values out of range are errors of the function that takes the FabricDesc.
 struct FabricDesc {
     std::string preset = "cotton";
     ParameterValues values = {};
@@ -185,76 +206,82 @@ struct FabricDesc {
     }
 };
 
+/// One cloth.
 struct ClothDesc {
-    std::string name = {};
-    MeshDesc mesh = {};                  ///< what is simulated
-    std::optional<MeshDesc> drawn = {};  ///< what is drawn and follows it; without, the same
-    TransformDesc transform = {};
+    std::string name = {};                     ///< unique; empty: a free name is chosen
+    MeshDesc mesh = {};                        ///< simulated mesh
+    std::optional<MeshDesc> render_mesh = {};  ///< drawn mesh, follows `mesh`; nullopt: `mesh` is drawn
+    TransformDesc transform = {};              ///< of both meshes, at the start
     FabricDesc fabric = {};
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;
-    float tether_slack = 0;  ///< of the way over the cloth
+    float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
 };
 
-/// Half space below the plane: normal·x = offset, in the collider's own frame.
+/// The solid half space normal·x ≤ offset, in the collider's local frame.
 struct PlaneDesc {
-    Vec3 normal{0, 1, 0};
-    float offset = 0;  ///< m
+    Vec3 normal{0, 1, 0};  ///< points out of the solid; any length but 0
+    float offset = 0;      ///< m
     friend bool operator==(const PlaneDesc&, const PlaneDesc&) = default;
 };
+/// A sphere about the collider's position.
 struct SphereDesc {
-    float radius = 0.5f;  ///< m
+    float radius = 0.5f;  ///< m, > 0
     friend bool operator==(const SphereDesc&, const SphereDesc&) = default;
 };
+/// A box, centered at the collider's position.
 struct BoxDesc {
-    Vec3 half_extents{0.5f, 0.5f, 0.5f};  ///< m
+    Vec3 half_extents{0.5f, 0.5f, 0.5f};  ///< m, > 0, half of the size along the local x, y and z
     friend bool operator==(const BoxDesc&, const BoxDesc&) = default;
 };
-/// Along the collider's own y axis.
+/// A capsule along the collider's local y axis, centered at its position.
 struct CapsuleDesc {
-    float radius = 0.1f;       ///< m
-    float half_height = 0.5f;  ///< m: half the length between the centers of its two ends
+    float radius = 0.1f;       ///< m, > 0
+    float half_height = 0.5f;  ///< m, ≥ 0: half the distance between the centers of its two ends
     friend bool operator==(const CapsuleDesc&, const CapsuleDesc&) = default;
 };
 
-/// Where a collider is at a time, in place of its transform.
+/// Pose of a collider at a time, in place of its transform. Poses are interpolated linearly between keys and constant
+/// before the first and after the last one.
 struct PoseKey {
     float time = 0;              ///< s
     Vec3 position = {};          ///< m
-    Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
+    Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx; each angle is interpolated, 360° more adds a turn
     friend bool operator==(const PoseKey&, const PoseKey&) = default;
 };
 
+/// A rigid shape that cloth collides with.
 struct ColliderDesc {
     std::string name = {};
     std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc> shape = {};
-    TransformDesc transform = {};               ///< `scale` unused
-    std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
-    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays at `transform`
+    TransformDesc transform = {};               ///< `scale` is ignored
+    std::array<float, 2> friction{0.4f, 0.3f};  ///< static and kinetic coefficient, 0…100
+    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: the collider stays at `transform`
     friend bool operator==(const ColliderDesc&, const ColliderDesc&) = default;
 };
 
 /// A point in a triangle of a cloth's simulated mesh.
 struct MeshPoint {
-    std::uint32_t triangle = 0;  ///< in the order of the mesh
-    Vec3 weights{1, 0, 0};       ///< of its three corners, each 0…1; their sum is 1
+    std::uint32_t triangle = 0;  ///< number of the triangle in the mesh
+    Vec3 weights{1, 0, 0};       ///< barycentric weights of its corners, each 0…1; their sum is 1
     friend bool operator==(const MeshPoint&, const MeshPoint&) = default;
 };
 
-/// One side of a row of stitches: either of the two lists, the other one empty.
+/// One side of a StitchDesc. Exactly one of `vertices` and `points` is not empty.
 struct StitchEnd {
-    std::string cloth = {};                    ///< by its name
+    std::string cloth = {};                    ///< name of the cloth
     std::vector<std::uint32_t> vertices = {};  ///< numbered as for pins
-    std::vector<MeshPoint> points = {};
+    std::vector<MeshPoint> points = {};        ///< points in triangles
     friend bool operator==(const StitchEnd&, const StitchEnd&) = default;
 };
 
-/// A row of stitches: point i of one side is tied to point i of the other. Both sides may be of one cloth.
+/// Stitches: point i of side `a` is tied to point i of side `b`. Both sides have the same number of points and may
+/// belong to one cloth.
 struct StitchDesc {
     std::string name = {};
     StitchEnd a = {}, b = {};
-    float gap = 0;         ///< m, ≥ 0: distance at which tied points are kept
-    float compliance = 0;  ///< m/N, ≥ 0: how far each stitch gives way per newton
+    float gap = 0;         ///< m, 0…1e6: distance between tied points
+    float compliance = 0;  ///< m/N, 0…1e6, of each stitch; 0: rigid
     friend bool operator==(const StitchDesc&, const StitchDesc&) = default;
 };
 

@@ -1,8 +1,8 @@
-// Simulates cloth: a scene from a file, or a world that a program fills and changes as it runs.
+// A cloth simulation: loaded from a scene file, or created empty and filled by the program.
 #pragma once
 
+#include <weft/contact_forces.h>
 #include <weft/export.h>
-#include <weft/feedback.h>
 #include <weft/ids.h>
 #include <weft/mesh.h>
 #include <weft/result.h>
@@ -23,161 +23,173 @@
 
 namespace weft {
 
-/// Reads the mesh that a cloth names by file (MeshFileDesc). `folder` is that of the scene; empty where there is none.
+/// Reads the mesh file of a cloth (MeshFileDesc). `folder` is the folder of the scene file, or empty if there is none.
 using MeshReader = std::function<Result<TriangleMesh>(const std::string& file, const std::filesystem::path& folder)>;
 
-/// Overrides of what the scene says, and where to compute.
+/// Where and how to compute, and solver settings that replace those of the scene.
 struct Options {
-    /// "cpu", "vulkan", or "auto": Vulkan where there is a GPU for it, else the CPU.
+    /// "cpu", "vulkan" or "auto". "auto" uses Vulkan if there is a suitable GPU, otherwise the CPU.
     std::string backend = "auto";
-    /// Vulkan: part of the device's name, in whatever case; empty takes the best.
+    /// Vulkan: part of the device's name, case-insensitive; empty: the best device.
     std::string device = {};
-    /// Vulkan: how a frame becomes dispatches, "auto", "streamed" (one per pass), "grouped" (coarse levels in one) or
-    /// "fused" (one for all, a workgroup to a cloth). The same bits.
+    /// Vulkan: how a frame is split into dispatches. "streamed": one per pass; "grouped": passes of small coarse levels
+    /// share one; "fused": one per frame, with a workgroup per cloth; "auto": chosen by size and device
+    /// (docs/vulkan.md). The result has the same bits in each case.
     std::string execution = "auto";
-    /// Threads in all, the calling one included, 1…256. The result has the same bits whatever the number.
+    /// CPU: number of threads including the calling one, 1…256. The result has the same bits for every number.
     unsigned threads = 1;
-    /// Solver options that replace those of the scene, by the keys of its `solver` (docs/scene.md):
+    /// Solver options that replace those of the scene. Keys are those of a scene's `solver` (docs/scene.md):
     /// `{{"substeps", 8}, {"method", "pbd"}, {"hierarchy", false}}`.
     ParameterValues solver = {};
-    /// Instruction set: "avx512", "avx2", "sse4", "neon", "scalar"; empty takes the widest. Same bits for all of them.
+    /// CPU: instruction set, "avx512", "avx2", "sse4", "neon" or "scalar"; empty: the widest available one. The result
+    /// has the same bits for all of them.
     std::string isa = {};
-    /// Keep account of what cloth does to colliders: Simulation::feedback().
-    bool feedback = false;
-    /// Vulkan: time each stage of a frame, which costs a little.
+    /// Record contacts for Simulation::contact_forces(). The motion has the same bits with and without it.
+    bool contact_forces = false;
+    /// Vulkan: measure the time of each stage of a frame, at a small cost.
     bool stage_timings = false;
-    /// Without it, a cloth that names a mesh file is refused; Simulation::load then takes read_mesh_file of
-    /// <weft/files.h>.
+    /// Reads mesh files of cloths. If empty, Simulation::load uses read_mesh_file of <weft/files.h>, and in a
+    /// simulation made by Simulation::create a cloth with a mesh file is an error.
     MeshReader read_mesh = {};
 };
 
-/// What holds for everything in a world.
+/// Settings of a whole simulation. Ranges are those of a scene file (docs/scene.md).
 struct WorldDesc {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s²
     SolverDesc solver = {};
-    std::optional<AirDesc> air = {};  ///< without, a vacuum
-    float frame_rate = 60;            ///< 1/s: of step()
+    std::optional<AirDesc> air = {};  ///< nullopt: no air
+    float frame_rate = 60;            ///< frames/s of step(), > 0, ≤ 100000
 };
 
-/// The drawn surface of one cloth. Views into the simulation, valid until its next step or change.
+/// The render mesh of one cloth. The views point into the simulation and are valid until its next step or change.
 struct Surface {
     std::string_view name;
-    std::span<const Vec3> positions;  ///< m, per vertex of the mesh as it was loaded
-    std::span<const Vec3> normals;    ///< unit
-    std::span<const Vec2> uvs;        ///< empty if the mesh has none
-    std::span<const std::array<std::uint32_t, 3>> triangles;
+    std::span<const Vec3> positions;                          ///< m, one per vertex of the mesh as loaded
+    std::span<const Vec3> normals;                            ///< unit, one per vertex
+    std::span<const Vec2> uvs;                                ///< one per vertex; empty if the mesh has no UVs
+    std::span<const std::array<std::uint32_t, 3>> triangles;  ///< three vertex indices each
 };
 
-/// How well the last step went.
+/// Measures of the state after the last step, over all cloths.
 struct Measures {
-    double mean_stretch = 0, max_stretch = 0;    ///< |ℓ/ℓ₀ − 1| of the edges along warp and weft
-    double mean_shear = 0, max_shear = 0;        ///< the same of the others
-    double mean_residual = 0, max_residual = 0;  ///< of that, what the solver left unsolved
+    double mean_stretch = 0, max_stretch = 0;    ///< |ℓ/ℓ₀ − 1| of edges along warp or weft
+    double mean_shear = 0, max_shear = 0;        ///< |ℓ/ℓ₀ − 1| of all other edges
+    double mean_residual = 0, max_residual = 0;  ///< unsolved part of the stretch: |C + α̃λ| / ℓ₀
     double kinetic_energy = 0;                   ///< J
-    double max_speed = 0;                        ///< m/s
-    double max_penetration = 0;                  ///< m beyond a collider's surface
+    double max_speed = 0;                        ///< m/s, of the fastest particle
+    double max_penetration = 0;                  ///< m, largest depth inside a collider
 };
 
-/// Functions that take an id fail, or give nothing, if it names nothing in this simulation (any more). A simulation is
-/// used from one thread at a time.
+/// A world of cloths and colliders. Functions that take an id return an error or an empty value if the id does not name
+/// an object of this simulation, or its object was removed. A function that returns an error has not changed the
+/// simulation. A Simulation is not thread-safe: use it from one thread at a time.
 class WEFT_API Simulation {
   public:
-    /// Reads a scene file and everything it names. Fails with every problem found, each with its place. This, save()
-    /// and save_scene() are in the library weft::io, all else is in weft::core.
+    /// Reads a scene file and all files that it names. On failure it returns all problems found, each with its place in
+    /// the file. load(), save() and save_scene() are in the library weft::io, all other functions in weft::core.
     static Result<Simulation> load(const std::filesystem::path& scene, const Options& options = {});
-    /// An empty world, to be filled.
+    /// Creates a simulation without cloths and colliders. Fails on values out of range or an unavailable backend.
     static Result<Simulation> create(const WorldDesc& world = {}, const Options& options = {});
 
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Advances by one frame of the world's frame rate. On a device the frame may be under way still when this returns:
-    /// what asks for something that came of it waits, as do changes and the next step; feedback(), frame(), time(),
-    /// set_friction(), move(), and what says what is in the world do not.
+    /// Advances by one frame, 1/frame_rate seconds. On a device it returns as soon as the frame is submitted. Queries
+    /// of results, edits and the next step wait for the frame to finish. contact_forces(), frame(), time(), move() and
+    /// the functions that list and find objects do not wait.
     void step();
-    /// Advances by one frame of dt seconds; fails, and does nothing, unless 0 < dt ≤ 1000.
-    Result<Done> step(double dt);
+    /// Advances by one frame of dt seconds. Fails unless 0 < dt ≤ 1000.
+    Result<void> step(double dt);
 
-    std::uint64_t frame() const;  ///< 0 is the start
-    double time() const;          ///< s
+    std::uint64_t frame() const;  ///< number of frames since the start
+    double time() const;          ///< s, simulated time since the start
 
-    // What is in the world. Everything may come and go between two steps.
+    // Objects of the simulation. All can be added and removed between two steps.
 
-    /// Pins may attach to colliders that are there, by name. The mesh is copied. Names of cloths differ, and so do
-    /// those of colliders; what has none gets one.
+    /// Adds a cloth. Its mesh is copied. Its pins can attach to existing colliders by name. The name must differ from
+    /// those of the other cloths; an empty name is replaced by a free one such as `cloth 0`. Fails with all problems
+    /// found: values out of range, a mesh that cannot be read or simulated, not enough device memory.
     Result<ClothId> add(const ClothDesc& cloth);
+    /// Adds a collider. Names follow the same rules as those of cloths.
     Result<ColliderId> add(const ColliderDesc& collider);
-    /// Ties cloths together that are there already, from where they are now. Stitches go with either of their cloths.
+    /// Stitches existing cloths together at their current positions. The stitches are removed with either of their
+    /// cloths.
     Result<StitchId> add(const StitchDesc& stitches);
-    Result<Done> remove(ClothId id);
-    /// Pins that it carried stay where they are.
-    Result<Done> remove(ColliderId id);
-    Result<Done> remove(StitchId id);
+    Result<void> remove(ClothId id);
+    /// Pins that are attached to the collider stay at their current positions.
+    Result<void> remove(ColliderId id);
+    Result<void> remove(StitchId id);
 
-    std::vector<ClothId> cloths() const;  ///< in the order in which they were added
+    std::vector<ClothId> cloths() const;  ///< in the order of adding
     std::vector<ColliderId> colliders() const;
     std::vector<StitchId> stitches() const;
-    ClothId find_cloth(std::string_view name) const;  ///< no id if there is none of that name
-    ColliderId find_collider(std::string_view name) const;
+    ClothId find_cloth(std::string_view name) const;        ///< a null id if no cloth has this name
+    ColliderId find_collider(std::string_view name) const;  ///< a null id if no collider has this name
 
-    // Change while it runs. Cloth goes on moving as it was.
+    // Changes between two steps. Cloths keep their positions and velocities.
 
-    /// Acts from the next step on. The model of the cloth is built anew only where it needs other constraints: where
-    /// the cloth loses all stiffness in a direction or gets some, where `bend_model`, `hinges` or `rest_angle` change,
-    /// and where `bend` changes with the bend model `plate`. Otherwise this computes new numbers for the constraints
-    /// that there are (docs/performance.md has the times). Coarse levels and tethers are then those of the former
-    /// fabric for some frames; they change in the same frame on every run.
-    Result<Done> set_fabric(ClothId id, const FabricDesc& fabric);
-    /// In place of those that it has. Particles are held where they are now; a box selects those that are in it now.
-    /// The cost is that of the particles concerned; where pins with a compliance come, go or change, springs are made
-    /// anew and the rest of the cloth's model is kept. It is built anew where more of these are added than it has room
-    /// for: eight more than it began with. Coarse levels and tethers follow some frames later, in the same frame on
-    /// every run.
-    Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
-    /// During the next frame the collider moves there from where it is, and takes cloth along; then it stays there.
-    /// Rotation as in a scene, in degrees. Ends a motion by keys.
-    Result<Done> move(ColliderId id, Vec3 position, Vec3 rotation_degrees = {});
-    Result<Done> set_friction(ColliderId id, float static_friction, float kinetic_friction);
-    Result<Done> set_gravity(Vec3 gravity);
-    Result<Done> set_solver(const SolverDesc& solver);
-    Result<Done> set_air(const std::optional<AirDesc>& air);
+    /// Changes the fabric from the next step on. Normally this computes new parameters for the existing constraints
+    /// (times: docs/performance.md). The model of the cloth is rebuilt only if it needs other constraints: if a
+    /// stiffness changes between zero and nonzero, if `bend_model`, `bend_edges` or `rest_angle` change, or if `bend`
+    /// changes with the bend model `plate`. Without a rebuild, coarse levels and tethers remain those of the old fabric
+    /// for some frames. They change in the same frame on every run.
+    Result<void> set_fabric(ClothId id, const FabricDesc& fabric);
+    /// Replaces all pins of the cloth. Particles are pinned at their current positions, and a box selects by current
+    /// positions. The cost is proportional to the number of particles concerned. If pins with a compliance are added,
+    /// removed or changed, only the springs of the model are rebuilt. The whole model is rebuilt if the springs exceed
+    /// its room, which is at least eight more than it was built with. Coarse levels and tethers follow some frames
+    /// later, in the same frame on every run.
+    Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
+    /// Moves the collider from its current pose to this one during the next frame; cloth in contact moves with it. The
+    /// collider then stays there. Position in m; rotation in degrees, R = Rz·Ry·Rx. Ends a motion by keys.
+    Result<void> move(ColliderId id, Vec3 position, Vec3 rotation_degrees = {});
+    /// Friction coefficients of the collider, 0…100.
+    Result<void> set_friction(ColliderId id, float static_friction, float kinetic_friction);
+    Result<void> set_gravity(Vec3 gravity);  ///< m/s²
+    /// Rebuilds the models of all cloths if coarse levels (`hierarchy`) or the `projection` require another layout.
+    Result<void> set_solver(const SolverDesc& solver);
+    /// nullopt: no air.
+    Result<void> set_air(const std::optional<AirDesc>& air);
 
-    // What came of it.
+    // Results.
 
-    Surface surface(ClothId id) const;
+    Surface surface(ClothId id) const;  ///< empty if the id names nothing
     std::size_t cloth_count() const;
-    Surface cloth(std::size_t index) const;  ///< in the order of cloths(); empty from cloth_count() on
-    /// Of the surface's vertices, for normal maps: unit tangents along which u grows, and in w the handedness, 1 or −1:
-    /// bitangent = w · normal × tangent. Empty if the mesh has no UVs. Valid as long as the surface, and until the next
-    /// call.
+    Surface cloth(std::size_t index) const;  ///< in the order of cloths(); empty if out of range
+    /// One tangent per vertex of the surface, for normal maps. xyz is the unit direction in which u grows; w is the
+    /// handedness, 1 or −1: bitangent = w · normal × tangent. Empty if the mesh has no UVs. Valid until the next call
+    /// of tangents(), and until the next step or change.
     std::span<const Vec4> tangents(ClothId id) const;
 
+    /// Computed on each call.
     Measures measure() const;
-    /// With Options::feedback, what the cloths did to the colliders in a frame, which it names: of the last step if
-    /// anything has waited for that one since, as surface() and measure() do; of the step before if not. Never waits.
-    /// The same on every backend, whichever frame it is. Empty before, and after restore_state(). A cloth that was not
-    /// finite in the frame did nothing. Valid until it is called again, or a step or change.
-    const Feedback& feedback() const;
-    /// What the last step held back or caught, by name ("SpeedCapped", "NonFinite", "ContactsFull"); empty if all went
-    /// well.
+    /// Contacts and forces of one frame; ContactForces::frame is its number. Requires Options::contact_forces. It is
+    /// the last frame if a call such as surface() or measure() has waited for that frame, otherwise the frame before.
+    /// Never waits. Every backend returns the same frame with the same values. Empty before the first frame and after
+    /// restore_state(). A cloth that was not finite in the frame contributes nothing. The reference is valid until the
+    /// next call of contact_forces(), step or change.
+    const ContactForces& contact_forces() const;
+    /// Names of the problems in the last step; empty if there were none. "SpeedCapped": particles were slowed to the
+    /// largest speed. "NonFinite": a NaN or infinity arose, and the cloth and those stitched to it were restored to the
+    /// start of the frame. "DeviceFailed": the device is lost or out of memory. "ContactsFull": some contacts are
+    /// missing from the list of contact_forces().
     std::vector<std::string_view> reports() const;
-    /// 16 hexadecimal digits that differ as soon as one bit of the state does.
+    /// A 64-bit hash of the state of all cloths, as 16 hexadecimal digits.
     std::string state_hash() const;
 
-    /// All that moves: what restore_state() brings back. The steps after it then have the same bits as they had, as
-    /// long as the same cloths and colliders are there and settings are what they were.
+    /// The state of everything that moves, for restore_state(). Steps after restore_state() give the same bits as the
+    /// steps after save_state() did, if cloths, colliders and settings are the same.
     std::vector<std::byte> save_state() const;
-    /// Fails, and changes nothing, on what save_state() did not give, or gave in another world.
-    Result<Done> restore_state(std::span<const std::byte> state);
+    /// Fails on data that save_state() did not write, and on a state of other cloths or colliders.
+    Result<void> restore_state(std::span<const std::byte> state);
 
-    /// Writes the surfaces as they are now: `.obj`, `.ply` or `.glb`.
-    Result<Done> save(const std::filesystem::path& file) const;
-    /// Writes what is in the world as a scene file: what was loaded or added, with every change since, but not where
-    /// cloth and colliders have moved. Loading it gives a simulation that starts as one would in which all of it had
-    /// been there from the start. Meshes that were given in memory go into .ply files beside it. Fails for a world
-    /// without a cloth.
-    Result<Done> save_scene(const std::filesystem::path& file) const;
+    /// Writes the current surfaces of all cloths to an `.obj`, `.ply` or `.glb` file.
+    Result<void> save(const std::filesystem::path& file) const;
+    /// Writes a scene file with all objects and all changes to them, but without the current positions: the new scene
+    /// begins at the start. Meshes that were given in memory are written to .ply files beside it. Fails if there is no
+    /// cloth.
+    Result<void> save_scene(const std::filesystem::path& file) const;
 
   private:
     friend struct SimulationAccess;  // of weft::io

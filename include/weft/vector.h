@@ -1,4 +1,4 @@
-// The few vector types of the public interface and of the simulator. Plain structs, float, right-handed, +Y up.
+// Vector types of the public interface and of the solver: structs of floats. Coordinates are right-handed, +y is up.
 #pragma once
 
 #include <cmath>

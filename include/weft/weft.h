@@ -1,9 +1,9 @@
-// Everything of weft but <weft/vulkan.h>. Standard library types only.
+// Includes all public headers except <weft/vulkan.h>. The interface uses only types of the standard library.
 #pragma once
 
 #include <weft/bounds.h>
+#include <weft/contact_forces.h>
 #include <weft/export.h>
-#include <weft/feedback.h>
 #include <weft/files.h>
 #include <weft/ids.h>
 #include <weft/mesh.h>

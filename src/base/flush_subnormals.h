@@ -1,8 +1,9 @@
-// While it lives, results and operands too small for a normal float (below 1.2e-38) count as zero on this thread.
+// Treats results and operands too small for a normal float (below 1.2e-38) as zero on this thread while the object
+// exists.
 //
-// Processors that handle them exactly do so in microcode, a hundred times slower, and cloth that lies flat makes them
-// by the million. Nothing that is simulated is so small. GPUs flush them as a rule, and so do all lanes of a CPU here,
-// so the bits stay the same for every instruction set.
+// Many processors handle subnormals in microcode, a hundred times slower, and cloth that lies flat produces millions of
+// them. No simulated quantity is that small. GPUs usually flush subnormals, and all SIMD lanes here flush them too, so
+// the bits are the same for every instruction set.
 #pragma once
 
 #if defined(__SSE2__)

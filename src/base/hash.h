@@ -1,4 +1,4 @@
-// A 64-bit hash of words, for state hashes: the same on every machine, no secrets.
+// A 64-bit hash of words, for state hashes: the same on every machine, not cryptographic.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Things with ids, kept side by side in the order in which they were added.
+// A contiguous list of values with ids, in the order in which they were added.
 #pragma once
 
 #include <weft/ids.h>
@@ -29,14 +29,14 @@ class IdList {
         return {slot, slots_[slot].generation};
     }
 
-    /// Its place in the order, or size() if the id names nothing (any more).
+    /// Index of the value in the list, or size() if the id is invalid or its value was removed.
     std::size_t find(Id<Tag> id) const {
         if (id.index >= slots_.size() || slots_[id.index].generation != id.generation) return size();
         return slots_[id.index].place == none ? size() : slots_[id.index].place;
     }
     bool contains(Id<Tag> id) const { return find(id) < size(); }
 
-    /// What comes after it moves up. The id must name something.
+    /// Moves the values after it down by one index. The id must be valid.
     void remove(Id<Tag> id) {
         const std::size_t place = find(id);
         assert(place < size());

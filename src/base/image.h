@@ -1,4 +1,4 @@
-// Pictures in memory, rows from the top.
+// Images in memory, rows from the top.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace weft {
 
-/// Eight bits a channel, red, green, blue, alpha. Colors are as sRGB encodes them, and not multiplied by alpha; a
-/// picture of something else than colors (a normal map) is what it is.
+/// Eight bits per channel: red, green, blue, alpha. Colors are sRGB-encoded and not premultiplied by alpha. An image
+/// that does not hold colors (a normal map) holds plain values.
 struct Image8 {
     std::uint32_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba = {};

@@ -1,4 +1,4 @@
-// A priority queue in which a key may be lowered: every item stands in it once, however often it is offered.
+// A priority queue with decreasable keys: it holds every item at most once, even if put() is called repeatedly.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,9 @@
 
 namespace weft {
 
-/// The item of the lowest key comes out first, of equal keys the lowest item, so that the order does not depend on how
-/// the queue was filled. Four children per node: half as deep as two, and they share a cache line.
+/// pop() returns the item with the lowest key; among equal keys, the lowest item. The order therefore does not depend
+/// on how the queue was filled. Each node has four children: the heap is half as deep as with two, and the children
+/// share a cache line.
 class LowestFirst {
   public:
     struct Entry {
@@ -25,7 +26,7 @@ class LowestFirst {
 
     bool empty() const { return heap_.empty(); }
 
-    /// Adds an item, or gives one that is in the queue a lower key than it has.
+    /// Adds an item, or lowers the key of an item that is already in the queue.
     void put(std::uint32_t item, double key) {
         std::uint32_t at = place_[item];
         if (at == absent) {
@@ -56,7 +57,7 @@ class LowestFirst {
         heap_[at] = entry;
         place_[entry.item] = static_cast<std::uint32_t>(at);
     }
-    // From the root to where it belongs.
+    // Moves the entry down from the root to its position.
     void sink(const Entry& entry) {
         std::size_t at = 0;
         while (true) {
@@ -74,7 +75,7 @@ class LowestFirst {
     }
 
     std::vector<Entry> heap_;
-    std::vector<std::uint32_t> place_;  // of each item in heap_
+    std::vector<std::uint32_t> place_;  // of each item: its index in heap_
 };
 
 }  // namespace weft

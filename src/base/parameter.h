@@ -1,5 +1,5 @@
-// A value of a scene or a material as data: the scene reader, the checks, the documentation and the editor's sliders
-// all read these tables.
+// Describes a value of a scene or a material as data. The scene reader, the checks, the documentation and the editor's
+// sliders read these tables.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,19 @@
 
 namespace weft {
 
-/// Farther from the origin a float no longer resolves a fiber: 10⁶ m is told in steps of 6 cm.
+/// Limit for scene values: at 10⁶ m from the origin floats are 6 cm apart, too coarse for cloth.
 inline constexpr double far_away = 1e6;
 
 enum class ParameterKind {
-    number,         ///< `count` floats; one number may stand for all of them
+    number,         ///< `count` floats; one number sets all of them
     flag,           ///< bool
     angle_or_mesh,  ///< one float in degrees, or "mesh", which is stored as NaN
-    vector,         ///< `count` floats, every one of them written
-    integer,        ///< `count` std::uint32_t, every one of them written
-    choice,         ///< an enum of int's size, its enumerators 0, 1, … named by `choices` in that order
+    vector,         ///< `count` floats, all of them given
+    integer,        ///< `count` std::uint32_t, all of them given
+    choice,         ///< an enum of int's size; `choices` names its enumerators 0, 1, … in that order
     text,           ///< std::string
-    object,         ///< keys of its own: no value, the key alone is listed here
-    list,           ///< likewise
+    object,         ///< a nested object: no value, only its key is listed here
+    list,           ///< a list of objects: no value, only its key is listed here
 };
 
 struct Parameter {
@@ -31,7 +31,7 @@ struct Parameter {
     double min = 0, max = std::numeric_limits<float>::max();
     bool min_excluded = false;      ///< the value must be greater than `min`
     std::string_view unit = {};     ///< SI; empty for a pure number
-    std::string_view what = {};     ///< one line for a human
+    std::string_view what = {};     ///< one line of documentation
     std::string_view choices = {};  ///< `choice` only: the names, separated by '|'
     bool required = false;
 };

@@ -1,9 +1,9 @@
-// Tells the processor what will be read soon, so that it is near by then.
+// Asks the processor to load data into its caches before it is read.
 #pragma once
 
 #include <cstddef>
 
-// Of functions that do nothing else: GCC takes those for ones without an effect, and leaves calls of them out.
+// Forces inlining: GCC considers a function that only prefetches to have no effect and removes the calls.
 #if defined(__GNUC__)
 #define WEFT_PREFETCH [[gnu::always_inline]] inline
 #else
@@ -12,7 +12,7 @@
 
 namespace weft {
 
-/// A hint and no more: nothing with compilers that have no word for it.
+/// A hint only. Does nothing on compilers without a prefetch builtin.
 WEFT_PREFETCH void prefetch([[maybe_unused]] const void* begin, [[maybe_unused]] std::size_t bytes) {
 #if defined(__GNUC__)
     constexpr std::size_t line = 64, most = 4 * line;

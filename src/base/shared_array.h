@@ -1,4 +1,4 @@
-// Arrays that do not change once they are made, and that many owners share.
+// Immutable arrays that many owners share.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace weft {
 
-/// Reads like a constant vector. A copy shares the elements, so it costs the same for any number of them. To change an
+/// Reads like a constant vector. A copy shares the elements, so its cost does not depend on their number. To change an
 /// array, fill a vector and assign it.
 template <class T>
 class SharedArray {

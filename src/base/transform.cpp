@@ -10,8 +10,8 @@ struct SinCos {
     float sin, cos;
 };
 
-// Quarter turns by table: cos(90°) computed from π in floating point is not zero, and a sheet turned by 90° should be
-// as flat as it was.
+// Quarter turns come from a table: cos(90°) computed from π in floating point is not zero, and a flat sheet turned by
+// 90° must stay exactly flat.
 SinCos sin_cos_degrees(float degrees) {
     const double turns = std::remainder(static_cast<double>(degrees), 360.0);
     if (turns == 0) return {0, 1};
@@ -35,7 +35,7 @@ Quaternion normalized(const Quaternion& q) {
     return {q.x * inverse, q.y * inverse, q.z * inverse, q.w * inverse};
 }
 
-// The largest component first: nothing is divided by a small one.
+// Computes the largest component first, which avoids division by a small one.
 Quaternion quaternion_of(const Mat3& m) {
     const float xx = m.x.x, yy = m.y.y, zz = m.z.z;
     Quaternion q{};

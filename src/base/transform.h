@@ -38,8 +38,9 @@ constexpr Vec3 to_local(const Pose& pose, Vec3 world) {
     return transposed(pose.rotation) * (world - pose.position);
 }
 
-/// From one pose to another by the shortest turn and on the straight way; fraction 0…1, exact at both ends. Turns by
-/// unequal steps, as normalized quaternions do: 3 % off for a quarter turn in between, nothing to see for small ones.
+/// Interpolates by the shortest rotation and along a straight line; `fraction` is 0…1, exact at both ends. It
+/// interpolates normalized quaternions linearly, so the angular speed is not constant: for a quarter turn it deviates
+/// by 3 %, for small turns the error is invisible.
 Pose between(const Pose& from, const Pose& to, float fraction);
 
 }  // namespace weft

@@ -14,7 +14,7 @@ TEST(Rotation, quarter_turns_are_exact) {
 }
 
 TEST(Rotation, turns_about_x_first_then_y_then_z) {
-    // y goes to z about x, then z to x about y, then x to y about z.
+    // The rotation about x maps y to z, the one about y maps z to x, and the one about z maps x to y.
     EXPECT_EQ(rotation_from_degrees({90, 90, 90}) * (Vec3{0, 1, 0}), (Vec3{0, 1, 0}));
     EXPECT_EQ(rotation_from_degrees({90, 90, 0}) * (Vec3{0, 1, 0}), (Vec3{1, 0, 0}));
     EXPECT_EQ(rotation_from_degrees({0, 90, 90}) * (Vec3{0, 0, 1}), (Vec3{0, 1, 0}));
@@ -35,7 +35,7 @@ TEST(Transform, goes_from_pose_to_pose_by_the_shortest_turn) {
         EXPECT_EQ(between(from, to, 1), to);
         const Pose half = between(from, to, 0.5f);
         EXPECT_EQ(half.position, (Vec3{2, 1, 3}));
-        // The same turn twice leads there.
+        // Applying half the rotation twice gives the full rotation.
         const Mat3 first = half.rotation * transposed(from.rotation);
         const Mat3 there = first * half.rotation;
         EXPECT_LT(length(there.x - to.rotation.x) + length(there.y - to.rotation.y), 2e-4f) << turn.x << ' ' << turn.y;

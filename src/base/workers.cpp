@@ -15,12 +15,12 @@ void relax() {
 
 }  // namespace
 
-WorkerTeam::WorkerTeam(unsigned workers) : ranks_(workers + 1) {
-    // Passes last microseconds, a trip through the kernel as long: spinning pays, unless the threads share a core and
-    // the one that spins keeps the one that works from running.
-    spins_ = ranks_ <= std::thread::hardware_concurrency() ? 20000 : 0;
-    threads_.reserve(workers);
-    for (unsigned rank = 1; rank < ranks_; ++rank) threads_.emplace_back([this, rank] { work(rank); });
+WorkerTeam::WorkerTeam(unsigned extra_threads) : size_(extra_threads + 1) {
+    // A pass takes microseconds, as long as a wait in the kernel, so spinning is faster. Do not spin if threads share a
+    // core: a spinning thread would keep a working thread from running.
+    spins_ = size_ <= std::thread::hardware_concurrency() ? 20000 : 0;
+    threads_.reserve(extra_threads);
+    for (unsigned worker = 1; worker < size_; ++worker) threads_.emplace_back([this, worker] { work(worker); });
 }
 
 WorkerTeam::~WorkerTeam() {
@@ -37,10 +37,10 @@ void WorkerTeam::wait_for_change(const std::atomic<std::uint32_t>& value, std::u
     while (value.load(std::memory_order_acquire) == old) value.wait(old, std::memory_order_acquire);
 }
 
-void WorkerTeam::meet() {
-    if (ranks_ == 1) return;
+void WorkerTeam::barrier() {
+    if (size_ == 1) return;
     const std::uint32_t generation = generation_.load(std::memory_order_relaxed);
-    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == ranks_) {
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == size_) {
         arrived_.store(0, std::memory_order_relaxed);
         generation_.store(generation + 1, std::memory_order_release);
         generation_.notify_all();
@@ -50,23 +50,23 @@ void WorkerTeam::meet() {
 }
 
 void WorkerTeam::run(FunctionRef<void(unsigned)> task) {
-    if (ranks_ > 1) {
+    if (size_ > 1) {
         task_ = &task;
         round_.fetch_add(1, std::memory_order_release);
         round_.notify_all();
     }
     task(0);
-    meet();
+    barrier();
 }
 
-void WorkerTeam::work(unsigned rank) {
+void WorkerTeam::work(unsigned worker) {
     std::uint32_t seen = 0;
     while (true) {
         wait_for_change(round_, seen);
         ++seen;
         if (quit_.load(std::memory_order_relaxed)) return;
-        (*task_)(rank);
-        meet();
+        (*task_)(worker);
+        barrier();
     }
 }
 

@@ -1,4 +1,4 @@
-// The only place where the library starts threads.
+// Threads. The library starts no threads elsewhere.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 
 namespace weft {
 
-/// A reference to something callable, without an allocation. Valid only during the call it is passed to.
+/// A non-owning reference to a callable object. Valid only during the call it is passed to.
 template <class Signature>
 class FunctionRef;
 template <class R, class... Args>
@@ -31,42 +31,43 @@ class FunctionRef<R(Args...)> {
     R (*call_)(void*, Args...);
 };
 
-/// The share of [0, count) that a rank works on: whole units, the same whatever the machine is doing.
+/// The part of [0, count) that a worker processes: whole units, independent of timing.
 struct Share {
     std::uint32_t begin, end;
 };
-constexpr Share share_of(std::uint32_t count, std::uint32_t unit, unsigned rank, unsigned ranks) {
+constexpr Share share_of(std::uint32_t count, std::uint32_t unit, unsigned worker, unsigned workers) {
+    if (workers == 1) return {0, count};  // the divisions below take longer than a pass over a small coarse level
     const std::uint64_t units = (std::uint64_t{count} + unit - 1) / unit;
     const auto bound = [&](unsigned r) {
-        const std::uint64_t at = units * r / ranks * unit;
+        const std::uint64_t at = units * r / workers * unit;
         return static_cast<std::uint32_t>(at < count ? at : count);
     };
-    return {bound(rank), bound(rank + 1)};
+    return {bound(worker), bound(worker + 1)};
 }
 
-/// A fixed team of threads that work on one task together. Rank 0 is the calling thread itself, so a team of 0 workers
-/// starts no thread at all.
+/// A fixed team of threads that run one task together. Worker 0 is the calling thread, so a team with 0 extra threads
+/// starts no thread.
 class WorkerTeam {
   public:
-    explicit WorkerTeam(unsigned workers = 0);
+    explicit WorkerTeam(unsigned extra_threads = 0);
     ~WorkerTeam();
     WorkerTeam(const WorkerTeam&) = delete;
     WorkerTeam& operator=(const WorkerTeam&) = delete;
 
     /// Threads that take part: the workers and the caller.
-    unsigned ranks() const { return ranks_; }
+    unsigned size() const { return size_; }
 
-    /// Calls task(rank) once on every rank at the same time and returns when all have returned. Not reentrant.
-    void run(FunctionRef<void(unsigned rank)> task);
+    /// Calls task(worker) once on every worker at the same time and returns when all have returned. Not reentrant.
+    void run(FunctionRef<void(unsigned worker)> task);
 
-    /// For use within a task: waits until every rank has come here. Everything written before is visible after.
-    void meet();
+    /// Call within a task: waits until every worker has called it. Writes before the barrier are visible after it.
+    void barrier();
 
   private:
-    void work(unsigned rank);
+    void work(unsigned worker);
     void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) const;
 
-    unsigned ranks_;
+    unsigned size_;
     unsigned spins_;
     FunctionRef<void(unsigned)>* task_ = nullptr;
     std::atomic<bool> quit_{false};
@@ -76,8 +77,7 @@ class WorkerTeam {
     std::vector<std::jthread> threads_;
 };
 
-/// Work that is needed later: done on a thread of its own in the meantime or, if that was not started, when it is
-/// waited for.
+/// Work whose result is needed later. start() runs it on its own thread; if it was not started, wait() runs it.
 class LaterWork {
   public:
     explicit LaterWork(std::function<void()> work) : work_(std::move(work)) {}
@@ -87,7 +87,7 @@ class LaterWork {
     void start();
     bool started() const { return thread_.joinable() || done(); }
     bool done() const { return done_.load(std::memory_order_acquire); }
-    /// The work is done when this returns.
+    /// Returns when the work is done.
     void wait();
 
   private:
@@ -95,7 +95,7 @@ class LaterWork {
 
     std::function<void()> work_;
     std::atomic<bool> done_{false};
-    std::jthread thread_;  // ends before the rest goes
+    std::jthread thread_;  // last member: joined before the others are destroyed
 };
 
 }  // namespace weft

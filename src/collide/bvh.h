@@ -1,4 +1,4 @@
-// A bounding volume hierarchy over boxes: which of many boxes overlap a given one, or each other.
+// A bounding volume hierarchy over boxes. Finds the boxes that overlap a given box, and all pairs that overlap.
 #pragma once
 
 #include <weft/bounds.h>
@@ -14,15 +14,15 @@
 namespace weft {
 
 /// A binary tree over numbered boxes. The same boxes give the same tree and the same order of visits. Empty boxes
-/// overlap nothing; others must be finite.
+/// overlap nothing; all others must be finite.
 class Bvh {
   public:
     Bvh() = default;
     /// Splits at the median of the boxes' centers along the longest axis, so the depth is at most log2 of their number.
     explicit Bvh(std::span<const Bounds> boxes);
 
-    /// Takes new boxes, one for each of the old, into the tree as it is. Right whatever the boxes, fast while those
-    /// that were close stay close.
+    /// Replaces the boxes without rebuilding the tree; needs as many boxes as before. Results are correct for any
+    /// boxes. Queries stay fast while boxes that were close stay close.
     void refit(std::span<const Bounds> boxes);
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
@@ -47,7 +47,7 @@ class Bvh {
             for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
                 test_pairs(k, k + 1, leaf.first + leaf.count, visit);
             }
-            // Nodes lie depth first: all leaves that were not paired with this one before come after it.
+            // Nodes are in depth-first order: all leaves not yet paired with this one come after it.
             walk(leaf.skip, leaf.bounds, [&](const Node& other) {
                 for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
                     test_pairs(k, other.first, other.first + other.count, visit);
@@ -56,9 +56,9 @@ class Bvh {
         }
     }
 
-    /// Calls visit(i) for boxes not farther from `point` than the root of `limit` (m²), the nearer parts of the tree
-    /// first, and takes what it returns as the new limit if that is less. Boxes right at the limit are visited too, so
-    /// that the caller sees every tie.
+    /// Calls visit(i) for boxes whose squared distance to `point` is at most `limit` (m²), nearer parts of the tree
+    /// first. visit() returns a new limit, used if it is smaller. Boxes exactly at the limit are visited too, so the
+    /// caller sees every tie.
     template <class Visit>
     void for_each_nearest(Vec3 point, double limit, Visit&& visit) const {
         struct Pending {
@@ -88,7 +88,7 @@ class Bvh {
     }
 
   private:
-    /// Boxes are halved in number at each level, and their number has 32 bits.
+    /// Each level halves the number of boxes, which has 32 bits.
     static constexpr std::size_t max_depth = 32;
 
     /// m², exact but for the rounding of doubles; infinite to an empty box.
@@ -101,8 +101,8 @@ class Bvh {
         return x * x + y * y + z * z;
     }
 
-    /// Depth first: the left child is the next node, the right one follows where the left one ends. A walk that is done
-    /// with a node, or has no interest in it, goes on at `skip`, so it needs no stack.
+    /// Depth-first order: the left child is the next node, the right child follows the left subtree. A traversal that
+    /// has finished or rejected a node continues at `skip`, so it needs no stack.
     struct Node {
         Bounds bounds;
         std::uint32_t skip = 0;

@@ -34,11 +34,11 @@ std::vector<Bounds> bounds_of_triangles(std::span<const Vec3> positions, std::sp
 
 }  // namespace
 
-// The best of four candidates, the plane's and one of each side, by their distances as they come out: on a sliver,
-// where the regions around a triangle can no longer be told apart, that is still a point of it and as close as rounding
-// allows.
+// Takes the closest of four candidates: the projection onto the plane and one point per side, compared by their
+// computed distances. On a sliver, where rounding hides which region of the triangle a point projects to, the result is
+// still a point of the triangle and as close as rounding allows.
 TrianglePoint closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-    // Relative to p, so that a triangle far from the origin loses nothing.
+    // Relative to p, so that a triangle far from the origin loses no precision.
     const Exact corners[] = {exact(a) - exact(p), exact(b) - exact(p), exact(c) - exact(p)};
     TrianglePoint best{.weights = {}, .squared_distance = std::numeric_limits<double>::infinity()};
     const auto consider = [&](const std::array<double, 3>& w) {

@@ -1,4 +1,4 @@
-// The point of a surface that is closest to a given one.
+// The closest point of a surface to a given point.
 #pragma once
 
 #include "collide/bvh.h"
@@ -15,21 +15,22 @@ struct TrianglePoint {
     double squared_distance = 0;      ///< m²
 };
 
-/// Of the closed triangle; of one without an area, of the segment or point that is left of it.
+/// Closest point of the triangle, its sides included. A triangle without area counts as the segment or point it has
+/// degenerated to.
 TrianglePoint closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
 struct SurfacePoint {
-    std::uint32_t triangle = none;    ///< `none` of a surface without triangles
+    std::uint32_t triangle = none;    ///< `none` for a surface without triangles
     std::array<double, 3> weights{};  ///< barycentric: >= 0, their sum is 1
     double distance = 0;              ///< m
 };
 
-/// Finds closest points on a surface that holds still. Refers to what it is made from, which must outlive it.
+/// Finds closest points on a static surface. Keeps references to the positions and triangles, which must outlive it.
 class SurfaceSearch {
   public:
     SurfaceSearch(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
-    /// The lowest of equally close triangles.
+    /// Of equally close triangles, returns the one with the lowest index.
     SurfacePoint closest(Vec3 p) const;
 
   private:

@@ -28,7 +28,7 @@ Point cross(Point a, Point b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Corners a and b of a triangle by place, 0 to 2: its edge opposite to `c`.
+/// The edge of a triangle from corner a to corner b, opposite to corner c; corners are 0 to 2.
 struct Side {
     std::uint8_t a, b, c;
 };
@@ -39,7 +39,7 @@ struct Face {
     Triangle corners{};
     std::array<Point, 3> points;
     Point normal;
-    std::array<bool, 3> owns{};  // sides that no earlier triangle has: each edge is counted once
+    std::array<bool, 3> owns{};  // sides that no earlier triangle has, so that each edge is counted once
 };
 
 Face make_face(const Triangle& corners, std::span<const Vec3> positions) {
@@ -55,7 +55,7 @@ bool is_usable(const Face& face) {
         const Point edge = face.points[side.b] - face.points[side.a];
         longest = std::max(longest, dot(edge, edge));
     }
-    // A height below 1e-14 of the longest edge is rounding: its plane could be any.
+    // If the height is below 1e-14 of the longest edge, it is rounding error and the plane is undefined.
     const double area = std::sqrt(dot(face.normal, face.normal));
     return std::isfinite(area) && std::isfinite(longest) && area > 1e-14 * longest;
 }
@@ -89,17 +89,17 @@ int shared_corners(const Face& a, const Face& b) {
     return has_corner(a, b.corners[0]) + has_corner(a, b.corners[1]) + has_corner(a, b.corners[2]);
 }
 
-/// On which side of the plane of `face` each corner of `other` lies. On the plane counts as in front of it, so that a
-/// chain of edges that passes through the plane at one of its particles crosses it once.
+/// Whether each corner of `other` lies in front of the plane of `face`. A corner on the plane counts as in front, so
+/// that a chain of edges that passes through the plane at one of its particles crosses it once.
 std::array<bool, 3> in_front(const Face& face, const Face& other) {
     std::array<bool, 3> result{};
     for (std::size_t c = 0; c < 3; ++c) result[c] = dot(face.normal, other.points[c] - face.points[0]) >= 0;
     return result;
 }
 
-/// Whether the line through `from` and `to` runs inside the triangle. Triangles on both sides of an edge evaluate the
-/// same expression for it, its ends ordered by particle, and a zero falls on the same side for both: a line through the
-/// edge itself meets exactly one of them.
+/// Whether the line through `from` and `to` intersects the triangle. The two triangles at an edge evaluate the same
+/// expression for it, with its ends ordered by particle, and assign a zero to the same side. So a line through the edge
+/// intersects exactly one of them.
 bool line_meets(Point from, Point to, const Face& face) {
     const Point direction = to - from;
     std::array<bool, 3> left{};
@@ -125,7 +125,7 @@ EdgeHits edges_through(const Face& edges, const Face& face) {
         const Side side = sides[s];
         if (front[side.a] == front[side.b]) continue;
         if (has_corner(face, edges.corners[side.a]) || has_corner(face, edges.corners[side.b])) continue;
-        // Always from the lower particle to the higher: both triangles at the edge must get the same answer.
+        // Always from the lower particle to the higher, so that both triangles at the edge get the same result.
         const bool turned = edges.corners[side.a] > edges.corners[side.b];
         const Point from = edges.points[turned ? side.b : side.a];
         const Point to = edges.points[turned ? side.a : side.b];
@@ -157,7 +157,7 @@ Crossings count_crossings(std::span<const Vec3> positions, std::span<const Trian
         const Face& a = faces[i];
         const Face& b = faces[j];
         const int shared = shared_corners(a, b);
-        if (shared >= 2) return;  // every edge of one has a particle of the other
+        if (shared >= 2) return;  // every edge of one triangle shares a particle with the other
         const EdgeHits ab = edges_through(a, b);
         const EdgeHits ba = edges_through(b, a);
         crossings.edges += ab.owned + ba.owned;

@@ -40,7 +40,8 @@ Real dot(const Point& a, const Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997: another way than the one under test.
+/// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997: a different method from the one under
+/// test.
 bool segment_meets_triangle(const Soup& soup, std::uint32_t from, std::uint32_t to, const Triangle& triangle) {
     const Point origin = point(soup.positions[from]);
     const Point direction = point(soup.positions[to]) - origin;
@@ -127,7 +128,7 @@ void expect_same(const Crossings& actual, const Crossings& expected) {
     EXPECT_EQ(actual.edges, expected.edges);
 }
 
-// Two triangles that stick through each other: two edges of the second pass through the first.
+// Two triangles that pass through each other: two edges of the second pass through the first.
 Soup two_triangles() {
     return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1.2f, 1, 1}, {1, 1.3f, 1}}, {{0, 1, 2}, {3, 4, 5}}};
 }
@@ -290,7 +291,7 @@ TEST(Crossings, FarFromTheOriginStillRight) {
     EXPECT_EQ(here.triangles, 1u);
 }
 
-// A hundred times what it takes, so that sanitizers and busy machines pass; all pairs would take minutes.
+// A hundred times the usual time, so that sanitizers and busy machines pass; testing all pairs would take minutes.
 TEST(Crossings, CrumpledClothOf70000TrianglesIsFast) {
     Soup soup;
     add_grid(soup, 188, [](float u, float v) {

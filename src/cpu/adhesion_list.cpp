@@ -23,10 +23,10 @@ float distance(const Collider& collider, scalar::vec3 local) {
     return 0;
 }
 
-// Particles of a cloth that a thread works on: those that it has in all other passes, so that passes which touch their
-// own particles alone need no barrier between them.
-Share particles_of(const ClothState& cloth, Rank rank) {
-    Share share = rank.of(padded(cloth.model->point_count()));
+// The particles that a worker processes: the same as in all other passes, so that consecutive passes that access only
+// their own particles need no barrier between them.
+Share particles_of(const ClothState& cloth, Worker worker) {
+    Share share = worker.of(padded(cloth.model->point_count()));
     share.end = std::min(share.end, cloth.model->particle_count);
     return share;
 }
@@ -44,36 +44,36 @@ void AdhesionList::prepare(const ListContext& context) {
     }
     wanted_capacity_ = std::max(wanted_capacity_, first_list_capacity(context.step.input.list_capacity));
     rows_.prepare(ConstraintKind::adhesion, items, wanted_capacity_);
-    holds_.resize(wanted_capacity_);
+    targets_.resize(wanted_capacity_);
 }
 
-void AdhesionList::run(const ListContext& context, const Pass& pass, std::uint32_t substep, Rank rank) {
+void AdhesionList::run(const ListContext& context, const Pass& pass, std::uint32_t substep, Worker worker) {
     switch (pass.kind) {
         case PassKind::find:
-            return find(context, rank);
+            return find(context, worker);
         case PassKind::place:
-            if (rank.number == 0) rows_.place(first_dummy_);
+            if (worker.number == 0) rows_.place(first_dummy_);
             return;
         case PassKind::list:
-            return list(context, rank);
+            return list(context, worker);
         case PassKind::aim:
-            return aim(context, substep, rank);
+            return aim(context, substep, worker);
         case PassKind::correct:
-            return correct(context, pass, substep, rank);
+            return correct(context, pass, substep, worker);
         default:
-            return average(context, rank);
+            return average(context, worker);
     }
 }
 
 template <class Visit>
-void AdhesionList::for_each_hold(const ListContext& context, const ClothState& cloth, std::uint32_t particle,
-                                 float half_thickness, Visit&& visit) {
+void AdhesionList::for_each_target(const ListContext& context, const ClothState& cloth, std::uint32_t particle,
+                                   float half_thickness, Visit&& visit) {
     const StepInput& input = context.step.input;
     const Vec4 x = cloth.now().position[particle];
     for (std::uint32_t c = 0; c < input.colliders.size(); ++c) {
         const Collider& collider = input.colliders[c];
         if (!collider.adhesion) continue;
-        const Pose& pose = input.poses[c];  // where the frame begins
+        const Pose& pose = input.poses[c];  // at the start of the frame
         const auto& [rx, ry, rz] = pose.rotation;
         const scalar::vec3 local = scalar::unrotate(lane(rx), lane(ry), lane(rz), lane(x.xyz()) - lane(pose.position));
         const float gap = distance(collider, local) - half_thickness;
@@ -81,43 +81,43 @@ void AdhesionList::for_each_hold(const ListContext& context, const ClothState& c
     }
 }
 
-void AdhesionList::find(const ListContext& context, Rank rank) {
+void AdhesionList::find(const ListContext& context, Worker worker) {
     for (std::size_t i = 0; i < context.cloths.size(); ++i) {
         const ClothState& cloth = *context.cloths[i];
         const FrameNumbers numbers = frame_numbers(*cloth.model, *context.step.plan, context.step.input.dt);
-        const Share mine = particles_of(cloth, rank);
+        const Share mine = particles_of(cloth, worker);
         for (std::uint32_t p = mine.begin; p < mine.end; ++p) {
             std::uint32_t count = 0;
-            for_each_hold(context, cloth, p, numbers.half_thickness, [&](std::uint32_t, Vec3) { ++count; });
+            for_each_target(context, cloth, p, numbers.half_thickness, [&](std::uint32_t, Vec3) { ++count; });
             rows_.found()[first_item_[i] + p] = count;
         }
     }
 }
 
-void AdhesionList::list(const ListContext& context, Rank rank) {
+void AdhesionList::list(const ListContext& context, Worker worker) {
     for (std::size_t i = 0; i < context.cloths.size(); ++i) {
         const ClothState& cloth = *context.cloths[i];
         const FrameNumbers numbers = frame_numbers(*cloth.model, *context.step.plan, context.step.input.dt);
-        const Share mine = particles_of(cloth, rank);
+        const Share mine = particles_of(cloth, worker);
         for (std::uint32_t p = mine.begin; p < mine.end; ++p) {
             const std::uint32_t item = first_item_[i] + p, end = rows_.first_row(item + 1);
             std::uint32_t row = rows_.first_row(item);
             if (row == end) continue;
-            for_each_hold(context, cloth, p, numbers.half_thickness, [&](std::uint32_t collider, Vec3 local) {
+            for_each_target(context, cloth, p, numbers.half_thickness, [&](std::uint32_t collider, Vec3 local) {
                 if (row == end) return;  // the list is full
                 rows_.put(row, cloth.base + p);
                 rows_.set(row, 3, context.step.input.colliders[collider].adhesion->compliance);
-                holds_[row++] = {local, collider};
+                targets_[row++] = {local, collider};
             });
         }
     }
 }
 
-void AdhesionList::aim(const ListContext& context, std::uint32_t substep, Rank rank) {
+void AdhesionList::aim(const ListContext& context, std::uint32_t substep, Worker worker) {
     const StepInput& input = context.step.input;
-    const Share mine = rank.of(padded(rows_.rows()));
+    const Share mine = worker.of(padded(rows_.rows()));
     for (std::uint32_t row = mine.begin; row < std::min(mine.end, rows_.rows()); ++row) {
-        const auto& [local, collider] = holds_[row];
+        const auto& [local, collider] = targets_[row];
         const Pose& pose = input.poses[std::size_t{substep + 1} * input.colliders.size() + collider];
         const auto& [rx, ry, rz] = pose.rotation;
         const scalar::vec3 target = scalar::rotate(lane(rx), lane(ry), lane(rz), lane(local)) + lane(pose.position);
@@ -125,12 +125,12 @@ void AdhesionList::aim(const ListContext& context, std::uint32_t substep, Rank r
     }
 }
 
-void AdhesionList::correct(const ListContext& context, const Pass& pass, std::uint32_t substep, Rank rank) {
-    const Share mine = rank.of(padded(rows_.rows()));
+void AdhesionList::correct(const ListContext& context, const Pass& pass, std::uint32_t substep, Worker worker) {
+    const Share mine = worker.of(padded(rows_.rows()));
     WorldArrays& world = context.cloths.front()->world;
     const float h = frame_numbers(*context.cloths.front()->model, *context.step.plan, context.step.input.dt).h;
     const RowView view{rows_.stride(), rows_.particles(), rows_.fields(), rows_.lambda()};
-    // No fabric says how stiff these are as plain constraints: they are full ones.
+    // Fabrics have no plain stiffness for adhesion, so plain position-based dynamics uses 1.
     const CorrectionView out{.blocks = rows_.corrections(),
                              .share = context.step.plan->method == Method::pbd ? nullptr : rows_.share(),
                              .stiffness = {1, 1}};
@@ -139,10 +139,10 @@ void AdhesionList::correct(const ListContext& context, const Pass& pass, std::ui
                                                                         lambda_use(*context.step.plan, pass, substep));
 }
 
-void AdhesionList::average(const ListContext& context, Rank rank) {
+void AdhesionList::average(const ListContext& context, Worker worker) {
     for (std::size_t i = 0; i < context.cloths.size(); ++i) {
         const ClothState& cloth = *context.cloths[i];
-        const Share mine = particles_of(cloth, rank);
+        const Share mine = particles_of(cloth, worker);
         const GatherView gather{.blocks = rows_.corrections(),
                                 .offsets = rows_.places() + first_item_[i],
                                 .items = rows_.items(),

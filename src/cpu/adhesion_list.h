@@ -1,4 +1,4 @@
-// Cloth that sticks to colliders: which particles do is found anew in every frame.
+// Adhesion of cloth to colliders. The list of particles that stick is rebuilt in every frame.
 #pragma once
 
 #include "cpu/cloth_run.h"
@@ -9,7 +9,7 @@
 
 namespace weft::cpu {
 
-/// What the passes of an island's lists work on.
+/// Input of the passes over an island's lists.
 struct ListContext {
     const Passes& passes;
     const WorldStep& step;
@@ -18,33 +18,33 @@ struct ListContext {
 
 class AdhesionList {
   public:
-    /// Makes room; only here memory is asked for.
+    /// Allocates; the other functions do not.
     void prepare(const ListContext& context);
-    void run(const ListContext& context, const Pass& pass, std::uint32_t substep, Rank rank);
+    void run(const ListContext& context, const Pass& pass, std::uint32_t substep, Worker worker);
 
     const DynamicList& rows() const { return rows_; }
-    /// For the rows that the last frame wanted.
+    /// Makes the next prepare() allocate enough for the constraints that the last frame found.
     void grow() { wanted_capacity_ = grown_list_capacity(rows_.wanted()); }
 
   private:
-    /// Where a row's particle was in the frame of its collider.
-    struct Hold {
+    /// The particle's position in the local frame of its collider.
+    struct Target {
         Vec3 local;
         std::uint32_t collider;
     };
 
-    /// visit(collider, local place) for every collider that a cloth's particle sticks to.
+    /// Calls visit(collider, local position) for every collider that the particle sticks to.
     template <class Visit>
-    static void for_each_hold(const ListContext& context, const ClothState& cloth, std::uint32_t particle,
-                              float half_thickness, Visit&& visit);
-    void find(const ListContext& context, Rank rank);
-    void list(const ListContext& context, Rank rank);
-    void aim(const ListContext& context, std::uint32_t substep, Rank rank);
-    void correct(const ListContext& context, const Pass& pass, std::uint32_t substep, Rank rank);
-    void average(const ListContext& context, Rank rank);
+    static void for_each_target(const ListContext& context, const ClothState& cloth, std::uint32_t particle,
+                                float half_thickness, Visit&& visit);
+    void find(const ListContext& context, Worker worker);
+    void list(const ListContext& context, Worker worker);
+    void aim(const ListContext& context, std::uint32_t substep, Worker worker);
+    void correct(const ListContext& context, const Pass& pass, std::uint32_t substep, Worker worker);
+    void average(const ListContext& context, Worker worker);
 
     DynamicList rows_;
-    std::vector<Hold> holds_;
+    std::vector<Target> targets_;
     std::vector<std::uint32_t> first_item_;  ///< by cloth
     std::uint32_t first_dummy_ = 0;          ///< of the island's first cloth
     std::uint32_t wanted_capacity_ = 0;

@@ -1,12 +1,12 @@
-// Sums over the triangles at each particle, as many particles side by side as there are lanes. Included by passes.inl.
+// Sums over the triangles at each particle, one particle per lane. Included by passes.inl.
 
-// Whether the packet of particle i has its lists side by side, and lanes to use them.
+// Whether the packet of particle i has lists for SIMD and there is more than one lane.
 WEFT_FN bool abreast(const AroundView& around, std::size_t i) {
     const std::size_t packet = i / lane_padding;
     return lane_count > 1 && around.begin[packet] < around.begin[packet + 1];
 }
 
-// Adding the zeros that shorter lists end in changes no bit: a sum that began with +0 is never -0.
+// Shorter lists are padded with zeros. Adding zeros changes no bit, because a sum that starts at +0 is never -0.
 WEFT_FN vec3 sum_around(const AroundView& around, const float* blocks, std::size_t i) {
     const std::size_t packet = i / lane_padding;
     vec3 sum(real(0.0f));
@@ -30,18 +30,18 @@ inline void normals_around_pass(const SurfaceView& s, Range range) {
 
 inline void push_around_pass(const ParticleView& p, const AirView& air, Range range) {
     for (std::uint32_t i = range.begin; i < range.end; i += lane_count) {
-        if (lane_count > 4 && abreast(air.around, i)) {  // on four it costs more than it saves
+        if (lane_count > 4 && abreast(air.around, i)) {  // with 4 lanes push_pass is faster
             const std::size_t at = std::size_t{4} * i;
             real w;
             load_blocks(p.position + at, w);
             Motion m;
             const vec3 start = load_blocks(p.start + at, m.v_dropped.x);
             m.v = load_blocks(p.velocity + at, m.v_dropped.y);
-            m.x_dropped = load_blocks(p.carry + at, m.v_dropped.z);
+            m.x_dropped = load_blocks(p.compensation + at, m.v_dropped.z);
             push_by_air(m, sum_around(air.around, air.impulse, i), w);
             store_blocks(start, m.v_dropped.x, p.start + at);
             store_blocks(m.v, m.v_dropped.y, p.velocity + at);
-            store_blocks(m.x_dropped, m.v_dropped.z, p.carry + at);
+            store_blocks(m.x_dropped, m.v_dropped.z, p.compensation + at);
         } else {
             push_pass(p, air, {i, std::min<std::uint32_t>(i + lane_count, range.end)});
         }

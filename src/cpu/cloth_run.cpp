@@ -5,16 +5,16 @@
 namespace weft::cpu {
 namespace {
 
-// Whole blocks, as nearly as can be as many rows for every rank.
-std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const Batch& batch, Rank rank) {
+// Whole blocks, distributed so that all workers get nearly the same number of constraints.
+std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const Batch& batch, Worker worker) {
     const auto blocks = std::span(table.blocks).subspan(batch.first_block, batch.blocks);
     const auto bound = [&](unsigned r) {
-        const std::uint64_t row = batch.begin + std::uint64_t{batch.rows} * r / rank.count;
+        const std::uint64_t row = batch.begin + std::uint64_t{batch.rows} * r / worker.count;
         const auto middle = [](const LineBlock& block) { return block.begin + block.length * lane_padding / 2; };
         return std::ranges::lower_bound(blocks, row, {}, middle) - blocks.begin();
     };
-    const auto begin = static_cast<std::size_t>(bound(rank.number)),
-               end = static_cast<std::size_t>(bound(rank.number + 1));
+    const auto begin = static_cast<std::size_t>(bound(worker.number)),
+               end = static_cast<std::size_t>(bound(worker.number + 1));
     return blocks.subspan(begin, end - begin);
 }
 
@@ -30,42 +30,42 @@ ClothRun::ClothRun(const Passes& passes, ClothState& cloth, const WorldStep& ste
       plan_(*step.plan),
       input_(step.input),
       step_(mine),
-      planned_{cloth.model.get(), !mine.held.empty()},
+      planned_{cloth.model.get(), !mine.targets.empty()},
       view_(cloth.now().view()),
       numbers_(frame_numbers(*cloth.model, *step.plan, step.input.dt)) {}
 
-Range ClothRun::particles(Rank rank) const {
-    return as_range(rank.of(padded(model().point_count())));
+Range ClothRun::particles(Worker worker) const {
+    return as_range(worker.of(padded(model().point_count())));
 }
 
-bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Rank rank) const {
+bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {
     const Pass& pass = island_pass.pass;
-    if (!takes_part(planned_, pass)) return false;
+    if (!island_pass.all && !takes_part(planned_, pass)) return false;
     switch (pass_info(pass.kind).over) {
         case Over::particles:
-            return run_particles(pass, substep, rank);
+            return run_particles(pass, substep, worker);
         case Over::faces:
-            run_faces(pass, rank);
+            run_faces(pass, worker);
             break;
         case Over::nodes:
-            run_level(island_pass, substep, rank);
+            run_level(island_pass, substep, worker);
             break;
         case Over::rows:
             if (pass.source == RowSource::level) {
-                run_level(island_pass, substep, rank);
+                run_level(island_pass, substep, worker);
             } else if (pass.kind == PassKind::correct) {
-                run_corrections(pass, substep, rank);
+                run_corrections(pass, substep, worker);
             } else {
-                run_rows(pass, substep, rank);
+                run_rows(pass, substep, worker);
             }
             break;
     }
     return false;
 }
 
-bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Rank rank) const {
-    const Range mine = particles(rank);
-    // Anchors have no triangles, and coarse levels do not carry them.
+bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const {
+    const Range mine = particles(worker);
+    // Anchors have no triangles, and coarse levels do not move them.
     const auto without_anchors = [&](std::uint32_t end) { return Range{mine.begin, std::min(mine.end, end)}; };
     switch (pass.kind) {
         case PassKind::predict:
@@ -74,15 +74,15 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Rank rank)
             return passes_.advance(view_, mine, input_.gravity, numbers_.max_speed, numbers_.h);
         case PassKind::velocities:
             return passes_.velocities(view_, mine, numbers_.max_speed, numbers_.h);
-        case PassKind::hold:
-            run_holds(substep, mine);
+        case PassKind::targets:
+            run_targets(substep, mine);
             break;
         case PassKind::contact:
             run_contacts(pass, substep, mine);
             break;
-        case PassKind::spread:
-            passes_.spread(view_.position, cloth_.carry_to_particles(),
-                           without_anchors(padded(model().particle_count)));
+        case PassKind::prolongation:
+            passes_.prolongation(view_.position, cloth_.prolongation_to_particles(),
+                                 without_anchors(padded(model().particle_count)));
             break;
         case PassKind::average:
             passes_.average(view_, cloth_.gather_view(plan_), without_anchors(model().point_count()));
@@ -97,9 +97,9 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Rank rank)
     return false;
 }
 
-void ClothRun::run_lines(const Pass& pass, std::uint32_t substep, Rank rank) const {
+void ClothRun::run_lines(const Pass& pass, std::uint32_t substep, Worker worker) const {
     const ConstraintTable& table = model().table(pass.constraint);
-    const std::span<const LineBlock> blocks = share_of_blocks(table, table.batches[pass.batch], rank);
+    const std::span<const LineBlock> blocks = share_of_blocks(table, table.batches[pass.batch], worker);
     const RowView rows = cloth_.rows(pass.constraint);
     if (blocks.empty()) return;
     const Range range{blocks.front().begin, blocks.back().end()};
@@ -110,25 +110,26 @@ void ClothRun::run_lines(const Pass& pass, std::uint32_t substep, Rank rank) con
         passes_.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else if (plan_.projection == Projection::lines) {
         passes_.lines(view_, rows, blocks, numbers_.h, lambda_use(plan_, pass, substep),
-                      cloth_.line_scratch[rank.number].data());
+                      cloth_.line_scratch[worker.number].data());
     } else {
-        // The next ones go on along the lines, from particles that these move.
+        // One packet at a time: the next packet continues the same lines, so it starts at particles that this one
+        // moves.
         for (std::uint32_t r = range.begin; r < range.end; r += lane_padding) {
             passes_.project[kind](view_, rows, {r, r + lane_padding}, numbers_.h, lambda_use(plan_, pass, substep));
         }
     }
 }
 
-void ClothRun::run_rows(const Pass& pass, std::uint32_t substep, Rank rank) const {
+void ClothRun::run_rows(const Pass& pass, std::uint32_t substep, Worker worker) const {
     const ConstraintTable& table = model().table(pass.constraint);
     const Batch& batch = table.batches[pass.batch];
-    if (batch.blocks > 0) return run_lines(pass, substep, rank);
+    if (batch.blocks > 0) return run_lines(pass, substep, worker);
     const Passes& passes = batch.serial ? scalar_passes() : passes_;
     Range range{batch.begin, batch.begin + batch.rows};
     if (batch.serial) {
-        if (rank.number != 0) return;
+        if (worker.number != 0) return;
     } else {
-        const Share share = rank.of(padded(batch.rows));
+        const Share share = worker.of(padded(batch.rows));
         range = {batch.begin + share.begin, batch.begin + share.end};
     }
     const auto kind = static_cast<std::uint32_t>(pass.constraint);
@@ -142,39 +143,41 @@ void ClothRun::run_rows(const Pass& pass, std::uint32_t substep, Rank rank) cons
     }
 }
 
-void ClothRun::run_corrections(const Pass& pass, std::uint32_t substep, Rank rank) const {
-    // Side by side no two rows write to the same place: colors and the overflow do not matter.
+void ClothRun::run_corrections(const Pass& pass, std::uint32_t substep, Worker worker) const {
+    // Each constraint writes its corrections to its own place, so colors and the overflow do not matter.
     passes_.correct[static_cast<std::uint32_t>(pass.constraint)](
         view_, cloth_.rows(pass.constraint), cloth_.correction(pass.constraint, plan_, *step_.stiffness),
-        as_range(rank.of(model().table(pass.constraint).stride)), numbers_.h, lambda_use(plan_, pass, substep));
+        as_range(worker.of(model().table(pass.constraint).stride)), numbers_.h, lambda_use(plan_, pass, substep));
 }
 
-void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, Rank rank) const {
-    const auto& [pass, barrier, single] = island_pass;
-    if (single && rank.number != 0) return;
+void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {
+    const Pass& pass = island_pass.pass;
+    const bool single = island_pass.single;
+    if (single && worker.number != 0) return;
     const CoarseLevel& level = model().hierarchy[pass.level];
-    const Rank sharing = single ? Rank{} : rank;
-    const Range mine = as_range(sharing.of(padded(level.count)));
-    if (pass.kind == PassKind::collect) {
+    const Worker sharing = single ? Worker{} : worker;
+    if (pass.kind != PassKind::coarse_limit) {
+        const Range mine = as_range(sharing.of(padded(level.count)));
+        const LevelView nodes = cloth_.level(pass.level);
+        if (pass.kind == PassKind::interpolation)
+            return passes_.interpolation(nodes, cloth_.prolongation_to_level(pass.level), mine);
+        if (pass.kind == PassKind::node_correction) return passes_.node_correction(nodes, mine);
         const float* finer = pass.level == 0 ? view_.position : cloth_.level(pass.level - 1).origin;
-        return passes_.collect(finer, cloth_.level(pass.level), mine);
+        return passes_.restriction(finer, nodes, mine);
     }
-    if (pass.kind == PassKind::lift)
-        return passes_.lift(cloth_.level(pass.level), cloth_.carry_to_level(pass.level), mine);
-    if (pass.kind == PassKind::settle) return passes_.settle(cloth_.level(pass.level), mine);
-    const Batch& batch = level.reach.batches[pass.batch];
-    if (batch.serial && rank.number != 0) return;
+    const Batch& batch = level.limits.batches[pass.batch];
+    if (batch.serial && worker.number != 0) return;
     const Share share = sharing.of(padded(batch.rows));
     const Range rows = batch.serial ? Range{batch.begin, batch.begin + batch.rows}
                                     : Range{batch.begin + share.begin, batch.begin + share.end};
     const Passes& passes = batch.serial ? scalar_passes() : passes_;
-    passes.project[static_cast<std::uint32_t>(ConstraintKind::reach)](cloth_.level_particles(pass.level),
-                                                                      cloth_.level_rows(pass.level), rows, numbers_.h,
-                                                                      lambda_use(plan_, pass, substep));
+    passes.project[static_cast<std::uint32_t>(ConstraintKind::coarse_limit)](
+        cloth_.level_particles(pass.level), cloth_.level_rows(pass.level), rows, numbers_.h,
+        lambda_use(plan_, pass, substep));
 }
 
-void ClothRun::run_faces(const Pass& pass, Rank rank) const {
-    const Range mine = as_range(rank.of(model().face_stride));
+void ClothRun::run_faces(const Pass& pass, Worker worker) const {
+    const Range mine = as_range(worker.of(model().face_stride));
     if (pass.kind == PassKind::faces) return passes_.faces(cloth_.surface(), mine);
     const AirView air = cloth_.air(input_.air_density);
     if (pass.kind == PassKind::air) return passes_.air(air, mine, numbers_.h);
@@ -185,11 +188,11 @@ void ClothRun::run_faces(const Pass& pass, Rank rank) const {
     }
 }
 
-void ClothRun::run_holds(std::uint32_t substep, Range mine) const {
-    const auto held = std::ranges::lower_bound(step_.held, mine.begin, {}, &HeldParticle::particle);
+void ClothRun::run_targets(std::uint32_t substep, Range mine) const {
+    const auto target = std::ranges::lower_bound(step_.targets, mine.begin, {}, &KinematicTarget::particle);
     const std::span<Vec4> positions = cloth_.now().position;
-    for (auto it = held; it != step_.held.end() && it->particle < mine.end; ++it) {
-        const Pose& pose = step_.mover_poses[std::size_t{substep + 1} * step_.movers + it->mover];
+    for (auto it = target; it != step_.targets.end() && it->particle < mine.end; ++it) {
+        const Pose& pose = step_.motion_poses[std::size_t{substep + 1} * step_.motions + it->motion];
         const Vec3 x = to_world(pose, it->local);
         Vec4& position = positions[it->particle];
         position = {x.x, x.y, x.z, position.w};
@@ -224,22 +227,22 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine)
     }
 }
 
-void ClothRun::count_contacts(Rank rank) const {
+void ClothRun::count_contacts(Worker worker) const {
     if (cloth_.account.empty()) return;
-    Share share = rank.of(padded(model().point_count()));
+    Share share = worker.of(padded(model().point_count()));
     share.end = std::min(share.end, model().particle_count);
-    cloth_.account.count(rank.number, share, cloth_.now().position, 1.0f / numbers_.h);
+    cloth_.account.count(worker.number, share, cloth_.now().position, 1.0f / numbers_.h);
 }
 
-void ClothRun::keep_last_good(Rank rank) const {
-    const Range mine = particles(rank);
+void ClothRun::keep_last_good(Worker worker) const {
+    const Range mine = particles(worker);
     cloth_.remember(mine.begin, mine.end);
 }
 
-bool ClothRun::all_finite(Rank rank) const {
-    const Range mine = particles(rank);
+bool ClothRun::all_finite(Worker worker) const {
+    const Range mine = particles(worker);
     bool finite = true;
-    for (const float* array : {view_.position, view_.velocity, view_.carry})
+    for (const float* array : {view_.position, view_.velocity, view_.compensation})
         finite = finite && passes_.all_finite(array, std::size_t{4} * mine.begin, std::size_t{4} * mine.end);
     return finite;
 }

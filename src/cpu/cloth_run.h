@@ -1,4 +1,4 @@
-// One cloth's part of a frame: what each pass does to it, share by share.
+// Runs the passes of a frame on one cloth, worker by worker.
 #pragma once
 
 #include "base/workers.h"
@@ -10,8 +10,8 @@
 
 namespace weft::cpu {
 
-/// Which part of a pass a thread does: the same part of the same items in every pass.
-struct Rank {
+/// Selects the part of a pass that a thread runs: the same items in every pass.
+struct Worker {
     unsigned number = 0, count = 1;
     Share of(std::uint32_t items) const { return share_of(items, lane_padding, number, count); }
 };
@@ -21,22 +21,22 @@ class ClothRun {
     ClothRun(const Passes& passes, ClothState& cloth, const WorldStep& step, const ClothStep& mine);
 
     const ClothModel& model() const { return *cloth_.model; }
-    void keep_last_good(Rank rank) const;
+    void keep_last_good(Worker worker) const;
     /// Returns whether the speed cap acted.
-    bool run(const IslandPass& pass, std::uint32_t substep, Rank rank) const;
-    bool all_finite(Rank rank) const;
-    void count_contacts(Rank rank) const;
+    bool run(const IslandPass& pass, std::uint32_t substep, Worker worker) const;
+    bool all_finite(Worker worker) const;
+    void count_contacts(Worker worker) const;
 
   private:
-    Range particles(Rank rank) const;
-    bool run_particles(const Pass& pass, std::uint32_t substep, Rank rank) const;
-    void run_holds(std::uint32_t substep, Range mine) const;
+    Range particles(Worker worker) const;
+    bool run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void run_targets(std::uint32_t substep, Range mine) const;
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine) const;
-    void run_rows(const Pass& pass, std::uint32_t substep, Rank rank) const;
-    void run_lines(const Pass& pass, std::uint32_t substep, Rank rank) const;
-    void run_corrections(const Pass& pass, std::uint32_t substep, Rank rank) const;
-    void run_level(const IslandPass& island_pass, std::uint32_t substep, Rank rank) const;
-    void run_faces(const Pass& pass, Rank rank) const;
+    void run_rows(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void run_lines(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void run_corrections(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const;
+    void run_faces(const Pass& pass, Worker worker) const;
 
     const Passes& passes_;
     ClothState& cloth_;

@@ -10,7 +10,8 @@ namespace weft::cpu {
 ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArrays& arrays, std::uint32_t begin)
     : model(std::move(cloth_model)), world(arrays), base(begin) {
     const Particles mine = now();
-    for (const auto& array : {mine.start, mine.velocity, mine.carry, normals()}) std::ranges::fill(array, Vec4{});
+    for (const auto& array : {mine.start, mine.velocity, mine.compensation, normals()})
+        std::ranges::fill(array, Vec4{});
     std::ranges::copy(model->start, mine.position.begin());
     std::ranges::transform(model->start, weights().begin(), &Vec4::w);
     remember();
@@ -21,7 +22,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
 
 void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base) {
     assert(other->first_anchor() == model->first_anchor());
-    // Anchors of two different sets do not correspond; the new ones start where the model has them.
+    // Anchors of two different sets do not correspond; the new ones start at the model's positions.
     const bool same_anchors = other->anchor_count == model->anchor_count;
     const std::uint32_t kept = same_anchors ? other->point_count() : other->first_anchor();
     const auto copy_of = [&](std::span<Vec4> array) {
@@ -29,7 +30,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     };
     const Particles old = now();
     const auto position = copy_of(old.position), start = copy_of(old.start), velocity = copy_of(old.velocity),
-               carry = copy_of(old.carry);
+               compensation = copy_of(old.compensation);
     model = std::move(other);
     base = new_base;
     const Particles mine = now();
@@ -43,7 +44,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
         std::ranges::copy(from, to.begin());
         std::ranges::fill(to.subspan(kept), Vec4{});
     };
-    put(start, mine.start), put(velocity, mine.velocity), put(carry, mine.carry);
+    put(start, mine.start), put(velocity, mine.velocity), put(compensation, mine.compensation);
     remember();
     for (auto& of_table : lambda) of_table.clear();
     stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
@@ -64,7 +65,7 @@ void ClothState::set_material(std::shared_ptr<const ClothModel> other) {
     if (!same_masses) weigh();
 }
 
-// Pins are those of now, not the model's.
+// Keeps the current pins, not the model's.
 void ClothState::weigh() {
     face_mass.clear();
     const std::span<Vec4> position = now().position;
@@ -80,7 +81,7 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     const Particles mine = now();
     for (std::size_t i = 0; i < copied.size(); ++i) {
         const std::size_t to = model->particle_count + i, from = copied[i];
-        for (const auto& array : {mine.position, mine.start, mine.velocity, mine.carry}) array[to] = array[from];
+        for (const auto& array : {mine.position, mine.start, mine.velocity, mine.compensation}) array[to] = array[from];
         mine.position[to].w = weights()[to] = 0;
     }
     const bool same_masses = other->mass.shares(model->mass);
@@ -98,7 +99,7 @@ void ClothState::place_points(std::uint32_t first, std::span<const Vec3> places)
     for (std::size_t i = 0; i < places.size(); ++i) {
         const std::size_t p = first + i;
         mine.position[p] = mine.start[p] = {places[i].x, places[i].y, places[i].z, 0};
-        mine.velocity[p] = mine.carry[p] = {};
+        mine.velocity[p] = mine.compensation[p] = {};
         weights()[p] = 0;
     }
 }
@@ -111,7 +112,7 @@ ClothSnapshot ClothState::save() const {
     ClothSnapshot snapshot{.position = points(mine.position),
                            .start = points(mine.start),
                            .velocity = points(mine.velocity),
-                           .carry = points(mine.carry),
+                           .compensation = points(mine.compensation),
                            .lambda = {stretch_lambda().begin(), stretch_lambda().end()},
                            .substep_seconds = substep_seconds};
     for (std::size_t p = 0; p < snapshot.position.size(); ++p) snapshot.position[p].w = weights()[p];
@@ -124,7 +125,7 @@ void ClothState::restore(const ClothSnapshot& snapshot) {
     std::ranges::transform(snapshot.position, weights().begin(), &Vec4::w);
     std::ranges::copy(snapshot.start, mine.start.begin());
     std::ranges::copy(snapshot.velocity, mine.velocity.begin());
-    std::ranges::copy(snapshot.carry, mine.carry.begin());
+    std::ranges::copy(snapshot.compensation, mine.compensation.begin());
     std::ranges::copy(snapshot.lambda, stretch_lambda().begin());
     substep_seconds = snapshot.substep_seconds;
     remember();
@@ -157,7 +158,7 @@ void ClothState::remember(std::size_t begin, std::size_t end) {
         std::copy(from.data() + base + begin, from.data() + base + end, to.data() + base + begin);
     };
     copy(world.velocity, world.good_velocity);
-    copy(world.carry, world.good_carry);
+    copy(world.compensation, world.good_compensation);
 }
 
 void ClothState::roll_back() {
@@ -166,7 +167,7 @@ void ClothState::roll_back() {
         world.start[p] = x;
         world.position[p] = {x.x, x.y, x.z, world.weight[p]};
         world.velocity[p] = world.good_velocity[p];
-        world.carry[p] = world.good_carry[p];
+        world.compensation[p] = world.good_compensation[p];
     }
 }
 
@@ -188,29 +189,30 @@ LevelView ClothState::level(std::uint32_t i) {
             from.begin.data(),    from.node.data(),   from.weight.data()};
 }
 
-// Rows between nodes are rows like any other.
+// The loops over constraints treat the nodes of a level as particles.
 ParticleView ClothState::level_particles(std::uint32_t i) {
     return {&levels[i].position[0].x, nullptr, nullptr, nullptr};
 }
 
 RowView ClothState::level_rows(std::uint32_t i) {
-    const ConstraintTable& table = model->hierarchy[i].reach;
+    const ConstraintTable& table = model->hierarchy[i].limits;
     return {table.stride, table.particles.data(), table.fields.data(), levels[i].lambda.data(), limits};
 }
 
-CarryView ClothState::carry_to_level(std::uint32_t i) const {
+ProlongationView ClothState::prolongation_to_level(std::uint32_t i) const {
     if (i + 1 == levels.size()) return {};
-    return carry_from(i + 1);
+    return prolongation_from(i + 1);
 }
 
-CarryView ClothState::carry_to_particles() const {
-    return carry_from(0);
+ProlongationView ClothState::prolongation_to_particles() const {
+    return prolongation_from(0);
 }
 
-CarryView ClothState::carry_from(std::uint32_t i) const {
-    const Carry& carry = model->hierarchy[i].carry;
-    return {&levels[i].displacement[0].x, carry.stride, carry.narrow.empty() ? nullptr : carry.narrow.data(),
-            carry.wide.empty() ? nullptr : carry.wide.data(), carry.weight.data()};
+ProlongationView ClothState::prolongation_from(std::uint32_t i) const {
+    const Prolongation& prolongation = model->hierarchy[i].prolongation;
+    return {&levels[i].displacement[0].x, prolongation.stride,
+            prolongation.narrow.empty() ? nullptr : prolongation.narrow.data(),
+            prolongation.wide.empty() ? nullptr : prolongation.wide.data(), prolongation.weight.data()};
 }
 
 AirView ClothState::air(float density) {
@@ -225,7 +227,7 @@ AirView ClothState::air(float density) {
             .impulse = &by_face[0].x,
             .drag = 0.5f * density * fabric.drag,
             .lift = 0.5f * density * fabric.lift,
-            .listing = fabric.lift_model == LiftModel::listing,
+            .sine_lift = fabric.lift_model == LiftModel::sine,
             .around = view_of(*model->around)};
 }
 
@@ -252,7 +254,7 @@ void ClothState::begin_frame(const WorldPlan& plan) {
     limits = {found.tension, found.allowed};
 }
 
-void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned ranks, bool feedback) {
+void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
@@ -261,13 +263,13 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
         const std::vector<float> masses = face_masses(*model);
         face_mass.assign(masses.begin(), masses.end());
     }
-    if (has(plan.substep, PassKind::spread) && levels.empty()) {
+    if (has(plan.substep, PassKind::prolongation) && levels.empty()) {
         for (const CoarseLevel& coarse : model->hierarchy) {
             LevelState& state = levels.emplace_back();
             state.position.resize(coarse.capacity());
             state.origin.resize(coarse.capacity());
             state.displacement.resize(coarse.capacity());
-            state.lambda.resize(coarse.reach.stride);
+            state.lambda.resize(coarse.limits.stride);
             for (std::uint32_t node = 0; node < coarse.count; ++node) state.position[node].w = coarse.weight[node];
         }
     }
@@ -279,11 +281,11 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     std::uint32_t longest = 0;
     for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)
         longest = std::max(longest, block.length);
-    if (line_scratch.size() < ranks) line_scratch.resize(ranks);
+    if (line_scratch.size() < workers) line_scratch.resize(workers);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
     if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
-    account.prepare(feedback ? colliders : 0, model->capacity(), ranks);
+    account.prepare(contact_forces ? colliders : 0, model->capacity(), workers);
     if (plan.projection == Projection::jacobi && !gather) {
         gather = std::make_unique<const JacobiGather>(build_gather(*model));
         corrections.resize(gather->blocks);

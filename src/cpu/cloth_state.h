@@ -1,4 +1,4 @@
-// What changes while a cloth moves, as the CPU backend keeps it.
+// The CPU backend's mutable state of a cloth.
 #pragma once
 
 #include "base/aligned.h"
@@ -17,14 +17,14 @@
 
 namespace weft::cpu {
 
-/// What one coarse level works with in a substep; nothing of it outlives that.
+/// Working memory of one coarse level. Its content is valid within a substep only.
 struct LevelState {
     AlignedVector<Vec4> position, origin, displacement;
     AlignedVector<float> lambda;
 };
 
 struct ClothState {
-    /// The cloth's particles are those from `base` on; the arrays must be large enough.
+    /// The cloth's particles start at `base`; the arrays must be large enough.
     ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArrays& arrays, std::uint32_t base);
 
     std::shared_ptr<const ClothModel> model;
@@ -35,30 +35,31 @@ struct ClothState {
     std::span<Vec4> normals() const { return std::span(world.normals).subspan(base, model->capacity()); }
     std::span<float> weights() const { return std::span(world.weight).subspan(base, model->capacity()); }
 
-    /// Those of stretch outlive a frame, the others an iteration: without a second one they are empty.
+    /// Stretch multipliers persist between frames. The others persist between iterations; with one iteration they are
+    /// empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
-    ContactAccount account;            ///< empty without feedback
-    /// What triangles hand to the particles around them: the air's impulse, and at the end of a frame their normals.
-    /// One more stays zero.
+    ContactAccount account;            ///< empty without contact_forces
+    /// Values that particles sum over their triangles: the air's impulse, and at the end of a frame the normals. One
+    /// extra element stays zero.
     AlignedVector<Vec4> by_face;
-    std::vector<LevelState> levels;              ///< as many as the model has, if a plan uses them
-    AlignedVector<Vec4> wind;                    ///< per triangle; empty without
+    std::vector<LevelState> levels;              ///< one per level of the model, if a plan uses them
+    AlignedVector<Vec4> wind;                    ///< per triangle; empty without wind
     AlignedVector<float> face_mass;              ///< kg, per triangle; empty until a plan has air
-    std::unique_ptr<const JacobiGather> gather;  ///< none until a plan projects side by side
+    std::unique_ptr<const JacobiGather> gather;  ///< null until a plan uses averaged Jacobi
     AlignedVector<Vec4> corrections;
-    std::vector<AlignedVector<float>> line_scratch;  ///< per rank
-    double substep_seconds = 0;                      ///< of the last frame, for lambda's scale; 0 before it
-    Limits limits;                                   ///< in this frame, of tethers and coarse rows
+    std::vector<AlignedVector<float>> line_scratch;  ///< per worker
+    double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame
+    Limits limits;                                   ///< in this frame, of tethers and coarse limits
 
-    /// The same particles; anchors may come or go. `base` is where they are now, which may be another place.
+    /// Keeps the particles; anchors may change. `new_base` is their new first index.
     void set_model(std::shared_ptr<const ClothModel> other, std::uint32_t new_base);
-    /// The same rows, particles and anchors, other numbers.
+    /// Keeps constraints, particles and anchors; changes the material's numbers.
     void set_material(std::shared_ptr<const ClothModel> other);
-    /// Other rows and triangles for the same points: Backend::set_topology().
+    /// Other constraints and triangles for the same points: Backend::set_topology().
     void set_topology(std::shared_ptr<const ClothModel> other, std::span<const std::uint32_t> copied);
     void place_points(std::uint32_t first, std::span<const Vec3> places);
-    /// Changes inverse masses, nothing else.
+    /// Changes only inverse masses.
     void set_weights(std::span<const ParticleWeight> changed);
     ClothSnapshot save() const;
     void restore(const ClothSnapshot& snapshot);
@@ -73,24 +74,24 @@ struct ClothState {
     ParticleView level_particles(std::uint32_t i);
     RowView level_rows(std::uint32_t i);
     /// From level i + 1 to level i.
-    CarryView carry_to_level(std::uint32_t i) const;
-    CarryView carry_to_particles() const;
+    ProlongationView prolongation_to_level(std::uint32_t i) const;
+    ProlongationView prolongation_to_particles() const;
     AirView air(float density);
     GatherView gather_view(const WorldPlan& plan) const;
     CorrectionView correction(ConstraintKind kind, const WorldPlan& plan, const PlainStiffness& stiffness);
-    void remember(std::size_t begin, std::size_t end);  ///< particles, as the last good ones
+    void remember(std::size_t begin, std::size_t end);  ///< saves these particles as the last good ones
     void remember();                                    ///< all
     void roll_back();
-    /// Makes room for what the plan needs beyond the particles; only here memory is asked for.
-    void prepare(const WorldPlan& plan, std::size_t colliders, unsigned ranks, bool feedback = false);
-    /// Lets tethers and coarse levels give way to the tension that the last frame left in the cloth.
+    /// Allocates what the plan needs besides the particles; the passes do not allocate.
+    void prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces = false);
+    /// Computes the limits of tethers and coarse levels from the tension that the last frame left in the cloth.
     void begin_frame(const WorldPlan& plan);
     void end_frame(const WorldPlan& plan, double dt);
     void update_normals();
 
   private:
     void weigh();
-    CarryView carry_from(std::uint32_t i) const;
+    ProlongationView prolongation_from(std::uint32_t i) const;
 };
 
 }  // namespace weft::cpu

@@ -13,7 +13,7 @@ Quanta quanta_of(const Vec4& v, float factor) {
             scalar::to_impulse_quanta(v.z * factor)};
 }
 
-// Whole numbers below 2^63 (WEFT_LARGEST_IMPULSE).
+// Quanta are integers below 2^63 (WEFT_LARGEST_IMPULSE).
 void add(std::array<std::uint64_t, 3>& sum, const Quanta& quanta) {
     for (int axis = 0; axis < 3; ++axis)
         sum[axis] += static_cast<std::uint64_t>(static_cast<std::int64_t>(quanta[axis]));
@@ -21,7 +21,7 @@ void add(std::array<std::uint64_t, 3>& sum, const Quanta& quanta) {
 
 }  // namespace
 
-void ContactAccount::prepare(std::size_t colliders, std::size_t capacity, unsigned ranks) {
+void ContactAccount::prepare(std::size_t colliders, std::size_t capacity, unsigned workers) {
     if (colliders * capacity != moved_.size()) {
         moved_ = AlignedVector<Vec4>(colliders * capacity);
         turned_ = AlignedVector<Vec4>(colliders * capacity);
@@ -29,22 +29,22 @@ void ContactAccount::prepare(std::size_t colliders, std::size_t capacity, unsign
     }
     capacity_ = capacity;
     if (moved_.empty()) return;
-    parts_.resize(ranks);
+    parts_.resize(workers);
     for (Part& part : parts_) {
         part.begin.resize(colliders + 1);
         part.sums.resize(colliders);
     }
 }
 
-void ContactAccount::count(unsigned rank, Share mine, std::span<const Vec4> position, float inv_h) {
-    Part& part = parts_[rank];
+void ContactAccount::count(unsigned worker, Share mine, std::span<const Vec4> position, float inv_h) {
+    Part& part = parts_[worker];
     part.mine = mine;
     part.position = position;
     part.inv_h = inv_h;
     list(part);
 }
 
-// The places of all contacts, and of these as many contacts as there is room for.
+// Counts and sums all contacts, and lists as many of them as there is room for.
 void ContactAccount::list(Part& part) const {
     const std::span<const Vec4> position = part.position;
     std::size_t found = 0;
@@ -70,13 +70,13 @@ void ContactAccount::list(Part& part) const {
     part.begin[part.sums.size()] = found;
 }
 
-void ContactAccount::collect(ClothFeedback& to) {
+void ContactAccount::collect(ClothContactLog& to) {
     std::size_t all = 0;
     for (Part& part : parts_) {
         const std::size_t found = part.begin.back();
         all += found;
         if (found == part.contacts.size()) continue;
-        part.contacts.reserve(found + found / 2);  // a cloth that settles touches a little more in every frame
+        part.contacts.reserve(found + found / 2);  // a settling cloth gets more contacts every frame
         const FlushSubnormals flush;               // as in the step
         list(part);
     }

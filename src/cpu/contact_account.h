@@ -1,9 +1,9 @@
-// The account that a cloth on the CPU keeps of its contacts in a frame, and what is read from it.
+// Logs the contacts of a cloth on the CPU during a frame.
 #pragma once
 
 #include "base/aligned.h"
 #include "base/workers.h"
-#include "solver/state/feedback.h"
+#include "solver/state/contact_forces.h"
 
 #include <array>
 #include <cstdint>
@@ -14,29 +14,29 @@ namespace weft::cpu {
 
 class ContactAccount {
   public:
-    /// Makes room; none where there is nothing to keep. Only prepare() and collect() ask for memory, on the calling
-    /// thread.
-    void prepare(std::size_t colliders, std::size_t capacity, unsigned ranks);
+    /// Allocates; nothing if there are no colliders. Only prepare() and collect() allocate, on the calling thread.
+    void prepare(std::size_t colliders, std::size_t capacity, unsigned workers);
 
     bool empty() const { return moved_.empty(); }
     /// Blocks of four per particle (ContactTrace).
     float* moved(std::size_t collider) { return &moved_[collider * capacity_].x; }
     float* turned(std::size_t collider) { return &turned_[collider * capacity_].x; }
 
-    /// What the rank's own particles did. `mine` has no anchors; `position` stays as it is until collect(). Lists no
-    /// more contacts than there was room for, so that it asks for no memory: sums are complete.
-    void count(unsigned rank, Share mine, std::span<const Vec4> position, float inv_h);
-    /// Of all ranks, every contact: where room was short, there is more now. What `to` shows stays until the call after
-    /// the next.
-    void collect(ClothFeedback& to);
+    /// Sums the contacts of a worker's particles. `mine` must not contain anchors; `position` must not change until
+    /// collect(). Lists only as many contacts as there is room for, so that it does not allocate; the sums are
+    /// complete.
+    void count(unsigned worker, Share mine, std::span<const Vec4> position, float inv_h);
+    /// Collects the contacts of all workers, all of them: allocates more room if a list was full. The lists in `to`
+    /// stay valid until the call after the next.
+    void collect(ClothContactLog& to);
 
   private:
-    /// A cache line is one rank's alone.
+    /// Aligned so that no two workers share a cache line.
     struct alignas(cache_line) Part {
-        std::vector<ContactRecord> contacts;  ///< as many as there was room for
-        std::vector<std::size_t> begin;       ///< of each collider's among all contacts, and their number
+        std::vector<ContactRecord> contacts;  ///< as many as there is room for
+        std::vector<std::size_t> begin;       ///< start of each collider's contacts among all, then their number
         std::vector<ImpulseSum> sums;         ///< per collider
-        // What was counted, to list it once more.
+        // Arguments of count(), for listing again in collect().
         Share mine{};
         std::span<const Vec4> position = {};
         float inv_h = 0;
@@ -46,7 +46,7 @@ class ContactAccount {
 
     std::size_t capacity_ = 0;
     AlignedVector<Vec4> moved_, turned_;  ///< [collider · capacity + particle]
-    std::vector<Part> parts_;             ///< per rank
+    std::vector<Part> parts_;             ///< per worker
     std::array<std::vector<ContactRecord>, 2> lists_;
     std::uint32_t turn_ = 0;
 };

@@ -22,7 +22,7 @@ class CpuBackend final : public Backend {
         return std::string(passes_.isa) + ", " + std::to_string(passes_.lanes) +
                (passes_.lanes == 1 ? " lane" : " lanes");
     }
-    unsigned threads() const override { return team_.ranks(); }
+    unsigned threads() const override { return team_.size(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         make_room(*model, base);
@@ -42,37 +42,37 @@ class CpuBackend final : public Backend {
         cloths_[handle.value] = nullptr;
     }
 
-    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+    Result<void> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         make_room(*model, base);
         cloth(handle).set_model(std::move(model), base);
-        return Done{};
+        return {};
     }
 
-    Result<Done> set_material(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+    Result<void> set_material(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
         cloth(handle).set_material(std::move(model));
-        return Done{};
+        return {};
     }
 
-    Result<Done> set_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
+    Result<void> set_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
                               std::span<const std::uint32_t> copied) override {
         cloth(handle).set_topology(std::move(model), copied);
-        return Done{};
+        return {};
     }
 
-    Result<Done> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
+    Result<void> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
         cloth(handle).place_points(first, places);
-        return Done{};
+        return {};
     }
 
-    Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
+    Result<void> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
         cloth(handle).set_weights(changed);
-        return Done{};
+        return {};
     }
 
     ClothSnapshot save(ClothHandle handle) const override { return cloth(handle).save(); }
-    Result<Done> restore(ClothHandle handle, const ClothSnapshot& snapshot) override {
+    Result<void> restore(ClothHandle handle, const ClothSnapshot& snapshot) override {
         cloth(handle).restore(snapshot);
-        return Done{};
+        return {};
     }
 
     void step(const WorldStep& step) override {
@@ -130,7 +130,7 @@ class CpuBackend final : public Backend {
         const cpu::ClothState& state = cloth(id);
         const cpu::Particles now = state.now();
         for (std::uint32_t p = 0; p < state.model->particle_count; ++p) {
-            for (const Vec4& v : {now.position[p], now.velocity[p], now.carry[p]}) {
+            for (const Vec4& v : {now.position[p], now.velocity[p], now.compensation[p]}) {
                 hash.add(v.x), hash.add(v.y), hash.add(v.z), hash.add(v.w);
             }
             hash.add(now.start[p].w);
@@ -148,7 +148,7 @@ class CpuBackend final : public Backend {
         if (arrays_.size() < end) arrays_.resize(end);
     }
 
-    // An island whose list was too short goes back to where the frame began and runs the frame again with a longer one.
+    // If an island's list was too short, rolls the island back and repeats the frame with a longer list.
     void complete_lists(const WorldStep& step, cpu::Executor::Job& job) {
         while (job.adhesion->rows().is_full()) {
             for (cpu::ClothState* state : job.cloths) state->roll_back();
@@ -161,7 +161,7 @@ class CpuBackend final : public Backend {
         counts_.capacity += job.adhesion->rows().capacity();
     }
 
-    // What happens to one cloth of an island happens to all.
+    // Collects the reports and contacts of an island. If one of its cloths is not finite, rolls all of them back.
     void end_island(const WorldStep& step, const cpu::Executor::Job& job) {
         std::uint32_t all = report_none;
         for (std::size_t i = 0; i < job.cloths.size(); ++i) {
@@ -169,7 +169,8 @@ class CpuBackend final : public Backend {
             one.frame->reports = job.reports[i];
             one.frame->detail.clear();
             all |= job.reports[i];
-            if (one.feedback && !job.cloths[i]->account.empty()) job.cloths[i]->account.collect(*one.feedback);
+            if (one.contact_forces && !job.cloths[i]->account.empty())
+                job.cloths[i]->account.collect(*one.contact_forces);
         }
         if (!(all & report_non_finite)) return;
         for (cpu::ClothState* state : job.cloths) state->roll_back();
@@ -177,11 +178,11 @@ class CpuBackend final : public Backend {
         for (std::size_t i = 0; i < job.cloths.size(); ++i) {
             const ClothStep& one = job.step->cloths[i];
             cpu::ClothState& state = *job.cloths[i];
-            if (one.feedback) one.feedback->clear();
+            if (one.contact_forces) one.contact_forces->clear();
             one.frame->reports |= report_non_finite;
             one.frame->detail = culprit;
             state.roll_back();
-            // What was solved was not of this place; a residual and a saved state still read it.
+            // The multipliers belong to the discarded positions, but residuals and saved states would still read them.
             for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
             state.update_normals();
         }
@@ -190,9 +191,9 @@ class CpuBackend final : public Backend {
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
-    std::vector<cpu::Executor::Job> jobs_;     // of a frame
+    std::vector<cpu::Executor::Job> jobs_;     // of the current frame
     std::vector<cpu::LinkState> links_;        // by island
-    std::vector<cpu::AdhesionList> adhesion_;  // by island; none where nothing sticks
+    std::vector<cpu::AdhesionList> adhesion_;  // by island; empty if nothing sticks
     ListCounts counts_;                        // of the last frame
     cpu::WorldArrays arrays_;
     std::array<double, stage_count> stage_ms_{};

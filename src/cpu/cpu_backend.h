@@ -1,4 +1,4 @@
-// Runs step plans on lanes and threads.
+// The CPU backend: runs step plans with SIMD and threads.
 #pragma once
 
 #include "solver/world/backend.h"
@@ -14,12 +14,12 @@
 namespace weft {
 
 struct CpuOptions {
-    /// Threads besides the calling one. The bits of the result do not depend on it.
+    /// Threads besides the calling one. The bits of the result do not depend on any of these options.
     unsigned workers = 0;
-    /// "avx512", "avx2", "sse4", "neon", "scalar", or empty for the widest that this machine has. Nor on this.
+    /// "avx512", "avx2", "sse4", "neon", "scalar", or empty for the widest that this machine has.
     std::string isa = {};
-    /// Particles: threads share the work on a cloth that has as many. In a smaller one they wait for one another longer
-    /// than they work: two take a sheet of 32² 0.9 times as fast as one, of 64² 1.2 times. Nor on this.
+    /// Particles. A smaller island runs on one thread, because several would wait for each other longer than they work:
+    /// two threads are 0.9 times as fast as one on a sheet of 32², 1.2 times on 64².
     std::uint32_t smallest_shared = 2000;
 };
 

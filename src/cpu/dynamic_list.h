@@ -1,5 +1,5 @@
-// Constraints of one kind that are found anew while the world moves, as the CPU backend keeps them. Each row moves one
-// particle, and lies with the other rows of that particle.
+// The CPU backend's list of constraints of one kind that is rebuilt while the world moves. Each constraint moves one
+// particle; the constraints of a particle are consecutive.
 #pragma once
 
 #include "base/aligned.h"
@@ -16,17 +16,17 @@ namespace weft::cpu {
 
 class DynamicList {
   public:
-    /// Makes room for rows of `items` particles, at most `capacity` of them; only here memory is asked for.
+    /// Allocates room for at most `capacity` constraints on `items` particles. No other function here allocates.
     void prepare(ConstraintKind kind, std::uint32_t items, std::uint32_t capacity);
 
-    /// Rows that each item has: who looks for rows writes them, before place().
+    /// Number of constraints per item. The caller writes it before place().
     std::span<std::uint32_t> found() { return found_; }
-    /// Decides where each item's rows go. Rows that there is no room for have no place. Padding acts on dummies from
-    /// `first_dummy` on.
+    /// Assigns the constraints of each item their rows in the table. Constraints beyond the capacity get none. Padding
+    /// acts on dummies, which start at `first_dummy`.
     void place(std::uint32_t first_dummy);
-    /// Where rows [first_row(item), first_row(item + 1)) of an item lie.
+    /// The constraints of an item are rows [first_row(item), first_row(item + 1)).
     std::uint32_t first_row(std::uint32_t item) const { return places_[item]; }
-    /// Number of the only particle of a row.
+    /// Sets the only particle of a row.
     void put(std::uint32_t row, std::uint32_t particle) { particles_[row] = particle; }
     void set(std::uint32_t row, std::uint32_t field, float value) {
         fields_[std::size_t{field} * stride_ + row] = value;
@@ -38,7 +38,7 @@ class DynamicList {
     std::uint32_t wanted() const { return wanted_; }
     std::uint32_t capacity() const { return capacity_; }
 
-    // What the loops over rows need.
+    // Arrays for the loops over constraints.
     std::uint32_t stride() const { return stride_; }
     const std::uint32_t* particles() const { return particles_.data(); }
     const float* fields() const { return fields_.data(); }
@@ -54,7 +54,7 @@ class DynamicList {
     AlignedVector<std::uint32_t> particles_;  ///< numbered over the world
     AlignedVector<float> fields_, lambda_, share_;
     AlignedVector<Vec4> corrections_;
-    std::vector<std::uint32_t> items_;  ///< row i is item i of the corrections
+    std::vector<std::uint32_t> items_;  ///< identity: row i is item i of the corrections
 };
 
 }  // namespace weft::cpu

@@ -10,7 +10,8 @@
 namespace weft::cpu {
 namespace {
 
-// Particles. Two threads take a cotton sheet of 128² 1.5 times as fast as one, two such sheets twice as fast.
+// Particles. Two threads that share a cotton sheet of 128² are 1.5 times as fast as one; with one such sheet each they
+// are twice as fast.
 constexpr std::uint32_t largest_small_island = 20000;
 
 class StageClock {
@@ -19,7 +20,7 @@ class StageClock {
 
     /// Call when a pass of `stage` begins.
     void enter(std::uint32_t stage) {
-        if (stage == stage_) return;  // a reading costs 25 ns, a pass of a small cloth little more
+        if (stage == stage_) return;  // reading the clock costs 25 ns, a pass over a small cloth little more
         stop();
         stage_ = stage;
     }
@@ -48,16 +49,16 @@ std::uint32_t particles_in(const Executor::Job& job) {
 void Executor::run(const WorldStep& step, std::span<Job> jobs, std::array<double, stage_count>& stage_ms) {
     std::uint32_t limit = largest_small_island + 1;
     const auto is_small = [&](const Job& job) { return particles_in(job) < limit; };
-    if (std::ranges::count_if(jobs, is_small) < static_cast<std::ptrdiff_t>(team_.ranks())) limit = smallest_shared_;
+    if (std::ranges::count_if(jobs, is_small) < static_cast<std::ptrdiff_t>(team_.size())) limit = smallest_shared_;
     small_.clear();
     for (Job& job : jobs) {
         if (is_small(job)) small_.push_back(&job);
-        prepare(step, job, is_small(job) ? 1 : team_.ranks());
+        prepare(step, job, is_small(job) ? 1 : team_.size());
     }
-    const bool side_by_side = team_.ranks() > 1 && small_.size() > 1;
+    const bool side_by_side = team_.size() > 1 && small_.size() > 1;
     for (Job& job : jobs) {
         if (!is_small(job)) {
-            run_together(step, job, team_.ranks(), stage_ms);
+            run_together(step, job, team_.size(), stage_ms);
         } else if (!side_by_side) {
             run_together(step, job, 1, stage_ms);
         }
@@ -65,43 +66,44 @@ void Executor::run(const WorldStep& step, std::span<Job> jobs, std::array<double
     if (side_by_side) run_side_by_side(step, stage_ms);
 }
 
-// On the calling thread alone: an exception on another one could not be caught.
-void Executor::prepare(const WorldStep& step, Job& job, unsigned ranks) {
+// Runs on the calling thread only: an exception on another thread could not be caught.
+void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
     for (ClothState* cloth : job.cloths)
-        cloth->prepare(*step.plan, step.input.colliders.size(), ranks, step.input.feedback);
+        cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces);
     if (job.links) job.links->prepare(*job.step->links, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
     job.reports.assign(job.cloths.size(), report_none);
-    for (Worker& worker : ranks_) {
-        if (worker.reports.size() < job.cloths.size()) worker.reports.resize(job.cloths.size());
-        worker.runs.reserve(job.cloths.size());
+    for (WorkerScratch& scratch : scratch_) {
+        if (scratch.reports.size() < job.cloths.size()) scratch.reports.resize(job.cloths.size());
+        scratch.runs.reserve(job.cloths.size());
     }
 }
 
 void Executor::begin_island(const WorldStep& step, const Job& job, std::vector<ClothRun>& runs) const {
     runs.clear();
     for (std::size_t i = 0; i < job.cloths.size(); ++i) {
-        // What limits allow for is found from what the frame before left, which the first run has written over.
+        // The limits follow from the state after the previous frame. A repeated frame keeps them, since its first run
+        // has overwritten that state.
         if (!job.again) job.cloths[i]->begin_frame(*step.plan);
         runs.emplace_back(passes_, *job.cloths[i], step, job.step->cloths[i]);
     }
 }
 
-void Executor::run_together(const WorldStep& step, Job& job, unsigned ranks,
+void Executor::run_together(const WorldStep& step, Job& job, unsigned workers,
                             std::array<double, stage_count>& stage_ms) {
-    begin_island(step, job, ranks_.front().runs);
-    const Island island{step, job, ranks_.front().runs};
-    if (ranks == 1) {
-        run_rank(island, {}, ranks_.front(), stage_ms);
+    begin_island(step, job, scratch_.front().runs);
+    const Island island{step, job, scratch_.front().runs};
+    if (workers == 1) {
+        run_worker(island, {}, scratch_.front(), stage_ms);
     } else {
-        team_.run([&](unsigned rank) {
-            Worker& worker = ranks_[rank];
-            run_rank(island, {rank, ranks}, worker, rank == 0 ? stage_ms : worker.stage_ms);
+        team_.run([&](unsigned worker) {
+            WorkerScratch& scratch = scratch_[worker];
+            run_worker(island, {worker, workers}, scratch, worker == 0 ? stage_ms : scratch.stage_ms);
         });
     }
     for (std::size_t i = 0; i < job.cloths.size(); ++i) {
         job.cloths[i]->end_frame(*step.plan, step.input.dt);
-        for (unsigned rank = 0; rank < ranks; ++rank) job.reports[i] |= ranks_[rank].reports[i];
+        for (unsigned worker = 0; worker < workers; ++worker) job.reports[i] |= scratch_[worker].reports[i];
     }
 }
 
@@ -111,64 +113,65 @@ void Executor::run_side_by_side(const WorldStep& step, std::array<double, stage_
         return na != nb ? na > nb : a < b;
     });
     std::atomic<std::size_t> next = 0;
-    team_.run([&](unsigned rank) {
-        Worker& mine = ranks_[rank];
+    team_.run([&](unsigned worker) {
+        WorkerScratch& mine = scratch_[worker];
         mine.stage_ms.fill(0);
         for (std::size_t i = next.fetch_add(1); i < small_.size(); i = next.fetch_add(1)) {
             Job& job = *small_[i];
             begin_island(step, job, mine.runs);
-            run_rank({step, job, mine.runs}, {}, mine, mine.stage_ms);
+            run_worker({step, job, mine.runs}, {}, mine, mine.stage_ms);
             for (std::size_t c = 0; c < job.cloths.size(); ++c) {
                 job.cloths[c]->end_frame(*step.plan, step.input.dt);
                 job.reports[c] = mine.reports[c];
             }
         }
     });
-    for (const Worker& worker : ranks_) {
+    for (const WorkerScratch& scratch : scratch_) {
         for (std::uint32_t stage = 0; stage < stage_count; ++stage)
-            stage_ms[stage] += worker.stage_ms[stage] / static_cast<double>(ranks_.size());
+            stage_ms[stage] += scratch.stage_ms[stage] / static_cast<double>(scratch_.size());
     }
 }
 
-void Executor::run_rank(const Island& island, Rank rank, Worker& worker, std::array<double, stage_count>& stage_ms) {
+void Executor::run_worker(const Island& island, Worker worker, WorkerScratch& scratch,
+                          std::array<double, stage_count>& stage_ms) {
     const FlushSubnormals flush;
     std::array<double, stage_count> mine{};
     StageClock clock(mine);
-    const std::span reports(worker.reports.data(), island.runs.size());
+    const std::span reports(scratch.reports.data(), island.runs.size());
     std::ranges::fill(reports, report_none);
     const auto barrier = [&] {
-        if (rank.count > 1) team_.meet();
+        if (worker.count > 1) team_.barrier();
     };
-    for (const ClothRun& run : island.runs) run.keep_last_good(rank);
+    for (const ClothRun& run : island.runs) run.keep_last_good(worker);
     island.job.step->plan->for_each_pass([&](const IslandPass& pass, std::uint32_t substep) {
         if (pass.barrier) barrier();
         clock.enter(stage_of(pass.pass));
-        run_pass(island, pass, substep, rank, reports);
+        run_pass(island, pass, substep, worker, reports);
     });
     barrier();
     for (std::size_t i = 0; i < island.runs.size(); ++i) {
-        if (!island.runs[i].all_finite(rank)) reports[i] |= report_non_finite;
-        island.runs[i].count_contacts(rank);
+        if (!island.runs[i].all_finite(worker)) reports[i] |= report_non_finite;
+        island.runs[i].count_contacts(worker);
     }
     clock.stop();
-    if (rank.number == 0) {
+    if (worker.number == 0) {
         for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms[stage] += mine[stage];
     }
 }
 
-void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint32_t substep, Rank rank,
+void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint32_t substep, Worker worker,
                         std::span<std::uint32_t> reports) const {
     if (pass.pass.source == RowSource::links) {
         WorldArrays& world = island.job.cloths.front()->world;
         const float h = frame_numbers(island.runs.front().model(), *island.step.plan, island.step.input.dt).h;
         island.job.links->run(passes_, *island.job.step->links, *island.step.plan, pass.pass, substep,
-                              world.range(0, world.size()).view(), h, rank);
+                              world.range(0, world.size()).view(), h, worker);
         return;
     }
     if (pass.pass.source == RowSource::dynamic)
-        return island.job.adhesion->run({passes_, island.step, island.job.cloths}, pass.pass, substep, rank);
+        return island.job.adhesion->run({passes_, island.step, island.job.cloths}, pass.pass, substep, worker);
     for (std::size_t i = 0; i < island.runs.size(); ++i) {
-        if (island.runs[i].run(pass, substep, rank)) reports[i] |= report_speed_capped;
+        if (island.runs[i].run(pass, substep, worker)) reports[i] |= report_speed_capped;
     }
 }
 
@@ -179,15 +182,15 @@ std::string Executor::find_non_finite(const WorldStep& step, const Job& job) {
     for (std::size_t i = 0; i < job.cloths.size(); ++i) {
         const ClothState& cloth = *job.cloths[i];
         const Particles now = cloth.now();
-        std::string culprit = name_input(step.input, job.step->cloths[i].mover_poses, points(cloth, now.position),
+        std::string culprit = name_input(step.input, job.step->cloths[i].motion_poses, points(cloth, now.position),
                                          points(cloth, now.velocity));
         if (!culprit.empty()) return culprit;
     }
     const FlushSubnormals flush;
-    Worker& worker = ranks_.front();
-    begin_island(step, job, worker.runs);
-    const Island island{step, job, worker.runs};
-    const std::span reports(worker.reports.data(), worker.runs.size());
+    WorkerScratch& scratch = scratch_.front();
+    begin_island(step, job, scratch.runs);
+    const Island island{step, job, scratch.runs};
+    const std::span reports(scratch.reports.data(), scratch.runs.size());
     for (const Pass& pass : step.plan->frame_begin) run_pass(island, {pass}, 0, {}, reports);
     for (std::uint32_t substep = 0; substep < step.plan->substeps; ++substep) {
         for (const Pass& pass : step.plan->substep) {

@@ -1,6 +1,6 @@
-// Lines of stretch rows, a line per lane. Included by passes.inl.
+// Solves lines of stretch constraints, one line per lane. Included by passes.inl.
 
-// What the way back needs of the way there, row after row: vectors of lane_count floats.
+// Values that elimination stores for back substitution, constraint by constraint, as vectors of lane_count floats.
 struct LineScratch {
     float* at;
 
@@ -47,7 +47,7 @@ inline void lines_of_block(const ParticleView& p, const RowView& rows, std::size
     }
     scratch.keep_factor(length - 1, real(0.0f));
 
-    vec3 pull(real(0.0f));  // of the row behind
+    vec3 pull(real(0.0f));  // of the constraint processed before
     real next = real(0.0f);
     for (std::size_t k = length; k-- > 0;) {
         const std::size_t r = begin + k * lane_padding;

@@ -1,4 +1,4 @@
-// The constraints between the cloths of an island, as the CPU backend projects them.
+// Projects the constraints between the cloths of an island on the CPU.
 #pragma once
 
 #include "cpu/cloth_run.h"
@@ -7,13 +7,13 @@
 
 namespace weft::cpu {
 
-/// What a frame works with. Multipliers live for a substep alone.
+/// Working memory of a frame. Multipliers are valid within a substep only.
 class LinkState {
   public:
-    /// Makes room; only here memory is asked for.
+    /// Allocates; run() does not.
     void prepare(const LinkTables& tables, const WorldPlan& plan);
     void run(const Passes& passes, const LinkTables& tables, const WorldPlan& plan, const Pass& pass,
-             std::uint32_t substep, const ParticleView& world, float h, Rank rank);
+             std::uint32_t substep, const ParticleView& world, float h, Worker worker);
 
   private:
     std::array<AlignedVector<float>, constraint_kind_count> lambda_;

@@ -17,21 +17,21 @@
 
 namespace weft::cpu {
 
-/// A contiguous part of particles, rows or triangles. For SIMD tables both ends are multiples of lane_padding.
+/// A contiguous range of particles, constraints or triangles. With SIMD both ends are multiples of lane_padding.
 struct Range {
     std::uint32_t begin, end;
 };
 
 /// State of a cloth: blocks of four floats, one per particle. The fourth floats hold, in this order, the inverse mass
-/// and the x, y and z of the velocity that rounding dropped (integrate.kernel.h).
+/// and the x, y and z of the velocity's compensation (integrate.kernel.h).
 struct ParticleView {
     float* position;
     float* start;  ///< position at the start of the substep
     float* velocity;
-    float* carry;  ///< what rounding dropped from the position
+    float* compensation;  ///< rounding error of the position (compensated summation)
 };
 
-/// What one-sided rows allow for in a frame, as Step has it.
+/// How far one-sided limits give way in a frame; see Step.
 struct Limits {
     float tension = 0;  ///< N/m
     float allowed = 1;
@@ -50,21 +50,21 @@ struct ContactView {
     Pose now, before;              ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     float half_thickness, depenetration;  ///< m
-    float* sums;                          ///< a ContactSum per particle, or nullptr where one iteration is all there is
+    float* sums;                          ///< a ContactSum per particle; nullptr with a single iteration
     bool first_iteration;
     float* moved = nullptr;   ///< blocks of four: ContactTrace, of contact_traced only
     float* turned = nullptr;  ///< likewise
     bool first_of_frame = false;
 };
 
-/// Where rows side by side write what they want of their particles.
+/// Where constraints in parallel projection write the corrections of their particles.
 struct CorrectionView {
     float* blocks;                     ///< of four, [slot · stride + row]
     const float* share;                ///< [row]; nullptr for plain constraints, whose sum is averaged by particle
     std::array<float, 2> stiffness{};  ///< plain constraints only
 };
 
-/// How particles find their corrections again.
+/// Lists the corrections of each particle.
 struct GatherView {
     const float* blocks;
     const std::uint32_t* offsets;
@@ -76,24 +76,24 @@ struct GatherView {
 /// One coarse level. Blocks of four floats per node.
 struct LevelView {
     float* position;                     ///< w: inverse mass
-    float* origin;                       ///< where what it carries is, in the mean
-    float* displacement;                 ///< what the level's rows, and those of coarser levels, make of it
+    float* origin;                       ///< weighted mean of the finer positions it represents
+    float* displacement;                 ///< correction by this level and the coarser ones
     const std::uint32_t *begin, *finer;  ///< as Restriction has them: begin and node
     const float* weight;                 ///< likewise
 };
 
 /// From a level's displacements to nodes of the finer one, or to particles.
-struct CarryView {
+struct ProlongationView {
     const float* displacement;  ///< of the coarser level; nullptr if there is none
     std::uint32_t stride;
-    const std::uint16_t* narrow;  ///< as in Carry: one of the two is nullptr
+    const std::uint16_t* narrow;  ///< as in Prolongation: one of the two is nullptr
     const std::uint32_t* wide;
     const float* weight;
 };
 
 /// Triangles at each particle.
 struct AroundView {
-    const std::uint32_t* begin;  ///< this and what follows as in FacesAround
+    const std::uint32_t* begin;  ///< all members as in FacesAround
     const std::uint32_t* triangles;
     const std::uint32_t *own, *offsets, *items;
 };
@@ -109,10 +109,10 @@ struct AirView {
     const std::uint32_t* faces;  ///< [corner · stride + triangle]
     std::uint32_t stride;
     const float* mass;  ///< kg per triangle
-    float* wind;        ///< blocks of four per triangle, m/s; nullptr where the air stands still
+    float* wind;        ///< blocks of four per triangle, m/s; nullptr without wind
     float* impulse;     ///< blocks of four per triangle, kg·m/s: a corner's third; then one of zeros
     float drag, lift;   ///< ½ρC, kg/m³
-    bool listing;
+    bool sine_lift;
     AroundView around;
 };
 
@@ -125,7 +125,7 @@ struct SurfaceView {
     float* normals;  ///< blocks of four
 };
 
-/// By constraint, a loop is nullptr where no plan asks for it (physics/constraint_parts.h).
+/// In the arrays by constraint kind, an entry is nullptr if no plan uses it (physics/constraint_parts.h).
 struct Passes {
     std::string_view isa;
     int lanes;
@@ -134,28 +134,29 @@ struct Passes {
     bool (*velocities)(const ParticleView&, Range, float max_speed, float h);
     /// velocities, then predict, in one pass over the particles.
     bool (*advance)(const ParticleView&, Range, Vec3 gravity, float max_speed, float h);
-    /// No two rows of the range may share a particle that one of them moves, except on one lane, which takes row by
-    /// row.
+    /// No two constraints of the range may share a particle that one of them moves, except on one lane, which processes
+    /// them one after another.
     std::array<void (*)(const ParticleView&, const RowView&, Range, float h, LambdaUse), constraint_kind_count> project;
-    /// Plain position-based dynamics: as if compliance were 0, but only a part of it.
+    /// Plain position-based dynamics: applies a part, `stiffness`, of the rigid correction.
     std::array<void (*)(const ParticleView&, const RowView&, Range, std::array<float, 2> stiffness),
                constraint_kind_count>
         project_plain;
-    /// Rows of stretch, a line at a time. `scratch`: line_scratch_floats(…) of the longest block, at 64 bytes.
+    /// Solves stretch constraints line by line. `scratch`: line_scratch_floats(…) of the longest block, aligned to 64
+    /// bytes.
     void (*lines)(const ParticleView&, const RowView&, std::span<const LineBlock>, float h, LambdaUse, float* scratch);
     std::array<void (*)(const ParticleView&, const RowView&, const CorrectionView&, Range, float h, LambdaUse),
                constraint_kind_count>
         correct;
     void (*average)(const ParticleView&, const GatherView&, Range);
-    /// `finer`: positions of particles, or origins of the finer level.
-    void (*collect)(const float* finer, const LevelView&, Range);
-    void (*lift)(const LevelView&, const CarryView&, Range);
-    void (*settle)(const LevelView&, Range);
-    void (*spread)(float* particle_position, const CarryView&, Range);
+    /// `finer`: particle positions, or origins of the finer level.
+    void (*restriction)(const float* finer, const LevelView&, Range);
+    void (*interpolation)(const LevelView&, const ProlongationView&, Range);
+    void (*node_correction)(const LevelView&, Range);
+    void (*prolongation)(float* particle_position, const ProlongationView&, Range);
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
-    /// And keeps account of what it does to particles, which the first one of a frame begins.
+    /// Also logs the displacements of particles. The first contact pass of a frame resets the log.
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact_traced;
     /// Adds to the wind of each triangle, or sets it. One entry per kind of wind.
     std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;
@@ -167,22 +168,22 @@ struct Passes {
     bool (*all_finite)(const float*, std::size_t begin, std::size_t end);
 };
 
-/// What elimination leaves for the way back: numbers of one row, and of a block that long.
+/// Size of the values that elimination stores for back substitution, per constraint and per block.
 inline constexpr std::size_t line_scratch_fields = 10;
 constexpr std::size_t line_scratch_floats(std::uint32_t block_length) {
     return line_scratch_fields * lane_padding * block_length;
 }
 
-/// Sums over each particle's own list of triangles or rows, one particle at a time.
+/// Sums over each particle's list of triangles or constraints, one particle at a time.
 void normals_pass(const SurfaceView&, Range);
 void push_pass(const ParticleView&, const AirView&, Range);
 void average_pass(const ParticleView&, const GatherView&, Range);
 
 /// One lane, on any machine.
 const Passes& scalar_passes();
-/// Every table that this machine can run, the widest first; the last is scalar_passes().
+/// All tables that this machine can run, the widest first; the last is scalar_passes().
 std::span<const Passes* const> available_passes();
-/// nullptr if this machine has no such instruction set.
+/// Returns nullptr if this machine lacks the instruction set.
 const Passes* find_passes(std::string_view isa);
 
 }  // namespace weft::cpu

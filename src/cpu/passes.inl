@@ -1,4 +1,4 @@
-// The loops, for whatever lanes the including namespace has. Included once per instruction set.
+// The loops, for the lanes of the including namespace. Included once per instruction set.
 
 WEFT_FN Step make_step(float h, const Limits& limits = {}) {
     return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed)};
@@ -8,13 +8,13 @@ WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
     Motion m;
     start = load_blocks_unordered(p.start + at, m.v_dropped.x);
     m.v = load_blocks_unordered(p.velocity + at, m.v_dropped.y);
-    m.x_dropped = load_blocks_unordered(p.carry + at, m.v_dropped.z);
+    m.x_dropped = load_blocks_unordered(p.compensation + at, m.v_dropped.z);
     return m;
 }
 
 WEFT_FN void store_motion(const Motion& m, const ParticleView& p, std::size_t at) {
     store_blocks_unordered(m.v, m.v_dropped.y, p.velocity + at);
-    store_blocks_unordered(m.x_dropped, m.v_dropped.z, p.carry + at);
+    store_blocks_unordered(m.x_dropped, m.v_dropped.z, p.compensation + at);
 }
 
 inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float max_speed, float h) {
@@ -27,7 +27,7 @@ inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float
         Motion m = load_motion(p, 4 * i, start);
         start = x;
         const mask now = predict(x, m, w, acceleration, real(max_speed), step);
-        capped = capped || now;  // on one lane || leaves out what need not be known
+        capped = capped || now;  // `now` is computed before, since || short-circuits on one lane
         store_blocks_unordered(x, w, p.position + 4 * i);
         store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);
         store_motion(m, p, 4 * i);
@@ -75,10 +75,10 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
 #define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
 #define WEFT_LAMBDAS_1(v) v[0]
 #define WEFT_LAMBDAS_3(v) v[0], v[1], v[2]
-#define WEFT_UNROLL _Pragma("GCC unroll 8")  // arrays of registers stay registers
+#define WEFT_UNROLL _Pragma("GCC unroll 8")  // keeps small arrays in registers
 #define WEFT_LOAD_FIELD(field) row.field = load(next), next += stride;
 
-// What the generic loops below need to know of a constraint.
+// Describes a constraint to the generic loops below.
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                                                                 \
     struct Name##Traits {                                                                                      \
         static constexpr int arity = particles, moves = moved, multipliers = lambdas;                                                                \
@@ -100,7 +100,7 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-// Particles of lane_count rows.
+// Particles of lane_count constraints.
 template <class Traits>
 struct Points {
     vec3 x[Traits::arity];
@@ -146,11 +146,11 @@ inline void project_rows(const ParticleView& p, const RowView& rows, Range range
     Points<Traits> points, ahead;
     load_points<Traits>(p, rows, range.begin, points.x, points.w);
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
-        // One lane also runs the overflow, whose rows share particles.
+        // One lane also runs the overflow, whose constraints share particles.
         if (lane_count == 1) load_points<Traits>(p, rows, r, points.x, points.w);
         project_points<Traits, use>(rows, r, step, points);
-        // The next particles come in while the arithmetic is still at work: what waits to be stored fills the
-        // processor's queues, and loads behind it would not even begin.
+        // Loads the next particles before storing these: pending stores fill the processor's queues and delay loads
+        // issued after them.
         const std::size_t next = std::min<std::size_t>(r + lane_count, range.end - lane_count);
         if (lane_count > 1) load_points<Traits>(p, rows, next, ahead.x, ahead.w);
         store_points<Traits>(p, rows, r, points);
@@ -169,12 +169,12 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
 
 #include "cpu/lines.inl"
 
-// A step in which every constraint is rigid: compliance over its square is nothing.
+// A step that makes every constraint rigid: 1/h² is 0, which removes all compliance.
 WEFT_FN Step rigid_step(const Limits& limits) {
     return {real(1e3f), real(1e-3f), real(0.0f), real(limits.tension), real(limits.allowed)};
 }
 
-// Without compliance, λ is what moved the particles, and its sign tells which way C was.
+// Without compliance λ has the opposite sign of C: λ < 0 selects the stiffness for C > 0.
 WEFT_FN real plain_part(real lambda, std::array<float, 2> stiffness) {
     return select(lambda < real(0.0f), real(stiffness[0]), real(stiffness[1]));
 }
@@ -228,20 +228,20 @@ inline void correct_pass(const ParticleView& p, const RowView& rows, const Corre
 }
 
 template <class Node>
-WEFT_FN vec3 carried(const CarryView& carry, const Node* nodes, std::size_t i) {
+WEFT_FN vec3 interpolated(const ProlongationView& prolongation, const Node* nodes, std::size_t i) {
     vec3 sum(real(0.0f));
-    for (std::size_t k = 0; k < Carry::parents; ++k) {
+    for (std::size_t k = 0; k < Prolongation::parents; ++k) {
         real unused;
-        const std::size_t at = k * carry.stride + i;
-        sum = sum + gather_blocks(carry.displacement, nodes + at, unused) * load(carry.weight + at);
+        const std::size_t at = k * prolongation.stride + i;
+        sum = sum + gather_blocks(prolongation.displacement, nodes + at, unused) * load(prolongation.weight + at);
     }
     return sum;
 }
-WEFT_FN vec3 carried(const CarryView& carry, std::size_t i) {
-    return carry.narrow ? carried(carry, carry.narrow, i) : carried(carry, carry.wide, i);
+WEFT_FN vec3 interpolated(const ProlongationView& prolongation, std::size_t i) {
+    return prolongation.narrow ? interpolated(prolongation, prolongation.narrow, i) : interpolated(prolongation, prolongation.wide, i);
 }
 
-inline void collect_pass(const float* finer, const LevelView& level, Range range) {
+inline void restriction_pass(const float* finer, const LevelView& level, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         vec3 sum(real(0.0f));
         const std::size_t packet = i / lane_padding;
@@ -254,16 +254,16 @@ inline void collect_pass(const float* finer, const LevelView& level, Range range
     }
 }
 
-inline void lift_pass(const LevelView& level, const CarryView& carry, Range range) {
+inline void interpolation_pass(const LevelView& level, const ProlongationView& prolongation, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real unused, w;
         const vec3 x = load_blocks(level.origin + 4 * i, unused);
         load_blocks(level.position + 4 * i, w);
-        store_blocks(carry.displacement ? x + carried(carry, i) : x, w, level.position + 4 * i);
+        store_blocks(prolongation.displacement ? x + interpolated(prolongation, i) : x, w, level.position + 4 * i);
     }
 }
 
-inline void settle_pass(const LevelView& level, Range range) {
+inline void node_correction_pass(const LevelView& level, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real unused;
         const vec3 now = load_blocks_unordered(level.position + 4 * i, unused);
@@ -272,13 +272,13 @@ inline void settle_pass(const LevelView& level, Range range) {
     }
 }
 
-inline void spread_pass(float* particle_position, const CarryView& carry, Range range) {
+inline void prolongation_pass(float* particle_position, const ProlongationView& prolongation, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w;
         const vec3 x = load_blocks(particle_position + 4 * i, w);
-        // The levels may not know yet of a particle that was pinned a moment ago.
+        // The hierarchy may be older than a pin, so pinned particles can still have weights.
         const real moves = select(w > real(0.0f), real(1.0f), real(0.0f));
-        store_blocks(x + carried(carry, i) * moves, w, particle_position + 4 * i);
+        store_blocks(x + interpolated(prolongation, i) * moves, w, particle_position + 4 * i);
     }
 }
 
@@ -309,7 +309,7 @@ WEFT_FN ContactBody make_body(const ContactView& c) {
             real(c.kinetic_friction),    real(c.half_thickness),      real(c.depenetration)};
 }
 
-// Adds what a contact did to the particles' account of the frame.
+// Adds the displacements by a contact to the particles' contact log.
 WEFT_FN void trace_pass(const ContactView& c, std::size_t i, bool touched, vec3 before, vec3 x) {
     if (!touched && !c.first_of_frame) return;
     real unused;
@@ -398,7 +398,7 @@ inline void wind_pass(const AirView& air, const WindNow& wind, bool first, Range
 }
 
 inline void air_pass(const AirView& air, Range range, float h) {
-    const AirFabric fabric = {real(air.drag), real(air.lift), real(air.listing ? 1.0f : 0.0f)};
+    const AirFabric fabric = {real(air.drag), real(air.lift), real(air.sine_lift ? 1.0f : 0.0f)};
     const real third = real(1.0f / 3.0f);
     for (std::size_t t = range.begin; t < range.end; t += lane_count) {
         const std::uint32_t* corner[3] = {air.faces + t, air.faces + std::size_t{air.stride} + t,
@@ -448,10 +448,10 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .lines = lines_pass,
         .correct = {},
         .average = average_pass,
-        .collect = collect_pass,
-        .lift = lift_pass,
-        .settle = settle_pass,
-        .spread = spread_pass,
+        .restriction = restriction_pass,
+        .interpolation = interpolation_pass,
+        .node_correction = node_correction_pass,
+        .prolongation = prolongation_pass,
         .damp = {},
 #define WEFT_SHAPE(name, Name) contact_pass<Name##Shape, false>,
         .contact = {

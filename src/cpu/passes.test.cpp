@@ -24,16 +24,16 @@ using namespace random_rows;
 constexpr float step = 1e-3f;  // s
 
 struct Fixture : RandomState {
-    ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
+    ParticleView view() { return {&position[0].x, &start[0].x, &velocity[0].x, &compensation[0].x}; }
     RowView rows() { return {table.stride, table.particles.data(), table.fields.data(), lambda.data(), {0.3f, 1.01f}}; }
 };
 
-Fixture random_state(unsigned seed, bool nasty) {
-    return {random_points(seed, nasty)};
+Fixture random_state(unsigned seed, bool degenerate) {
+    return {random_points(seed, degenerate)};
 }
 
 void run_lines(const Passes& passes, Fixture& f, LambdaUse use) {
-    AlignedVector<float> scratch(line_scratch_floats(longest_line), NAN);  // what it held before does not matter
+    AlignedVector<float> scratch(line_scratch_floats(longest_line), NAN);  // its previous content does not matter
     for (const Batch& batch : f.table.batches) {
         const auto blocks = std::span(f.table.blocks).subspan(batch.first_block, batch.blocks);
         passes.lines(f.view(), f.rows(), blocks, step, use, scratch.data());
@@ -43,7 +43,7 @@ void run_lines(const Passes& passes, Fixture& f, LambdaUse use) {
 void expect_same(const AlignedVector<Vec4>& a, const AlignedVector<Vec4>& b, std::string_view what) {
     for (std::uint32_t p = 0; p < particle_count; ++p) {
         const auto bits = [](const Vec4& v) { return std::bit_cast<std::array<std::uint32_t, 4>>(v); };
-        // The bits of a NaN are the machine's affair.
+        // The bits of a NaN depend on the machine.
         const auto same = [&](float x, float y, int k) {
             return bits(a[p])[k] == bits(b[p])[k] || (std::isnan(x) && std::isnan(y));
         };
@@ -65,7 +65,7 @@ class InstructionSet : public testing::TestWithParam<const Passes*> {
         expect_same(ours.position, theirs.position, "position");
         expect_same(ours.start, theirs.start, "start");
         expect_same(ours.velocity, theirs.velocity, "velocity");
-        expect_same(ours.carry, theirs.carry, "carry");
+        expect_same(ours.compensation, theirs.compensation, "compensation");
         for (std::size_t r = 0; r < ours.lambda.size(); ++r) {
             if (!ours.is_row(r % ours.table.stride)) continue;
             ASSERT_TRUE(std::bit_cast<std::uint32_t>(ours.lambda[r]) ==
@@ -79,9 +79,9 @@ class InstructionSet : public testing::TestWithParam<const Passes*> {
 TEST_P(InstructionSet, projects_and_damps_every_constraint_alike) {
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         for (unsigned seed = 0; seed < 20; ++seed) {
-            const bool nasty = seed % 2;
-            Fixture state = random_state(seed, nasty);
-            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
+            const bool degenerate = seed % 2;
+            Fixture state = random_state(seed, degenerate);
+            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, degenerate);
             for (const LambdaUse use : {LambdaUse::discard, LambdaUse::store, LambdaUse::accumulate}) {
                 compare(state, [&](const Passes& passes, Fixture& f) {
                     for (const Batch& batch : f.table.batches) {
@@ -105,9 +105,9 @@ TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
         const RowSource source = constraint_info(static_cast<ConstraintKind>(kind)).source;
         if (source == RowSource::level) continue;
         for (unsigned seed = 0; seed < 10; ++seed) {
-            const bool nasty = seed % 2;
-            Fixture state = random_state(seed, nasty);
-            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
+            const bool degenerate = seed % 2;
+            Fixture state = random_state(seed, degenerate);
+            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, degenerate);
             const bool plain_too = source != RowSource::dynamic;
             if (plain_too)
                 compare(state, [&](const Passes& passes, Fixture& f) {
@@ -118,7 +118,7 @@ TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
                     }
                 });
             if (source == RowSource::links) continue;
-            // Corrections stand in for positions, so that the comparison sees them.
+            // Stores corrections as positions, so that the comparison includes them.
             for (const bool plain : {false, true}) {
                 compare(state, [&](const Passes& passes, Fixture& f) {
                     AlignedVector<Vec4> blocks(std::size_t{6} * f.table.stride);
@@ -137,9 +137,9 @@ TEST_P(InstructionSet, projects_plainly_and_side_by_side_alike) {
 
 TEST_P(InstructionSet, solves_lines_alike) {
     for (unsigned seed = 0; seed < 40; ++seed) {
-        const bool nasty = seed % 2;
-        Fixture state = random_state(seed, nasty);
-        add_lines(state, seed + 100, nasty);
+        const bool degenerate = seed % 2;
+        Fixture state = random_state(seed, degenerate);
+        add_lines(state, seed + 100, degenerate);
         ASSERT_EQ(std::ranges::max(state.table.blocks, {}, &LineBlock::length).length, longest_line);
         ASSERT_GE(state.table.batches.front().blocks, 2u);
         ASSERT_GE(state.table.batches.size(), 3u);
@@ -148,7 +148,7 @@ TEST_P(InstructionSet, solves_lines_alike) {
         }
         run_lines(*GetParam(), state, LambdaUse::store);
         // An enormous compliance may then meet the lambda of the other side's small one.
-        for (int i = 0; i < 2 && !nasty; ++i) run_lines(*GetParam(), state, LambdaUse::accumulate);
+        for (int i = 0; i < 2 && !degenerate; ++i) run_lines(*GetParam(), state, LambdaUse::accumulate);
         for (std::uint32_t p = 0; p < particle_count; ++p) {
             ASSERT_TRUE(finite(state.position[p].xyz())) << "particle " << p;
         }
@@ -157,7 +157,7 @@ TEST_P(InstructionSet, solves_lines_alike) {
     }
 }
 
-// Lines near their lengths, so that no pull is held back.
+// Lines near their rest lengths, so that no pull is limited.
 Fixture calm_lines(unsigned seed) {
     Fixture f = random_state(seed, false);
     Numbers random(seed);
@@ -196,8 +196,8 @@ std::vector<double> solve(std::vector<std::vector<double>> system) {
     return x;
 }
 
-// One step of Newton for some rows, whatever particles they share, in double numbers:
-// (J W Jᵀ + regularization + α̃) Δλ = −(C + α̃ λ), Δx = W Jᵀ Δλ.
+// One Newton step for constraints that may share any particles, in double precision: (J W Jᵀ + regularization + α̃) Δλ
+// = −(C + α̃ λ), Δx = W Jᵀ Δλ.
 struct Newton {
     std::vector<double> change;
     std::vector<reference::vec3> moved = std::vector(particle_count, reference::vec3(0.0));
@@ -217,7 +217,7 @@ struct Newton {
         for (std::size_t i = 0; i < n; ++i) {
             const double w = weight(i, 0) + weight(i, 1), lambda = f.lambda[rows[i]];
             const double alpha = f.table.fields[f.table.stride + rows[i]] / (double{step} * step);
-            if (w == 0 || alpha < 0) {  // what is slack unwinds
+            if (w == 0 || alpha < 0) {  // a slack constraint undoes its lambda
                 system[i][i] = 1, system[i][n] = w > 0 ? -lambda : 0;
                 continue;
             }
@@ -267,7 +267,7 @@ TEST_P(InstructionSet, solves_the_system_of_all_rows_of_a_batch) {
     }
 }
 
-// The triangles at each particle; the first particles have so many that one packet is left to itself.
+// The triangles at each particle; the first particles have so many that one packet stores separate lists.
 Adjacency lists_of(const std::vector<std::uint32_t>& corners, std::uint32_t faces) {
     Adjacency lists{.offsets = {0}, .items = {}};
     for (std::uint32_t p = 0; p < particle_count; ++p) {
@@ -301,7 +301,7 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
                               .impulse = &impulse[0].x,
                               .drag = 0.7f,
                               .lift = 0.4f,
-                              .listing = seed % 3 == 0,
+                              .sine_lift = seed % 3 == 0,
                               .around = around};
             for (std::uint32_t kind = 0; kind < wind_kind_count; ++kind) {
                 const WindNow now{.kind = static_cast<WindKind>(kind),
@@ -320,7 +320,7 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
             passes.push(f.view(), air, {0, particle_count});
             passes.normals({&f.position[0].x, corners.data(), faces, &impulse[0].x, around, &normals[0].x},
                            {0, particle_count});
-            for (std::uint32_t t = 0; t < faces; ++t) f.start[t] = impulse[t], f.carry[t] = wind[t];
+            for (std::uint32_t t = 0; t < faces; ++t) f.start[t] = impulse[t], f.compensation[t] = wind[t];
             for (std::uint32_t p = 0; p < particle_count; ++p) f.position[p] = normals[p];
         });
     }
@@ -350,7 +350,7 @@ TEST_P(InstructionSet, moves_particles_alike) {
         compare(state, [&](const Passes& passes, Fixture& f) {
             const Range all{0, padded(particle_count)};
             for (int i = 0; i < 3; ++i) {
-                const float max_speed = seed % 3 == 0 ? 2.0f : 200.0f;  // the first caps many of them
+                const float max_speed = seed % 3 == 0 ? 2.0f : 200.0f;  // the lower one caps many particles
                 passes.predict(f.view(), all, {0.1f, -9.81f, 0.3f}, max_speed, 1e-3f);
                 passes.velocities(f.view(), all, max_speed, 1e-3f);
             }
@@ -369,7 +369,7 @@ TEST_P(InstructionSet, ends_a_substep_and_begins_the_next_in_one) {
         expect_same(one.position, other.position, "position");
         expect_same(one.start, other.start, "start");
         expect_same(one.velocity, other.velocity, "velocity");
-        expect_same(one.carry, other.carry, "carry");
+        expect_same(one.compensation, other.compensation, "compensation");
     }
 }
 
@@ -383,18 +383,18 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
     AlignedVector<Vec4> displacement(nodes);
     for (Vec4& d : displacement)
         d = {static_cast<float>(below(100)), static_cast<float>(below(100)), 0.1f * static_cast<float>(below(100)), 0};
-    AlignedVector<std::uint16_t> narrow(std::size_t{Carry::parents} * stride);
+    AlignedVector<std::uint16_t> narrow(std::size_t{Prolongation::parents} * stride);
     AlignedVector<float> weight(narrow.size());
     for (std::size_t i = 0; i < narrow.size(); ++i) {
         narrow[i] = static_cast<std::uint16_t>(below(nodes));
         weight[i] = 0.01f * static_cast<float>(below(100));
     }
     const AlignedVector<std::uint32_t> wide(narrow.begin(), narrow.end());
-    const CarryView short_numbers{&displacement[0].x, stride, narrow.data(), nullptr, weight.data()},
+    const ProlongationView short_numbers{&displacement[0].x, stride, narrow.data(), nullptr, weight.data()},
         long_numbers{&displacement[0].x, stride, nullptr, wide.data(), weight.data()};
-    const auto spread = [&](const Passes& passes, const CarryView& carry) {
+    const auto spread = [&](const Passes& passes, const ProlongationView& prolongation) {
         Fixture f = state;
-        passes.spread(f.view().position, carry, {0, stride});
+        passes.prolongation(f.view().position, prolongation, {0, stride});
         return f.position;
     };
     const auto one_by_one = spread(scalar_passes(), long_numbers);
@@ -448,7 +448,7 @@ TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else
                              .first_iteration = true};
             const auto traced = [&](const Passes& passes, Fixture& f, AlignedVector<Vec4>& moved,
                                     AlignedVector<Vec4>& turned) {
-                moved.assign(f.position.size(), {7, 7, 7, 7});  // of a frame before
+                moved.assign(f.position.size(), {7, 7, 7, 7});  // left from a previous frame
                 turned = moved;
                 view.moved = &moved[0].x;
                 view.turned = &turned[0].x;

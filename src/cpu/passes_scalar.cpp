@@ -8,7 +8,7 @@
 namespace weft::cpu {
 namespace {
 
-// In the order in which lanes add them up.
+// Adds in the same order as the SIMD loops.
 scalar::vec3 sum_of_one(const AroundView& around, const float* blocks, std::size_t particle) {
     scalar::vec3 sum(0.0f);
     const auto add = [&](std::uint32_t triangle) {
@@ -24,7 +24,7 @@ scalar::vec3 sum_of_one(const AroundView& around, const float* blocks, std::size
     return sum;
 }
 
-// Beyond 32 bits it goes round, as on a device.
+// Wraps around beyond 32 bits, as on the GPU.
 scalar::vec3 fixed_sum(const GatherView& gather, std::uint32_t begin, std::uint32_t end) {
     std::array<std::uint32_t, 3> sum{};
     for (std::uint32_t k = begin; k < end; ++k) {
@@ -53,7 +53,7 @@ void push_pass(const ParticleView& p, const AirView& air, Range range) {
         const float w = p.position[4 * i + 3];
         if (!(w > 0)) continue;
         const vec3 sum = sum_of_one(air.around, air.impulse, i);
-        float *v = p.velocity + 4 * i, *x_dropped = p.carry + 4 * i, *start = p.start + 4 * i;
+        float *v = p.velocity + 4 * i, *x_dropped = p.compensation + 4 * i, *start = p.start + 4 * i;
         Motion m{vec3(v[0], v[1], v[2]), vec3(start[3], v[3], x_dropped[3]), vec3(0.0f)};
         push_by_air(m, sum, w);
         store_blocks(m.v, m.v_dropped.y, v);

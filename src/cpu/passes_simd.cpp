@@ -1,9 +1,9 @@
-// Compiled once per instruction set: foreach_target.h includes this very file again for each of them.
+// Compiled once per instruction set: foreach_target.h includes this file again for each of them.
 
-// Left out: instruction sets that bring nothing here beyond their neighbors.
+// Disables instruction sets that gain nothing here over the next lower one.
 #if defined(WEFT_ONE_TARGET)
-// The sanitizers make so much of these loops that a compiler takes minutes and gigabytes for each set: one is enough to
-// find what they find.
+// With sanitizers these loops take minutes and gigabytes to compile for each instruction set. One set is enough to find
+// the same errors.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
 #else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
@@ -18,7 +18,7 @@
 
 #include <algorithm>
 
-// The portable fallback among Highway's targets is slower than our own single lane.
+// Highway's portable fallback is slower than the single-lane loops in passes_scalar.cpp.
 #if HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
 
 #include "physics/lanes.h"

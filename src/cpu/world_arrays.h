@@ -1,4 +1,4 @@
-// The particles of all cloths, in one address space.
+// The particles of all cloths, in shared arrays.
 #pragma once
 
 #include "base/aligned.h"
@@ -11,26 +11,26 @@
 
 namespace weft::cpu {
 
-/// What a step goes on from, of a range of particles: as in ParticleView.
+/// The state that a step continues from, for a range of particles; members as in ParticleView.
 struct Particles {
-    std::span<Vec4> position, start, velocity, carry;
+    std::span<Vec4> position, start, velocity, compensation;
 
-    ParticleView view() const { return {&position[0].x, &start[0].x, &velocity[0].x, &carry[0].x}; }
+    ParticleView view() const { return {&position[0].x, &start[0].x, &velocity[0].x, &compensation[0].x}; }
 };
 
 /// One element per particle of the world, dummies and anchors included.
 struct WorldArrays {
-    AlignedVector<Vec4> position, start, velocity, carry;
+    AlignedVector<Vec4> position, start, velocity, compensation;
     AlignedVector<Vec4> normals;
     AlignedVector<float> weight;  ///< 1/kg: inverse masses, 0 for pinned particles
-    /// What the current frame found, to go back to. The fourth floats of `good_position` are those of `start`: weights
-    /// are kept above, and nothing asks where the last substep started.
-    AlignedVector<Vec4> good_position, good_velocity, good_carry;
+    /// The state before the current frame, for rolling back. The fourth floats of `good_position` are those of `start`:
+    /// inverse masses are stored above, and the rest of `start` is not needed.
+    AlignedVector<Vec4> good_position, good_velocity, good_compensation;
 
-    /// Keeps what is there; what is new is zero.
+    /// Keeps existing elements; new ones are zero.
     void resize(std::size_t count) {
-        for (auto* array :
-             {&position, &start, &velocity, &carry, &normals, &good_position, &good_velocity, &good_carry})
+        for (auto* array : {&position, &start, &velocity, &compensation, &normals, &good_position, &good_velocity,
+                            &good_compensation})
             array->resize(count);
         weight.resize(count);
     }
@@ -38,7 +38,7 @@ struct WorldArrays {
 
     Particles range(std::size_t begin, std::size_t count) {
         const auto part = [&](AlignedVector<Vec4>& array) { return std::span(array).subspan(begin, count); };
-        return {part(position), part(start), part(velocity), part(carry)};
+        return {part(position), part(start), part(velocity), part(compensation)};
     }
 };
 

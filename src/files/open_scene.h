@@ -1,4 +1,4 @@
-// A scene file as a world that runs it.
+// Opens a scene file as a SceneWorld.
 #pragma once
 
 #include "io/scenes/scene_file.h"
@@ -8,20 +8,21 @@
 
 namespace weft {
 
-/// With read_mesh_file() where the options have no other.
+/// Sets Options::read_mesh to read_mesh_file() if it is empty.
 inline Options with_mesh_files(Options options) {
     if (!options.read_mesh) options.read_mesh = read_mesh_file;
     return options;
 }
 
-/// `where` of problems of a scene as places in its file. What is wrong with options the file cannot help.
+/// Puts the file name before JSON pointers in `where`. Errors of options have no pointer and are not changed.
 inline Errors in_scene_file(const std::filesystem::path& file, Errors errors) {
     for (Error& error : errors)
         if (error.where.starts_with('/')) error.where = file.string() + ": " + error.where;
     return errors;
 }
 
-/// Every problem found has its place in the scene file as `where`. `make`: in place of make_backend().
+/// Returns all problems found, with their places in the scene file as `where`. `make`: used instead of make_backend(),
+/// if not empty.
 inline Result<SceneWorld> open_scene(const std::filesystem::path& file, const Options& options,
                                      const MakeBackend& make = {}) {
     auto scene = load_scene(file);

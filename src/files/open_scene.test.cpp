@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-/// A scene of one cloth over the ground, with files beside it.
+/// A scene of one cloth above a plane, with mesh files in its folder.
 class OpenScene : public testing::Test {
   protected:
     Result<SceneWorld> open(const std::string& cloth_keys) {
@@ -52,7 +52,7 @@ void expect_sound(const SceneWorld& session) {
     }
 }
 
-/// Returns whether something moved.
+/// Returns whether a vertex of the first cloth has moved.
 bool run(SceneWorld& session, int frames = 30) {
     const auto positions = [&] { return session.world().frame().cloths[0].render_mesh().positions; };
     const std::vector<Vec3> before = positions();
@@ -63,8 +63,8 @@ bool run(SceneWorld& session, int frames = 30) {
     return before != positions();
 }
 
-// Three leaves on one spine, a triangle given twice and once more the other way round, one that is a point, one that is
-// a line, a vertex that nothing uses, and a triangle that hangs on a single corner.
+// Three triangles on one edge; a triangle given twice, and once more with opposite winding; triangles degenerate to a
+// point and to a line; an unused vertex; and a triangle attached by a single corner.
 constexpr std::string_view messy_obj = R"(
 v 0 0 0
 v 0 1 0
@@ -88,7 +88,7 @@ f 2 3 7
 
 TEST_F(OpenScene, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
     folder.write("messy.obj", messy_obj);
-    for (const char* more : {"", R"(, "fabric": {"hinges": "source", "rest_angle": 0})", R"(, "tethers": "on",
+    for (const char* more : {"", R"(, "fabric": {"bend_edges": "no-diagonals", "rest_angle": 0})", R"(, "tethers": "on",
                              "pins": [{"vertices": [0, 8]}])",
                              R"(, "fabric": {"inextensible": true})", R"(, "fabric": {"bend_model": "plate"})",
                              R"(, "fabric": {"bend_model": "distance"})"}) {
@@ -156,7 +156,7 @@ TEST_F(OpenScene, drops_spheres_and_boxes) {
 }
 
 TEST_F(OpenScene, draws_a_fine_mesh_over_a_coarse_one) {
-    auto session = open(R"("mesh": {"grid": {"resolution": [9, 9]}}, "drawn": {"grid": {"resolution": [65, 65]}},
+    auto session = open(R"("mesh": {"grid": {"resolution": [9, 9]}}, "render_mesh": {"grid": {"resolution": [65, 65]}},
                            "transform": {"position": [0, 1, 0], "rotation": [0, 30, 0]}, "pins": [{"vertices": [0, 8]}])");
     ASSERT_TRUE(session.ok()) << session.error().message();
     EXPECT_THAT(session->notes(), IsEmpty());
@@ -174,7 +174,7 @@ TEST_F(OpenScene, draws_a_fine_mesh_over_a_coarse_one) {
             const Vec3 at = surface.positions[8 * z * 65 + 8 * x];
             EXPECT_LT(length(at - particles[9 * z + x].xyz()), 1e-5f) << "where both have a vertex";
         }
-    // It hangs by two corners: no two neighbors are torn apart.
+    // The cloth hangs by two corners. No two neighboring vertices are far apart.
     for (std::uint32_t v = 0; v + 1 < 65 * 65; ++v) {
         if (v % 65 != 64) {
             EXPECT_LT(length(surface.positions[v] - surface.positions[v + 1]), 1.5f / 64);
@@ -183,12 +183,12 @@ TEST_F(OpenScene, draws_a_fine_mesh_over_a_coarse_one) {
 }
 
 TEST_F(OpenScene, takes_the_drawn_mesh_from_a_file_with_its_own_scale_and_axis) {
-    // The same square in centimeters, standing in the file's xy plane, its z up.
+    // The same square in centimeters, in the file's xy plane, with z up.
     folder.write("fine.obj",
                  "v -50 50 0\nv 50 50 0\nv 50 -50 0\nv -50 -50 0\nv 0 0 1\n"
                  "f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n");
     auto session = open(R"("mesh": {"grid": {"resolution": [4, 4]}}, "transform": {"position": [0, 3, 0], "scale": 2},
-                           "drawn": {"file": "fine.obj", "scale": 0.01, "up": "z"})");
+                           "render_mesh": {"file": "fine.obj", "scale": 0.01, "up": "z"})");
     ASSERT_TRUE(session.ok()) << session.error().message();
     EXPECT_THAT(session->notes(), IsEmpty());
     DrawnFrame drawn;
@@ -197,16 +197,16 @@ TEST_F(OpenScene, takes_the_drawn_mesh_from_a_file_with_its_own_scale_and_axis) 
     EXPECT_LT(length(drawn.surfaces()[0].positions[4] - Vec3{0, 3.02f, 0}), 1e-6f);
     EXPECT_TRUE(run(*session));
 
-    auto too_large = open(R"("mesh": {"grid": {"resolution": [4, 4]}}, "drawn": {"file": "fine.obj"})");
+    auto too_large = open(R"("mesh": {"grid": {"resolution": [4, 4]}}, "render_mesh": {"file": "fine.obj"})");
     ASSERT_TRUE(too_large.ok()) << too_large.error().message();
-    EXPECT_THAT(too_large->notes(), ElementsAre(HasSubstr("cloth 'it': the drawn mesh lies up to 70.3")));
-    EXPECT_THAT(errors_of(R"("drawn": {"file": "missing.obj"})"),
-                ElementsAre(HasSubstr("s.json: /cloths/0/drawn/file")));
+    EXPECT_THAT(too_large->notes(), ElementsAre(HasSubstr("cloth 'it': the render mesh lies up to 70.3")));
+    EXPECT_THAT(errors_of(R"("render_mesh": {"file": "missing.obj"})"),
+                ElementsAre(HasSubstr("s.json: /cloths/0/render_mesh/file")));
 }
 
 TEST_F(OpenScene, pins_the_simulated_mesh_and_not_the_drawn_one) {
     EXPECT_THAT(
-        errors_of(R"("mesh": {"grid": {"resolution": [4, 4]}}, "drawn": {"grid": {"resolution": [40, 40]}},
+        errors_of(R"("mesh": {"grid": {"resolution": [4, 4]}}, "render_mesh": {"grid": {"resolution": [40, 40]}},
                              "pins": [{"vertices": [15, 16]}])"),
         ElementsAre("s.json: /cloths/0/pins/0/vertices/1: must be less than 16, the number of particles, got 16"));
 }
@@ -214,14 +214,18 @@ TEST_F(OpenScene, pins_the_simulated_mesh_and_not_the_drawn_one) {
 TEST_F(OpenScene, DrawsEachClothInItsMaterial) {
     const auto session = open(R"("mesh": {"grid": {"size": [1, 1], "resolution": [3, 3]}})");
     ASSERT_TRUE(session.ok());
-    const auto material_in = [&](std::span<const SceneLook> looks) {
+    const auto material_in = [&](std::span<const SceneCloth> cloths) {
         DrawnFrame drawn;
-        drawn.update(session->world().frame(), looks);
+        drawn.update(session->world().frame(), cloths);
         return drawn.surfaces().front().material;
     };
-    const std::vector<SceneLook> looks{{"another", "matte", find_material("matte")->material},
-                                       {"it", "velvet", find_material("velvet")->material}};
-    EXPECT_EQ(material_in(looks), &looks[1].material);
+    std::vector<SceneCloth> cloths(2);
+    cloths[0].name = "another", cloths[1].name = "it";
+    for (SceneCloth& cloth : cloths) cloth.material.emplace();
+    EXPECT_EQ(material_in(cloths), &cloths[1].material->values);
+    cloths[1].material.reset();
+    cloths[1].fabric_name = "silk";
+    EXPECT_EQ(material_in(cloths), &find_material("silk")->material);
     EXPECT_EQ(material_in({}), &find_material("cotton")->material);
     EXPECT_EQ(session->folder(), folder.path());
 }

@@ -1,4 +1,4 @@
-// A simulation that is saved as a scene and loaded again starts as it would have.
+// A simulation that is saved as a scene and loaded again begins at the same start.
 #include "files/open_scene.h"
 #include "io/exports/scene_export.h"
 #include "io/files/temporary_folder.test.h"
@@ -52,7 +52,7 @@ TEST(SaveScene, RandomScenesRunTheSame) {
         auto direct = SceneWorld::create(scene, {.backend = "cpu"});
         ASSERT_TRUE(export_scene(scene, folder.path(), path).ok());
         ASSERT_TRUE(export_scene(scene, folder.path(), copy).ok());
-        if (!direct) {  // a pin that holds nothing, a file that there is not
+        if (!direct) {  // a pin that selects nothing, a missing file
             EXPECT_FALSE(Simulation::load(path, {.backend = "cpu"}).ok());
             continue;
         }
@@ -73,7 +73,7 @@ TEST(SaveScene, KeepsWhatAProgramHasChanged) {
     EXPECT_THAT(simulation.save_scene(path).error().message(), HasSubstr("must hold at least one cloth"));
     const ColliderId ball = *simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{0.3f}});
     const ColliderId gone = *simulation.add(ColliderDesc{.name = "gone", .shape = BoxDesc{}});
-    // Not round: bits count. Colors, and a corner that two triangles have each their own.
+    // Values that are not round, to compare bits; vertex colors; duplicate vertices at a seam.
     const TriangleMesh mesh{
         .positions = {{0, 0.1f, 0}, {0, 0, 0.7f}, {1, 0, 0}, {1, 1e-7f, 0}, {0, 0, 0.7f}, {1, 0, 1.1f}},
         .uvs = {{0, 0}, {0, 1}, {1, 0}, {0.5f, 0}, {0.5f, 1}, {1, 1}},
@@ -118,7 +118,7 @@ TEST(SaveScene, KeepsWhatAProgramHasChanged) {
     EXPECT_EQ(loaded->state_hash(), fresh->state_hash());
     for (int i = 0; i < 10; ++i) loaded->step(), fresh->step();
     EXPECT_EQ(loaded->state_hash(), fresh->state_hash());
-    // And once more, from a scene whose meshes lie in files.
+    // Save again, from a scene whose meshes are in files.
     const fs::path again = folder.path() / "deep" / "again.json";
     fs::create_directories(again.parent_path());
     ASSERT_TRUE(loaded->save_scene(again).ok());

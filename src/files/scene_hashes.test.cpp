@@ -1,6 +1,6 @@
-// The state of every scene after a few frames, as a hash: it changes as soon as one bit of the result does. The hashes
-// stand in tests/golden/scene_hashes.txt. If you meant to change the physics, scripts/golden writes the new ones; say
-// so in the changelog. If you did not, you have found a bug.
+// Compares the state hash of every scene after a few frames with tests/golden/scene_hashes.txt. After an intended
+// change of the physics, write new hashes with scripts/golden and note it in the changelog. An unintended change is a
+// bug.
 #include "cpu/cpu_backend.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path table_file = fs::path(WEFT_SOURCE_DIR) / "tests" / "golden" / "scene_hashes.txt";
 
-// From the second frame on, coarse levels know the tension that the first one left.
+// More than one, because coarse levels use the tension of the frame before.
 constexpr int frames = 3;
 
 std::vector<std::string> scene_names() {
@@ -32,7 +32,7 @@ std::vector<std::string> scene_names() {
     return names;
 }
 
-/// "banner default" or "banner own": the solver that a scene gets if it names none, or the one that it names.
+/// Hash by "banner default" or "banner own": with the default solver settings, or with those of the scene.
 using Table = std::map<std::string, std::string>;
 
 Table read_table() {

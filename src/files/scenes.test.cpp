@@ -1,4 +1,4 @@
-// Every scene of the library opens without a note, and its first frames go well.
+// Every scene of the library opens without a warning and runs its first frames without a report.
 #include "files/open_scene.h"
 #include "solver/measures/statistics.h"
 

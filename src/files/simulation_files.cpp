@@ -42,7 +42,7 @@ Result<Simulation> load_on(const VulkanHost& host, const std::filesystem::path& 
 }
 #endif
 
-Result<Done> Simulation::save(const std::filesystem::path& file) const {
+Result<void> Simulation::save(const std::filesystem::path& file) const {
     auto exporter = make_exporter(file);
     if (!exporter) return exporter.errors();
     const SceneDesc& scene = SimulationAccess::scene(*this);
@@ -53,10 +53,10 @@ Result<Done> Simulation::save(const std::filesystem::path& file) const {
     return (*exporter)->finish();
 }
 
-Result<Done> Simulation::save_scene(const std::filesystem::path& file) const {
+Result<void> Simulation::save_scene(const std::filesystem::path& file) const {
     const auto written = export_scene(SimulationAccess::scene(*this), SimulationAccess::folder(*this), file);
     if (!written) return written.errors();
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

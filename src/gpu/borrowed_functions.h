@@ -1,4 +1,4 @@
-// volk's functions that need no device, for a moment.
+// Temporary use of volk's instance-level functions.
 #pragma once
 
 #include "gpu/device.h"
@@ -7,8 +7,9 @@
 
 namespace weft::gpu {
 
-/// While it lives, volk's variables are those of the device's instance, and no other thread writes them. Whoever calls
-/// a function that takes a VkPhysicalDevice needs one: the last instance that was made may be another one.
+/// During its lifetime, volk's variables hold the functions of the device's instance, and no other thread writes them.
+/// Calls of functions that take a VkPhysicalDevice need one, because volk holds the functions of the last instance that
+/// was made.
 class BorrowedFunctions {
   public:
     explicit BorrowedFunctions(const Device& device) : lock_(lock_loader()) { device.instance().take_functions(); }

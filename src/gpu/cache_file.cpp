@@ -14,7 +14,7 @@
 namespace weft::gpu {
 namespace {
 
-// What stands before the data.
+// Header of the file, before the data.
 struct Head {
     std::array<char, 8> magic{'w', 'e', 'f', 't', '-', 'p', 'c', '1'};
     std::uint64_t size = 0, hash = 0;

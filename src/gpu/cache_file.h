@@ -1,5 +1,5 @@
-// Bytes that can be made again, kept from run to run. Drivers look only at the head of a cache that they are given:
-// what is behind it must be what they wrote.
+// Cache files that are kept from run to run. Drivers check only the header of a pipeline cache, so the file has a hash
+// that detects damaged data.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace weft::gpu {
 
-/// Empty if there is no such file, or it is not as it was written.
+/// Returns nothing if the file does not exist or is damaged.
 std::vector<char> read_cache_file(const std::filesystem::path& file);
 
-/// The whole, or nothing: another process may read or write the file at the same time. Makes its folder. False if it
-/// cannot be written.
+/// Writes the file atomically, because another process may read or write it at the same time. Creates its folder.
+/// Returns false on failure.
 bool write_cache_file(const std::filesystem::path& file, std::span<const char> data);
 
 }  // namespace weft::gpu

@@ -69,7 +69,7 @@ TEST(CacheFile, what_cannot_be_written_leaves_nothing_behind) {
     EXPECT_EQ(files_in(folder.path), 2u);
 }
 
-// --- And on a device ---
+// --- On a device ---
 
 class PipelineCache : public OnDevice {
   protected:
@@ -110,14 +110,14 @@ TEST_F(PipelineCache, a_damaged_one_is_replaced) {
     }
 }
 
-// Sound as a file, and of another driver, or of none: the driver leaves it.
+// The file is intact, but the data names another driver or none, so the driver ignores it.
 TEST_F(PipelineCache, one_of_another_driver_is_survived) {
     const TemporaryFolder folder;
     const fs::path file = folder.path / "pipelines";
     run(file);
     std::vector<char> other = read_cache_file(file);
     ASSERT_GE(other.size(), 32u);
-    for (std::size_t at = 16; at < 32; ++at) other[at] = static_cast<char>(~other[at]);  // what names the driver
+    for (std::size_t at = 16; at < 32; ++at) other[at] = static_cast<char>(~other[at]);  // the driver's id
     ASSERT_TRUE(write_cache_file(file, other));
     run(file);
     EXPECT_NE(read_cache_file(file), other);

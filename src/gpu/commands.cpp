@@ -59,7 +59,7 @@ void Commands::swap(Commands& other) {
     std::swap(stages_, other.stages_);
 }
 
-Result<Done> Commands::begin() {
+Result<void> Commands::begin() {
     const auto& vk = device_->vk();
     stamped_ = 0;
     ran_ = false;
@@ -70,9 +70,9 @@ Result<Done> Commands::begin() {
     if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &info);
     if (result != VK_SUCCESS) return device_->error("to record commands", result);
     if (clock_ != VK_NULL_HANDLE) vk.vkCmdResetQueryPool(commands_, clock_, 0, stamps_);
-    // Work submitted before may still be writing what this reads.
+    // Earlier submissions may still write data that these commands read.
     barrier();
-    return Done{};
+    return {};
 }
 
 void Commands::bind(const Pipeline& pipeline) {
@@ -136,10 +136,10 @@ void Commands::stamp() {
     device_->vk().vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, clock_, stamped_++);
 }
 
-Result<Done> Commands::end() {
+Result<void> Commands::end() {
     const VkResult result = device_->vk().vkEndCommandBuffer(commands_);
     if (result != VK_SUCCESS) return device_->error("to record commands", result);
-    return Done{};
+    return {};
 }
 
 Result<std::uint64_t> Commands::submit(Moment after, BinarySemaphores binary) {
@@ -153,7 +153,7 @@ std::vector<double> Commands::intervals() const {
     std::vector<std::uint64_t> ticks(stamped_);
     const VkResult result = device_->vk().vkGetQueryPoolResults(
         device_->handle(), clock_, 0, stamped_, ticks.size() * sizeof ticks[0], ticks.data(), sizeof ticks[0],
-        VK_QUERY_RESULT_64_BIT);  // without waiting: of a device that is lost there would be no end
+        VK_QUERY_RESULT_64_BIT);  // no wait flag: on a lost device, the wait would never end
     if (result != VK_SUCCESS) return {};
     return intervals_between(ticks, device_->limits().timestamp_bits, device_->limits().timestamp_period);
 }

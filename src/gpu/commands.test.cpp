@@ -29,7 +29,7 @@ class CommandsTest : public OnDevice {
     std::span<const std::byte> bytes_of(const Push& push) {
         return std::as_bytes(std::span(&push, 1)).first(push_bytes);
     }
-    Result<Done> run(const std::function<void(Commands&)>& work) { return run_once(*device, work); }
+    Result<void> run(const std::function<void(Commands&)>& work) { return run_once(*device, work); }
 
     static constexpr std::size_t push_bytes = 28;
 };
@@ -51,7 +51,7 @@ TEST_F(CommandsTest, fills_and_copies) {
     for (std::size_t i = 0; i < 250; ++i) EXPECT_EQ(got[i], (i >= 2 && i < 6) || i == 249 ? 9u : 7u) << i;
 }
 
-// The last bytes too, where the size is no multiple of a word.
+// Fills the last bytes too if the size is not a multiple of a word.
 TEST_F(CommandsTest, a_whole_fill_reaches_the_end) {
     const Buffer a = make(18, MemoryKind::device), b = make(18, MemoryKind::readback);
     ASSERT_TRUE(run([&](Commands& commands) {
@@ -86,7 +86,7 @@ TEST_F(CommandsTest, a_dispatch_computes_what_it_is_told_and_sees_what_was_writt
     commands->copy(a, down, bytes);
     commands->host_barrier();
     ASSERT_TRUE(commands->end().ok());
-    // The same commands again and again, each time on what the host has written meanwhile.
+    // Submits the same commands repeatedly. The host writes new input before each submission.
     std::vector<float> first(count);
     for (const float shift : {0.0f, 1.0f, 0.0f}) {
         for (std::uint32_t i = 0; i < count; ++i) up.as<float>()[i] = shift + 0.001f * static_cast<float>(i);
@@ -214,21 +214,21 @@ TEST_F(CommandsTest, what_the_device_has_not_is_an_error_before_it_is_asked) {
     EXPECT_FALSE(Pipeline::create(*device, {"none", {}}).ok());
 }
 
-// --- The instrument ---
+// --- The validation layer ---
 
-// A test without messages means something only if a wrong one has some.
+// The absence of messages means something only if an error causes one.
 TEST_F(CommandsTest, the_validation_layer_sees_what_is_wrong) {
     const Buffer a = make(64, MemoryKind::device);
     ASSERT_TRUE(run([&](Commands& commands) { commands.fill(a, 0); }));
     EXPECT_THAT(take_messages(), testing::IsEmpty()) << "a normal sequence";
     auto commands = Commands::create(*device);
     ASSERT_TRUE(commands.ok() && commands->begin().ok());
-    commands->fill(a, 0, 6);  // no whole words
+    commands->fill(a, 0, 6);  // not a multiple of a word
     ASSERT_TRUE(commands->end().ok());
     EXPECT_THAT(take_messages(), testing::Contains(HasSubstr("VUID-vkCmdFillBuffer-size")));
 }
 
-// One that was not waited for must not be signaled again, and the validation layer knows.
+// A semaphore with a pending wait must not be signaled again. The validation layer checks this.
 TEST_F(CommandsTest, work_goes_from_hand_to_hand_by_semaphores_without_values) {
     VkSemaphoreCreateInfo create{};
     create.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;

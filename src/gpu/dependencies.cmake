@@ -1,4 +1,4 @@
-# The headers and volk, which finds the system's loader when the program runs: none is needed to build or to start.
+# The headers and volk. volk finds the system's loader at run time, so no loader is needed to build or to start.
 find_package(VulkanHeaders REQUIRED)
 target_link_libraries(weft_gpu PUBLIC Vulkan::Headers)
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
@@ -6,9 +6,9 @@ target_include_directories(weft_gpu SYSTEM PUBLIC ${VOLK_INCLUDE_DIR})
 target_link_libraries(weft_gpu PRIVATE ${CMAKE_DL_LIBS})
 set_source_files_properties(${folder}/volk.cpp PROPERTIES COMPILE_OPTIONS "-w" SKIP_PRECOMPILE_HEADERS ON)
 
-# What a shader declares.
+# Reflection of shaders.
 find_package(spirv_cross_c_shared REQUIRED)
-# Programs with the property WEFT_LINK_STATIC have it linked into them, where there are archives.
+# Programs with the property WEFT_LINK_STATIC link it statically, if the archives exist.
 set(spirv_cross_archives)
 foreach(part c cpp reflect hlsl msl glsl core)
     find_library(SPIRV_CROSS_${part}_ARCHIVE libspirv-cross-${part}.a)

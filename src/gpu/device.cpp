@@ -18,7 +18,7 @@ std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice physical) {
     return families;
 }
 
-// A family that draws too, if there is one: a renderer wants both on the same queue.
+// Prefers a family that also draws, because a renderer needs both on the same queue.
 std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical) {
     const auto families = queue_families(physical);
     for (const VkQueueFlags wanted :
@@ -30,7 +30,7 @@ std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical) {
     return std::nullopt;
 }
 
-bool has_extension(VkPhysicalDevice physical, const char* name) {
+bool has_device_extension(VkPhysicalDevice physical, const char* name) {
     std::uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> list(count);
@@ -60,9 +60,9 @@ Result<std::shared_ptr<Device>> Device::adopt(std::shared_ptr<const Instance> in
     const auto& known = instance->devices();
     const auto it =
         std::ranges::find_if(known, [&](const DeviceInfo& one) { return instance->physical(one) == host.physical; });
-    if (it == known.end()) return Error{"Vulkan", "the physical device to share is none of the instance"};
+    if (it == known.end()) return Error{"Vulkan", "the physical device does not belong to the instance"};
     if (!it->usable()) return Error::of_machine(it->name, "lacks " + it->missing.front());
-    if (host.device == VK_NULL_HANDLE) return Error{it->name, "there is no device to share"};
+    if (host.device == VK_NULL_HANDLE) return Error{it->name, "VulkanHost::device is null"};
     auto self = std::shared_ptr<Device>(new Device);
     self->owned_ = false;
     self->info_ = *it;
@@ -77,9 +77,9 @@ Result<std::shared_ptr<Device>> Device::adopt(std::shared_ptr<const Instance> in
     return self;
 }
 
-Result<Done> Device::open() {
+Result<void> Device::open() {
     const auto family = find_queue_family(physical_);
-    if (!family) return Error::of_machine(info_.name, "has no queue that computes");
+    if (!family) return Error::of_machine(info_.name, "has no queue family for compute");
     queue_family_ = *family;
 
     const float priority = 1;
@@ -94,14 +94,14 @@ Result<Done> Device::open() {
     features.timelineSemaphore = VK_TRUE;
     features.hostQueryReset = VK_TRUE;
     std::vector<const char*> extensions;
-    constexpr const char* subset = "VK_KHR_portability_subset";  // must be named where there is one
-    if (has_extension(physical_, subset)) extensions.push_back(subset);
-    // Windows, where the instance has them and the device can.
-    presents_ = instance_->has_surfaces() && has_extension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    constexpr const char* subset = "VK_KHR_portability_subset";  // must be enabled if the device has it
+    if (has_device_extension(physical_, subset)) extensions.push_back(subset);
+    // Windows, if the instance and the device support them.
+    presents_ = instance_->has_surfaces() && has_device_extension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (presents_) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkPhysicalDeviceFeatures can{}, wanted{};
     vkGetPhysicalDeviceFeatures(physical_, &can);
-    // Software walks over all texels of a footprint, and of a pattern that repeats far away those are millions.
+    // Software devices visit all texels of a footprint. A pattern that repeats far away has millions of them.
     if (info_.type == DeviceType::cpu) can.samplerAnisotropy = VK_FALSE;
     wanted.samplerAnisotropy = can.samplerAnisotropy;
     VkDeviceCreateInfo info{};
@@ -121,10 +121,10 @@ Result<Done> Device::open() {
         device_ = VK_NULL_HANDLE;
         return error("to open the device", result);
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> Device::finish(const DeviceOptions& options) {
+Result<void> Device::finish(const DeviceOptions& options) {
     volkLoadDeviceTable(&vk_, device_);
     if (options.intercept) options.intercept(vk_);
     if (auto looked = look_at_queue(); !looked) return looked;
@@ -141,16 +141,16 @@ Result<Done> Device::finish(const DeviceOptions& options) {
     cache_file_ = options.pipeline_cache;
     load_pipeline_cache();
     memory_ = std::make_unique<Memory>(*this, options.memory_limit);
-    return Done{};
+    return {};
 }
 
-Result<Done> Device::look_at_queue() {
+Result<void> Device::look_at_queue() {
     const auto families = queue_families(physical_);
     if (queue_family_ >= families.size() || !(families[queue_family_].queueFlags & VK_QUEUE_COMPUTE_BIT))
         return Error{info_.name, "queue family " + std::to_string(queue_family_) + " does not compute"};
     info_.limits.timestamp_bits = families[queue_family_].timestampValidBits;
     draws_ = (families[queue_family_].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
-    return Done{};
+    return {};
 }
 
 Device::~Device() {
@@ -168,7 +168,7 @@ Result<std::uint64_t> Device::submit(VkCommandBuffer commands, Moment after, Bin
     constexpr VkPipelineStageFlags everything[] = {VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                                                    VK_PIPELINE_STAGE_ALL_COMMANDS_BIT};
     VkSemaphore waits[2]{}, signals[2] = {timeline_, binary.signal};
-    std::uint64_t wait_values[2]{}, signal_values[2] = {value, 0};  // binary ones have none
+    std::uint64_t wait_values[2]{}, signal_values[2] = {value, 0};  // binary semaphores have no value
     std::uint32_t wait_count = 0;
     if (after.semaphore != VK_NULL_HANDLE) {
         waits[wait_count] = after.semaphore;
@@ -200,7 +200,7 @@ Result<std::uint64_t> Device::submit(VkCommandBuffer commands, Moment after, Bin
     return value;
 }
 
-Result<Done> Device::wait(std::uint64_t value) {
+Result<void> Device::wait(std::uint64_t value) {
     VkSemaphoreWaitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
     info.semaphoreCount = 1;
@@ -208,7 +208,7 @@ Result<Done> Device::wait(std::uint64_t value) {
     info.pValues = &value;
     const VkResult result = vk_.vkWaitSemaphores(device_, &info, std::numeric_limits<std::uint64_t>::max());
     if (result != VK_SUCCESS) return error("to finish its work", result);
-    return Done{};
+    return {};
 }
 
 void Device::name(VkObjectType type, std::uint64_t handle, const std::string& text) const {
@@ -227,7 +227,7 @@ void Device::load_pipeline_cache() {
     if (!cache_file_.empty()) data = read_cache_file(cache_file_);
     VkPipelineCacheCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
-    info.initialDataSize = data.size();  // a driver leaves what is of another one
+    info.initialDataSize = data.size();  // a driver ignores data of another driver
     info.pInitialData = data.empty() ? nullptr : data.data();
     if (vk_.vkCreatePipelineCache(device_, &info, nullptr, &pipeline_cache_) == VK_SUCCESS) return;
     info.initialDataSize = 0;

@@ -1,4 +1,4 @@
-// A logical device with one queue: memory, buffers, commands, pipelines come from it.
+// A logical device with one queue. Creates memory, buffers, commands and pipelines.
 #pragma once
 
 #include "gpu/instance.h"
@@ -11,34 +11,34 @@
 
 namespace weft::gpu {
 
-/// What a host shares. All of it outlives the device made of it.
+/// A host application's device. All of it must outlive the Device made from it.
 struct HostDevice {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;  ///< made with bufferDeviceAddress, timelineSemaphore and hostQueryReset
-    VkQueue queue = VK_NULL_HANDLE;    ///< runs compute, used from the thread that steps; without, the family's first
+    VkQueue queue = VK_NULL_HANDLE;    ///< runs compute, used by the stepping thread; null: the family's first queue
     std::uint32_t queue_family = 0;
-    /// Called around every use of the queue, where other threads use it too; both or none.
+    /// Called around every use of the queue, if other threads use it too. Set both or none.
     std::function<void()> lock_queue = {}, unlock_queue = {};
 };
 
-/// When a timeline semaphore has reached a value.
+/// The time at which a timeline semaphore reaches a value.
 struct Moment {
     VkSemaphore semaphore = VK_NULL_HANDLE;
     std::uint64_t value = 0;
 };
 
-/// Beside moments, for what knows none: windows. Either may be missing.
+/// Semaphores for presentation in windows, which does not support timeline semaphores. Either may be null.
 struct BinarySemaphores {
     VkSemaphore wait = VK_NULL_HANDLE;    ///< before the work begins
     VkSemaphore signal = VK_NULL_HANDLE;  ///< when it is done
 };
 
 struct DeviceOptions {
-    /// Where compiled pipelines are kept from run to run; empty: nowhere.
+    /// File that keeps compiled pipelines from run to run; empty: none.
     std::filesystem::path pipeline_cache = {};
-    /// Bytes of the device's and the host's memory that it takes at most, for those that share a GPU; 0: no limit.
+    /// Largest amount of device and host memory to allocate, in bytes, for programs that share a GPU; 0: no limit.
     std::uint64_t memory_limit = 0;
-    /// For tests: lets calls fail that a healthy device never does.
+    /// For tests: replaces functions of the device, so that calls can fail.
     std::function<void(VolkDeviceTable&)> intercept = {};
 };
 
@@ -59,34 +59,35 @@ class Device {
     VkPhysicalDevice physical() const { return physical_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
-    /// Of a host's queue, if it has them.
+    /// Lock functions of a host's queue; may be empty.
     const std::function<void()>& lock_queue() const { return lock_queue_; }
     const std::function<void()>& unlock_queue() const { return unlock_queue_; }
     const VolkDeviceTable& vk() const { return vk_; }
     VkPipelineCache pipeline_cache() const { return pipeline_cache_; }
     Memory& memory() { return *memory_; }
-    bool draws() const { return draws_; }                  ///< its queue draws too, not only computes
-    bool presents() const { return presents_; }            ///< it can have a swapchain
+    bool draws() const { return draws_; }                  ///< its queue supports drawing, not only compute
+    bool presents() const { return presents_; }            ///< supports swapchains
     float most_anisotropy() const { return anisotropy_; }  ///< of samplers; 1: none
 
-    /// Runs the commands after all that was submitted before, and not before `after`. Returns when they will be done:
-    /// the value that `timeline()` reaches.
+    /// Runs the commands after all earlier submissions and after `after`. Returns the value that `timeline()` reaches
+    /// when they are done.
     Result<std::uint64_t> submit(VkCommandBuffer commands, Moment after = {}, BinarySemaphores binary = {});
-    Result<Done> wait(std::uint64_t value);
+    Result<void> wait(std::uint64_t value);
     VkSemaphore timeline() const { return timeline_; }
     std::uint64_t submitted() const { return submitted_; }
 
-    /// Names that validation layers and tools show; ignored without them.
+    /// Sets a name that validation layers and tools show; ignored without them.
     void name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     Error error(std::string_view doing, VkResult result) const { return vulkan_error(info_.name, doing, result); }
-    /// Writes what was compiled since, if there is a file for it. Failing is no error: it is compiled again then.
+    /// Writes the compiled pipelines to the cache file, if there is one. A failure is no error: the next run compiles
+    /// them again.
     void save_pipeline_cache() const;
 
   private:
     Device() = default;
-    Result<Done> open();
-    Result<Done> finish(const DeviceOptions& options);
-    Result<Done> look_at_queue();
+    Result<void> open();
+    Result<void> finish(const DeviceOptions& options);
+    Result<void> look_at_queue();
     void load_pipeline_cache();
 
     std::shared_ptr<const Instance> instance_;

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// What a device that is lost does. The call itself is made, so that nothing is taken down while it is in use.
+// Simulates a lost device. The real call is made too, so that nothing is destroyed while it is in use.
 VolkDeviceTable healthy;
 bool lost_on_submit, lost_on_wait;
 
@@ -39,11 +39,11 @@ void destroy(const HostDevice& host) {
 
 class DeviceTest : public OnDevice {
   protected:
-    Result<Done> fill_something() {
+    Result<void> fill_something() {
         const Buffer a = make(64, MemoryKind::device);
         return run_once(*device, [&](Commands& commands) { commands.fill(a, 1); });
     }
-    // As a host would have made it.
+    // A device as a host application creates it.
     HostDevice host_device() {
         HostDevice host{.physical = instance->physical(info)};
         host.device = make_host_device(host.physical);
@@ -82,7 +82,7 @@ TEST_F(DeviceTest, a_device_lost_on_wait_is_an_error_and_the_rest_can_be_taken_d
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().fault, Fault::machine);
     EXPECT_THAT(result.error().what, HasSubstr("failed to finish its work: VK_ERROR_DEVICE_LOST"));
-    (void)commands->intervals();  // comes back
+    (void)commands->intervals();  // must return
 }
 
 TEST_F(DeviceTest, intervals_of_what_could_not_be_submitted_are_none) {
@@ -127,11 +127,11 @@ TEST_F(DeviceTest, what_cannot_be_shared_is_an_error) {
     wrong.physical = VK_NULL_HANDLE;
     auto made = Device::adopt(instance, wrong);
     ASSERT_FALSE(made.ok());
-    EXPECT_THAT(made.error().what, HasSubstr("is none of the instance"));
+    EXPECT_THAT(made.error().what, HasSubstr("does not belong to the instance"));
     wrong = {.physical = host.physical};
     made = Device::adopt(instance, wrong);
     ASSERT_FALSE(made.ok());
-    EXPECT_THAT(made.error().what, HasSubstr("there is no device to share"));
+    EXPECT_THAT(made.error().what, HasSubstr("VulkanHost::device is null"));
     wrong = host;
     wrong.queue_family = 1000;
     made = Device::adopt(instance, wrong);
@@ -154,7 +154,7 @@ VKAPI_ATTR VkResult VKAPI_CALL formats_of_another(VkPhysicalDevice, VkFormat, Vk
     return VK_ERROR_FORMAT_NOT_SUPPORTED;
 }
 
-// volk's variables are those of the instance that was made last, which may come of another loader.
+// volk's variables hold the functions of the last instance that was made, which may come from another loader.
 TEST_F(DeviceTest, calls_the_functions_of_its_own_instance_after_another_one_was_made) {
     open();
     if (!device) return;
@@ -173,7 +173,7 @@ TEST_F(DeviceTest, calls_the_functions_of_its_own_instance_after_another_one_was
     instance->take_functions();
 }
 
-// An instance of a host's, without the extension for messages, must not take that of another away.
+// A host's instance without the extension for messages must not disable that of another instance.
 TEST_F(DeviceTest, instances_come_and_go_beside_one_another) {
     if (!instance) return;
     open();

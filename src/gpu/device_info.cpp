@@ -72,7 +72,7 @@ Result<DeviceInfo> choose_device(std::span<const DeviceInfo> devices, std::strin
         return Error::of_machine(
             where, (name.empty() ? "there is no GPU, only " : "there is none; there are ") + list_of(devices));
     }
-    if (!best->usable()) return Error::of_machine(where, "none that will do: " + list_of(devices));
+    if (!best->usable()) return Error::of_machine(where, "no suitable device: " + list_of(devices));
     return *best;
 }
 

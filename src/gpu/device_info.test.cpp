@@ -16,7 +16,7 @@ DeviceInfo device(std::string name, DeviceType type, std::vector<std::string> mi
     return info;
 }
 
-// The name of the one chosen, or what was said instead.
+// The name of the chosen device, or the error message.
 std::string chosen(std::span<const DeviceInfo> devices, std::string_view name, bool software) {
     const auto info = choose_device(devices, name, software);
     if (!info) {
@@ -69,10 +69,10 @@ TEST(ChooseDevice, what_lacks_something_comes_last_and_does_not_do) {
                                        device("chip", DeviceType::integrated)};
     EXPECT_EQ(chosen(devices, "", false), "chip");
     EXPECT_THAT(chosen(devices, "card", true),
-                HasSubstr("device 'card': none that will do: 'old card', which lacks Vulkan 1.2"));
+                HasSubstr("device 'card': no suitable device: 'old card', which lacks Vulkan 1.2"));
     devices[1].missing = {"bufferDeviceAddress", "timelineSemaphore"};
     EXPECT_EQ(chosen(devices, "", true),
-              "Vulkan: none that will do: 'old card', which lacks Vulkan 1.2, 'chip', which lacks bufferDeviceAddress "
+              "Vulkan: no suitable device: 'old card', which lacks Vulkan 1.2, 'chip', which lacks bufferDeviceAddress "
               "and timelineSemaphore");
 }
 

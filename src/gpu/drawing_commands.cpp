@@ -1,4 +1,4 @@
-// The part of Commands that draws.
+// The drawing functions of Commands.
 #include "gpu/commands.h"
 
 #include <algorithm>

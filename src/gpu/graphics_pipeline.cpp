@@ -10,7 +10,7 @@
 namespace weft::gpu {
 namespace {
 
-/// A shader's module, for as long as a pipeline is made.
+/// A shader module, needed only while a pipeline is created.
 class Module {
   public:
     static Result<Module> create(const Device& device, const Shader& shader) {
@@ -37,7 +37,7 @@ class Module {
     VkShaderModule module_ = VK_NULL_HANDLE;
 };
 
-// What both declare together.
+// Union of the declarations of both shaders.
 ShaderInterface join(ShaderInterface a, const ShaderInterface& b) {
     a.push_constants = std::max(a.push_constants, b.push_constants);
     a.bindings.insert(a.bindings.end(), b.bindings.begin(), b.bindings.end());
@@ -204,7 +204,7 @@ Result<DescriptorSet> DescriptorSet::create(const Device& device, VkDescriptorSe
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     if (result == VK_SUCCESS) result = vk.vkAllocateDescriptorSets(device.handle(), &allocate, &self.set_);
-    if (result != VK_SUCCESS) return device.error("to bind pictures", result);
+    if (result != VK_SUCCESS) return device.error("to bind images", result);
 
     std::vector<VkDescriptorImageInfo> infos;
     infos.reserve(images.size());

@@ -1,4 +1,4 @@
-// Vertex and fragment shader, ready to draw. Vertices come from buffers that the shader reads by itself.
+// A pipeline of a vertex and a fragment shader. The vertex shader reads vertices from storage buffers by itself.
 #pragma once
 
 #include "gpu/pipeline_layout.h"
@@ -11,25 +11,25 @@ namespace weft::gpu {
 
 enum class Blend {
     none,
-    over,  ///< by the fragment's alpha, which is added up
+    over,  ///< by the fragment's alpha, which accumulates
     add,
 };
 
 enum class DepthTest {
     none,
-    read,   ///< what is behind is not drawn
-    write,  ///< and what is drawn hides
+    read,   ///< hidden fragments are not drawn
+    write,  ///< likewise, and fragments write their depth
 };
 
 struct GraphicsState {
-    VkCullModeFlags cull = VK_CULL_MODE_NONE;  ///< front sides are counterclockwise on the picture
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;  ///< front sides are counterclockwise in the image
     DepthTest depth = DepthTest::none;
     Blend blend = Blend::none;
     float depth_bias = 0, slope_bias = 0;
 };
 
 struct GraphicsShaders {
-    Shader vertex, fragment;  ///< without words of a fragment shader, depth alone is drawn
+    Shader vertex, fragment;  ///< without words of a fragment shader, only depth is drawn
 };
 
 class GraphicsPipeline {
@@ -47,7 +47,7 @@ class GraphicsPipeline {
 
     VkPipeline handle() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_.handle(); }
-    /// Of one of its descriptor sets. Pipelines whose shaders declare the same set can use each other's.
+    /// Layout of a descriptor set. Pipelines whose shaders declare the same set can share descriptor sets.
     VkDescriptorSetLayout set_layout(std::uint32_t set) const { return layout_.sets()[set]; }
 
     static constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -67,7 +67,7 @@ struct BoundImage {
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 };
 
-/// Images for the shaders. They stay as they are while the set is used.
+/// Images for the shaders. The images must not be replaced while the set is in use.
 class DescriptorSet {
   public:
     static Result<DescriptorSet> create(const Device& device, VkDescriptorSetLayout layout,

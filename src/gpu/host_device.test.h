@@ -1,4 +1,4 @@
-// A device as a host would have made it.
+// A device as a host application creates it.
 #pragma once
 
 #include "gpu/vulkan.h"
@@ -7,7 +7,7 @@
 
 namespace weft::gpu {
 
-/// With a queue of the first family and all that weft needs.
+/// With a queue of the first family and all features that weft needs.
 inline VkDevice make_host_device(VkPhysicalDevice physical) {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};

@@ -32,7 +32,7 @@ Result<Image> Image::create(Device& device, const ImageDesc& desc, const std::st
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = desc.usage;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    const std::string what = "the picture '" + name + "' of " + std::to_string(desc.width) + "x" +
+    const std::string what = "the image '" + name + "' of " + std::to_string(desc.width) + "x" +
                              std::to_string(desc.height) +
                              (desc.samples > 1 ? " with " + std::to_string(desc.samples) + " samples" : "");
     VkImageFormatProperties most{};
@@ -64,18 +64,18 @@ Result<Image> Image::create(Device& device, const ImageDesc& desc, const std::st
     return self;
 }
 
-// Few and large, each has memory of its own.
-Result<Done> Image::place(const std::string& what) {
+// Images are few and large, so each gets its own allocation.
+Result<void> Image::place(const std::string& what) {
     const auto& vk = device_->vk();
     VkMemoryRequirements needs{};
     vk.vkGetImageMemoryRequirements(device_->handle(), image_, &needs);
-    auto memory = device_->memory().allocate_alone(needs, what);
+    auto memory = device_->memory().allocate_dedicated(needs, what);
     if (!memory) return memory.errors();
     memory_ = *memory;
     bytes_ = needs.size;
     const VkResult result = vk.vkBindImageMemory(device_->handle(), image_, memory_, 0);
     if (result != VK_SUCCESS) return device_->error("to make " + what, result);
-    return Done{};
+    return {};
 }
 
 Image::~Image() {
@@ -83,7 +83,7 @@ Image::~Image() {
     const auto& vk = device_->vk();
     if (view_ != VK_NULL_HANDLE) vk.vkDestroyImageView(device_->handle(), view_, nullptr);
     if (image_ != VK_NULL_HANDLE) vk.vkDestroyImage(device_->handle(), image_, nullptr);
-    if (memory_ != VK_NULL_HANDLE) device_->memory().free_alone(memory_, bytes_);
+    if (memory_ != VK_NULL_HANDLE) device_->memory().free_dedicated(memory_, bytes_);
 }
 
 void Image::swap(Image& other) {

@@ -1,4 +1,4 @@
-// Pictures on the device: what is drawn into, and what shaders sample.
+// Images on the device: render targets, and images that shaders sample.
 #pragma once
 
 #include "gpu/memory.h"
@@ -11,16 +11,16 @@ struct ImageDesc {
     std::uint32_t width = 1, height = 1;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT;
-    std::uint32_t samples = 1;  ///< a power of two that the device has
-    std::uint32_t levels = 1;   ///< each half of the one before
+    std::uint32_t samples = 1;  ///< a power of two that the device supports
+    std::uint32_t levels = 1;   ///< each level has half the size of the one before
 };
 
 bool is_depth(VkFormat format);
 
-/// With a view of all of it. Its memory goes back when it does; the device must be done with it then.
+/// An image with a view of all levels. The destructor frees its memory; the device must not use it any more then.
 class Image {
   public:
-    /// Its content is anything. Fails where the device has not that format for that use, or no room.
+    /// The content is undefined. Fails if the device does not support the format for that use, or lacks memory.
     static Result<Image> create(Device& device, const ImageDesc& desc, const std::string& name);
     Image() = default;
     Image(Image&& other) noexcept { swap(other); }
@@ -38,7 +38,7 @@ class Image {
 
   private:
     void swap(Image& other);
-    Result<Done> place(const std::string& name);
+    Result<void> place(const std::string& name);
 
     Device* device_ = nullptr;
     ImageDesc desc_;
@@ -51,8 +51,8 @@ class Image {
 struct SamplerDesc {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address_u = VK_SAMPLER_ADDRESS_MODE_REPEAT, address_v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    bool anisotropic = false;  ///< where the device can
-    bool compare = false;      ///< a depth: 1 where the reference is at most as deep
+    bool anisotropic = false;  ///< if the device supports it
+    bool compare = false;      ///< depth comparison: 1 if the reference is at most as deep
 };
 
 class Sampler {
@@ -74,7 +74,7 @@ class Sampler {
     VkSampler sampler_ = VK_NULL_HANDLE;
 };
 
-/// The samples a pixel that both colors and depths can have, up to `wanted`: a power of two.
+/// Largest number of samples per pixel that both color and depth support, up to `wanted`; a power of two.
 std::uint32_t supported_samples(const Device& device, std::uint32_t wanted);
 
 }  // namespace weft::gpu

@@ -37,7 +37,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(InstanceOptions& options) {
     return info;
 }
 
-bool has_extension(const char* layer, const char* name) {
+bool has_instance_extension(const char* layer, const char* name) {
     std::uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
     std::vector<VkExtensionProperties> list(count);
@@ -53,7 +53,7 @@ bool has_layer(const char* name) {
     return std::ranges::any_of(list, [&](const auto& one) { return std::strcmp(one.layerName, name) == 0; });
 }
 
-Result<Done> load(PFN_vkGetInstanceProcAddr functions = nullptr) {
+Result<void> load(PFN_vkGetInstanceProcAddr functions = nullptr) {
     if (functions != nullptr) {
         volkInitializeCustom(functions);
     } else if (volkInitialize() != VK_SUCCESS) {
@@ -67,7 +67,7 @@ Result<Done> load(PFN_vkGetInstanceProcAddr functions = nullptr) {
         return Error::of_machine("Vulkan", "the loader is of version " + std::to_string(v[0]) + "." +
                                                std::to_string(v[1]) + ", needed is 1.2; install a newer libvulkan1");
     }
-    return Done{};
+    return {};
 }
 
 DeviceType type_of(VkPhysicalDeviceType type) {
@@ -171,19 +171,19 @@ Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options
     application.apiVersion = VK_API_VERSION_1_2;
 
     std::vector<const char*> extensions, layers;
-    const bool debug_utils = has_extension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
-                             (validation && has_extension(layer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    const bool debug_utils = has_instance_extension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+                             (validation && has_instance_extension(layer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     if (debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    // Drivers over other interfaces (Metal) are shown only to those who ask.
+    // The loader lists drivers that run on top of other interfaces (Metal) only with this extension.
     VkInstanceCreateFlags flags = 0;
-    if (has_extension(nullptr, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+    if (has_instance_extension(nullptr, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
     }
     if (validation) layers.push_back(layer);
     const auto& surface = self->options_.surface_extensions;
     self->surfaces_ = !surface.empty() && std::ranges::all_of(surface, [](const std::string& name) {
-        return has_extension(nullptr, name.c_str());
+        return has_instance_extension(nullptr, name.c_str());
     });
     if (self->surfaces_) std::ranges::transform(surface, std::back_inserter(extensions), &std::string::c_str);
 
@@ -223,7 +223,7 @@ Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options
 }
 
 Result<std::shared_ptr<const Instance>> Instance::adopt(VkInstance instance, PFN_vkGetInstanceProcAddr functions) {
-    if (instance == VK_NULL_HANDLE) return Error{"Vulkan", "there is no instance to share"};
+    if (instance == VK_NULL_HANDLE) return Error{"Vulkan", "VulkanHost::instance is null"};
     const auto lock = lock_loader();
     if (auto loaded = load(functions); !loaded) return loaded.errors();
     auto self = std::shared_ptr<Instance>(new Instance);
@@ -232,7 +232,9 @@ Result<std::shared_ptr<const Instance>> Instance::adopt(VkInstance instance, PFN
     self->owned_ = false;
     volkLoadInstanceOnly(instance);
     if (vkGetPhysicalDeviceProperties2 == nullptr)
-        return Error{"Vulkan", "the instance to share was made for an older version than 1.2"};
+        return Error{"Vulkan",
+                     "the instance was created for a version older than 1.2; set VkApplicationInfo::apiVersion and "
+                     "VulkanHost::api_version to 1.2 or later"};
     if (auto found = self->find_devices(); !found) return found.errors();
     return std::shared_ptr<const Instance>(std::move(self));
 }
@@ -250,16 +252,16 @@ void Instance::take_functions() const {
     volkLoadInstanceOnly(instance_);
 }
 
-Result<Done> Instance::find_devices() {
+Result<void> Instance::find_devices() {
     std::uint32_t count = 0;
     VkResult result = vkEnumeratePhysicalDevices(instance_, &count, nullptr);
     physical_.resize(count);
     if (result == VK_SUCCESS) result = vkEnumeratePhysicalDevices(instance_, &count, physical_.data());
-    if (result != VK_SUCCESS && result != VK_INCOMPLETE)  // one more since they were counted
+    if (result != VK_SUCCESS && result != VK_INCOMPLETE)  // incomplete: a device appeared after the count
         return vulkan_error("Vulkan", "to list the devices", result);
     physical_.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) infos_.push_back(info_of(physical_[i], i));
-    return Done{};
+    return {};
 }
 
 }  // namespace weft::gpu

@@ -12,7 +12,7 @@
 namespace weft::gpu {
 namespace {
 
-// Drivers allow few allocations (4096 by the specification), and each costs them a millisecond or so.
+// Drivers may limit the number of allocations (the specification guarantees 4096), and each takes about a millisecond.
 constexpr std::uint64_t block_size = std::uint64_t{64} << 20;  // bytes
 
 std::string mebibytes(std::uint64_t bytes) {
@@ -45,9 +45,9 @@ struct Memory::Block {
     std::uint64_t size = 0;
     std::byte* mapped = nullptr;
     std::uint32_t type = 0;
-    std::vector<Gap> gaps;  // by offset, none touches the next
+    std::vector<Gap> gaps;  // sorted by offset; adjacent gaps are merged
 
-    /// There is memory, and no buffer in it.
+    /// Has memory, but no buffer in it.
     bool empty() const { return memory != VK_NULL_HANDLE && gaps.size() == 1 && gaps.front().size == size; }
     std::optional<std::uint64_t> take(std::uint64_t bytes, std::uint64_t alignment) {
         for (std::size_t i = 0; i < gaps.size(); ++i) {
@@ -79,7 +79,7 @@ struct Memory::Block {
 
 struct Memory::Pool {
     MemoryKind kind{};
-    std::vector<Block> blocks;  // those given back to the device stay as empty entries
+    std::vector<Block> blocks;  // freed blocks stay as empty entries
 };
 
 Buffer::~Buffer() {
@@ -118,12 +118,12 @@ Memory::~Memory() {
 }
 
 Result<Buffer> Memory::buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags usage) {
-    // Sizes that no device has are not even asked for: some drivers make a buffer of them.
+    // Fails early for impossible sizes, because some drivers create such buffers without an error.
     if (bytes > device_.limits().largest_allocation) return too_large(device_, bytes, name);
     Buffer buffer;
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-    info.size = rounded_up(std::max<std::uint64_t>(bytes, 1), 16);  // fill() goes by whole words
+    info.size = rounded_up(std::max<std::uint64_t>(bytes, 1), 16);  // fill() writes whole words
     info.usage = usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     const VkResult result = device_.vk().vkCreateBuffer(device_.handle(), &info, nullptr, &buffer.buffer_);
@@ -141,7 +141,7 @@ Result<Buffer> Memory::buffer(std::uint64_t bytes, MemoryKind kind, const std::s
     return buffer;
 }
 
-Result<Done> Memory::place(Buffer& buffer, const VkMemoryRequirements& needs, MemoryKind kind,
+Result<void> Memory::place(Buffer& buffer, const VkMemoryRequirements& needs, MemoryKind kind,
                            const std::string& name) {
     if (needs.size > device_.limits().largest_allocation) return too_large(device_, needs.size, name);
     Pool& pool = *pools_[static_cast<std::size_t>(kind)];
@@ -168,7 +168,7 @@ Result<Done> Memory::place(Buffer& buffer, const VkMemoryRequirements& needs, Me
     if (block.mapped) buffer.mapped_ = block.mapped + *offset;
     const VkResult result = device_.vk().vkBindBufferMemory(device_.handle(), buffer.buffer_, block.memory, *offset);
     if (result != VK_SUCCESS) return device_.error("to bind '" + name + "'", result);
-    return Done{};
+    return {};
 }
 
 Result<std::uint32_t> Memory::add_block(Pool& pool, std::uint64_t bytes, const VkMemoryRequirements& needs) {
@@ -176,7 +176,7 @@ Result<std::uint32_t> Memory::add_block(Pool& pool, std::uint64_t bytes, const V
     if (!type) return type.errors();
     Block block;
     block.type = *type;
-    // Large ones are for one buffer alone, and small devices must not pay for room that nobody uses.
+    // A large block holds a single buffer. On small devices, a block is never larger than the largest allocation.
     block.size = std::max(bytes, std::min(block_size, device_.limits().largest_allocation));
     VkResult result = allocate(block);
     if (is_out_of_memory(result)) {
@@ -223,7 +223,7 @@ VkResult Memory::allocate(Block& block) const {
     return device_.vk().vkAllocateMemory(device_.handle(), &info, nullptr, &block.memory);
 }
 
-Result<VkDeviceMemory> Memory::allocate_alone(const VkMemoryRequirements& needs, const std::string& what) {
+Result<VkDeviceMemory> Memory::allocate_dedicated(const VkMemoryRequirements& needs, const std::string& what) {
     if (needs.size > device_.limits().largest_allocation) return too_large(device_, needs.size, what);
     auto type = memory_type(MemoryKind::device, needs.memoryTypeBits);
     if (!type) return type.errors();
@@ -236,16 +236,16 @@ Result<VkDeviceMemory> Memory::allocate_alone(const VkMemoryRequirements& needs,
         result = allocate(block);
     }
     if (result != VK_SUCCESS) return device_.error("to allocate " + mebibytes(block.size) + " for " + what, result);
-    alone_ += needs.size;
+    dedicated_bytes_ += needs.size;
     return block.memory;
 }
 
-void Memory::free_alone(VkDeviceMemory memory, std::uint64_t bytes) {
+void Memory::free_dedicated(VkDeviceMemory memory, std::uint64_t bytes) {
     device_.vk().vkFreeMemory(device_.handle(), memory, nullptr);
-    alone_ -= bytes;
+    dedicated_bytes_ -= bytes;
 }
 
-// What is kept for the next cloth goes before there is no room for this one.
+// Frees the blocks that are kept for later buffers, so that an allocation can succeed.
 void Memory::free_unused() {
     for (const auto& pool : pools_) {
         for (Block& block : pool->blocks) {
@@ -260,11 +260,11 @@ Result<std::uint32_t> Memory::memory_type(MemoryKind kind, std::uint32_t allowed
     constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     constexpr VkMemoryPropertyFlags seen = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    // Drivers put these behind the usual ones; they need features of their own.
+    // Memory types with these flags need additional features. Drivers list them after the usual ones.
     constexpr VkMemoryPropertyFlags special = VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
                                               VK_MEMORY_PROPERTY_PROTECTED_BIT |
                                               VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
-    // What is needed and what is liked besides, best first.
+    // Flags in order of preference.
     std::array<VkMemoryPropertyFlags, 2> wanted{};
     if (kind == MemoryKind::device) wanted = {local, 0};
     if (kind == MemoryKind::upload) wanted = {seen, seen};
@@ -282,14 +282,14 @@ void Memory::give_back(const Piece& piece) {
     Pool& pool = *pools_[static_cast<std::size_t>(piece.kind)];
     Block& block = pool.blocks[piece.block];
     block.give_back(piece.offset, piece.size);
-    // Blocks of the usual size stay for the next cloth.
+    // Blocks of the usual size are kept for later buffers.
     if (!block.empty() || block.size <= block_size) return;
     device_.vk().vkFreeMemory(device_.handle(), block.memory, nullptr);
     block = {};
 }
 
 std::uint64_t Memory::allocated() const {
-    std::uint64_t bytes = alone_;
+    std::uint64_t bytes = dedicated_bytes_;
     for (const auto& pool : pools_)
         for (const Block& block : pool->blocks) bytes += block.size;
     return bytes;

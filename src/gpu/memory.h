@@ -14,19 +14,19 @@ namespace weft::gpu {
 class Device;
 
 enum class MemoryKind {
-    device,    ///< of the device's own; only it reads and writes
+    device,    ///< device-local; only the device reads and writes
     upload,    ///< written by the host, read by the device
     readback,  ///< written by the device, read by the host
 };
 
-/// A piece of a block, to be given back.
+/// An allocated range of a block.
 struct Piece {
     MemoryKind kind{};
     std::uint32_t block = 0;
     std::uint64_t offset = 0, size = 0;
 };
 
-/// A storage buffer; its memory goes back when it does. The device must be done with it then.
+/// A storage buffer. The destructor frees its memory; the device must not use it any more then.
 class Buffer {
   public:
     Buffer() = default;
@@ -39,9 +39,9 @@ class Buffer {
 
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
     VkBuffer handle() const { return buffer_; }
-    std::uint64_t size() const { return size_; }        ///< bytes, as asked for
+    std::uint64_t size() const { return size_; }        ///< bytes, as requested
     std::uint64_t address() const { return address_; }  ///< on the device
-    /// Where the host sees it; empty for MemoryKind::device.
+    /// The memory as mapped for the host; empty for MemoryKind::device.
     std::span<std::byte> mapped() const { return {mapped_, mapped_ ? static_cast<std::size_t>(size_) : 0}; }
     template <class T>
     std::span<T> as() const {
@@ -61,21 +61,20 @@ class Buffer {
 
 class Memory {
   public:
-    /// `limit`: bytes that are asked of the device at most; 0 for none.
+    /// `limit`: largest number of bytes to allocate; 0: no limit.
     explicit Memory(const Device& device, std::uint64_t limit = 0);
     ~Memory();
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
-    /// Its content is anything. `usage`: beside storage, copies and an address. Where the device has no room for it,
-    /// all is as it was.
+    /// The content is undefined. `usage`: in addition to storage, copies and an address. A failure changes nothing.
     Result<Buffer> buffer(std::uint64_t bytes, MemoryKind kind, const std::string& name, VkBufferUsageFlags usage = 0);
-    /// For one picture, on the device, to be given back by free_alone().
-    Result<VkDeviceMemory> allocate_alone(const VkMemoryRequirements& needs, const std::string& what);
-    void free_alone(VkDeviceMemory memory, std::uint64_t bytes);
-    /// Bytes asked of the device.
+    /// Allocates device memory for a single image. Free it with free_dedicated().
+    Result<VkDeviceMemory> allocate_dedicated(const VkMemoryRequirements& needs, const std::string& what);
+    void free_dedicated(VkDeviceMemory memory, std::uint64_t bytes);
+    /// Bytes allocated from the device.
     std::uint64_t allocated() const;
-    /// And of these in buffers and pictures.
+    /// The part of them in buffers and images.
     std::uint64_t used() const;
 
   private:
@@ -83,7 +82,7 @@ class Memory {
     struct Block;
     struct Pool;
 
-    Result<Done> place(Buffer& buffer, const VkMemoryRequirements& needs, MemoryKind kind, const std::string& name);
+    Result<void> place(Buffer& buffer, const VkMemoryRequirements& needs, MemoryKind kind, const std::string& name);
     Result<std::uint32_t> add_block(Pool& pool, std::uint64_t bytes, const VkMemoryRequirements& needs);
     VkResult allocate(Block& block) const;
     void free_unused();
@@ -94,7 +93,7 @@ class Memory {
     std::uint64_t limit_ = 0;
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<std::unique_ptr<Pool>> pools_;  // by kind
-    std::uint64_t alone_ = 0;                   // bytes
+    std::uint64_t dedicated_bytes_ = 0;         // bytes of images
 };
 
 }  // namespace weft::gpu

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
 
-// Calls that are counted, and may be told to fail. A table of functions has no room for a test's own data.
+// Counts calls and can make them fail. Global, because a table of functions has no room for a test's own data.
 struct Calls {
     VolkDeviceTable real;
     int allocated = 0, freed = 0, made = 0, destroyed = 0;
@@ -97,7 +97,7 @@ TEST_F(MemoryTest, many_buffers_share_an_allocation) {
     EXPECT_GE(memory.used(), asked);
     EXPECT_LE(memory.used(), asked + 500 * 256);
     EXPECT_EQ(memory.allocated(), 64 * mebibyte);
-    // None lies on another, all where the device wants them.
+    // No two overlap, and all are aligned.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> ranges;
     for (const Buffer& one : buffers) {
         EXPECT_NE(one.address(), 0u);
@@ -120,12 +120,12 @@ TEST_F(MemoryTest, pieces_come_back_and_join_in_any_order) {
         std::vector<Buffer> buffers;
         for (int i = 0; i < 60; ++i) buffers.push_back(make(1 + random() % mebibyte, MemoryKind::upload));
         std::ranges::shuffle(buffers, random);
-        buffers.resize(30);  // and what falls free is given out again
+        buffers.resize(30);  // freed ranges are reused
         for (int i = 0; i < 30; ++i) buffers.push_back(make(1 + random() % mebibyte, MemoryKind::upload));
         std::ranges::shuffle(buffers, random);
         while (!buffers.empty()) buffers.pop_back();
         EXPECT_EQ(device->memory().used(), 0u);
-        // In one piece again, or this would need another allocation.
+        // The gaps are merged again; otherwise this would need another allocation.
         const int before = calls.allocated;
         const Buffer whole = make(64 * mebibyte, MemoryKind::upload);
         EXPECT_EQ(calls.allocated, before);
@@ -176,7 +176,7 @@ TEST_F(MemoryTest, more_than_the_device_gives_at_once_is_an_error_that_says_so) 
     EXPECT_TRUE(make(100, MemoryKind::device)) << "and all goes on";
 }
 
-TEST_F(MemoryTest, a_limit_is_kept_and_what_nobody_uses_counts_no_more_than_it_must) {
+TEST_F(MemoryTest, a_limit_is_kept_and_unused_memory_is_freed_when_it_is_needed) {
     open_counting(100 * mebibyte);
     if (!device) return;
     Memory& memory = device->memory();

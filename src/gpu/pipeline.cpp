@@ -10,22 +10,19 @@
 namespace weft::gpu {
 namespace {
 
-Result<Done> check_limits(const Device& device, const ShaderInterface& interface, const std::string& name) {
+Result<void> check_workgroup(const Device& device, const ShaderInterface& interface, const std::string& name) {
     const DeviceLimits& limits = device.limits();
-    const auto too_much = [&](std::uint64_t needed, const std::string& of_what, std::uint64_t most) {
-        return Error::of_machine(device.info().name, "'" + name + "' needs " + std::to_string(needed) + " " + of_what +
-                                                         ", the device has " + std::to_string(most));
-    };
     std::uint64_t invocations = 1;
     for (unsigned axis = 0; axis < 3; ++axis) {
         const std::uint32_t size = interface.workgroup[axis];
         if (size == 0 || size > limits.workgroup_size[axis])
-            return too_much(size, std::string("invocations along ") + "xyz"[axis], limits.workgroup_size[axis]);
+            return over_limit(device, name, size, std::string("invocations along ") + "xyz"[axis],
+                              limits.workgroup_size[axis]);
         invocations *= size;
     }
     if (invocations > limits.workgroup_invocations)
-        return too_much(invocations, "invocations in a workgroup", limits.workgroup_invocations);
-    return Done{};
+        return over_limit(device, name, invocations, "invocations in a workgroup", limits.workgroup_invocations);
+    return {};
 }
 
 }  // namespace
@@ -42,7 +39,7 @@ Result<Pipeline> Pipeline::create(const Device& device, const Shader& shader,
         const auto id = self.interface_.workgroup_constants[axis];
         if (id && *id < constants.size()) self.interface_.workgroup[axis] = constants[*id];
     }
-    if (auto fits = check_limits(device, self.interface_, name); !fits) return fits.errors();
+    if (auto fits = check_workgroup(device, self.interface_, name); !fits) return fits.errors();
     auto layout = PipelineLayout::create(device, self.interface_, VK_SHADER_STAGE_COMPUTE_BIT, name);
     if (!layout) return layout.errors();
     self.layout_ = std::move(*layout);

@@ -1,4 +1,4 @@
-// A compute shader, ready to run. What it is given, and in which layout, is read from the shader itself.
+// A compute pipeline. Its push constants and bindings are read from the shader itself.
 #pragma once
 
 #include "gpu/pipeline_layout.h"

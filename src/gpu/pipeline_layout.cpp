@@ -3,19 +3,23 @@
 #include "gpu/device.h"
 
 namespace weft::gpu {
+
+Error over_limit(const Device& device, const std::string& name, std::uint64_t needed, const std::string& of_what,
+                 std::uint64_t most) {
+    return Error::of_machine(device.info().name, "'" + name + "' needs " + std::to_string(needed) + " " + of_what +
+                                                     ", the device has " + std::to_string(most));
+}
+
 namespace {
 
-Result<Done> check_limits(const Device& device, const ShaderInterface& interface, const std::string& name) {
+Result<void> check_interface(const Device& device, const ShaderInterface& interface, const std::string& name) {
     const DeviceLimits& limits = device.limits();
-    const auto too_much = [&](std::uint64_t needed, const std::string& of_what, std::uint64_t most) {
-        return Error::of_machine(device.info().name, "'" + name + "' needs " + std::to_string(needed) + " " + of_what +
-                                                         ", the device has " + std::to_string(most));
-    };
     if (interface.push_constants > limits.push_constants)
-        return too_much(interface.push_constants, "bytes of push constants", limits.push_constants);
+        return over_limit(device, name, interface.push_constants, "bytes of push constants", limits.push_constants);
     if (!interface.bindings.empty() && interface.bindings.back().set >= limits.descriptor_sets)
-        return too_much(std::uint64_t{interface.bindings.back().set} + 1, "descriptor sets", limits.descriptor_sets);
-    return Done{};
+        return over_limit(device, name, std::uint64_t{interface.bindings.back().set} + 1, "descriptor sets",
+                          limits.descriptor_sets);
+    return {};
 }
 
 VkDescriptorType type_of(const ShaderBinding& binding) {
@@ -27,7 +31,7 @@ VkDescriptorType type_of(const ShaderBinding& binding) {
 
 Result<PipelineLayout> PipelineLayout::create(const Device& device, const ShaderInterface& interface,
                                               VkShaderStageFlags stages, const std::string& name) {
-    if (auto fits = check_limits(device, interface, name); !fits) return fits.errors();
+    if (auto fits = check_interface(device, interface, name); !fits) return fits.errors();
     PipelineLayout self;
     self.device_ = &device;
     const auto& vk = device.vk();

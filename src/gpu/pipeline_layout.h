@@ -1,9 +1,10 @@
-// What a pipeline is given: descriptor sets and push constants, as its shaders declare them.
+// The layout of a pipeline: descriptor sets and push constants, as its shaders declare them.
 #pragma once
 
 #include "gpu/spirv.h"
 #include "gpu/vulkan.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,9 +13,13 @@ namespace weft::gpu {
 
 class Device;
 
+/// The error that shader `name` needs more of a resource than the device has.
+Error over_limit(const Device& device, const std::string& name, std::uint64_t needed, const std::string& of_what,
+                 std::uint64_t most);
+
 class PipelineLayout {
   public:
-    /// Fails where the device has no room for so many push constants or sets.
+    /// Fails if the device does not support so many push constants or sets.
     static Result<PipelineLayout> create(const Device& device, const ShaderInterface& interface,
                                          VkShaderStageFlags stages, const std::string& name);
     PipelineLayout() = default;

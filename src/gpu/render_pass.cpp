@@ -93,7 +93,7 @@ Result<Framebuffer> Framebuffer::create(const Device& device, const RenderPass& 
     info.height = height;
     info.layers = 1;
     const VkResult result = device.vk().vkCreateFramebuffer(device.handle(), &info, nullptr, &self.framebuffer_);
-    if (result != VK_SUCCESS) return device.error("to draw into pictures", result);
+    if (result != VK_SUCCESS) return device.error("to draw into images", result);
     return self;
 }
 

@@ -1,4 +1,4 @@
-// What is drawn into, and in which state it is left.
+// Render passes, and the framebuffers they draw into.
 #pragma once
 
 #include "gpu/image.h"
@@ -11,19 +11,19 @@ namespace weft::gpu {
 
 enum class Keep {
     cleared,  ///< begins with the clear value
-    loaded,   ///< begins with what is there, left by another pass
+    loaded,   ///< begins with the content that another pass left
 };
 
 struct Attachment {
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
     std::uint32_t samples = 1;
     Keep keep = Keep::cleared;
-    VkImageLayout after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;  ///< for who uses it next
-    VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED;                ///< where it is loaded: as it was left
+    VkImageLayout after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;  ///< for the next use
+    VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED;                ///< only if loaded: the layout it was left in
 };
 
-/// One pass over colors and at most one depth, which comes last. It begins when all drawing before it is done, and what
-/// comes after sees what it has drawn.
+/// One pass over colors and at most one depth attachment, which comes last. It begins after all earlier drawing, and
+/// its results are visible to later commands.
 class RenderPass {
   public:
     static Result<RenderPass> create(const Device& device, std::span<const Attachment> attachments,
@@ -48,7 +48,7 @@ class RenderPass {
     VkRenderPass pass_ = VK_NULL_HANDLE;
 };
 
-/// The pictures that one pass draws into, in the order of its attachments.
+/// The images that one pass draws into, in the order of its attachments.
 class Framebuffer {
   public:
     static Result<Framebuffer> create(const Device& device, const RenderPass& pass, std::span<const VkImageView> views,

@@ -17,7 +17,7 @@ constexpr std::uint32_t op_decorate = 71, decoration_no_contraction = 42;
 constexpr std::uint32_t op_ext_inst_import = 11, op_ext_inst = 12;
 constexpr std::uint32_t op_entry_point = 15, op_function = 54, op_function_end = 56;
 
-// Whether an instruction stands behind all annotations: types come next, and before one of them a line of the source.
+// Whether an instruction ends the annotations: types come next, possibly after a line of the source.
 constexpr bool ends_annotations(std::uint32_t op) {
     return (op >= 19 && op <= 39) || op == 8 || op == 317;  // OpTypeVoid … OpTypeForwardPointer, OpLine, OpNoLine
 }
@@ -44,8 +44,8 @@ constexpr bool is_float_arithmetic(std::uint32_t op) {
     }
 }
 
-// Calls `visit(op, words of the instruction)` for each. False where the words are no module: another head, or an
-// instruction without length or beyond the end.
+// Calls `visit(op, words of the instruction)` for each instruction. Returns false if the words are not a module: the
+// header is wrong, or an instruction has no length or exceeds the end.
 template <class Visit>
 bool for_each_instruction(std::span<const std::uint32_t> words, Visit&& visit) {
     if (words.size() < header_words || words[0] != magic || words[3] == 0 || words[3] > largest_bound) return false;
@@ -58,7 +58,7 @@ bool for_each_instruction(std::span<const std::uint32_t> words, Visit&& visit) {
     return true;
 }
 
-// The execution model of a stage, and what to call it.
+// The execution model of a stage, and its name.
 constexpr std::uint32_t model_of(ShaderStage stage) {
     return stage == ShaderStage::compute ? 5 : stage == ShaderStage::fragment ? 4 : 0;
 }
@@ -66,7 +66,7 @@ constexpr const char* name_of(ShaderStage stage) {
     return stage == ShaderStage::compute ? "compute" : stage == ShaderStage::fragment ? "fragment" : "vertex";
 }
 
-// Why the words cannot be a shader of the stage; empty if they may be.
+// Returns why the words cannot be a shader of the stage; empty if they may be one.
 std::string find_fault(std::span<const std::uint32_t> words, ShaderStage stage) {
     bool found = false;
     int functions = 0, ended = 0;
@@ -79,7 +79,7 @@ std::string find_fault(std::span<const std::uint32_t> words, ShaderStage stage) 
     return found ? "" : std::string("it has no ") + name_of(stage) + " shader";
 }
 
-// Instructions of GLSL.std.450 that are sums of products in disguise: Determinant, MatrixInverse, FMix, SmoothStep,
+// Instructions of GLSL.std.450 that compute sums of products: Determinant, MatrixInverse, FMix, SmoothStep,
 // Length … Refract.
 constexpr bool is_float_function(std::uint32_t op) {
     return op == 33 || op == 34 || op == 46 || op == 49 || (op >= 66 && op <= 72);
@@ -94,7 +94,7 @@ struct ContextDeleter {
     void operator()(spvc_context_s* context) const { spvc_context_destroy(context); }
 };
 
-// In the words of the specialization constants that set it; those that are not specialized stand in `literal`.
+// Reads the workgroup's size, and the ids of the specialization constants that set it.
 void read_workgroup(spvc_compiler compiler, ShaderInterface& out) {
     for (unsigned axis = 0; axis < 3; ++axis) {
         out.workgroup[axis] =
@@ -149,13 +149,13 @@ void read_specialization(spvc_compiler compiler, ShaderInterface& out) {
 
 Result<ShaderInterface> reflect(const Shader& shader, ShaderStage stage) {
     if (const std::string fault = find_fault(shader.words, stage); !fault.empty())
-        return Error::of_machine(std::string(shader.name), "no sound SPIR-V: " + fault);
+        return Error::of_machine(std::string(shader.name), "invalid SPIR-V: " + fault);
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS) return Error::of_machine(std::string(shader.name), "out of memory");
     const std::unique_ptr<spvc_context_s, ContextDeleter> context(raw);
     const auto failed = [&] {
         return Error::of_machine(std::string(shader.name),
-                                 std::string("no sound SPIR-V: ") + spvc_context_get_last_error_string(raw));
+                                 std::string("invalid SPIR-V: ") + spvc_context_get_last_error_string(raw));
     };
     spvc_parsed_ir ir = nullptr;
     spvc_compiler compiler = nullptr;
@@ -175,7 +175,7 @@ Result<ShaderInterface> reflect(const Shader& shader, ShaderStage stage) {
 
 std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> words) {
     std::vector<std::uint32_t> results, decorated;
-    std::uint32_t functions = 0;  // the id of their set
+    std::uint32_t functions = 0;  // id of the imported instruction set
     std::size_t annotations_end = words.size();
     const bool sound = for_each_instruction(words, [&](std::uint32_t op, std::span<const std::uint32_t> instruction) {
         if (ends_annotations(op))
@@ -193,7 +193,7 @@ std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> 
     std::ranges::sort(decorated);
     std::vector<std::uint32_t> decorations;
     for (const std::uint32_t result : results) {
-        if (std::ranges::binary_search(decorated, result)) continue;  // twice is an error
+        if (std::ranges::binary_search(decorated, result)) continue;  // decorating twice is an error
         decorations.insert(decorations.end(), {3u << 16 | op_decorate, result, decoration_no_contraction});
     }
     const auto middle = words.begin() + static_cast<std::ptrdiff_t>(annotations_end);

@@ -1,4 +1,4 @@
-// What a compiled shader declares, and how exactly it computes.
+// Reflection of compiled shaders, and changes to their arithmetic and constants.
 #pragma once
 
 #include <weft/result.h>
@@ -29,24 +29,24 @@ struct ShaderBinding {
 struct ShaderInterface {
     std::uint32_t push_constants = 0;  ///< bytes
     std::array<std::uint32_t, 3> workgroup{1, 1, 1};
-    /// Ids of the specialization constants that set it in place of that.
+    /// Ids of the specialization constants that replace these sizes.
     std::array<std::optional<std::uint32_t>, 3> workgroup_constants;
     std::vector<ShaderBinding> bindings;        ///< ascending
     std::vector<std::uint32_t> specialization;  ///< ids of the constants that may be set, ascending
 };
 
-/// Fails where the words are no shader of that stage. Nothing but the module's frame is checked beforehand: it must
-/// come from a compiler.
+/// Fails if the words are not a shader of that stage. Checks only the outline of the module, so the words must come
+/// from a compiler.
 Result<ShaderInterface> reflect(const Shader& shader, ShaderStage stage = ShaderStage::compute);
 
-/// The same shader with every sum and product decorated as NoContraction: a driver may neither fuse a product with a
-/// sum nor simplify (a + b) - a, so that what the compensated sums of the physics keep is not lost, and a device gives
-/// the same bits every time. What a compiler has fused before cannot be undone. Words that are no module come back as
-/// they are.
+/// Returns the shader with every sum and product decorated as NoContraction. A driver may then neither fuse a product
+/// with a sum nor simplify (a + b) - a. This preserves the compensated summation of the physics, and a device gives the
+/// same bits every time. Operations that the compiler has already fused stay fused. Words that are not a module are
+/// returned unchanged.
 std::vector<std::uint32_t> with_exact_arithmetic(std::span<const std::uint32_t> words);
 
-/// The same shader with other defaults of its specialization constants with ids 0, 1, 2, … Some drivers size shared
-/// memory by the default, whatever the pipeline says.
+/// Changes the defaults of the specialization constants with ids 0, 1, 2, … Some drivers size shared memory by the
+/// defaults and ignore the values of the pipeline.
 void set_constants(std::vector<std::uint32_t>& words, std::span<const std::uint32_t> constants);
 
 }  // namespace weft::gpu

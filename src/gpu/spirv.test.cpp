@@ -17,7 +17,7 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-// Words that end where the memory of the program ends: reading on is a crash.
+// Words at the end of mapped memory, so that reading past them crashes.
 class AtTheEdge {
   public:
     explicit AtTheEdge(std::span<const std::uint32_t> words) {
@@ -103,7 +103,7 @@ TEST(Spirv, what_is_no_shader_is_an_error) {
         ASSERT_FALSE(shader.ok()) << why;
         EXPECT_EQ(shader.error().where, "bad") << why;
         EXPECT_EQ(shader.error().fault, Fault::machine) << why;
-        EXPECT_NE(shader.error().what.find("no sound SPIR-V"), std::string::npos) << shader.error().what;
+        EXPECT_NE(shader.error().what.find("invalid SPIR-V"), std::string::npos) << shader.error().what;
         EXPECT_EQ(with_exact_arithmetic(words).size(), words.size()) << why;
     }
 }
@@ -120,7 +120,7 @@ TEST(Spirv, every_sum_and_product_is_exact_and_nothing_else_has_changed) {
         EXPECT_EQ(times, 1) << id;
         EXPECT_TRUE(found.arithmetic.count(id)) << id;
     }
-    // Without the decorations it is what it was.
+    // Without the decorations, the module is unchanged.
     Words rest(after.begin(), after.begin() + 5);
     for (std::size_t at = 5; at < after.size(); at += after[at] >> 16) {
         if ((after[at] & 0xffff) == 71 && after[at + 2] == 42) continue;
@@ -175,7 +175,7 @@ TEST(Spirv, nothing_is_read_beyond_the_end_of_damaged_words) {
     }
 }
 
-// Only what breaks the frame of a module: the library that reads the rest trusts compilers, and so do drivers.
+// Damages only the outline of a module: the library that reads the rest trusts compilers, and so do drivers.
 TEST(Spirv, a_damaged_frame_is_an_error_and_no_crash) {
     const Words good(test_shader("bindings").words.begin(), test_shader("bindings").words.end());
     std::vector<std::size_t> begins;

@@ -1,4 +1,4 @@
-// A drawn surface on the device: what whoever draws it needs to know.
+// The buffers of a drawn surface on the device, for renderers.
 #pragma once
 
 #include "gpu/device.h"
@@ -7,7 +7,7 @@
 
 namespace weft::gpu {
 
-/// Part of a buffer; that of an array that is not there has no buffer.
+/// Part of a buffer; without a buffer if the array does not exist.
 struct BufferRange {
     VkBuffer buffer = VK_NULL_HANDLE;
     std::uint64_t offset = 0, size = 0;  ///< bytes
@@ -15,14 +15,14 @@ struct BufferRange {
 };
 
 struct SurfaceBuffers {
-    BufferRange positions;  ///< four floats a vertex: m, and 1
-    BufferRange normals;    ///< four floats a vertex: unit, and 0
-    BufferRange tangents;   ///< four floats a vertex: unit, and the handedness; only with UVs
-    BufferRange uvs;        ///< two floats a vertex; only with UVs
-    BufferRange triangles;  ///< three indices a triangle, 32 bits each
+    BufferRange positions;  ///< four floats per vertex: m, and 1
+    BufferRange normals;    ///< four floats per vertex: unit vector, and 0
+    BufferRange tangents;   ///< four floats per vertex: unit vector, and the handedness; only with UVs
+    BufferRange uvs;        ///< two floats per vertex; only with UVs
+    BufferRange triangles;  ///< three indices per triangle, 32 bits each
     std::uint32_t vertex_count = 0, triangle_count = 0;
-    std::uint64_t topology_version = 1;  ///< another number whenever the triangles have changed
-    Moment ready;                        ///< from here on they hold what they should
+    std::uint64_t topology_version = 1;  ///< changes whenever the triangles change
+    Moment ready;                        ///< the buffers are valid from this time on
 };
 
 }  // namespace weft::gpu

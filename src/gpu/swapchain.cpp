@@ -6,12 +6,12 @@
 namespace weft::gpu {
 namespace {
 
-// While a window is hidden, some systems hand out no image: then it is asked again, for the window must hear of events.
+// Timeout of acquire. Some systems give no image while a window is hidden, and the caller must keep handling events.
 constexpr std::uint64_t patience = 100'000'000;  // ns
-// That many resizes without an image that came back: rather wait than keep all of them.
+// After so many resizes without a reacquired image, recreate() waits for the queue instead of keeping more old chains.
 constexpr std::size_t most_retired = 4;
 
-// Of the instance that made the surface: volk's are those of the last one made.
+// A function of the instance that made the surface. volk holds those of the last instance made.
 template <class Function>
 Function surface_function(const Device& device, const char* name) {
     return reinterpret_cast<Function>(device.instance().functions()(device.instance().handle(), name));
@@ -98,8 +98,8 @@ bool Swapchain::encodes_srgb() const {
     return is_srgb(format_.format);
 }
 
-// What does not depend on the window's size.
-Result<Done> Swapchain::choose(const SwapchainOptions& options) {
+// Chooses everything that does not depend on the window's size.
+Result<void> Swapchain::choose(const SwapchainOptions& options) {
     const Device& device = *device_;
     VkBool32 supported = VK_FALSE;
     if (device.presents() && device.draws()) {
@@ -110,7 +110,7 @@ Result<Done> Swapchain::choose(const SwapchainOptions& options) {
     }
     if (!supported) {
         return Error::of_machine(device.info().name,
-                                 "cannot show pictures in a window of this display; take another device, or write them "
+                                 "cannot show images in a window of this display; take another device, or write them "
                                  "to files");
     }
     const auto formats = list_of<VkSurfaceFormatKHR>(
@@ -127,7 +127,7 @@ Result<Done> Swapchain::choose(const SwapchainOptions& options) {
         break;
     }
     if (format_.format == VK_FORMAT_UNDEFINED)
-        return Error::of_machine(device.info().name, "shows no colors of eight bits in a window of this display");
+        return Error::of_machine(device.info().name, "has no 8-bit color format for windows on this display");
     if (options.mailbox) {
         const auto modes = list_of<VkPresentModeKHR>(device, surface_,
                                                      surface_function<PFN_vkGetPhysicalDeviceSurfacePresentModesKHR>(
@@ -144,17 +144,17 @@ Result<Done> Swapchain::choose(const SwapchainOptions& options) {
         alpha_ = alpha;
         break;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> Swapchain::make_semaphore(VkSemaphore& semaphore) const {
+Result<void> Swapchain::make_semaphore(VkSemaphore& semaphore) const {
     VkSemaphoreCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
     VkSemaphore made = VK_NULL_HANDLE;
     const VkResult result = device_->vk().vkCreateSemaphore(device_->handle(), &info, nullptr, &made);
     if (result != VK_SUCCESS) return device_->error("to make a semaphore", result);
     semaphore = made;
-    return Done{};
+    return {};
 }
 
 Result<SwapchainImage> Swapchain::acquire(VkExtent2D size) {
@@ -200,12 +200,13 @@ Result<SwapchainImage> Swapchain::acquire(VkExtent2D size) {
     return SwapchainImage{.state = lost_ ? Acquired::surface_lost : Acquired::nothing};
 }
 
-Result<Done> Swapchain::present(const SwapchainImage& image, std::uint64_t done) {
+Result<void> Swapchain::present(const SwapchainImage& image, std::uint64_t done) {
     Slot& slot = slots_[slot_];
     slot.done = done;
     slot_ = (slot_ + 1) % slots_.size();
     taken_ = false;
-    // Its image was shown before and is back: so are all that were presented before that, those of older chains too.
+    // The image was presented before and acquired again. So all earlier presents are complete, those of older chains
+    // too.
     if (!retired_.empty() && retired_until_ == 0 && chain_.presented[image.index]) retired_until_ = done;
     chain_.presented[image.index] = true;
 
@@ -228,18 +229,18 @@ Result<Done> Swapchain::present(const SwapchainImage& image, std::uint64_t done)
     } else if (result != VK_SUCCESS) {
         return device_->error("to show an image in a window", result);
     }
-    return Done{};
+    return {};
 }
 
-// Nobody knows whether its semaphore will be waited for, so it is not used again.
-Result<Done> Swapchain::give_back() {
+// It is unknown whether a submission waits for the acquired image's semaphore, so the semaphore is not used again.
+Result<void> Swapchain::give_back() {
     taken_ = false;
     stale_ = true;
     chain_.left_over.push_back(std::exchange(slots_[slot_].acquired, VK_NULL_HANDLE));
     return make_semaphore(slots_[slot_].acquired);
 }
 
-// Some surfaces are suboptimal for good: that alone is no reason.
+// Some surfaces are always suboptimal, so VK_SUBOPTIMAL_KHR alone does not cause a recreation.
 Result<bool> Swapchain::outgrown(VkExtent2D size) const {
     if (stale_ || chain_.handle == VK_NULL_HANDLE || !same(size, wanted_)) return true;
     if (!suboptimal_) return false;
@@ -250,12 +251,12 @@ Result<bool> Swapchain::outgrown(VkExtent2D size) const {
     return !same(fitting(*can, size), extent_);
 }
 
-Result<Done> Swapchain::recreate(VkExtent2D size) {
+Result<void> Swapchain::recreate(VkExtent2D size) {
     bool lost = false;
     const auto can = capabilities(*device_, surface_, lost);
     if (lost) {
         lost_ = true;
-        return Done{};
+        return {};
     }
     if (!can) return can.errors();
     const VkExtent2D extent = fitting(*can, size);
@@ -267,23 +268,23 @@ Result<Done> Swapchain::recreate(VkExtent2D size) {
     }
     if (extent.width == 0 || extent.height == 0) {
         retire();
-        return Done{};
+        return {};
     }
     if (auto made = make_chain(*can, extent); !made) return made;
-    if (lost_) return Done{};
+    if (lost_) return {};
     if (auto filled = fill_chain(); !filled) return filled;
     extent_ = extent;
     wanted_ = size;
     ++generation_;
     stale_ = false;
-    return Done{};
+    return {};
 }
 
-Result<Done> Swapchain::make_chain(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
+Result<void> Swapchain::make_chain(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
     VkSwapchainCreateInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
     info.surface = surface_;
-    info.minImageCount = can.minImageCount + 1;  // one more than it needs for itself: no waiting for it
+    info.minImageCount = can.minImageCount + 1;  // one more than the system needs, so that acquire does not wait
     if (can.maxImageCount > 0) info.minImageCount = std::min(info.minImageCount, can.maxImageCount);
     info.imageFormat = format_.format;
     info.imageColorSpace = format_.colorSpace;
@@ -300,17 +301,17 @@ Result<Done> Swapchain::make_chain(const VkSurfaceCapabilitiesKHR& can, VkExtent
     info.oldSwapchain = chain_.handle;
     VkSwapchainKHR made = VK_NULL_HANDLE;
     const VkResult result = device_->vk().vkCreateSwapchainKHR(device_->handle(), &info, nullptr, &made);
-    retire();  // the old one is no more, even where there is no new one
+    retire();  // the old chain is retired even if the creation failed
     if (result == VK_ERROR_SURFACE_LOST_KHR) {
         lost_ = true;
-        return Done{};
+        return {};
     }
     if (result != VK_SUCCESS) return device_->error("to make the images of a window", result);
     chain_.handle = made;
-    return Done{};
+    return {};
 }
 
-Result<Done> Swapchain::fill_chain() {
+Result<void> Swapchain::fill_chain() {
     const auto& vk = device_->vk();
     std::uint32_t count = 0;
     VkResult result = vk.vkGetSwapchainImagesKHR(device_->handle(), chain_.handle, &count, nullptr);
@@ -332,7 +333,7 @@ Result<Done> Swapchain::fill_chain() {
         chain_.views.push_back(view);
         if (auto made = make_semaphore(chain_.drawn.emplace_back()); !made) return made;
     }
-    return Done{};
+    return {};
 }
 
 void Swapchain::retire() {

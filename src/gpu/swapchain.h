@@ -1,4 +1,4 @@
-// The pictures of a window, one after another: drawn into here, shown by the system.
+// The images of a window, which the system presents.
 #pragma once
 
 #include "gpu/device.h"
@@ -10,67 +10,67 @@
 namespace weft::gpu {
 
 struct SwapchainOptions {
-    /// As many pictures as there are, the newest one shown, where the surface can; else one for each that the screen
-    /// shows.
+    /// Draws without waiting for the screen, which shows the newest image (VK_PRESENT_MODE_MAILBOX_KHR), if the surface
+    /// supports it. Otherwise one image per refresh of the screen (FIFO).
     bool mailbox = false;
-    /// Uses of its images beside being drawn into, where the surface has them.
+    /// Usage flags of the images in addition to drawing, if the surface supports them.
     VkImageUsageFlags also = 0;
 };
 
 enum class Acquired {
-    image,         ///< to be drawn and presented
-    nothing,       ///< nowhere to draw this time: no size, or it changes just now
-    surface_lost,  ///< for good: swapchain and surface are to be made again
+    image,         ///< an image to draw and present
+    nothing,       ///< no image this time: the window has no size, or is being resized or hidden
+    surface_lost,  ///< permanently: make the swapchain and the surface again
 };
 
 struct SwapchainImage {
-    Acquired state = Acquired::nothing;  ///< unless it is `image`, the rest is empty
+    Acquired state = Acquired::nothing;  ///< the other members are set only for `image`
     std::uint32_t index = 0;
-    std::uint64_t generation = 0;  ///< another one: other images
+    std::uint64_t generation = 0;  ///< changes whenever the images are new
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkExtent2D extent{};
-    /// For the submit of what draws it, which leaves it in VK_IMAGE_LAYOUT_PRESENT_SRC_KHR.
+    /// For the submission that draws the image. It must leave the image in VK_IMAGE_LAYOUT_PRESENT_SRC_KHR.
     BinarySemaphores semaphores = {};
 };
 
-/// Two frames are under way at most: one is drawn while the one before it is waiting to be shown.
+/// At most two frames are in flight: one is drawn while the previous one waits for presentation.
 class Swapchain {
   public:
-    /// `surface` outlives it. Fails where the device cannot show anything there.
+    /// `surface` must outlive the swapchain. Fails if the device cannot present to it.
     static Result<Swapchain> create(Device& device, VkSurfaceKHR surface, const SwapchainOptions& options = {});
     Swapchain(Swapchain&& other) noexcept { swap(other); }
     Swapchain& operator=(Swapchain&& other) noexcept {
         Swapchain(std::move(other)).swap(*this);
         return *this;
     }
-    /// Waits until nothing of it is in use.
+    /// Waits until the device uses none of its images.
     ~Swapchain();
 
     VkFormat format() const { return format_.format; }
-    /// Linear values that are drawn become sRGB. If not, shaders must do that.
+    /// Whether drawn linear values are encoded as sRGB. If not, shaders must encode them.
     bool encodes_srgb() const;
     VkImageUsageFlags usage() const { return usage_; }
     VkPresentModeKHR mode() const { return mode_; }
 
-    /// The next image; waits for one, and for the frame before the last. `size`: of the window, in pixels. Images are
-    /// made anew where it has another size, and where the system wants that. One that was acquired and not presented is
-    /// given back.
+    /// Returns the next image. Waits for an image, and for the frame before the last. `size`: of the window, in
+    /// pixels. Recreates the images if the size has changed or the system requires it. Releases an image that was
+    /// acquired but not presented.
     Result<SwapchainImage> acquire(VkExtent2D size);
-    /// Shows the image when it is drawn. `done`: what the submit returned that draws it.
-    Result<Done> present(const SwapchainImage& image, std::uint64_t done);
+    /// Presents the image when it is drawn. `done`: result of the submission that draws it.
+    Result<void> present(const SwapchainImage& image, std::uint64_t done);
 
   private:
-    // The images of one VkSwapchainKHR, and what belongs to them.
+    // One VkSwapchainKHR with its images.
     struct Chain {
         VkSwapchainKHR handle = VK_NULL_HANDLE;
         std::vector<VkImage> images;
         std::vector<VkImageView> views;
-        std::vector<VkSemaphore> drawn;      // of each image: one that is still waited for must not be signaled again
+        std::vector<VkSemaphore> drawn;      // per image: must not be signaled while a wait is pending
         std::vector<bool> presented;         // at least once
-        std::vector<VkSemaphore> left_over;  // of images that were given back
+        std::vector<VkSemaphore> left_over;  // of released images
     };
-    // Of the frames that are under way.
+    // A frame in flight.
     struct Slot {
         VkSemaphore acquired = VK_NULL_HANDLE;
         std::uint64_t done = 0;
@@ -78,12 +78,12 @@ class Swapchain {
 
     Swapchain() = default;
     void swap(Swapchain& other);
-    Result<Done> choose(const SwapchainOptions& options);
-    Result<Done> recreate(VkExtent2D size);
-    Result<Done> make_chain(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size);
-    Result<Done> fill_chain();
-    Result<Done> make_semaphore(VkSemaphore& semaphore) const;
-    Result<Done> give_back();
+    Result<void> choose(const SwapchainOptions& options);
+    Result<void> recreate(VkExtent2D size);
+    Result<void> make_chain(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size);
+    Result<void> fill_chain();
+    Result<void> make_semaphore(VkSemaphore& semaphore) const;
+    Result<void> give_back();
     Result<bool> outgrown(VkExtent2D size) const;
     void retire();
     void free_retired();
@@ -98,12 +98,12 @@ class Swapchain {
     VkCompositeAlphaFlagBitsKHR alpha_ = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
 
     Chain chain_;
-    VkExtent2D extent_{}, wanted_{};  // of its images; and what was asked for then
+    VkExtent2D extent_{}, wanted_{};  // of the images; as requested for them
     std::uint64_t generation_ = 0;
     bool stale_ = true, suboptimal_ = false, lost_ = false;
     bool taken_ = false;  // an image is acquired and not presented
 
-    // Nothing says when an image was shown for the last time, but that of a later chain comes back after it.
+    // Vulkan does not report the end of a presentation. An image of a later chain is reacquired only after it.
     std::vector<Chain> retired_;
     std::uint64_t retired_until_ = 0;  // 0: not known yet
     std::array<Slot, 2> slots_;

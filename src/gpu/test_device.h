@@ -1,4 +1,4 @@
-// For the tests of this folder: a device under the eyes of the validation layers, and shaders.
+// For the tests of this folder: a device with validation layers, and shaders.
 #pragma once
 
 #include "gpu/commands.h"
@@ -18,8 +18,8 @@ namespace weft::gpu {
 /// One of test_shaders/, by its file's name.
 const Shader& test_shader(std::string_view name);
 
-/// A test on the first device that will do, a CPU if need be. Fails without Vulkan or the
-/// validation layer, and if the layer has anything to say.
+/// A test on the first usable device, which may be a software device. Fails without Vulkan or the validation layer, and
+/// if the layer reports anything.
 class OnDevice : public testing::Test {
   protected:
     void SetUp() override {
@@ -45,7 +45,7 @@ class OnDevice : public testing::Test {
         ASSERT_TRUE(made.ok()) << made.error().message();
         device = std::move(*made);
     }
-    /// What has been said since the last call.
+    /// The messages since the last call.
     std::vector<std::string> take_messages() {
         const std::lock_guard lock(mutex_);
         return std::exchange(messages_, {});
@@ -56,7 +56,7 @@ class OnDevice : public testing::Test {
         return made ? std::move(*made) : Buffer{};
     }
 
-    std::vector<std::string> surface_extensions;  // to be set before
+    std::vector<std::string> surface_extensions;  // set before SetUp()
     std::shared_ptr<const Instance> instance;
     DeviceInfo info;
     std::shared_ptr<Device> device;
@@ -66,7 +66,7 @@ class OnDevice : public testing::Test {
     std::vector<std::string> messages_;
 };
 
-/// A folder that is gone after the test.
+/// A folder that is deleted after the test.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

@@ -1,3 +1,3 @@
-// volk's own code, once: it finds the Vulkan loader at run time.
+// The implementation of volk, which finds the Vulkan loader at run time.
 #define VOLK_IMPLEMENTATION
 #include <volk.h>

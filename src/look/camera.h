@@ -1,4 +1,4 @@
-// Where a scene is seen from.
+// The camera of a scene.
 #pragma once
 
 #include "base/parameter.h"
@@ -10,19 +10,19 @@ namespace weft {
 struct Camera {
     Vec3 position{1.5f, 1.2f, 1.5f};  ///< m
     Vec3 target{0, 0.5f, 0};          ///< m
-    float fov = 40;                   ///< degrees, from the bottom of the picture to its top
+    float fov = 40;                   ///< degrees, vertical
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-// One entry is one key.
+// One entry per scene key.
 // clang-format off
 inline constexpr Parameter camera_parameters[] = {
     {.key = "position", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Camera, position),
-     .min = -far_away, .max = far_away, .unit = "m", .what = "where the eye is"},
+     .min = -far_away, .max = far_away, .unit = "m", .what = "position of the camera"},
     {.key = "target", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Camera, target),
-     .min = -far_away, .max = far_away, .unit = "m", .what = "what is in the middle of the picture"},
+     .min = -far_away, .max = far_away, .unit = "m", .what = "point at the center of the image"},
     {.key = "fov", .offset = offsetof(Camera, fov), .min = 1, .max = 150, .unit = "°",
-     .what = "angle from the bottom of the picture to its top"},
+     .what = "vertical field of view"},
 };
 // clang-format on
 

@@ -1,4 +1,4 @@
-// One cloth as it is drawn, for exporters.
+// The render mesh of one cloth in one frame, as exporters read it.
 #pragma once
 
 #include "look/material.h"
@@ -12,17 +12,17 @@
 
 namespace weft {
 
-/// The render mesh of a cloth at one moment.
+/// The render mesh of a cloth in one frame.
 struct DrawnSurface {
     std::string_view name;
     std::span<const Vec3> positions;  ///< m
     std::span<const Vec3> normals;    ///< unit
     std::span<const Triangle> triangles;
     std::span<const Vec2> uvs;             ///< one per vertex, or none
-    std::span<const Vec4> colors;          ///< likewise
-    std::span<const Vec3> rest_positions;  ///< m, one per vertex: materials scale with them; without, `positions`
-    std::uint64_t topology_version = 1;    ///< another number whenever `triangles` have changed
-    const Material* material = nullptr;    ///< where a format has materials; without one, light gray and matte
+    std::span<const Vec4> colors;          ///< one per vertex, or empty
+    std::span<const Vec3> rest_positions;  ///< m, one per vertex; sets the scale of materials; empty: `positions`
+    std::uint64_t topology_version = 1;    ///< changes whenever `triangles` change
+    const Material* material = nullptr;    ///< for formats with materials; nullptr: light gray, matte
 };
 
 }  // namespace weft

@@ -6,7 +6,7 @@ namespace weft {
 namespace {
 
 const MaterialPreset presets[] = {
-// One file each, in the order in which they are listed.
+// One file per preset, in the order of the documentation.
 // clang-format off
 #include "look/materials/cotton.inl"
 #include "look/materials/linen.inl"

@@ -1,5 +1,5 @@
-// What a surface looks like: how it reflects and lets through light, and how its threads lie. Presets stand in
-// materials/, one file each.
+// The material of a surface: how it reflects and transmits light, and its weave. The presets are in materials/, one
+// file each.
 #pragma once
 
 #include "base/parameter.h"
@@ -12,81 +12,81 @@
 
 namespace weft {
 
-/// How threads cross, or what else makes the surface rough: a tile of look/weave.h.
+/// The pattern of the threads, or another kind of roughness: a tile of look/weave.h.
 enum class Weave { smooth, plain, twill, satin, knit, rib, grain };
 
 /// Colors are linear RGB, 0…1. Warp runs along u, weft along v.
 struct Material {
-    Vec3 color{0.8f, 0.8f, 0.8f};       ///< share of light that the warp, or all of it, scatters
-    Vec3 weft_color{0.8f, 0.8f, 0.8f};  ///< and the weft; follows `color` where only that is given
-    float roughness_matte = 0;          ///< 0…1, of the matte part: Oren and Nayar's sigma
-    float specular = 0.04f;             ///< share that a smooth fiber mirrors straight on (F0); 0.04 for index 1.5
+    Vec3 color{0.8f, 0.8f, 0.8f};       ///< diffuse reflectance of the warp, or of the whole surface
+    Vec3 weft_color{0.8f, 0.8f, 0.8f};  ///< of the weft; equals `color` where only `color` is given
+    float diffuse_roughness = 0;        ///< 0…1, sigma of Oren and Nayar
+    float specular = 0.04f;             ///< reflectance of a smooth fiber at normal incidence (F0); 0.04 for index 1.5
     /// 0…1, of the highlight, along the threads and across them. GGX with alpha = roughness².
     float roughness[2] = {0.6f, 0.6f};
-    Vec3 sheen_color{0, 0, 0};     ///< of fuzz that stands off the surface: Charlie sheen, as in KHR_materials_sheen
+    Vec3 sheen_color{0, 0, 0};     ///< of the fuzz: Charlie sheen, as in KHR_materials_sheen
     float sheen_roughness = 0.5f;  ///< 0…1, alpha = sheen_roughness²
-    float velvet = 0;  ///< k_amp of the velvet distribution, whose F0 is specular · sheen_color; 0: it is none
-    float velvet_alpha = 0.35f;  ///< its width
-    float transmission = 0;      ///< share of the matte light that goes through instead of back
-    float coverage = 1;  ///< share of its area that threads fill, seen straight on; less than 1 shows what is behind
+    float velvet = 0;  ///< k_amp of the velvet distribution, whose F0 is specular · sheen_color; 0: not velvet
+    float velvet_alpha = 0.35f;  ///< width of the velvet distribution
+    float transmission = 0;      ///< fraction of the diffuse light that passes to the other side
+    float coverage = 1;  ///< fraction of the area that threads cover, seen straight on; below 1 the cloth is sheer
     Weave weave = Weave::smooth;
-    float thread = 0.4f;           ///< mm from a thread to the next; of `grain`: size of a grain
-    float relief = 1;              ///< how high threads stand: 1 as the weave has it, 0 flat
-    std::string color_map = {};    ///< file of a picture that multiplies the color
-    std::string normal_map = {};   ///< file of a tangent-space normal map (+y along v) in place of the weave
-    float map_repeat[2] = {1, 1};  ///< how often maps go into one unit of u and v
+    float thread_spacing = 0.4f;  ///< mm between neighboring threads; for `grain`: size of a grain
+    float weave_depth = 1;        ///< height of the threads relative to the weave's own; 0: flat
+    std::string color_map = {};   ///< file of an image that multiplies the color
+    std::string normal_map = {};  ///< file of a tangent-space normal map (+y along v) that replaces the weave
+    float uv_tiling[2] = {1, 1};  ///< repeats of the maps per unit of u and v
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-// One entry is one key.
+// One entry per scene key.
 // clang-format off
 inline constexpr Parameter material_parameters[] = {
     {.key = "color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Material, color), .min = 0, .max = 1,
-     .what = "linear RGB: share of light that the warp scatters; where `weft_color` is not given, the weft too"},
+     .what = "linear RGB, diffuse reflectance of the warp; also of the weft if `weft_color` is not given"},
     {.key = "weft_color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Material, weft_color), .min = 0,
-     .max = 1, .what = "linear RGB, of the weft"},
-    {.key = "roughness_matte", .offset = offsetof(Material, roughness_matte), .min = 0, .max = 1,
-     .what = "0: Lambert; more keeps surfaces that face away from the light as bright as those that face it"},
+     .max = 1, .what = "linear RGB, diffuse reflectance of the weft"},
+    {.key = "diffuse_roughness", .offset = offsetof(Material, diffuse_roughness), .min = 0, .max = 1,
+     .what = "diffuse roughness (Oren-Nayar); 0: Lambert; a rough surface looks flatter"},
     {.key = "specular", .offset = offsetof(Material, specular), .min = 0, .max = 1,
-     .what = "share of light that is mirrored straight on (F0); 0.04 for fibers of index 1.5"},
+     .what = "specular reflectance at normal incidence (F0); 0.04 for fibers of index 1.5"},
     {.key = "roughness", .count = 2, .offset = offsetof(Material, roughness), .min = 0.02, .max = 1,
-     .what = "of the highlight, along the threads and across them"},
+     .what = "roughness of the highlight, along the threads and across them"},
     {.key = "sheen_color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Material, sheen_color),
-     .min = 0, .max = 1, .what = "linear RGB, of the fuzz on it; black: none"},
+     .min = 0, .max = 1, .what = "linear RGB of the fuzz (sheen); black: none"},
     {.key = "sheen_roughness", .offset = offsetof(Material, sheen_roughness), .min = 0.05, .max = 1,
-     .what = "how far from the rim its light reaches"},
+     .what = "roughness of the sheen; larger values reach farther from the silhouette"},
     {.key = "velvet", .offset = offsetof(Material, velvet), .min = 0, .max = 100,
-     .what = "strength of the pile (k_amp); more than 0 makes it velvet: hairs that mirror `specular` of `sheen_color`, "
-             "without sheen and highlight of other kinds"},
+     .what = "amount of pile (k_amp); above 0 the material is velvet: its hairs reflect `specular` times "
+             "`sheen_color`, and there is no other sheen or highlight"},
     {.key = "velvet_alpha", .offset = offsetof(Material, velvet_alpha), .min = 0.05, .max = 1,
-     .what = "how unruly the pile is"},
+     .what = "spread of the pile's directions"},
     {.key = "transmission", .offset = offsetof(Material, transmission), .min = 0, .max = 1,
-     .what = "share of the scattered light that goes through to the other side"},
+     .what = "fraction of the diffuse light that passes to the other side"},
     {.key = "coverage", .offset = offsetof(Material, coverage), .min = 0.05, .max = 1,
-     .what = "share of the area that threads fill, seen straight on; below 1 one sees through"},
+     .what = "fraction of the area that threads cover; below 1 the cloth is sheer"},
     {.key = "weave", .kind = ParameterKind::choice, .offset = offsetof(Material, weave),
-     .what = "how threads lie: in `smooth` none are seen; `grain` is that of leather",
+     .what = "pattern of the threads; `smooth`: none; `grain`: leather",
      .choices = "smooth|plain|twill|satin|knit|rib|grain"},
-    {.key = "thread", .offset = offsetof(Material, thread), .min = 0.01, .max = 1000, .unit = "mm",
-     .what = "from a thread to the next; of `grain`, the size of a grain"},
-    {.key = "relief", .offset = offsetof(Material, relief), .min = 0, .max = 4,
-     .what = "how high threads stand; 1 as they are in the weave"},
+    {.key = "thread_spacing", .offset = offsetof(Material, thread_spacing), .min = 0.01, .max = 1000, .unit = "mm",
+     .what = "distance between threads; for `grain`, the size of a grain"},
+    {.key = "weave_depth", .offset = offsetof(Material, weave_depth), .min = 0, .max = 4,
+     .what = "height of the threads relative to the weave's own"},
     {.key = "color_map", .kind = ParameterKind::text, .offset = offsetof(Material, color_map),
-     .what = "file of a picture (.png, .jpg) that the color is multiplied by; needs UVs"},
+     .what = "image (.png, .jpg) that multiplies the color; needs UVs"},
     {.key = "normal_map", .kind = ParameterKind::text, .offset = offsetof(Material, normal_map),
-     .what = "file of a normal map (.png, .jpg; tangent space, green along v) in place of the weave; needs UVs"},
-    {.key = "map_repeat", .count = 2, .offset = offsetof(Material, map_repeat), .min = 0.001, .max = 10000,
-     .what = "how often the pictures go into a unit of u and of v"},
+     .what = "normal map (.png, .jpg; tangent space, green along v) in place of the weave; needs UVs"},
+    {.key = "uv_tiling", .count = 2, .offset = offsetof(Material, uv_tiling), .min = 0.001, .max = 10000,
+     .what = "repetitions of the maps per unit of u and of v"},
 };
 // clang-format on
 
 struct MaterialPreset {
     std::string_view name;
-    std::string_view what;  ///< one line: what it is, and what its look comes from
+    std::string_view what;  ///< one line: the fabric and what its appearance comes from
     Material material;
 };
 
-/// Every material known by name, in the order of material.cpp.
+/// All presets, in the order of material.cpp.
 std::span<const MaterialPreset> material_presets();
 /// nullptr if no preset has that name.
 const MaterialPreset* find_material(std::string_view name);

@@ -63,7 +63,7 @@ TEST(Materials, ReflectLessThanTheyGet) {
 }
 
 TEST(Materials, NameTheWeftWhereItIsOfAnotherColor) {
-    // The weft is seen between the warp of all but these.
+    // The weft is visible between the warp of all materials but these.
     const std::set<std::string_view> of_two = {"linen", "wool", "satin", "denim"};
     for (const MaterialPreset& preset : material_presets()) {
         EXPECT_EQ(preset.material.color == preset.material.weft_color, !of_two.count(preset.name)) << preset.name;

@@ -13,16 +13,16 @@ namespace {
 
 using weaves::Heights;
 
-// Slopes and light are taken from a grid this much finer than the tile.
+// Slopes and light are computed on a grid that is finer than the tile by this factor.
 constexpr std::uint32_t finer = 2;
 
-// A larger picture takes hundreds of megabytes as a relief and shows no more: texels meet pixels long before.
+// A larger map would take hundreds of megabytes as a relief without visible gain: its texels are smaller than pixels.
 constexpr std::uint32_t most_texels = 2048;
 
-// cos 86°: a normal that lies flatter is a mistake in its file.
+// cos 86°: flatter normals in a file are treated as errors and clamped.
 constexpr float flattest_normal = 1.0f / 16;
 
-// How much darker it is a spacing below what is around.
+// Darkening per thread spacing of depth below the mean of the surroundings.
 constexpr float dark_per_depth = 1.6f;
 
 ReliefLevel empty_level(std::uint32_t side) {
@@ -36,7 +36,7 @@ Relief flat_relief() {
     return relief;
 }
 
-/// Means of two by two texels.
+/// Averages blocks of two by two texels.
 ReliefLevel half_of(const ReliefLevel& large) {
     ReliefLevel small = empty_level(large.side / 2);
     const auto halve = [&](const std::vector<float>& from, std::vector<float>& to) {
@@ -58,7 +58,7 @@ void add_smaller_levels(Relief& relief) {
     while (relief.levels.back().side > 1) relief.levels.push_back(half_of(relief.levels.back()));
 }
 
-/// The mean of 2 radius + 1 samples of a row that repeats, for each of them; `stride` apart.
+/// For each of `count` samples, `stride` apart, the mean of the 2 radius + 1 samples around it. The line repeats.
 void blur_line(const float* from, float* to, std::uint32_t count, std::size_t stride, std::uint32_t radius) {
     double sum = 0;
     for (std::uint32_t k = 0; k <= 2 * radius; ++k) sum += from[((k + count - radius % count) % count) * stride];
@@ -70,7 +70,7 @@ void blur_line(const float* from, float* to, std::uint32_t count, std::size_t st
     }
 }
 
-/// How much light reaches each sample: less where it lies below the mean of what is around.
+/// The light that reaches each sample: less where the sample lies below the mean of its surroundings.
 std::vector<float> light_in(const Heights& heights) {
     const std::uint32_t side = heights.side, radius = side / heights.spacings / 2;
     std::vector<float> rows(heights.height.size()), around(heights.height.size());
@@ -127,7 +127,7 @@ Heights heights_of(Weave weave, std::uint32_t side) {
     return {side, 1};
 }
 
-// 128 is 0 and 255 is 1, so that a flat map is flat.
+// 128 maps to 0 and 255 to 1, so that a flat map gives exactly zero slopes.
 float component(std::uint8_t byte) {
     return (static_cast<float>(byte) - 128) / 127;
 }
@@ -136,7 +136,7 @@ std::uint8_t byte_of(float value) {
     return static_cast<std::uint8_t>(std::lround(128 + 127 * std::clamp(value, -1.0f, 1.0f)));
 }
 
-/// A row of moments, five a texel: both slopes, their squares, their product.
+/// Values per texel in a line of moments: both slopes, their squares, their product.
 constexpr std::size_t moments = 5;
 
 void add_texel(const std::uint8_t* rgb, float share, float* to) {
@@ -146,8 +146,8 @@ void add_texel(const std::uint8_t* rgb, float share, float* to) {
     for (std::size_t c = 0; c < moments; ++c) to[c] += share * values[c];
 }
 
-/// Calls `with(target, source, share)` wherever cells of two divisions of one length overlap; the shares of a target
-/// add up to 1.
+/// Divides one length into `targets` and into `sources` cells, and calls `with(target, source, share)` for each pair of
+/// cells that overlap. The shares of a target add up to 1.
 template <class With>
 void for_overlaps(std::uint32_t targets, std::uint32_t sources, const With& with) {
     const std::uint64_t t = targets, s = sources;
@@ -178,7 +178,7 @@ Relief relief_of_normals(const Image8& normals) {
     const std::uint32_t side = std::bit_ceil(std::min(most_texels, std::max(normals.width, normals.height)));
     ReliefLevel level = empty_level(side);
     std::vector<float> row(side * moments);
-    std::uint32_t row_of = normals.height;  // the row of the picture that `row` holds
+    std::uint32_t row_of = normals.height;  // the row of the image that `row` holds
     for_overlaps(side, normals.height, [&](std::uint32_t y, std::uint32_t source, float share) {
         const std::uint32_t picture_row = normals.height - 1 - source;  // v grows upward
         if (picture_row != row_of) {

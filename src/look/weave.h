@@ -1,4 +1,4 @@
-// The relief of a weave as a tile that repeats: what makes highlights break up near and widen far away.
+// The relief of a weave as a repeating tile. It breaks up highlights near the camera and widens them far away.
 #pragma once
 
 #include "base/image.h"
@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// One level of a relief, `side` by `side` texels, the first row at v = 0, the first column at u = 0. Slopes are dh/du
+/// One level of a relief: `side` by `side` texels, the first row at v = 0, the first column at u = 0. Slopes are dh/du
 /// and dh/dv of the height h in the same unit as u and v: the normal is (-slope_u, -slope_v, 1) normalized. Texels of a
-/// smaller level hold means of those of the larger one; what the mean of a slope loses, the mean of its square keeps,
-/// so that a distant surface is as rough as a near one (Olano and Baker 2010, LEAN mapping).
+/// smaller level are means of texels of the larger one. The mean of the squared slopes keeps the variance that the mean
+/// slope loses, so a distant surface stays as rough as a near one (Olano and Baker 2010, LEAN mapping).
 struct ReliefLevel {
     std::uint32_t side = 0;
     std::vector<float>
@@ -21,16 +21,16 @@ struct ReliefLevel {
 };
 
 struct Relief {
-    std::vector<ReliefLevel> levels;  ///< each half of the one before, down to 1
-    float threads[2] = {1, 1};        ///< spacings of threads that go into the tile along u and v
+    std::vector<ReliefLevel> levels;  ///< each half the size of the one before, down to 1
+    float threads[2] = {1, 1};        ///< thread spacings per tile along u and v
 };
 
 /// `side`: a power of two. Weave::smooth gives a single flat texel.
 Relief make_weave(Weave weave, std::uint32_t side = 256);
-/// Of a tangent-space normal map, +x along u, +y along v, which repeats; scaled to a power of two. The height of the
-/// picture is v from 0 at its bottom to 1 at its top.
+/// The relief of a repeating tangent-space normal map, +x along u, +y along v, scaled to a power of two. v is 0 at the
+/// bottom of the image and 1 at its top.
 Relief relief_of_normals(const Image8& normals);
-/// The largest level as a tangent-space normal map, its slopes times `scale`; rows from the top.
+/// The largest level as a tangent-space normal map, with its slopes multiplied by `scale`; rows from the top.
 Image8 normal_map_of(const Relief& relief, float scale);
 
 }  // namespace weft

@@ -18,7 +18,7 @@ constexpr Weave all_weaves[] = {Weave::smooth, Weave::plain, Weave::twill, Weave
 class EveryWeave : public testing::TestWithParam<Weave> {};
 INSTANTIATE_TEST_SUITE_P(Weaves, EveryWeave, testing::ValuesIn(all_weaves));
 
-/// Over all texels.
+/// Mean over all texels.
 double mean(const std::vector<float>& values, std::size_t channel) {
     double sum = 0;
     for (std::size_t i = channel; i < values.size(); i += 4) sum += values[i];
@@ -77,7 +77,7 @@ TEST_P(EveryWeave, HoldsSharesBetweenNoneAndAll) {
             }
         }
     }
-    // Gaps are darker, but the whole is not dark.
+    // Gaps are darker, but the mean is not dark.
     EXPECT_GT(relief.levels.back().first[2], 0.85f);
     EXPECT_EQ(relief.levels.back().first[2] < 1, GetParam() != Weave::smooth);
 }
@@ -97,7 +97,7 @@ TEST_P(EveryWeave, IsTheSameEachTime) {
     EXPECT_EQ(a.levels[0].second, b.levels[0].second);
 }
 
-// A tile that had a seam would jump there more than it does anywhere inside.
+// A tile with a seam would have larger steps there than inside.
 TEST(Weaves, RepeatWithoutASeam) {
     using Make = weaves::Heights (*)(std::uint32_t);
     for (const Make make : {weaves::plain, weaves::twill, weaves::satin, weaves::knit, weaves::rib, weaves::grain}) {
@@ -120,14 +120,14 @@ TEST(Weaves, RepeatWithoutASeam) {
     }
 }
 
-// Not only from tile to tile: no two threads of one are alike.
+// Threads must differ within a tile too, not only between tiles.
 TEST(Weaves, AreALittleUneven) {
     const weaves::Heights heights = weaves::plain(256);
     double apart = 0;
     for (std::uint32_t y = 0; y < 256; ++y) {
         for (std::uint32_t x = 0; x < 256; ++x) {
             apart +=
-                std::abs(heights.height[y * 256 + x] - heights.height[y * 256 + (x + 64) % 256]);  // two threads on
+                std::abs(heights.height[y * 256 + x] - heights.height[y * 256 + (x + 64) % 256]);  // two threads apart
         }
     }
     EXPECT_GT(apart / (256 * 256), 0.005);
@@ -184,7 +184,7 @@ TEST(NormalMap, HasUToTheRightAndVUpward) {
     Relief slope;
     slope.levels.push_back({2, {1, 0, 1, 1, 1, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1}, std::vector<float>(16)});
     const Image8 map = normal_map_of(slope, 1);
-    EXPECT_EQ(map.at(0, 1)[0], 38);  // 128 - 127 / √2: v = 0 is below, and a surface that rises faces back
+    EXPECT_EQ(map.at(0, 1)[0], 38);  // 128 - 127 / √2: v = 0 is at the bottom, and a rising surface faces back
     EXPECT_EQ(map.at(0, 0)[0], 128);
     EXPECT_EQ(map.at(0, 0)[2], 255);
 }

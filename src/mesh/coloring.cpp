@@ -14,7 +14,7 @@ constexpr std::uint8_t overflow_color = word_colors;
 
 using ColorCounts = std::array<std::uint32_t, word_colors + 1>;  // the overflow last
 
-/// The first color that no particle of a row has yet, row by row.
+/// The first color that no particle of a constraint has yet, constraint by constraint.
 std::vector<std::uint8_t> first_fit(std::span<const std::uint32_t> particles, std::size_t arity,
                                     std::uint32_t particle_count, std::uint32_t max_colors) {
     ColorPool pool(particle_count, max_colors);
@@ -48,7 +48,8 @@ Coloring color_rows(std::span<const std::uint32_t> particles, std::uint32_t arit
     ColorCounts count{};
     for (const std::uint8_t c : color) ++count[c];
 
-    // Where each color's rows go; small colors share the place of the overflow, so that it stays in row order.
+    // Where the constraints of each color go. Small colors go to the overflow, which keeps the order of the
+    // constraints.
     Coloring coloring{.order = std::vector<std::uint32_t>(color.size()), .color_begin = {0}};
     std::array<std::uint8_t, word_colors + 1> place_of_color;
     std::array<std::uint32_t, word_colors + 1> place{};

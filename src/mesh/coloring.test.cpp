@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<std::uint32_t>;
 
-/// Every row once, ascending within colors and overflow, no particle in two rows of a color.
+/// Every constraint once, ascending within colors and overflow, no particle in two constraints of a color.
 void expect_valid(const Coloring& coloring, const Rows& particles, std::uint32_t arity, std::uint32_t particle_count,
                   const ColoringOptions& options = {}) {
     const std::size_t row_count = particles.size() / arity;
@@ -110,7 +110,7 @@ TEST(Coloring, stars_overflow) {
     EXPECT_EQ(coloring.color_count(), 64u);
     EXPECT_EQ(coloring.overflow, stars * (valence - 64));
 
-    // One star alone has one row per color: too few for any color.
+    // A single star has one constraint per color: too few for any color.
     const Rows star(rows.begin(), rows.begin() + 2 * valence);
     EXPECT_EQ(color_rows(star, 2, 101).overflow, valence);
     EXPECT_EQ(color_rows(star, 2, 101, {.min_rows = 1}).overflow, valence - 64);
@@ -118,7 +118,7 @@ TEST(Coloring, stars_overflow) {
 }
 
 TEST(Coloring, small_color_leaves_no_hole) {
-    // Colors of 3, 1 and 2 rows: the middle one goes.
+    // Colors of 3, 1 and 2 constraints: the middle one goes to the overflow.
     const Rows rows{0, 1, 0, 2, 1, 2, 3, 4, 5, 6};
     const Coloring all = color_rows(rows, 2, 7, {.min_rows = 1});
     EXPECT_EQ(all.color_begin, (Rows{0, 3, 4, 5}));

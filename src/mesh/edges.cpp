@@ -20,8 +20,8 @@ std::uint32_t opposite(const Triangle& t, const Edge& e) {
 }  // namespace
 
 EdgeList build_edges(std::span<const Triangle> triangles, std::uint32_t particle_count) {
-    // Grouped by the lower end and sorted by (upper end, triangle) inside each group. A group has only a handful of
-    // items, so this beats sorting all keys at once; a hub of great valence merely makes one long group.
+    // Groups the sides by their lower end and sorts each group by (upper end, triangle). Most groups have only a few
+    // items, so this is faster than sorting all keys at once. A vertex with very many edges makes one long group.
     auto sides = group_items<std::uint64_t>(particle_count, [&](auto put) {
         for (std::uint32_t i = 0; i < triangles.size(); ++i) {
             const auto [p, q, r] = triangles[i];

@@ -1,4 +1,4 @@
-// Unique edges of a triangle list, and the hinges across them.
+// The unique edges of a triangle list, and its hinges.
 #pragma once
 
 #include "mesh/topology.h"
@@ -23,8 +23,8 @@ struct HingeList {
     std::uint32_t inconsistent = 0;  ///< hinges whose two triangles wind the edge the same way
 };
 
-/// One hinge per edge with exactly two triangles. Where the two wind the edge the same way, the first of them is right
-/// and the second is taken as turned over, so that the two wings still lie on different sides: flat is flat.
+/// One hinge per edge with exactly two triangles. If both wind the edge the same way, the second is treated as flipped,
+/// so that the two opposite corners lie on different sides of the edge and a flat hinge has angle 0.
 HingeList build_hinges(const EdgeList& edges, std::span<const Triangle> triangles);
 
 struct EdgesAndHinges {
@@ -32,10 +32,11 @@ struct EdgesAndHinges {
     HingeList hinges;
 };
 
-/// Another way to the very lists that build_edges and build_hinges give. Empty: those themselves.
+/// Replaces build_edges and build_hinges; must return the same lists. Empty: uses those two functions.
 using FindEdges = std::function<Result<EdgesAndHinges>(std::span<const Triangle>, std::uint32_t particle_count)>;
 
-/// As in topology.h, with edges and hinges found this way: twice, if particles are reordered. Fails where it fails.
+/// As in topology.h, but finds edges and hinges with `find`. Calls it twice if it reorders the particles, and returns
+/// the errors that `find` returns.
 Result<Topology> build_topology(const TriangleMesh& mesh, const TopologyOptions& options, const FindEdges& find);
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Groups items by a small integer in linear time: the base of edges, adjacency and duplicate search.
+// Groups items by a small integer in linear time. Edges, adjacency and the search for duplicates use it.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct Groups {
     std::vector<Item> items;
 };
 
-/// A stable counting sort. `produce(put)` must call `put(group, item)` once per item; it is called twice, first to
-/// count and then to fill, and must say the same both times. Fewer than 2³² items.
+/// A stable counting sort. `produce(put)` must call `put(group, item)` once per item. It is called twice, first to
+/// count and then to fill, and must make the same calls both times. Fewer than 2³² items.
 template <class Item, class Produce>
 Groups<Item> group_items(std::uint32_t group_count, Produce&& produce) {
     Groups<Item> groups;

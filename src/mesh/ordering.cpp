@@ -8,21 +8,21 @@
 namespace weft {
 namespace {
 
-// Files often come in a good order already: grids row by row, meshes from a modeler's or an optimizer's cache-aware
-// export. Renumbering those wins nothing and moves every particle away from where its file put it, so the order of the
-// file stays unless the new one is shorter by clearly more than the noise between orders of the same quality. The mean
-// span says nothing about streams: a sheet in row order runs through memory along a few parallel lines, which caches
-// like as much as a short span. Who knows the order to be of that kind switches TopologyOptions::reorder off.
+// Files are often in a good order already: grids row by row, or meshes that a modeler or an optimizer exported in a
+// cache-aware order. Renumbering those gains nothing and only separates particle numbers from the file's numbers, so
+// the file's order stays unless the new mean span is clearly shorter than the noise between orders of equal quality.
+// The mean span does not measure streaming access: a sheet in row order is read along a few parallel lines, which is as
+// fast as a short span. For a mesh with such an order, switch TopologyOptions::reorder off.
 constexpr double worthwhile_ratio = 0.9;
 
-// Each sweep makes the start more peripheral or ends the search; two or three do in practice. The bound keeps odd
-// graphs linear.
+// Each sweep moves the start further out or ends the search; two or three are enough in practice. The bound keeps the
+// time linear for unusual graphs.
 constexpr int max_peripheral_sweeps = 8;
 
 /// Neighbors of each particle, ascending.
 Groups<std::uint32_t> neighbors_of(std::span<const Edge> edges, std::uint32_t particle_count) {
     return group_items<std::uint32_t>(particle_count, [&](auto put) {
-        // Both ends in one pass stay sorted: the edges (*, v) come before the edges (v, *).
+        // One pass over both ends keeps the neighbors sorted: the edges (*, v) come before the edges (v, *).
         for (const Edge& e : edges) put(e.a, e.b), put(e.b, e.a);
     });
 }
@@ -36,7 +36,7 @@ class Walker {
 
     bool placed(std::uint32_t particle) const { return seen_[particle] == placed_mark; }
 
-    /// A particle far from everything in the component of `start`, which no walk has placed yet.
+    /// A particle at the periphery of the component of `start`. The component must not be placed yet.
     std::uint32_t pseudo_peripheral(std::uint32_t start) {
         std::uint32_t depth = 0;
         for (int sweep = 0; sweep < max_peripheral_sweeps; ++sweep) {
@@ -102,7 +102,7 @@ class Walker {
     }
 
     Groups<std::uint32_t> neighbors_;
-    std::vector<std::uint32_t> seen_;  ///< the last walk that came by, or placed_mark
+    std::vector<std::uint32_t> seen_;  ///< the last walk that visited the particle, or placed_mark
     std::vector<std::uint32_t> queue_;
     std::uint32_t walk_ = 0;
 };

@@ -1,4 +1,4 @@
-// The order of the particles in memory: neighbors close together, so that a gather finds them in the cache.
+// Orders the particles in memory so that neighbors are close together and gathers hit the cache.
 #pragma once
 
 #include "mesh/topology.h"
@@ -17,7 +17,7 @@ double mean_edge_span(std::span<const Edge> edges);
 /// particles and stay contiguous. Deterministic. `edges` sorted by (a, b), as build_edges gives them.
 std::vector<std::uint32_t> reverse_cuthill_mckee(std::span<const Edge> edges, std::uint32_t particle_count);
 
-/// Old number -> new number if that is worth it, else empty: keep the order there is.
+/// Old number -> new number; empty if the present order is good enough.
 std::vector<std::uint32_t> better_order(std::span<const Edge> edges, std::uint32_t particle_count);
 
 }  // namespace weft

@@ -93,7 +93,7 @@ TEST(Ordering, turned_grid_does_not_stay) {
 }
 
 TEST(Ordering, components_stay_together_and_in_order) {
-    // {0, 3, 5}, {1, 4} and 2 alone.
+    // Components {0, 3, 5}, {1, 4} and {2}.
     const auto edges = graph({{0, 3}, {3, 5}, {1, 4}});
     const Numbers order = reverse_cuthill_mckee(edges, 6);
     EXPECT_TRUE(is_permutation_of_all(order));

@@ -10,10 +10,11 @@ namespace {
 
 constexpr std::uint32_t nothing = 0xFFFFFFFF;
 
-// Beyond this a path has a corner, and what is at its one end says little about the other: cos 45°.
+// cos 45°. At a sharper turn the path ends: the links on the two sides of a corner influence each other little.
 constexpr double straight_enough = 0.7071;
 
-// With more links than this at a point no two of them stand out, and to try all pairs would take long.
+// At a point with more links, all paths end: no two links clearly continue each other, and trying all pairs would be
+// slow.
 constexpr std::size_t most_links_at_a_point = 32;
 
 // The links at every point, ascending: 2·link + end, where end 0 is the link's first point.
@@ -38,7 +39,7 @@ struct Turn {
     std::uint32_t a, b;
 };
 
-// Few, nearly always: then a sort that asks for no memory.
+// Nearly always there are few turns; an insertion sort then needs no allocation.
 void sort_by_cosine(std::vector<Turn>& turns) {
     constexpr std::size_t few = 16;
     if (turns.size() > few) {
@@ -53,7 +54,7 @@ void sort_by_cosine(std::vector<Turn>& turns) {
     }
 }
 
-// For each end the one that a path goes on with, or `nothing`.
+// For each link end, the link end at which the path continues, or `nothing`.
 std::vector<std::uint32_t> join_ends(std::span<const std::uint32_t> points, std::span<const Vec3> positions) {
     const LinkEnds ends(points, positions.size());
     std::vector<std::uint32_t> partner(points.size(), nothing);
@@ -91,9 +92,9 @@ class PathWriter {
     PathWriter(std::span<const std::uint32_t> points, std::size_t point_count, std::uint32_t max_length)
         : points_(points), seen_in_(point_count, nothing), max_length_(max_length) {}
 
-    /// Cuts a trail into paths. It lists the ends at which its links are entered.
+    /// Cuts a trail into paths. A trail lists the ends at which its links are entered.
     void write(std::span<const std::uint32_t> trail) {
-        // `pieces` of them and the links between: so many that no piece is too long.
+        // Cuts into `pieces` paths with single links between them: the smallest number for which no piece is too long.
         const std::size_t pieces = (trail.size() + 1 + max_length_) / (max_length_ + std::size_t{1});
         for (std::size_t piece = 0; piece < pieces; ++piece) {
             const std::size_t begin = (trail.size() + 1) * piece / pieces;
@@ -148,7 +149,7 @@ Paths find_paths(std::span<const std::uint32_t> points, std::span<const Vec3> po
     for (std::uint32_t link_end = 0; link_end < points.size(); ++link_end) {
         if (partner[link_end] == nothing && !done[link_end / 2]) follow(link_end);
     }
-    // What is left runs in circles.
+    // The links that remain form closed loops.
     for (std::uint32_t link_end = 0; link_end < points.size(); ++link_end) {
         if (!done[link_end / 2]) follow(link_end);
     }

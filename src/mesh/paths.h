@@ -1,4 +1,4 @@
-// Straight lines through a mesh: edges that follow one another.
+// Nearly straight lines through a mesh: chains of consecutive edges.
 #pragma once
 
 #include <weft/vector.h>
@@ -9,8 +9,8 @@
 
 namespace weft {
 
-/// Path i visits the links `links[offsets[i]] … links[offsets[i + 1] - 1]` in this order. Each is entered at its first
-/// point, or at its second where `turned` says so, and left at the other, where the next one begins.
+/// Path i visits the links `links[offsets[i]] … links[offsets[i + 1] - 1]` in this order. It enters each link at the
+/// link's first point, or at its second if `turned` is set, and leaves it at the other, where the next link begins.
 struct Paths {
     std::vector<std::uint32_t> offsets = {0};
     std::vector<std::uint32_t> links;
@@ -20,10 +20,10 @@ struct Paths {
     std::uint32_t length(std::uint32_t path) const { return offsets[path + 1] - offsets[path]; }
 };
 
-/// Puts every link (two points each, in `points`) into exactly one path. At each point the two links that go on most
-/// nearly straight belong to one path, then the next two, up to turns of 45°; points with very many links end all
-/// paths. No path visits a point twice, and none is longer than `max_length` links: longer ones are cut into equal
-/// pieces that share no points, with a path of one link from each to the next. Deterministic.
+/// Puts every link (two points each, in `points`) into exactly one path. At each point the two links that continue each
+/// other most nearly straight belong to one path, then the next two, up to turns of 45°. Points with very many links
+/// end all paths. No path visits a point twice or is longer than `max_length` links. Longer ones are cut into equal
+/// pieces that share no points, and a path of one link connects each piece to the next. Deterministic.
 Paths find_paths(std::span<const std::uint32_t> points, std::span<const Vec3> positions, std::uint32_t max_length);
 
 }  // namespace weft

@@ -29,7 +29,7 @@ void reserve(TriangleMesh& mesh, std::size_t vertices, std::size_t triangles) {
     mesh.triangles.reserve(triangles);
 }
 
-/// In doubles, so that the vertices of the last cut are as round as those of the first.
+/// In doubles, so that every subdivision places its vertices on the sphere with the same accuracy.
 struct Direction {
     double x, y, z;
 };
@@ -47,8 +47,8 @@ struct UnitSphere {
 
 UnitSphere make_icosahedron() {
     UnitSphere sphere;
-    // Two rings of five between the poles, the lower one turned by 36°. Cosines and sines of its multiples through
-    // square roots, which are the same on every machine.
+    // Two rings of five corners between the poles, the lower one turned by 36°. Cosines and sines of multiples of 36°
+    // come from square roots, which give the same bits on every machine.
     const double root5 = std::sqrt(5.0), height = 1 / root5, radius = 2 * height;
     const double cos36 = (root5 + 1) / 4, cos72 = (root5 - 1) / 4;
     const double sin36 = std::sqrt(10 - 2 * root5) / 4, sin72 = std::sqrt(10 + 2 * root5) / 4;
@@ -69,9 +69,9 @@ UnitSphere make_icosahedron() {
     return sphere;
 }
 
-/// Cuts every triangle into four at the middles of its sides, which are moved out to the sphere.
+/// Cuts every triangle into four at the midpoints of its sides and moves the midpoints onto the sphere.
 void subdivide(UnitSphere& sphere) {
-    std::unordered_map<std::uint64_t, std::uint32_t> middles;  // only looked up: its order decides nothing
+    std::unordered_map<std::uint64_t, std::uint32_t> middles;  // only looked up, so its order does not matter
     middles.reserve(sphere.triangles.size() * 3 / 2);
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
         const std::uint64_t side = a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
@@ -88,7 +88,7 @@ void subdivide(UnitSphere& sphere) {
     sphere.triangles = std::move(cut);
 }
 
-/// The points of a box's lattice that lie on its surface, and their numbers.
+/// Numbers the points of a box's lattice that lie on its surface.
 class BoxShell {
   public:
     explicit BoxShell(std::array<std::uint32_t, 3> cells) : cells_(cells) {}

@@ -1,4 +1,4 @@
-// Meshes made from numbers.
+// Procedural meshes: grids, spheres and boxes.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -20,9 +20,9 @@ TriangleMesh make_grid(std::array<float, 2> size, std::array<std::uint32_t, 2> r
 TriangleMesh make_sphere(float radius, std::uint32_t subdivisions);
 
 /// A box around the origin. `resolution` counts vertices along x, y and z, each at least 2; faces share the vertices of
-/// the box's edges. Vertices lie layer by layer from the bottom up, in a layer row by row along z, in a row along x.
-/// Cells are cut in a checkerboard of both directions. No UVs or normals: a shared vertex has no one of its own.
-/// `size` in m, > 0.
+/// the box's edges. Vertices are ordered layer by layer from the bottom up, within a layer row by row along z, within a
+/// row along x. The diagonals of the cells alternate like a checkerboard. No UVs or normals: a shared vertex has no
+/// unique one. `size` in m, > 0.
 TriangleMesh make_box(std::array<float, 3> size, std::array<std::uint32_t, 3> resolution);
 
 }  // namespace weft

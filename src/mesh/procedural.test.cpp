@@ -121,8 +121,8 @@ Measure measure(const TriangleMesh& mesh) {
     return sum;
 }
 
-/// Each vertex is a particle of its own, each edge has two triangles that wind it in opposite ways, and the whole is
-/// one piece without handles (Euler: V - E + F = 2).
+/// Each vertex is a separate particle, each edge has two triangles that wind it in opposite ways, and the mesh is one
+/// piece without handles (Euler: V - E + F = 2).
 void expect_closed_and_welded(const TriangleMesh& mesh) {
     const auto topology = build_topology(mesh);
     ASSERT_TRUE(topology.ok());
@@ -159,7 +159,8 @@ TEST(Sphere, comes_to_the_area_and_volume_of_the_ball_from_within) {
     double missing_area = area, missing_volume = volume;
     for (std::uint32_t subdivisions = 0; subdivisions <= 6; ++subdivisions) {
         const Measure ball = measure(make_sphere(0.5f, subdivisions));
-        // Flat triangles lack a part that falls with the square of their size: to a quarter with each cut.
+        // Flat triangles miss a part of area and volume proportional to the square of their size: a quarter after each
+        // cut.
         const double at_most = subdivisions == 0 ? 0.5 : 0.35;
         EXPECT_GT(area - ball.area, 0);
         EXPECT_GT(volume - ball.volume, 0);

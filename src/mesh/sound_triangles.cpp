@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-// In double: the fourth power of a float's range fits.
+// In double, which can hold the fourth power of any float.
 struct Difference {
     double x, y, z;
     Difference(Vec3 a, Vec3 b) : x(double{a.x} - b.x), y(double{a.y} - b.y), z(double{a.z} - b.z) {}

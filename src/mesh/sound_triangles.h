@@ -1,4 +1,4 @@
-// The triangles of a drawn mesh that the simulation can use: none without area, none twice.
+// Selects the triangles of a render mesh that the simulation can use: no zero-area triangles, no duplicates.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -9,12 +9,12 @@
 
 namespace weft {
 
-/// A triangle whose height over its longest side is at most this fraction of that side has no area. Wide enough to
-/// catch three corners on a line after their rounding to float (relative 6e-8 a coordinate), and a thousand times
-/// thinner than slivers that scanned and decimated meshes hold on purpose.
+/// A triangle counts as zero-area if its height over its longest side is at most this fraction of that side. The limit
+/// is large enough to catch three collinear corners after rounding to float (relative 6e-8 per coordinate), and a
+/// thousand times thinner than the slivers that scanned and decimated meshes contain on purpose.
 inline constexpr double zero_area_ratio = 1e-6;
 
-/// True with two equal corners too.
+/// Also true if two corners are equal.
 bool has_zero_area(Vec3 a, Vec3 b, Vec3 c);
 
 struct SoundTriangles {

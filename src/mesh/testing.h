@@ -1,4 +1,4 @@
-// Meshes that nobody would make and everybody may meet. Tests only.
+// Degenerate meshes. Tests only.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -8,7 +8,7 @@
 
 namespace weft::testing_meshes {
 
-/// With three vertices of its own.
+/// Adds a triangle with three new vertices.
 inline void add_triangle(TriangleMesh& mesh, Vec3 a, Vec3 b, Vec3 c) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {a, b, c});
@@ -27,7 +27,7 @@ inline TriangleMesh fan(std::uint32_t rim) {
     return mesh;
 }
 
-/// An edge, vertices 0 and 1, that many strips share, each two by `rows` vertices.
+/// `pages` strips of 2 × `rows` vertices that share one edge, vertices 0 and 1.
 inline TriangleMesh book(std::uint32_t pages, std::uint32_t rows) {
     TriangleMesh mesh;
     mesh.positions = {{0, 0, 0}, {0, 0, 0.1f}};
@@ -46,7 +46,7 @@ inline TriangleMesh book(std::uint32_t pages, std::uint32_t rows) {
     return mesh;
 }
 
-/// Triangles that nothing connects.
+/// Disconnected triangles.
 inline TriangleMesh pieces(std::uint32_t count) {
     TriangleMesh mesh;
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -16,7 +16,7 @@
 namespace weft {
 namespace {
 
-// Sides of triangles are counted in 32 bits.
+// The sides of all triangles are numbered in 32 bits.
 constexpr std::size_t max_triangles = none / 3;
 
 std::string text_of(float value) {
@@ -66,7 +66,7 @@ std::vector<Triangle> mapped(std::span<const Triangle> triangles, std::span<cons
     return result;
 }
 
-/// Welded vertex -> particle, in welded order, for those that a triangle uses; `none` for the others.
+/// Welded vertex -> particle, in welded order, for vertices that a triangle uses; `none` for the others.
 std::vector<std::uint32_t> number_used(std::span<const Triangle> triangles, std::size_t welded_count,
                                        std::uint32_t& particle_count) {
     std::vector<std::uint32_t> number(welded_count, none);
@@ -78,7 +78,7 @@ std::vector<std::uint32_t> number_used(std::span<const Triangle> triangles, std:
     return number;
 }
 
-/// The rows at each particle, ascending; `ends(row)` gives the particles of a row.
+/// The elements at each particle, ascending; `ends(element)` returns the particles of an element.
 template <class Row, class Ends>
 Adjacency adjacency_of(std::span<const Row> rows, std::uint32_t particle_count, Ends ends) {
     auto groups = group_items<std::uint32_t>(particle_count, [&](auto put) {
@@ -88,7 +88,7 @@ Adjacency adjacency_of(std::span<const Row> rows, std::uint32_t particle_count, 
     return {std::move(groups.offsets), std::move(groups.items)};
 }
 
-/// Finds edges, and then the hinges of those that it found last.
+/// Finds edges, and then the hinges of the edges it found last.
 class EdgeFinder {
   public:
     explicit EdgeFinder(const FindEdges& other) : other_(other) {}
@@ -106,10 +106,10 @@ class EdgeFinder {
 
   private:
     const FindEdges& other_;
-    HingeList hinges_;  // of the other way, which finds both at once
+    HingeList hinges_;  // from `other_`, which finds edges and hinges together
 };
 
-/// Everything that follows from the triangles, the edges and the hinges.
+/// Fills everything that follows from the triangles, the edges and the hinges.
 void derive(Topology& topology, EdgeList edges, HingeList hinges) {
     topology.report.non_manifold_edges = static_cast<std::uint32_t>(edges.non_manifold.size());
     topology.report.inconsistent_edges = hinges.inconsistent;
@@ -127,7 +127,7 @@ void derive(Topology& topology, EdgeList edges, HingeList hinges) {
         if (e.triangle1 == none) topology.boundary[e.a] = topology.boundary[e.b] = 1;
 }
 
-/// The maps to particles, and what stands still.
+/// Fills the rest positions, the map from vertices to particles, and the counts of welded and isolated vertices.
 void place_vertices(Topology& topology, const TriangleMesh& mesh, const Weld& weld) {
     topology.rest_positions.resize(topology.particle_count);
     for (std::size_t welded = 0; welded < topology.welded_to_particle.size(); ++welded)

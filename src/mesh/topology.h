@@ -1,4 +1,4 @@
-// The simulated mesh: particles, edges, hinges and their neighborhoods, derived from a drawn mesh.
+// The simulated mesh, derived from a render mesh: particles, edges, hinges and adjacency.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -11,7 +11,8 @@
 
 namespace weft {
 
-/// A unique edge, a < b, and its one or two triangles, ascending (`none` where there is none; the first two of more).
+/// A unique edge, a < b, and its triangles, ascending: `none` if there is no second one, the first two if there are
+/// more.
 struct Edge {
     std::uint32_t a, b;
     std::uint32_t triangle0, triangle1;
@@ -25,8 +26,8 @@ struct Edge {
 ///      a---b      c lies left of it and d right
 ///       \ /
 ///        d
-/// \endcode
-/// Where both wind the edge the same way, the one with the higher index is taken as turned over: flat is flat.
+/// \endcode If both wind the edge the same way, the one with the higher index is treated as flipped, so a flat hinge
+/// has angle 0.
 struct Hinge {
     std::uint32_t a, b, c, d;            ///< a < b, those of the edge
     std::uint32_t edge;                  ///< index into Topology::edges
@@ -45,10 +46,10 @@ struct Adjacency {
     }
 };
 
-/// What building found wrong and survived. Nothing is dropped silently: these counts are reported.
+/// Counts of the defects that build_topology() repaired or tolerated.
 struct TopologyReport {
-    std::uint32_t welded_vertices = 0;       ///< drawn vertices merged into another
-    std::uint32_t isolated_vertices = 0;     ///< drawn vertices that no kept triangle uses: they stay where they are
+    std::uint32_t welded_vertices = 0;       ///< render vertices merged into another
+    std::uint32_t isolated_vertices = 0;     ///< render vertices that no kept triangle uses: they never move
     std::uint32_t degenerate_triangles = 0;  ///< left out: two corners the same, or zero area (sound_triangles.h)
     std::uint32_t duplicate_triangles = 0;   ///< left out: the same three particles as an earlier one
     std::uint32_t non_manifold_edges = 0;    ///< kept as edges without a hinge: three or more triangles
@@ -59,14 +60,14 @@ struct Topology {
     std::uint32_t particle_count = 0;
     std::vector<Vec3> rest_positions;            ///< per particle, m
     std::vector<Triangle> triangles;             ///< kept triangles, in particles
-    std::vector<std::uint32_t> source_triangle;  ///< kept triangle -> triangle of the drawn mesh
+    std::vector<std::uint32_t> source_triangle;  ///< kept triangle -> triangle of the render mesh
     std::vector<Edge> edges;                     ///< sorted by (a, b)
     std::vector<Hinge> hinges;                   ///< in the order of their edges
 
-    /// drawn vertex -> particle, or `none` for an isolated one
+    /// render vertex -> particle, or `none` for an isolated one
     std::vector<std::uint32_t> vertex_to_particle;
-    /// welded vertex -> particle. Welded vertices are numbered by their first appearance among the drawn vertices; this
-    /// is the number that a scene's pins use. `none` for an isolated one.
+    /// welded vertex -> particle, or `none` for an isolated one. Welded vertices are numbered by their first appearance
+    /// among the render vertices; a scene's pins use these numbers.
     std::vector<std::uint32_t> welded_to_particle;
 
     Adjacency particle_edges;            ///< edges at a particle, ascending
@@ -77,16 +78,16 @@ struct Topology {
 };
 
 struct TopologyOptions {
-    /// m, >= 0: a vertex joins the first one no farther away than this. 0 welds only equal positions.
+    /// m, >= 0: a vertex is merged into the first one that is no farther away than this. 0 merges only equal positions.
     float weld_distance = 0;
-    /// Renumber particles for locality if that brings neighbors clearly closer than the file's own order.
+    /// Renumber particles for locality if neighbors then get clearly closer than in the file's order.
     bool reorder = true;
 };
 
-/// Fails on no triangles at all (or none with an area), non-finite positions, indices out of range, and a weld distance
-/// that is not >= 0. One error per kind; `where` is the first such vertex ("vertex 12") or triangle ("triangle 7").
-/// Everything else is reported and survived. Particles are numbered in welded order, without the isolated ones, unless
-/// they are reordered; triangles stay in the order of the mesh.
+/// Fails if there are no triangles (or none with an area), positions are not finite, indices are out of range, or the
+/// weld distance is not >= 0. One error per kind; `where` is the first such vertex ("vertex 12") or triangle ("triangle
+/// 7"). Counts all other defects in the report and continues. Particles are numbered in welded order, without the
+/// isolated ones, unless they are reordered; triangles stay in the order of the mesh.
 Result<Topology> build_topology(const TriangleMesh& mesh, const TopologyOptions& options = {});
 
 }  // namespace weft

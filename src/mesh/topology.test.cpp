@@ -39,7 +39,8 @@ TriangleMesh octahedron() {
                  {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
 }
 
-/// An octahedron with each triangle cut in four `levels` times. Every triangle has its own vertices, as in an STL file.
+/// An octahedron whose triangles are cut in four `levels` times. Every triangle has its own vertices, as in an STL
+/// file.
 TriangleMesh sphere_soup(int levels) {
     std::vector<std::array<Vec3, 3>> faces;
     const TriangleMesh start = octahedron();
@@ -75,7 +76,7 @@ bool winds(const Triangle& t, std::uint32_t a, std::uint32_t b, std::uint32_t c)
     return t == Triangle{a, b, c} || t == Triangle{b, c, a} || t == Triangle{c, a, b};
 }
 
-/// What holds for the topology of any mesh whatsoever.
+/// Checks what holds for the topology of any mesh.
 void expect_sound(const Topology& t, const TriangleMesh& mesh) {
     ASSERT_EQ(t.rest_positions.size(), t.particle_count);
     ASSERT_EQ(t.boundary.size(), t.particle_count);
@@ -131,7 +132,7 @@ void expect_sound(const Topology& t, const TriangleMesh& mesh) {
         const bool right = winds(t.triangles[h.triangle1], h.b, h.a, h.d);
         EXPECT_TRUE(left || winds(t.triangles[h.triangle0], h.b, h.a, h.c));
         EXPECT_TRUE(right || winds(t.triangles[h.triangle1], h.a, h.b, h.d));
-        // At most one is turned over, and never the first.
+        // At most one is flipped, and never the first.
         EXPECT_TRUE(h.triangle0 < h.triangle1 ? left : right);
         inconsistent += !(left && right);
     }
@@ -162,7 +163,7 @@ TEST(Topology, single_triangle) {
 }
 
 TEST(Topology, hinge_picture) {
-    // The picture in topology.h: a left, b right, c above and d below, seen from +z.
+    // As drawn in topology.h: a left, b right, c above and d below, seen from +z.
     const TriangleMesh mesh = drawn({{0, 0, 0}, {1, 0, 0}, {0.5f, 1, 0}, {0.5f, -1, 0}}, {{1, 0, 3}, {2, 0, 1}});
     const Topology t = built(mesh, {.reorder = false});
     EXPECT_EQ(t.hinges, (std::vector<Hinge>{{0, 1, 2, 3, 0, 1, 0}}));
@@ -210,7 +211,7 @@ std::array<float, 3> key(Vec3 p) {
     return {p.x, p.y, p.z};
 }
 
-/// The hinges in terms of positions alone, free of any numbering.
+/// The hinges as positions, independent of the numbering.
 std::multiset<std::array<std::array<float, 3>, 4>> hinges_by_place(const Topology& t) {
     std::multiset<std::array<std::array<float, 3>, 4>> places;
     for (Hinge h : t.hinges) {
@@ -242,7 +243,7 @@ TEST(Topology, numbering_of_the_file_does_not_matter) {
         expect_sound(t, other);
         EXPECT_EQ(t.edges.size(), plain.edges.size());
         EXPECT_EQ(hinges_by_place(t), hinges_by_place(plain));
-        // The shuffled numbers are replaced by ones about as good as the original.
+        // Reordering replaces the shuffled numbers by ones about as good as the original.
         double span = 0, plain_span = 0;
         for (const Edge& e : t.edges) span += e.b - e.a;
         for (const Edge& e : plain.edges) plain_span += e.b - e.a;

@@ -1,4 +1,4 @@
-// Triangles that are stored as one array per corner, read one by one.
+// Reads triangles that are stored as one array per corner.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -9,10 +9,10 @@
 
 namespace weft {
 
-/// Topology versions count from here. A version is another one whenever triangles have changed.
+/// The first topology version. The version changes whenever triangles change.
 inline constexpr std::uint64_t first_topology_version = 1;
 
-/// Does not own what it shows. Corner k of triangle t is corners[k · stride + t].
+/// Does not own the arrays. Corner k of triangle t is corners[k · stride + t].
 class TriangleView {
   public:
     class Iterator {

@@ -7,7 +7,7 @@ namespace weft {
 std::array<float, 2> uv_meters(std::span<const Vec3> positions, std::span<const Vec2> uvs,
                                std::span<const Triangle> triangles) {
     if (uvs.empty()) return {1, 1};
-    // In UVs a triangle whose height is less than this part of its side is a line, and says nothing of the other way.
+    // A UV triangle whose height is less than this part of its side is a line and gives no scale across that line.
     constexpr double flattest = 1e-6;
     double along_u = 0, along_v = 0, area = 0;
     for (const auto& [a, b, c] : triangles) {
@@ -16,7 +16,7 @@ std::array<float, 2> uv_meters(std::span<const Vec3> positions, std::span<const 
         const double determinant = double{d1.x} * d2.y - double{d1.y} * d2.x;
         const double largest = double{d1.x} * d1.x + double{d1.y} * d1.y + double{d2.x} * d2.x + double{d2.y} * d2.y;
         if (!(std::abs(determinant) > flattest * largest)) continue;
-        // Solved for the tangents; times the determinant, which is divided out of their lengths.
+        // Solves for the tangents times the determinant, then divides their lengths by the determinant.
         const auto length_of = [&](double f1, double f2) {
             const double x = e1.x * f1 + e2.x * f2, y = e1.y * f1 + e2.y * f2, z = e1.z * f1 + e2.z * f2;
             return std::sqrt(x * x + y * y + z * z) / std::abs(determinant);

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-// The last steps of MurmurHash3 (Appleby, public domain): every input bit reaches the low bits that the mask keeps.
+// The last steps of MurmurHash3 (Appleby, public domain): every input bit affects the low bits that the mask keeps.
 std::uint64_t scramble(std::uint64_t h) {
     h = (h ^ (h >> 33)) * 0xff51afd7ed558ccdull;
     h = (h ^ (h >> 33)) * 0xc4ceb9fe1a85ec53ull;
@@ -52,15 +52,16 @@ double squared_distance(Vec3 a, Vec3 b) {
 }
 
 // A hash of the cells that kept vertices lie in. Cells are numbered in doubles, so no distance can overflow them. Two
-// coordinates at most `distance` apart lie in the same cell or in neighbors:
-// up to cell number 2^25 because the cells are wider than the distance by far more than a double's rounding,
-// beyond it because floats there are more than `distance` apart unless they are equal.
+// coordinates at most `distance` apart lie in the same cell or in neighboring cells: up to cell number 2^25 because a
+// cell is wider than the distance by far more than the rounding of a double; beyond it because floats there are more
+// than `distance` apart unless they are equal.
 class CellGrid {
   public:
     CellGrid(std::size_t vertex_count, float distance)
         : inverse_width_(1.0 / (double{distance} * (1 + 0x1p-20))), heads_(table_size(vertex_count), none) {}
 
-    /// Calls `visit(welded)` for every kept vertex in the 27 cells around `p`, and perhaps for others, in no set order.
+    /// Calls `visit(welded)` for every kept vertex in the 27 cells around `p`, and possibly for others, in unspecified
+    /// order.
     template <class Visit>
     void visit_near(Vec3 p, Visit visit) const {
         const std::array<double, 3> cell = cell_of(p);

@@ -1,4 +1,4 @@
-// Welding: drawn vertices in the same place become one point of the simulated mesh.
+// Welding: render vertices at the same place become one point of the simulated mesh.
 #pragma once
 
 #include <weft/vector.h>
@@ -10,16 +10,16 @@
 namespace weft {
 
 struct Weld {
-    /// Drawn vertex -> welded vertex. Welded vertices are numbered by first appearance.
+    /// Render vertex -> welded vertex. Welded vertices are numbered by first appearance.
     std::vector<std::uint32_t> vertex_to_welded;
-    /// Welded vertex -> the first drawn vertex of it, whose position it has. Ascending.
+    /// Welded vertex -> its first render vertex, whose position it takes. Ascending.
     std::vector<std::uint32_t> first_vertex;
 };
 
-/// In order of their numbers, each vertex joins the earliest kept vertex no farther away than `distance` (m), or is
-/// kept itself. So two kept vertices are always farther apart than `distance`, and chains of near vertices do not
-/// collapse into one point. With 0 only equal positions join (-0 equals +0). Positions must be finite; `distance` >= 0,
-/// and may be infinite. Linear in the number of vertices for every distance.
+/// In order of their numbers, each vertex is merged into the earliest kept vertex no farther away than `distance` (m),
+/// or is kept. So two kept vertices are always farther apart than `distance`, and chains of near vertices do not
+/// collapse into one point. With 0 only equal positions are merged (-0 equals +0). Positions must be finite; `distance`
+/// must be >= 0 and may be infinite. Linear in the number of vertices for every distance.
 Weld weld_vertices(std::span<const Vec3> positions, float distance);
 
 }  // namespace weft

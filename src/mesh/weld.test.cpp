@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-/// The definition, word for word and in quadratic time.
+/// The definition, implemented literally in quadratic time.
 Weld weld_by_search(std::span<const Vec3> positions, float distance) {
     Weld weld;
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
@@ -94,7 +94,7 @@ TEST(Weld, distance_matches_search) {
 }
 
 TEST(Weld, distance_matches_search_far_from_the_origin) {
-    // The steps between floats are near the distance here, so cells and coordinates round alike.
+    // The spacing of floats is close to the distance here, so cells and coordinates have similar rounding errors.
     const auto points = random_points(11, 1500, 0.01f, {1e4f, -1e4f, 3});
     for (const float distance : {0.0005f, 0.000976f, 0.0009765625f, 0.001f, 0.002f}) {
         SCOPED_TRACE(distance);

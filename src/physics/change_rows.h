@@ -1,4 +1,4 @@
-// Another material for the rows of a cloth: the numbers that the builders give, without topology.
+// Recomputes the numbers of a cloth's constraints for another material, without the topology.
 #pragma once
 
 #include "physics/constraint.h"
@@ -9,25 +9,25 @@
 
 namespace weft {
 
-/// In padding, which keeps its numbers, in place of an area.
+/// Marks padding in arrays of areas. Padding keeps its numbers.
 inline constexpr float no_area = -1;
 
-/// Rows of one kind, array by array, as their builder made them for another material.
+/// Constraints of one kind, as arrays, built for another material.
 struct RowsToChange {
-    std::uint32_t stride = 0;                  ///< rows with padding
+    std::uint32_t stride = 0;                  ///< number of constraints with padding
     const std::uint32_t* particles = nullptr;  ///< [slot · stride + row]
     const float* geometry = nullptr;           ///< [number · stride + row]
     std::span<const float> left_out = {};
-    const Vec4* rest_positions = nullptr;  ///< of particles, those of padding included
+    const Vec4* rest_positions = nullptr;  ///< per particle, the dummies of padding included
     float* fields = nullptr;               ///< [field · stride + row]: read, and written where they differ
 };
 
-// Each writes the numbers that build_<kind>() gives for `material`, bit by bit. False where that would give other rows;
-// `fields` are of no use then.
+// Each function writes exactly the numbers that build_<kind>() computes for `material`. It returns false if the
+// material changes which constraints exist; `fields` are then invalid.
 bool change_stretch(const RowsToChange& rows, const StretchMaterial& material);
-/// Only for the same rest angle and the same choice of edges.
+/// The rest angle and the choice of edges must be unchanged.
 bool change_bend(const RowsToChange& rows, const BendMaterial& material);
-/// Likewise.
-bool change_flexion(const RowsToChange& rows, const FlexionMaterial& material);
+/// The rest angle and the choice of edges must be unchanged.
+bool change_distance_bend(const RowsToChange& rows, const DistanceBendMaterial& material);
 
 }  // namespace weft

@@ -13,7 +13,7 @@ namespace {
 #undef WEFT_CONSTRAINT
 #undef WEFT_FIELD_NAME
 
-// What the columns of constraints.def stand for.
+// Values of the last two columns of constraints.def.
 constexpr RowSource fabric = RowSource::model, pins = RowSource::model, level = RowSource::level,
                     links = RowSource::links, dynamic = RowSource::dynamic;
 constexpr bool damped = true, undamped = false;

@@ -1,4 +1,4 @@
-// The kinds of constraint, and their rows as the builders make them.
+// The kinds of constraint, and the lists of constraints that the builders return.
 #pragma once
 
 #include "physics/constraints.data.h"
@@ -23,40 +23,40 @@ inline constexpr std::uint32_t constraint_kind_count = 0
     ;
 #undef WEFT_CONSTRAINT
 
-/// Which table the rows of a constraint stand in.
+/// Which table holds the constraints of a kind.
 enum class RowSource : std::uint8_t {
-    model,  ///< that of each cloth's model
-    level,  ///< that of a coarse level
-    links,  ///< the island's, of constraints between cloths, whose particles are numbered over the world
-    /// A list that the passes find, place and list make anew while the world moves: how long it is, only the device
-    /// knows. It has a capacity; a frame in which it is full is run again with a larger one (ListCounts).
+    model,  ///< the table of each cloth's model
+    level,  ///< the table of a coarse level
+    links,  ///< the island's table of constraints between cloths; particles are numbered over the world
+    /// A list that the passes `find`, `place` and `list` rebuild while the world moves. Only the backend knows its
+    /// length. If a frame exceeds its capacity, the frame is repeated with a larger one (ListCounts).
     dynamic,
 };
 
 struct ConstraintInfo {
     std::string_view name;
-    std::uint32_t arity;                       ///< particles per row
-    std::uint32_t moved;                       ///< of them, how many, from the first, a row may move
-    std::uint32_t lambdas;                     ///< Lagrange multipliers per row
-    std::span<const std::string_view> fields;  ///< names of the row's numbers
+    std::uint32_t arity;                       ///< particles per constraint
+    std::uint32_t moved;                       ///< a constraint may move the first `moved` of them
+    std::uint32_t lambdas;                     ///< Lagrange multipliers per constraint
+    std::span<const std::string_view> fields;  ///< names of the constraint's numbers
     RowSource source;
     bool damped;
 };
 
 const ConstraintInfo& constraint_info(ConstraintKind kind);
 
-/// In place of a particle: the row does not use this slot. Its numbers for the slot must be such that nothing moves.
+/// Marks a slot that the constraint does not use. Its numbers for the slot must cause no motion.
 inline constexpr std::uint32_t no_particle = ~0u;
 
-/// Rows in the order in which they were built.
+/// Constraints in the order in which they were built.
 struct RowList {
     std::uint32_t arity = 0, field_count = 0;
-    std::vector<std::uint32_t> particles;  ///< arity per row
-    std::vector<float> fields;             ///< field_count per row
-    /// Of kinds whose rows change_rows.h can give another material: what of the cloth's shape the fields follow from,
-    /// and one such number for each row that the material leaves out because it has no stiffness there.
+    std::vector<std::uint32_t> particles;  ///< arity per constraint
+    std::vector<float> fields;             ///< field_count per constraint
+    /// Only for kinds that change_rows.h supports: the geometry from which the fields are computed, and in `left_out`
+    /// one geometry number for each constraint that was omitted because the material gives it no stiffness.
     std::uint32_t geometry_count = 0;
-    std::vector<float> geometry = {};  ///< geometry_count per row
+    std::vector<float> geometry = {};  ///< geometry_count per constraint
     std::vector<float> left_out = {};
 
     std::uint32_t size() const { return arity ? static_cast<std::uint32_t>(particles.size() / arity) : 0; }
@@ -68,10 +68,10 @@ struct RowList {
     }
 };
 
-/// An empty list for rows of that kind.
+/// An empty list for constraints of this kind.
 RowList make_rows(ConstraintKind kind);
 
-// One builder per kind of a model's rows: build_stretch, build_bend, …
+// One builder per kind of constraint in a model: build_stretch, build_bend, …
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                           \
     WEFT_IF_FABRIC_##source(RowList build_##name(const RestShape& rest, const Name##Material& material);) \
         WEFT_IF_PINS_##source(RowList build_##name(const RestShape& rest);)

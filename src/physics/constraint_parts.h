@@ -18,22 +18,22 @@
 #define WEFT_IF_PINS_links(...)
 #define WEFT_IF_PINS_dynamic(...)
 
-// Projected side by side too: by averaged Jacobi those of a model, and always those of dynamic lists.
+// Has a Jacobi version. Constraints of a model use it with averaged Jacobi, dynamic lists always.
 #define WEFT_IF_SIDE_BY_SIDE_fabric(...) __VA_ARGS__
 #define WEFT_IF_SIDE_BY_SIDE_pins(...) __VA_ARGS__
 #define WEFT_IF_SIDE_BY_SIDE_level(...)
 #define WEFT_IF_SIDE_BY_SIDE_links(...)
 #define WEFT_IF_SIDE_BY_SIDE_dynamic(...) __VA_ARGS__
 
-// Not in the tables of a cloth's model, which stay empty.
+// Not in a cloth's model: its table for this constraint stays empty.
 #define WEFT_IF_NOT_IN_MODEL_fabric(...)
 #define WEFT_IF_NOT_IN_MODEL_pins(...)
 #define WEFT_IF_NOT_IN_MODEL_level(...) __VA_ARGS__
 #define WEFT_IF_NOT_IN_MODEL_links(...) __VA_ARGS__
 #define WEFT_IF_NOT_IN_MODEL_dynamic(...) __VA_ARGS__
 
-// Projected by plain position-based dynamics too. Coarse levels are projected with compliance whatever the
-// method, and dynamic lists side by side.
+// Has a version for plain position-based dynamics. Coarse levels are projected with compliance for every method, and
+// dynamic lists use the Jacobi version.
 #define WEFT_IF_PLAIN_fabric(...) __VA_ARGS__
 #define WEFT_IF_PLAIN_pins(...) __VA_ARGS__
 #define WEFT_IF_PLAIN_level(...)

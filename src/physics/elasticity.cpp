@@ -9,8 +9,8 @@
 
 namespace weft {
 
-// A sheet of orthotropic material under tension in one direction, no contraction across it (Jones 1999, "Mechanics of
-// Composite Materials", section 2.6).
+// Strain of an orthotropic sheet under tension in one direction, without transverse contraction (Jones 1999, "Mechanics
+// of Composite Materials", section 2.6).
 double Elasticity::along(double cos2) const {
     const double sin2 = 1 - cos2, mixed = cos2 * sin2;
     const auto part = [](double share, double strain) { return share > 0 ? share * strain : 0; };

@@ -1,4 +1,4 @@
-// How far apart two particles can come: the ground that one-sided limits stand on.
+// Bounds on the distance between two particles; one-sided limits are computed from them.
 #pragma once
 
 #include "mesh/topology.h"
@@ -6,17 +6,18 @@
 
 namespace weft {
 
-/// What a fabric stretches by under a tension, as strain per N/m. All zeros: not at all.
+/// How a fabric stretches under tension, as strain per N/m. All zeros: inextensible.
 struct Elasticity {
     double warp = 0, weft = 0;  ///< along the threads
-    double shear = 0;           ///< of the angle between them; infinite where nothing holds it
-    /// N/m: of three times the cloth's weight, hung over its whole extent. Limits leave room for that from the
-    /// beginning. Without it they would take the load off the rows that tell how much there is.
+    double shear = 0;           ///< of the angle between them; infinite without shear stiffness
+    /// N/m: three times the weight of a strip that hangs over the cloth's whole extent. Limits always leave room for
+    /// this tension. Without that room they would take the load off the stretch constraints, from which the tension is
+    /// measured.
     double tension = 0;
 
     /// Strain per N/m along a direction at this cos² to the warp.
     double along(double cos2) const;
-    /// Strain of the softer threads under `tension`.
+    /// Strain of the softer thread direction under `tension`.
     double reserve() const;
 };
 
@@ -24,21 +25,21 @@ struct Elasticity {
 Elasticity elasticity_of(const StretchMaterial& material, float density, float extent);
 float extent_of(const Topology& topology);
 
-/// Beyond such a reserve limits let anything pass. Half of it is a help yet: without one, a soft cloth with few
-/// substeps is left at ten times its length where it hangs.
+/// With a larger reserve, limits are too long to have an effect. At half of it they still help: without limits, a soft
+/// hanging cloth with few substeps stretches to ten times its length.
 inline constexpr double useless_reserve = 2;
 
 struct Limit {
-    double length = 0;  ///< m, under `tension`
-    double give = 0;    ///< m more for every N/m more
+    double length = 0;      ///< m, under `tension`
+    double compliance = 0;  ///< additional length per additional tension, m per N/m
 };
 
-/// Of two places that are `length` apart over the cloth, on a way that goes so far along the warp and the weft, m.
-/// Where the fabric shears, threads that turn toward the pull let it go farther than its elasticity tells, but no
-/// farther than along the one and then along the other.
+/// Limits the distance of two points at geodesic distance `length`, whose geodesic extends by `along_warp` and
+/// `along_weft` (m) along the threads. Returns the smaller of two bounds: the elastic one, which includes shear, and
+/// the sum along warp and weft, the most that threads can reach by rotating toward the pull.
 Limit limit_along(const Elasticity& elasticity, double length, double along_warp, double along_weft);
 
-/// The same where nobody knows how the way runs.
+/// The same for a geodesic of unknown direction.
 Limit limit_any_way(const Elasticity& elasticity, double length);
 
 }  // namespace weft

@@ -33,20 +33,20 @@ TEST(Elasticity, of_a_fabric_is_that_of_its_threads_and_its_shear) {
 TEST(Limit, gives_way_most_along_the_bias) {
     const Limit warp = limit_along(cloth, 2, 2, 0), bias = limit_along(cloth, 2, std::sqrt(2), std::sqrt(2));
     EXPECT_NEAR(warp.length, 2 * 1.005, 1e-12);
-    EXPECT_NEAR(warp.give, 2e-3, 1e-12);
+    EXPECT_NEAR(warp.compliance, 2e-3, 1e-12);
     EXPECT_NEAR(bias.length, 2 * (1 + 5 * cloth.along(0.5)), 1e-12);
-    EXPECT_NEAR(bias.give, 2 * cloth.along(0.5), 1e-12);
+    EXPECT_NEAR(bias.compliance, 2 * cloth.along(0.5), 1e-12);
     EXPECT_NEAR(limit_any_way(cloth, 2).length, bias.length, 1e-12);
 }
 
-// Nothing holds the angle between the threads, but they hold.
+// No shear stiffness, but stiff threads.
 TEST(Limit, is_no_farther_than_along_one_thread_and_then_the_other) {
     Elasticity net = cloth;
     for (const double shear : {10.0, std::numeric_limits<double>::infinity()}) {
         net.shear = shear;
         const Limit limit = limit_along(net, 5, 3, 4);
         EXPECT_NEAR(limit.length, 7 * 1.01, 1e-12);
-        EXPECT_NEAR(limit.give, 7 * 2e-3, 1e-12);
+        EXPECT_NEAR(limit.compliance, 7 * 2e-3, 1e-12);
         EXPECT_NEAR(limit_any_way(net, 5).length, 5 * std::numbers::sqrt2 * 1.01, 1e-12);
     }
 }
@@ -54,7 +54,7 @@ TEST(Limit, is_no_farther_than_along_one_thread_and_then_the_other) {
 TEST(Limit, of_rigid_cloth_is_its_length) {
     for (const Limit limit : {limit_along({}, 5, 3, 4), limit_along({}, 5, 0, 0), limit_any_way({}, 5)}) {
         EXPECT_EQ(limit.length, 5);
-        EXPECT_EQ(limit.give, 0);
+        EXPECT_EQ(limit.compliance, 0);
     }
     EXPECT_FALSE(limit_along({.warp = std::numeric_limits<double>::infinity(), .tension = 1}, 5, 0, 5).length < 5);
 }

@@ -1,4 +1,4 @@
-// Spelling of the common subset in C++, shared by every lane width. GLSL's is in lanes.glsl.
+// C++ macros of the common subset of C++ and GLSL, shared by every lane width. GLSL's are in lanes.glsl.
 #pragma once
 
 #define WEFT_FN inline __attribute__((always_inline))
@@ -6,5 +6,5 @@
 #define out_(T) T&
 #define WEFT_ROW_MEMBER(name) real name;
 
-// Kernels of one kind share one signature, which not all of them need in full.
+// Kernels of one kind share one signature; not all of them use every parameter.
 #pragma GCC diagnostic ignored "-Wunused-parameter"

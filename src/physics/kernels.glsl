@@ -1,4 +1,4 @@
-// Every kernel for a shader: what C++ puts together from lanes.h, the *.data.h files and kernels.inl.
+// All kernels for shaders. C++ gets the same from lanes.h, the *.data.h files and kernels.inl.
 #ifndef WEFT_KERNELS_GLSL
 #define WEFT_KERNELS_GLSL
 

@@ -10,7 +10,7 @@
 #define real float
 #define mask bool
 
-// A row's numbers as members of its struct: WEFT_ROW_<name>(WEFT_ROW_MEMBER).
+// A constraint's numbers as members of its struct: WEFT_ROW_<name>(WEFT_ROW_MEMBER).
 #define WEFT_ROW_MEMBER(name) real name;
 
 real select(mask m, real yes, real no) { return m ? yes : no; }

@@ -85,7 +85,7 @@ WEFT_FN real abs(real x) {
 WEFT_FN real floor(real x) {
     return hn::Floor(x.v);
 }
-// Spelled as comparisons: Highway leaves the order of equal and unordered operands to the machine.
+// Written as comparisons: in Highway the result for equal and unordered operands depends on the machine.
 WEFT_FN real min(real a, real b) {
     return select(a < b, a, b);
 }
@@ -150,8 +150,8 @@ WEFT_FN void transpose_blocks(V& r0, V& r1, V& r2, V& r3) {
     r3 = hn::BitCast(D(), hn::InterleaveUpper(wide, zw01, zw23));
 }
 
-// Consecutive blocks in an order of the lanes' own, the same in both: half the shuffles. For what acts on each particle
-// alone, on blocks and nothing else.
+// Load and store consecutive blocks in the same permuted lane order, with half the shuffles. Only for loops that
+// process each particle independently and use no other data per lane.
 WEFT_FN vec3 load_blocks_unordered(const float* p, real& fourth) {
     V r0 = hn::LoadU(D(), p), r1 = hn::LoadU(D(), p + lane_count);
     V r2 = hn::LoadU(D(), p + 2 * lane_count), r3 = hn::LoadU(D(), p + 3 * lane_count);
@@ -166,7 +166,7 @@ WEFT_FN void store_blocks_unordered(vec3 v, real fourth, float* p) {
     hn::StoreU(r2, D(), p + 2 * lane_count), hn::StoreU(r3, D(), p + 3 * lane_count);
 }
 
-// Whole 128-bit blocks and a transpose in registers: several times faster than the gather instructions.
+// Loads whole 128-bit blocks and transposes them in registers: several times faster than the gather instructions.
 template <class Index>
 WEFT_FN vec3 gather_blocks(const float* base, const Index* index, real& fourth) {
     V r0 = load_parts(D(), base, index), r1 = load_parts(D(), base, index + 1);

@@ -7,7 +7,8 @@ inline constexpr int lane_count = 1;
 WEFT_FN real sqrt(real x) { return std::sqrt(x); }
 WEFT_FN real abs(real x) { return std::fabs(x); }
 WEFT_FN real floor(real x) { return std::floor(x); }
-// As the x86 instructions have it, so that every lane width agrees to the bit: the second operand unless the first wins.
+// Like the x86 instructions, return the second operand unless the comparison is true, so that all lane widths agree to
+// the bit.
 WEFT_FN real min(real a, real b) { return a < b ? a : b; }
 WEFT_FN real max(real a, real b) { return a > b ? a : b; }
 WEFT_FN real inversesqrt(real x) { return real(1) / sqrt(x); }

@@ -1,4 +1,4 @@
-// Three-vectors of lanes, spelled as in GLSL. Included inside a namespace that has `real`, `mask`, `select` and the
+// Vectors of three lane values, named as in GLSL. Included inside a namespace that has `real`, `mask`, `select` and the
 // scalar functions, by lanes.h and lanes_scalar.inl.
 
 struct vec3 {

@@ -23,7 +23,7 @@ std::vector<RestFrame> rest_frames(const RestShape& rest) {
 
 StraightLine straight_line(const RestFrame& a, const RestFrame& b, Vec3 from_a_to_b) {
     constexpr double alike = 0.985, in_plane = 0.09;  // 10°, 5°
-    constexpr double arc = 1.002;                     // an arc of 10° is hardly longer than its chord
+    constexpr double arc = 1.002;                     // an arc of 10° is longer than its chord by less
     const double apart = length(from_a_to_b);
     const auto cosine = [](Vec3 u, Vec3 v) { return static_cast<double>(dot(u, v)); };
     const auto along = [&](Vec3 direction) { return std::abs(cosine(from_a_to_b, direction)); };

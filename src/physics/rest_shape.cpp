@@ -17,7 +17,7 @@ Vec3 warp_without_uvs(Vec3 normal) {
     return normalized(dot(along_x, along_x) > 0.01f ? along_x : laid_into({0, 0, 1}, normal));
 }
 
-// Direction in which u grows and v stands still; zero if the UVs span no area.
+// Direction in which u increases and v is constant; zero if the UVs span no area.
 Vec3 warp_from_uvs(Vec3 e1, Vec3 e2, Vec2 t1, Vec2 t2) {
     const float det = t1.x * t2.y - t2.x * t1.y;
     const float scale = std::abs(t1.x * t2.y) + std::abs(t2.x * t1.y);
@@ -59,8 +59,8 @@ RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
         Vec3 warp;
         if (!mesh.uvs.empty()) {
             const auto [va, vb, vc] = mesh.triangles[topology.source_triangle[t]];
-            // The drawn triangle has the corners of the simulated one in the same order, with the UVs of its own side
-            // of a seam.
+            // The render triangle has the corners of the simulated one in the same order, and the UVs of its side of a
+            // seam.
             warp = warp_from_uvs(e1, e2, mesh.uvs[vb] - mesh.uvs[va], mesh.uvs[vc] - mesh.uvs[va]);
         }
         if (!(dot(warp, warp) > 0.5f)) warp = warp_without_uvs(normalized(n));

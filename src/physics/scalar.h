@@ -22,4 +22,8 @@ using real = double;
 #include "physics/lanes_scalar.inl"
 
 #include "physics/kernels.inl"
+
+inline vec3 to_double(Vec3 p) {
+    return {p.x, p.y, p.z};
+}
 }  // namespace weft::reference

@@ -16,7 +16,7 @@ inline double norm(vec3 v) {
     return std::sqrt(reference::dot(v, v));
 }
 
-/// Same numbers on every run and machine.
+/// The same numbers on every run and machine.
 class Random {
   public:
     explicit Random(unsigned seed) : engine_(seed) {}

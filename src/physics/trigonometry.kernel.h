@@ -1,8 +1,8 @@
-// Angles without the C library, whose last bits differ by machine.
+// Angles and sines without the C library, whose last bits differ between machines.
 
-// The angle of (x, y), in (-pi, pi]; 0 where both are 0. Error below 3.1e-7 rad, most of it the last bits near pi.
-// On [0, 1] the polynomial is the minimax one of its degree, 5e-8 from the arc tangent. Where to start from and which way
-// to go are known while the division is still at work.
+// The angle of (x, y), in (-pi, pi]; 0 if both are 0. The error is below 3.1e-7 rad, mostly in the last bits near pi.
+// On [0, 1] the polynomial is the minimax one of its degree, 5e-8 from the arc tangent. `from` does not depend on the
+// division, so the processor computes it during the division.
 WEFT_FN real angle_of(real y, real x)
 {
     real ax = abs(x);
@@ -21,8 +21,8 @@ WEFT_FN real angle_of(real y, real x)
     return from + (t + t * (z * p));
 }
 
-// sin(2 pi x). Error below 2e-7 for |x| < 1; beyond, that of x itself counts.
-// The Taylor polynomial up to the eleventh power, on a quarter of a turn.
+// sin(2 pi x). The error is below 2e-7 for |x| < 1; for larger |x| the rounding error of x dominates. The Taylor
+// polynomial up to the eleventh power, on a quarter of a turn.
 WEFT_FN real sin_turns(real x)
 {
     real t = x - floor(x + real(0.5));

@@ -10,8 +10,8 @@ namespace {
 
 using namespace shading;
 
-constexpr std::uint32_t sphere_rings = 48, sphere_slices = 24;  // over directions of light
-constexpr std::uint32_t facets = 128;                           // of each lobe of gloss, for each of `turns` viewers
+constexpr std::uint32_t sphere_rings = 48, sphere_slices = 24;  // grid of light directions
+constexpr std::uint32_t facets = 128;                           // samples per gloss lobe and viewer (`turns` viewers)
 constexpr std::uint32_t turns = 4;
 
 vec3 direction(float cosine, float angle) {
@@ -25,7 +25,7 @@ vec2 at_cosine(const AlbedoTable& table, float cosine) {
     return vec2(mix(table[below], table[below + 1], std::clamp(at - static_cast<float>(below), 0.0f, 1.0f)));
 }
 
-/// Calls `add(l, share)` with directions all over the half sphere, and cosine times solid angle of each.
+/// Calls `add(l, share)` for directions on a grid over the hemisphere. `share`: cosine times solid angle of each.
 template <class Add>
 void for_sphere(Add&& add) {
     for (std::uint32_t ring = 0; ring < sphere_rings; ++ring) {
@@ -36,7 +36,7 @@ void for_sphere(Add&& add) {
     }
 }
 
-/// Of narrow highlights no grid of directions sees enough: facets are drawn as they are distributed.
+/// Importance sampling of GGX facets, because a grid of directions misses narrow highlights.
 template <class Add>
 void for_facets(vec3 v, vec2 alpha, Add&& add) {
     for (std::uint32_t i = 0; i < facets; ++i) {
@@ -52,17 +52,17 @@ void for_facets(vec3 v, vec2 alpha, Add&& add) {
 }
 
 struct Both {
-    float alone = 0, layered = 0;
+    float unlayered = 0, layered = 0;
 };
 
-/// Gloss that reaches the viewer, alone and below sheen.
+/// Albedo of gloss, alone and below sheen.
 Both gloss_to(const Fiber& fiber, float cosine, const AlbedoTable& table) {
     Both sum;
     const vec2 to_viewer = at_cosine(table, cosine);
     const auto add_of = [&](const Fiber& one, vec3 v, float weight) {
         return [&, v, weight](vec3 l, float share) {
-            const Lobes lobes = lobes_alone(one, l, v);
-            sum.alone += weight * share * lobes.gloss;
+            const Lobes lobes = lobes_before_layering(one, l, v);
+            sum.unlayered += weight * share * lobes.gloss;
             sum.layered += weight * share * shading::layered(fiber, lobes, to_viewer, at_cosine(table, l.z)).gloss;
         };
     };
@@ -87,7 +87,7 @@ Fiber fiber_of(const Material& material, float warp) {
     return {.color = mix(color(material.weft_color), color(material.color), warp),
             .sheen_color = color(material.sheen_color),
             .sheen_alpha = material.sheen_roughness * material.sheen_roughness,
-            .roughness_matte = material.roughness_matte,
+            .diffuse_roughness = material.diffuse_roughness,
             .specular = material.specular,
             .alpha_warp = {along, across},
             .alpha_weft = {across, along},
@@ -107,8 +107,8 @@ AlbedoTable velvet_table(const Fiber& fiber) {
     for (std::uint32_t i = 0; i < table_size; ++i) {
         const vec3 v = direction(middle(i, table_size), 0);
         for_sphere([&](vec3 l, float share) {
-            const Lobes without = lobes_alone(none, l, v);
-            table[i].x += share * (lobes_alone(all, l, v).sheen.x - without.sheen.x);
+            const Lobes without = lobes_before_layering(none, l, v);
+            table[i].x += share * (lobes_before_layering(all, l, v).sheen.x - without.sheen.x);
             table[i].y += share * without.sheen.x;
             table[i].w += share * without.matte.x;
         });
@@ -126,8 +126,8 @@ AlbedoTable albedo_table(const Fiber& fiber) {
     for (std::uint32_t i = 0; i < table_size; ++i) {
         const float cosine = middle(i, table_size);
         const vec3 v = direction(cosine, 0);
-        table[i].x = std::min(1.0f, gloss_to(fiber, cosine, {}).alone);
-        for_sphere([&](vec3 l, float share) { table[i].y += share * lobes_alone(unit, l, v).sheen.x; });
+        table[i].x = std::min(1.0f, gloss_to(fiber, cosine, {}).unlayered);
+        for_sphere([&](vec3 l, float share) { table[i].y += share * lobes_before_layering(unit, l, v).sheen.x; });
         table[i].y = std::min(1.0f, table[i].y);
     }
     for (std::uint32_t i = 0; i < table_size; ++i) {
@@ -136,7 +136,7 @@ AlbedoTable albedo_table(const Fiber& fiber) {
         table[i].z = gloss_to(fiber, cosine, table).layered;
         for_sphere([&](vec3 l, float share) {
             const vec2 to_light = at_cosine(table, l.z);
-            table[i].w += share * layered(fiber, lobes_alone(fiber, l, v), vec2(table[i]), to_light).matte.x;
+            table[i].w += share * layered(fiber, lobes_before_layering(fiber, l, v), vec2(table[i]), to_light).matte.x;
         });
     }
     return table;

@@ -1,4 +1,5 @@
-// How much of the light from everywhere a material sends to the viewer: what its layers leave for those below.
+// Directional albedo of a material's lobes: the share of light from everywhere that they send to the viewer. The layers
+// below get the rest.
 #pragma once
 
 #include "look/material.h"
@@ -8,16 +9,15 @@
 
 namespace weft::render {
 
-/// By the cosine between normal and viewer, in the middles of `table_size` equal parts of 0…1: gloss alone, sheen of
-/// color 1 alone, and, layered, gloss and matte per unit of color. Means over the directions along the surface.
-/// Of velvet: what its hairs send per unit of their F0, and what they send besides; 0; matte per unit of color and of
-/// what F0 leaves of 1.
+/// Tabulated by the cosine between normal and viewer, at the middles of `table_size` equal parts of 0…1. Components:
+/// gloss alone; sheen of color 1 alone; gloss below sheen; matte below both, per unit of color. Means over the azimuth.
+/// For velvet: albedo of the hairs per unit of F0; their albedo at F0 = 0; 0; matte per unit of color and of 1 - F0.
 using AlbedoTable = std::array<glm::vec4, shading::table_size>;
 
-/// The threads of a material, where nothing but them is seen; `warp`: the share of those along u.
+/// The threads of a material without maps and gaps. `warp`: share of the threads along u.
 shading::Fiber fiber_of(const Material& material, float warp);
 
-/// Integrated with the same text that the GPU runs.
+/// Integrates with the same source code that the GPU runs.
 AlbedoTable albedo_table(const shading::Fiber& fiber);
 
 }  // namespace weft::render

@@ -1,4 +1,4 @@
-// The text of shading/brdf.h as the CPU runs it: against laws, and against what it was written after.
+// Tests shading/brdf.h on the CPU against physical laws and against its sources.
 
 #include "render/shading/brdf.h"
 #include "render/albedo.h"
@@ -28,13 +28,14 @@ vec2 at_cosine(const AlbedoTable& table, float cosine) {
     return vec2(mix(table[std::size_t(below)], table[std::size_t(below) + 1], clamp(at - float(below), 0.0f, 1.0f)));
 }
 
-/// All lobes, of a green that is not that of the sheen.
+/// Sum of all lobes.
 vec3 reflected(const Fiber& fiber, const AlbedoTable& table, vec3 l, vec3 v) {
-    const Lobes lobes = layered(fiber, lobes_alone(fiber, l, v), at_cosine(table, v.z), at_cosine(table, l.z));
+    const Lobes lobes =
+        layered(fiber, lobes_before_layering(fiber, l, v), at_cosine(table, v.z), at_cosine(table, l.z));
     return lobes.matte * fiber.color + lobes.sheen + vec3(lobes.gloss);
 }
 
-/// Of f times the cosine over the half sphere: `rings` × 2 `rings` directions, as wide as they are high.
+/// Integral of f times the cosine over the hemisphere, with `rings` × 2 `rings` directions on a square grid of angles.
 double integral(int rings, const std::function<double(vec3 l)>& f) {
     const double step = std::numbers::pi / 2 / rings, slice = std::numbers::pi / rings;
     double sum = 0;
@@ -48,7 +49,7 @@ double integral(int rings, const std::function<double(vec3 l)>& f) {
     return sum;
 }
 
-/// Over viewers around the normal.
+/// Mean of f over viewers around the normal.
 double mean_over_viewers(int viewers, float cosine, const std::function<double(vec3 v)>& f) {
     double sum = 0;
     const float s = std::sqrt(1 - cosine * cosine);
@@ -75,7 +76,7 @@ TEST(Brdf, light_goes_both_ways_alike) {
     }
 }
 
-// f = (1 - F) ρ/π + F D / (4 (n·l + n·v - (n·l)(n·v))) as the authors of The Order: 1886 give it, written anew.
+// f = (1 - F) ρ/π + F D / (4 (n·l + n·v - (n·l)(n·v))), an independent implementation of the paper on The Order: 1886.
 TEST(Brdf, velvet_is_that_of_its_source) {
     Material material{.color = {0.3f, 0.3f, 0.3f}, .specular = 0.05f, .sheen_color = {1, 0.5f, 0}};
     std::mt19937 random(2);
@@ -91,7 +92,7 @@ TEST(Brdf, velvet_is_that_of_its_source) {
                 const double lm = double(dot(l, m));
                 const double sharp = std::exp(nm * nm / (a2 * (nm * nm - 1))) / ((1 - nm * nm) * (1 - nm * nm));
                 const double d = (1 + double(k) * sharp) / (std::numbers::pi * (1 + double(k) * a2));
-                const Lobes lobes = lobes_alone(fiber, l, v);
+                const Lobes lobes = lobes_before_layering(fiber, l, v);
                 for (const int c : {0, 1, 2}) {
                     const double f0 = 0.05 * (1 - 0.5 * c), fresnel = f0 + (1 - f0) * std::pow(1 - lm, 5);
                     const double expected =
@@ -126,7 +127,7 @@ TEST(Brdf, the_matte_part_never_sends_back_more_than_comes) {
 TEST(Brdf, facets_of_highlights_cover_the_surface) {
     for (const vec2 alpha : {vec2(0.16f, 0.16f), vec2(0.1f, 0.4f), vec2(0.9f, 0.9f)}) {
         const double area = integral(512, [&](vec3 h) {
-            // With both directions at the facet's normal, masking is known, and what is left is D.
+            // With both directions at the facet's normal, masking is known, and the rest is D.
             const float masking = 0.5f / (2 * h.z * length(vec3(alpha.x * h.x, alpha.y * h.y, h.z)));
             return double(ggx(h, h, h, alpha) / masking);
         });
@@ -150,12 +151,12 @@ TEST(Brdf, tables_of_albedo_are_what_a_grid_of_directions_finds) {
         for (const std::size_t i : {2u, 8u, 16u, 31u}) {
             const float cosine = (float(i) + 0.5f) / float(table_size);
             const double sheen = mean_over_viewers(1, cosine, [&](vec3 v) {
-                return integral(96, [&](vec3 l) { return double(lobes_alone(unit, l, v).sheen.x); });
+                return integral(96, [&](vec3 l) { return double(lobes_before_layering(unit, l, v).sheen.x); });
             });
             EXPECT_NEAR(table[i].y, std::min(1.0, sheen), 0.01 + 0.02 * sheen) << preset.name << " sheen " << cosine;
             if (preset.material.roughness[0] < 0.35f) continue;  // too narrow for the grid
             const double gloss = mean_over_viewers(4, cosine, [&](vec3 v) {
-                return integral(96, [&](vec3 l) { return double(lobes_alone(fiber, l, v).gloss); });
+                return integral(96, [&](vec3 l) { return double(lobes_before_layering(fiber, l, v).gloss); });
             });
             EXPECT_NEAR(table[i].x, std::min(1.0, gloss), 0.005 + 0.03 * gloss) << preset.name << " gloss " << cosine;
         }
@@ -173,10 +174,10 @@ TEST(Brdf, tables_of_velvet_give_its_albedo_for_every_color_of_hairs) {
         for (const std::size_t i : {2u, 8u, 16u, 31u}) {
             const float cosine = (float(i) + 0.5f) / float(table_size);
             const double hairs = mean_over_viewers(1, cosine, [&](vec3 v) {
-                return integral(96, [&](vec3 l) { return double(lobes_alone(fiber, l, v).sheen.x); });
+                return integral(96, [&](vec3 l) { return double(lobes_before_layering(fiber, l, v).sheen.x); });
             });
             const double matte = mean_over_viewers(1, cosine, [&](vec3 v) {
-                return integral(96, [&](vec3 l) { return double(lobes_alone(fiber, l, v).matte.x); });
+                return integral(96, [&](vec3 l) { return double(lobes_before_layering(fiber, l, v).matte.x); });
             });
             EXPECT_NEAR(f0 * table[i].x + table[i].y, hairs, 0.005 + 0.02 * hairs) << f0 << " hairs " << cosine;
             EXPECT_NEAR((1 - f0) * table[i].w, matte, 0.005 + 0.02 * matte) << f0 << " matte " << cosine;
@@ -212,7 +213,7 @@ TEST(Brdf, mirrors_send_more_where_light_grazes) {
     const AlbedoTable table = albedo_table(fiber_of({.specular = 0.04f, .roughness = {0.4f, 0.4f}}, 1));
     for (std::size_t i = 4; i + 1 < table_size; ++i) EXPECT_GE(table[i].x, table[i + 1].x - 0.002f) << i;
     EXPECT_NEAR(table[table_size - 1].x, 0.04f, 0.006f) << "straight on, F0";
-    const AlbedoTable none = albedo_table(fiber_of({.roughness_matte = 0, .specular = 0, .roughness = {1, 1}}, 1));
+    const AlbedoTable none = albedo_table(fiber_of({.diffuse_roughness = 0, .specular = 0, .roughness = {1, 1}}, 1));
     EXPECT_NEAR(none[table_size - 1].w + none[table_size - 1].z, 1, 0.005f) << "white paper";
 }
 

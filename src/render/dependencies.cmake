@@ -1,4 +1,4 @@
-# Shaders write vectors as glm does, and one text of shading is both.
+# glm has the vector syntax of GLSL, so that C++ and shaders share the shading code.
 find_package(glm REQUIRED)
 target_link_libraries(weft_render PUBLIC glm::glm)
 

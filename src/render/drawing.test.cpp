@@ -1,4 +1,4 @@
-// What must not change a picture, and what must.
+// Tests which settings change an image and which do not.
 
 #include "look/weave.h"
 #include "render/shading/color_scale.h"
@@ -12,7 +12,7 @@ namespace {
 
 class VulkanDrawing : public VulkanPictures {
   protected:
-    /// An S of cloth that turns both of its sides to the camera, in front of a level one.
+    /// An S-shaped cloth that shows both sides to the camera, in front of a level one.
     static Shape folded() {
         return patch(48, [](float s, float t) {
             const float a = 5 * (s - 0.5f);
@@ -31,7 +31,7 @@ TEST_F(VulkanDrawing, both_sides_in_one_pass_are_as_in_two) {
         const Image8 one = picture();
         drawing.two_passes = true;
         const Image8 two = picture();
-        // Where both sides meet in a pixel, sums come in another order.
+        // In pixels with both sides, the order of the sums differs.
         const Difference found = difference(one, two);
         EXPECT_LE(found.beyond, one.rgba.size() / 4 / 200) << name;
         drawing.camera.position.z = -3;
@@ -132,20 +132,20 @@ TEST_F(VulkanDrawing, without_a_background_alpha_says_what_is_covered) {
     EXPECT_EQ(grounded.at(48, 27)[3], 255);
 }
 
-// Relief of a weave, and the normal map of the same relief.
+// Compares the relief of a weave with a normal map of the same relief.
 TEST_F(VulkanDrawing, a_normal_map_of_a_weave_looks_like_the_weave) {
     const Relief relief = make_weave(Weave::twill);
     constexpr float repeat = 2;
     Material woven = paper(0.8f);
     woven.weave = Weave::twill;
-    woven.relief = 0.6f;
-    woven.thread = 10;  // mm
+    woven.weave_depth = 0.6f;
+    woven.thread_spacing = 10;  // mm
     const Image8 map = normal_map_of(relief, 1);
     Image8 upside_down = map;
     for (std::uint32_t y = 0; y < map.height; ++y)
         std::memcpy(upside_down.at(0, y), map.at(0, map.height - 1 - y), std::size_t{map.width} * 4);
     Material mapped = woven;
-    mapped.map_repeat[0] = mapped.map_repeat[1] = repeat;
+    mapped.uv_tiling[0] = mapped.uv_tiling[1] = repeat;
     const Shape sheet = patch(1, [](float s, float t) { return Vec3{2 * (s - 0.5f), 2 * (t - 0.5f), 0}; });
     light_by(sun_alone(60, 40, 3));
     drawing.camera.fov = 30;
@@ -169,7 +169,7 @@ TEST_F(VulkanDrawing, a_normal_map_of_a_weave_looks_like_the_weave) {
         return (product - sum[0] * sum[1] / n) /
                std::sqrt((square[0] - sum[0] * sum[0] / n) * (square[1] - sum[1] * sum[1] / n));
     };
-    // The weave darkens the depths between threads as well, of which the map knows nothing.
+    // The weave also darkens the gaps between threads, which the map does not contain.
     EXPECT_GT(alike(a, b), 0.8);
     EXPECT_LT(alike(a, c), 0.6) << "the test can tell";
 }
@@ -195,7 +195,7 @@ TEST_F(VulkanDrawing, a_color_map_lies_as_the_uvs_say) {
     EXPECT_EQ(strongest(68, 68), 'w');
 }
 
-// What the legend shows is what is on the cloth.
+// The colors on the cloth match the legend.
 TEST_F(VulkanDrawing, values_have_the_colors_of_their_scale) {
     const Shape sheet = patch(32, [](float s, float t) { return Vec3{6 * (s - 0.5f), 4 * (t - 0.5f), 0}; });
     Object object = object_of(sheet, add(paper()));

@@ -10,16 +10,16 @@ namespace weft::render {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr std::uint32_t side = 128;   // pixels of the sharpest level, across
-constexpr std::uint32_t levels = 6;   // down to 4 by 2
-constexpr std::uint32_t facets = 96;  // of a mirror, for each pixel
+constexpr std::uint32_t side = 128;          // width of the sharpest level in pixels
+constexpr std::uint32_t levels = 6;          // down to 4 by 2
+constexpr std::uint32_t mirror_facets = 96;  // samples per pixel of a rough mirror
 constexpr std::uint32_t harmonics_side = 64;
 
 ImageF made(std::uint32_t width, std::uint32_t height) {
     return {width, height, std::vector<float>(std::size_t{width} * height * 4, 0.0f)};
 }
 
-Vec3 toward(float x, float y) {  // 0…1 across and down
+Vec3 toward(float x, float y) {  // x, y: 0…1 across and down
     const float azimuth = (x - 0.5f) * 2 * pi, polar = y * pi;
     return {std::sin(azimuth) * std::sin(polar), std::cos(polar), -std::cos(azimuth) * std::sin(polar)};
 }
@@ -36,7 +36,7 @@ void put(float* p, Vec3 c) {
     p[0] = c.x, p[1] = c.y, p[2] = c.z, p[3] = 1;
 }
 
-/// A quarter of the pixels, each the mean of four.
+/// The image at half the width and height, each pixel the mean of four.
 ImageF halved(const ImageF& image) {
     ImageF half = made(std::max(1u, image.width / 2), std::max(1u, image.height / 2));
     for (std::uint32_t y = 0; y < half.height; ++y) {
@@ -50,7 +50,7 @@ ImageF halved(const ImageF& image) {
     return half;
 }
 
-/// Bilinear; goes around at the left and right, ends at the poles.
+/// Bilinear sample; wraps around at the left and right, clamps at the poles.
 Vec3 sampled(const ImageF& image, Vec3 d) {
     const float u = (std::atan2(d.x, -d.z) / (2 * pi) + 0.5f) * static_cast<float>(image.width) - 0.5f;
     const float v = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi * static_cast<float>(image.height) - 0.5f;
@@ -67,7 +67,7 @@ Vec3 sampled(const ImageF& image, Vec3 d) {
            (at(fu, fv + 1) * (1 - s) + at(fu + 1, fv + 1) * s) * t;
 }
 
-/// A picture of the size of the sharpest level, each pixel the mean of what it covers.
+/// The image resampled to the size of the sharpest level, each pixel the mean of the area it covers.
 ImageF from_picture(const ImageF& picture, const Environment& environment) {
     std::vector<ImageF> smaller = {picture};
     while (smaller.back().width > 2 * side) smaller.push_back(halved(smaller.back()));
@@ -83,7 +83,7 @@ ImageF from_picture(const ImageF& picture, const Environment& environment) {
                                       (static_cast<float>(y) + part(i / taps)) / (static_cast<float>(side) / 2));
                 sum += sampled(smaller.back(), {c * d.x - s * d.z, d.y, s * d.x + c * d.z});
             }
-            put(base.at(x, y), sum * (environment.strength / (taps * taps)));
+            put(base.at(x, y), sum * (environment.intensity / (taps * taps)));
         }
     }
     return base;
@@ -99,7 +99,7 @@ ImageF from_sky(const Sky& sky) {
 }
 
 std::array<glm::vec4, 9> harmonics_of(const ImageF& image) {
-    // Band by band: share of the cosine lobe over pi, times the square of the basis function's factor.
+    // Per band: coefficient of the cosine lobe over pi, times the square of the basis function's factor.
     constexpr float one = 0.282095f * 0.282095f, first = 2.0f / 3 * 0.488603f * 0.488603f,
                     second = 0.25f * 1.092548f * 1.092548f, zonal = 0.25f * 0.315392f * 0.315392f,
                     last = 0.25f * 0.546274f * 0.546274f;
@@ -121,26 +121,27 @@ std::array<glm::vec4, 9> harmonics_of(const ImageF& image) {
     return sums;
 }
 
-/// What a mirror of that roughness shows of each direction, seen from there (Karis 2013), from pictures as blurred as
-/// its facets are far apart (Krivanek and Colbert 2008).
+/// The environment prefiltered for a GGX mirror of that roughness, with view and normal along the reflection (Karis
+/// 2013). Samples a level whose blur matches the distance between samples (Krivanek and Colbert 2008).
 ImageF mirrored(const std::vector<ImageF>& sharp, float roughness, std::uint32_t width) {
     const float alpha = std::max(roughness * roughness, 1e-3f);
     struct Facet {
-        Vec3 light;  // in the frame of the normal
+        Vec3 light;  // in the tangent frame of the normal
         float weight;
         std::size_t level;
     };
     std::vector<Facet> list;
     const float pixel = 4 * pi / static_cast<float>(sharp[0].width * sharp[0].height);
-    for (std::uint32_t i = 0; i < facets; ++i) {
-        const float part = middle(i, facets), angle = 2 * pi * radical_inverse(i);
+    for (std::uint32_t i = 0; i < mirror_facets; ++i) {
+        const float part = middle(i, mirror_facets), angle = 2 * pi * radical_inverse(i);
         const float slope2 = alpha * alpha * part / (1 - part), cosine = 1 / std::sqrt(1 + slope2);
         const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
         const Vec3 h{sine * std::cos(angle), sine * std::sin(angle), cosine};
         const Vec3 l{2 * cosine * h.x, 2 * cosine * h.y, 2 * cosine * cosine - 1};
         if (l.z <= 0) continue;
         const float d = cosine * cosine * (alpha * alpha - 1) + 1, density = alpha * alpha / (pi * d * d) / 4;
-        const float covered = 1 / (facets * density), level = 0.5f * std::log2(std::max(1.0f, covered / pixel)) + 0.5f;
+        const float covered = 1 / (mirror_facets * density),
+                    level = 0.5f * std::log2(std::max(1.0f, covered / pixel)) + 0.5f;
         list.push_back({l, l.z, std::min(sharp.size() - 1, static_cast<std::size_t>(level))});
     }
     ImageF result = made(width, width / 2);
@@ -165,9 +166,9 @@ ImageF mirrored(const std::vector<ImageF>& sharp, float roughness, std::uint32_t
 
 Vec3 sky_toward(const Sky& sky, Vec3 d) {
     const auto between = [](Vec3 a, Vec3 b, float t) { return a * (1 - t) + b * t; };
-    if (d.y >= 0) return between(sky.horizon, sky.zenith, std::sqrt(d.y)) * sky.strength;
+    if (d.y >= 0) return between(sky.horizon, sky.zenith, std::sqrt(d.y)) * sky.intensity;
     const float t = std::clamp(-d.y / 0.35f, 0.0f, 1.0f);
-    return between(sky.horizon, sky.ground, t * t * (3 - 2 * t)) * sky.strength;
+    return between(sky.horizon, sky.ground, t * t * (3 - 2 * t)) * sky.intensity;
 }
 
 Surroundings surroundings_of(const Lighting& light, const ImageF* environment) {

@@ -14,12 +14,12 @@ vec3 as_glm(Vec3 v) {
     return {v.x, v.y, v.z};
 }
 
-// In distances from the eye to what it looks at.
-constexpr float nearest = 0.005f, farthest = 60;
+// In units of the distance from the eye to the target.
+constexpr float near_plane = 0.005f, far_plane = 60;
 constexpr float ground_begins_to_fade = 1.5f, ground_ends = 6;
 constexpr float occlusion_reaches = 0.2f;
 
-/// Right-handed, y down on the picture, depth from 0 to 1.
+/// Right-handed, y down in the image, depth from 0 to 1.
 mat4 perspective(float fov, float aspect, float nearby, float far) {
     const float f = 1 / std::tan(fov / 2);
     mat4 m(0);
@@ -48,24 +48,25 @@ FrameData frame_data(const Drawing& drawing, const Surroundings& around, const F
     FrameData data{};
     data.to_view = view_of(camera);
     const mat4 shift = translate(mat4(1), vec3(2.0f * shape.jitter / size, 0));
-    data.to_clip = shift * perspective(radians(camera.fov), size.x / size.y, nearest * distance, farthest * distance) *
+    data.to_clip = shift *
+                   perspective(radians(camera.fov), size.x / size.y, near_plane * distance, far_plane * distance) *
                    data.to_view;
     data.from_clip = inverse(data.to_clip);
-    data.eye = vec4(eye, nearest * distance);
+    data.eye = vec4(eye, near_plane * distance);
     data.target = vec4(target, distance);
-    data.sun = vec4(as_glm(direction_of(light.sun)), std::tan(radians(light.sun.size) / 2));
-    data.sun_color = vec4(as_glm(light.sun.color) * (light.sun.strength * pi), light.sun.strength > 0 ? 1.0f : 0.0f);
+    data.sun = vec4(as_glm(direction_of(light.sun)), std::tan(radians(light.sun.angular_diameter) / 2));
+    data.sun_color = vec4(as_glm(light.sun.color) * (light.sun.intensity * pi), light.sun.intensity > 0 ? 1.0f : 0.0f);
     std::ranges::copy(around.around, data.around);
     data.size = vec4(size, 1.0f / size);
-    data.light = vec4(std::exp2(light.exposure), light.occlusion, occlusion_reaches * distance, shape.number);
+    data.light = vec4(std::exp2(light.exposure), light.ambient_occlusion, occlusion_reaches * distance, shape.number);
     const float turn = radians(light.environment.rotation);
-    data.environment = vec4(light.environment.strength, std::cos(turn), std::sin(turn),
+    data.environment = vec4(light.environment.intensity, std::cos(turn), std::sin(turn),
                             static_cast<float>(around.mirrored.size()) - 1);
     data.background = vec4(drawing.background == Background::transparent ? 1.0f : 0.0f,
                            shape.has_environment && light.environment.visible ? 1.0f : 0.0f,
                            ground_begins_to_fade * distance, ground_ends * distance);
     const Vec3 colors[] = {light.sky.zenith, light.sky.horizon, light.sky.ground};
-    for (int i = 0; i < 3; ++i) data.sky[i] = vec4(as_glm(colors[i]) * light.sky.strength, 0);
+    for (int i = 0; i < 3; ++i) data.sky[i] = vec4(as_glm(colors[i]) * light.sky.intensity, 0);
     return data;
 }
 

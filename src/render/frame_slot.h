@@ -1,4 +1,4 @@
-// What one frame in flight has for itself: its commands, and what it brings to the device.
+// The commands and the upload buffer of one frame in flight.
 #pragma once
 
 #include "gpu/commands.h"
@@ -12,8 +12,9 @@ namespace weft::render {
 
 class FrameSlot {
   public:
-    /// Begins anew; the device is done with the last time. There is room for `bytes`, all alignment included.
-    Result<Done> begin(gpu::Device& device, std::uint64_t bytes) {
+    /// Begins a new frame. The device must have finished the previous one of this slot. Makes room for `bytes`,
+    /// including alignment.
+    Result<void> begin(gpu::Device& device, std::uint64_t bytes) {
         if (!commands) {
             auto made = gpu::Commands::create(device);
             if (!made) return made.errors();
@@ -28,7 +29,7 @@ class FrameSlot {
         return commands->begin();
     }
 
-    /// Copies it, and returns where the device finds it.
+    /// Copies the values and returns their address on the device.
     template <class Value>
     std::uint64_t put(std::span<const Value> values) {
         const std::uint64_t at = used_;
@@ -43,8 +44,8 @@ class FrameSlot {
     static constexpr std::uint64_t room_for(std::uint64_t bytes) { return (bytes + 15) / 16 * 16; }
 
     std::optional<gpu::Commands> commands;
-    gpu::Framebuffer target;      ///< of the picture that it draws into
-    std::uint64_t submitted = 0;  ///< value of the device's timeline when it is done; 0: never
+    gpu::Framebuffer target;      ///< of the image that the frame draws into
+    std::uint64_t submitted = 0;  ///< value of the device's timeline when the frame is done; 0: never submitted
 
   private:
     gpu::Buffer upload_;

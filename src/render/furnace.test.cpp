@@ -1,4 +1,4 @@
-// In a furnace, where the same white comes from everywhere, a surface shows its albedo and nothing else.
+// Furnace tests: if the same white comes from everywhere, a surface shows its albedo.
 
 #include "render/albedo.h"
 #include "render/studio.test.h"
@@ -14,7 +14,7 @@ using shading::Fiber;
 using shading::Lobes;
 using shading::table_size;
 
-constexpr float exposure = -1;  // half: nothing is pressed together
+constexpr float exposure = -1;  // half: below the range that tone mapping compresses
 
 class VulkanFurnace : public VulkanPictures {
   protected:
@@ -26,7 +26,7 @@ class VulkanFurnace : public VulkanPictures {
         light_by(light);
         sheet = patch(1, [](float s, float t) { return Vec3{6 * (s - 0.5f), 6 * (t - 0.5f), 0}; });
     }
-    /// A sheet of this, seen at `degrees` from its normal: it fills the picture.
+    /// A sheet of this material, seen at `degrees` from its normal. It fills the image.
     Vec3 seen(MaterialId material, float degrees, float turn = 0) {
         Object object = object_of(sheet, material);
         object.uv_meters[0] = object.uv_meters[1] = 6;
@@ -46,7 +46,7 @@ Material white(Material material) {
     return material;
 }
 
-/// What reaches the viewer, by a grid of directions, of viewers all around.
+/// The albedo, integrated over a grid of directions and over viewers around the normal.
 double albedo_of(const Fiber& fiber, float cosine) {
     const AlbedoTable table = albedo_table(fiber);
     const auto at = [&](float c) {
@@ -67,7 +67,7 @@ double albedo_of(const Fiber& fiber, float cosine) {
             for (int j = 0; j < 2 * rings; ++j) {
                 const double a = (j + 0.5) * 2 * step;
                 const vec3 l(s * std::cos(a), s * std::sin(a), c);
-                const Lobes lobes = layered(fiber, lobes_alone(fiber, l, v), at(cosine), at(l.z));
+                const Lobes lobes = layered(fiber, lobes_before_layering(fiber, l, v), at(cosine), at(l.z));
                 const vec3 f = lobes.matte * fiber.color + lobes.sheen + vec3(lobes.gloss);
                 sum += double(f.x + f.y + f.z) / 3 * c * s * step * (2 * step);
             }
@@ -122,7 +122,7 @@ TEST_F(VulkanFurnace, light_that_goes_through_is_not_lost) {
     EXPECT_NEAR(opaque.x, through.x, 0.005f) << "as much comes from behind";
 }
 
-// What one sees through shows what is behind, as much as there are no threads.
+// Sheer cloth shows the background in proportion to the gaps between threads.
 TEST_F(VulkanFurnace, sheer_cloth_lets_the_background_through) {
     Material material = paper(0.2f);
     material.coverage = 0.4f;

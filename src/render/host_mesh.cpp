@@ -48,7 +48,7 @@ Result<HostMesh> HostMesh::create(gpu::Device& device, std::uint32_t vertices, s
     return self;
 }
 
-Result<Done> HostMesh::update(std::span<const Vec3> positions, std::span<const Vec3> normals,
+Result<void> HostMesh::update(std::span<const Vec3> positions, std::span<const Vec3> normals,
                               std::span<const Vec4> tangents) {
     const std::uint64_t each = aligned(std::uint64_t{vertices_} * sizeof(Vec4));
     current_ = 1 - current_;
@@ -62,7 +62,7 @@ Result<Done> HostMesh::update(std::span<const Vec3> positions, std::span<const V
     put(buffer.mapped().subspan(each), normals, 0);
     has_tangents_ = !tangents.empty();
     if (has_tangents_) std::memcpy(buffer.mapped().data() + 2 * each, tangents.data(), tangents.size_bytes());
-    return Done{};
+    return {};
 }
 
 gpu::SurfaceBuffers HostMesh::surface() const {

@@ -1,4 +1,4 @@
-// A mesh that the host has, brought to the device to be drawn.
+// A mesh in host memory, copied to the device for drawing.
 #pragma once
 
 #include "gpu/commands.h"
@@ -13,17 +13,18 @@
 
 namespace weft::render {
 
-/// What does not move is copied once; what moves is written where the device reads it, into two sets that take turns:
-/// what a frame was drawn from may be still in use when the next one is written.
+/// Constant data is copied once. Moving data is written directly to memory that the device reads, into two alternating
+/// sets, because the previous frame may still read one of them.
 class HostMesh {
   public:
-    /// UVs and rest positions may be empty; otherwise one a vertex.
+    /// UVs and rest positions: one per vertex, or empty.
     static Result<HostMesh> create(gpu::Device& device, std::uint32_t vertices, std::span<const Triangle> triangles,
                                    std::span<const Vec2> uvs, std::span<const Vec3> rest, const std::string& name);
 
-    /// One a vertex; tangents may be empty. Of the two last calls' frames, the earlier one must have been drawn.
-    Result<Done> update(std::span<const Vec3> positions, std::span<const Vec3> normals, std::span<const Vec4> tangents);
-    /// As of the last update; nothing to wait for.
+    /// One element per vertex; tangents may be empty. Overwrites the data of the second last update, so the device must
+    /// have finished all frames that use it.
+    Result<void> update(std::span<const Vec3> positions, std::span<const Vec3> normals, std::span<const Vec4> tangents);
+    /// The buffers of the last update. They need no synchronization.
     gpu::SurfaceBuffers surface() const;
     gpu::BufferRange rest() const;
 

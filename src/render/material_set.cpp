@@ -9,7 +9,7 @@
 namespace weft::render {
 namespace {
 
-/// Of a level that holds no less than one texel.
+/// The values as half floats.
 std::vector<std::byte> halves_of(const std::vector<float>& values) {
     std::vector<std::byte> bytes(values.size() * 2);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -29,17 +29,17 @@ bool threads_cross(Weave weave) {
 
 shading::MaterialData data_of(const Material& material, const float threads[2], float warp, bool mapped, bool colored) {
     shading::MaterialData data{};
-    data.color = packed(material.color, material.roughness_matte);
+    data.color = packed(material.color, material.diffuse_roughness);
     data.weft_color = packed(material.weft_color, material.specular);
     data.sheen = packed(material.sheen_color, material.sheen_roughness * material.sheen_roughness);
     data.roughness = {material.roughness[0] * material.roughness[0], material.roughness[1] * material.roughness[1],
-                      material.relief, material.transmission};
+                      material.weave_depth, material.transmission};
     data.velvet = {material.velvet, material.velvet_alpha, material.coverage,
                    !mapped && threads_cross(material.weave) ? 1.0f : 0.0f};
-    const float pitch = material.thread * 1e-3f;
-    data.tile = mapped ? glm::vec4(material.map_repeat[0], material.map_repeat[1], 1, 0)
+    const float pitch = material.thread_spacing * 1e-3f;
+    data.tile = mapped ? glm::vec4(material.uv_tiling[0], material.uv_tiling[1], 1, 0)
                        : glm::vec4(1 / (pitch * threads[0]), 1 / (pitch * threads[1]), 0, 0);
-    data.map = {material.map_repeat[0], material.map_repeat[1], colored ? 1.0f : 0.0f,
+    data.map = {material.uv_tiling[0], material.uv_tiling[1], colored ? 1.0f : 0.0f,
                 material.coverage < 1 ? 1.0f : 0.0f};
     std::ranges::copy(albedo_table(fiber_of(material, warp)), data.table);
     return data;
@@ -47,15 +47,15 @@ shading::MaterialData data_of(const Material& material, const float threads[2], 
 
 }  // namespace
 
-Result<Done> MaterialSet::prepare() {
-    if (white_) return Done{};
+Result<void> MaterialSet::prepare() {
+    if (white_) return {};
     auto sampler = gpu::Sampler::create(device_, {.anisotropic = true});
     if (!sampler) return sampler.errors();
     auto white = make_texture(device_, Image8{1, 1, {255, 255, 255, 255}}, "white");
     if (!white) return white.errors();
     sampler_ = std::move(*sampler);
     white_ = std::move(*white);
-    return Done{};
+    return {};
 }
 
 Result<MaterialSet::ReliefImages> MaterialSet::upload(const Relief& relief, const std::string& name) {

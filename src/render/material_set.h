@@ -1,4 +1,4 @@
-// Materials on the device: their numbers and the pictures of their threads.
+// Materials on the device: their parameters and the images of their threads.
 #pragma once
 
 #include "gpu/graphics_pipeline.h"
@@ -14,7 +14,7 @@
 
 namespace weft::render {
 
-/// Pictures that a material names, read by whoever can.
+/// Images that a material names, read by the caller.
 struct MaterialMaps {
     const Image8* color = nullptr;
     const Image8* normal = nullptr;
@@ -24,9 +24,9 @@ class MaterialSet {
   public:
     explicit MaterialSet(gpu::Device& device) : device_(device) {}
 
-    /// `layout`: of the set with the material's pictures.
+    /// `layout`: of the descriptor set with the material's images.
     Result<std::uint32_t> add(const Material& material, const MaterialMaps& maps, VkDescriptorSetLayout layout);
-    /// Frees what it has; add() gives its number out again.
+    /// Frees the material. add() reuses its number.
     void remove(std::uint32_t id);
     std::uint64_t address(std::uint32_t id) const { return entries_[id].data.address(); }
     const gpu::DescriptorSet& images(std::uint32_t id) const { return entries_[id].images; }
@@ -40,7 +40,7 @@ class MaterialSet {
     struct Entry {
         gpu::Buffer data;
         gpu::Image color;
-        ReliefImages own;  // of a normal map
+        ReliefImages own;  // from the normal map
         gpu::DescriptorSet images;
         bool sheer = false;
     };
@@ -49,7 +49,7 @@ class MaterialSet {
         float threads[2] = {1, 1}, warp = 1;
     };
 
-    Result<Done> prepare();
+    Result<void> prepare();
     Result<ReliefImages> upload(const Relief& relief, const std::string& name);
     Result<const Tile*> tile_of(Weave weave);
 
@@ -58,7 +58,7 @@ class MaterialSet {
     gpu::Image white_;
     std::array<std::optional<Tile>, 8> tiles_;  // by weave
     std::deque<Entry> entries_;
-    std::vector<std::uint32_t> free_;  // of entries, those that are gone
+    std::vector<std::uint32_t> free_;  // numbers of removed entries
 };
 
 }  // namespace weft::render

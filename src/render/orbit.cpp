@@ -8,11 +8,11 @@ namespace weft::render {
 namespace {
 
 constexpr float degree = std::numbers::pi_v<float> / 180;
-// From straight up to straight down, less as much as tells which side of the picture is up.
+// Just below 90 degrees, so that the up direction of the image stays defined.
 constexpr float steepest = 89.9f * degree;
-constexpr float height_turns = 180;  // degrees that a drag over the window's height turns
+constexpr float height_turns = 180;  // degrees per drag over the window's height
 constexpr float nearest = 0.01f, farthest = 1e5f;
-constexpr float longest_pause = 0.1f;  // s: who was held up is not thrown across the scene
+constexpr float longest_pause = 0.1f;  // s: limits the move after a delayed frame
 
 // A direction as angles and a length.
 struct Polar {
@@ -75,7 +75,7 @@ Camera steered(const Camera& camera, const WindowInput& input) {
     const float turn = height_turns / std::max(1.0f, input.height);
     const Vec2 around = input.shift ? Vec2{} : input.left;
     const Vec2 along = input.shift ? Vec2{input.middle.x + input.left.x, input.middle.y + input.left.y} : input.middle;
-    // What is under the pointer goes with it.
+    // The scene follows the pointer.
     if (around != Vec2{}) to = orbited(to, -around.x * turn, around.y * turn);
     if (along != Vec2{}) {
         const float unit =
@@ -90,7 +90,7 @@ Camera steered(const Camera& camera, const WindowInput& input) {
                static_cast<float>(input.held[static_cast<std::size_t>(less)]);
     };
     const Vec3 go{key('D', 'A'), key('W', 'S'), key('E', 'Q')};
-    if (go != Vec3{}) {  // as far as the target is away, every second
+    if (go != Vec3{}) {  // one distance to the target per second
         const float step = length(to.target - to.position) * std::clamp(input.seconds, 0.0f, longest_pause);
         to = moved(to, go.x * step, go.y * step, go.z * step);
     }

@@ -1,7 +1,7 @@
-// A camera in somebody's hands:
+// A camera that mouse and keys move:
 //
-//   left button            around the target            right button   turns the eye, up to straight up and down
-//   middle, shift + left   along with the picture       W S            up and down
+//   left button            orbits around the target     right button   turns the eye, up to straight up and down
+//   middle, shift + left   pans with the image          W S            up and down
 //   wheel                  to the target and away       A D            left and right
 //                                                       Q E            back and forth
 #pragma once
@@ -11,16 +11,16 @@
 
 namespace weft::render {
 
-/// Around the target: degrees to the right (seen from above, against the clock) and up.
+/// Orbits around the target, in degrees to the right (counterclockwise from above) and up.
 Camera orbited(const Camera& camera, float right, float up);
-/// Looks elsewhere from where it is; the target stays as far away.
+/// Turns the view at the same position; keeps the distance of the target.
 Camera turned(const Camera& camera, float right, float up);
-/// Eye and target, m along the picture's axes.
+/// Moves eye and target along the image's axes, in m.
 Camera moved(const Camera& camera, float right, float up, float forward);
-/// By notches of a wheel: the distance to the target is a tenth less each.
+/// Each notch of the wheel reduces the distance to the target by a tenth.
 Camera zoomed(const Camera& camera, float notches);
 
-/// All of what hands did.
+/// Applies all user input.
 Camera steered(const Camera& camera, const WindowInput& input);
 
 }  // namespace weft::render

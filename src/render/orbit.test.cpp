@@ -19,7 +19,7 @@ float distance(const Camera& camera) {
     return length(camera.position - camera.target);
 }
 
-/// Degrees above the horizon that it looks to.
+/// Elevation of the view direction in degrees.
 float pitch(const Camera& camera) {
     return std::asin((camera.target - camera.position).y / distance(camera)) * 57.29578f;
 }
@@ -74,7 +74,7 @@ TEST(Orbit, a_camera_that_looks_straight_down_can_be_moved) {
 }
 
 TEST(Orbit, keys_go_along_the_axes_of_the_picture) {
-    const float step = 2 * 0.05f;  // its distance a second
+    const float step = 2 * 0.05f;  // distance to the target per second
     const std::pair<char, Vec3> keys[] = {{'W', {0, step, 0}},  {'S', {0, -step, 0}}, {'D', {step, 0, 0}},
                                           {'A', {-step, 0, 0}}, {'E', {0, 0, -step}}, {'Q', {0, 0, step}}};
     for (const auto& [key, by] : keys) {
@@ -117,7 +117,7 @@ TEST(Orbit, the_right_button_looks_around) {
 
 TEST(Orbit, what_is_under_the_pointer_goes_along_with_the_middle_button_and_with_shift) {
     WindowInput input = window();
-    input.middle = {0, -600};  // as far up as the picture is high at the target
+    input.middle = {0, -600};  // the height of the image at the target
     const float high = 2 * 2 * std::tan(30.0f / 57.29578f);
     expect_near(steered(ahead, input).position, {0, 1 - high, 2});
     expect_near(steered(ahead, input).target, {0, 1 - high, 0});

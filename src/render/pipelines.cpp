@@ -10,7 +10,7 @@ using gpu::Blend;
 using gpu::DepthTest;
 using gpu::GraphicsState;
 
-/// Makes one after another, and remembers what could not be made.
+/// Makes pipelines and collects failures.
 class Maker {
   public:
     explicit Maker(const gpu::Device& device) : device_(device) {}
@@ -55,7 +55,7 @@ Result<Pipelines> Pipelines::create(const gpu::Device& device, const Passes& pas
     maker.make(all.occlusion, passes.occlusion, "full_vert", "occlusion_frag", {});
     maker.make(all.occlusion_smooth, passes.occlusion, "full_vert", "occlusion_blur_frag", {});
     maker.make(all.background, passes.lit, "full_vert", "background_frag", {});
-    // Of a ground that is there by its shadows alone, alpha counts; of any other it is 1.
+    // Alpha blends a ground that shows only its shadows. For any other ground, alpha is 1.
     maker.make(all.ground, passes.lit, "ground_vert", "ground_frag", {.depth = DepthTest::write, .blend = Blend::over});
     constexpr VkCullModeFlags hidden[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_BACK_BIT, VK_CULL_MODE_FRONT_BIT};
     for (std::uint32_t sides = 0; sides < 3; ++sides) {

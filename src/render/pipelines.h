@@ -1,4 +1,4 @@
-// Everything that draws, made once.
+// All pipelines of the renderer.
 #pragma once
 
 #include "gpu/graphics_pipeline.h"
@@ -12,7 +12,7 @@ namespace weft::render {
 
 struct Pipelines {
     gpu::GraphicsPipeline shadow, shadow_sheer, depth, ground_depth, occlusion, occlusion_smooth, background, ground;
-    std::array<gpu::GraphicsPipeline, 3> lit, sheer;  ///< both sides at once; fronts; backs
+    std::array<gpu::GraphicsPipeline, 3> lit, sheer;  ///< both sides at once; front sides; back sides
     gpu::GraphicsPipeline line, line_on_top, point, flat;
     gpu::GraphicsPipeline resolve, resolve_sheer;
     std::optional<gpu::Pipeline> bounds, sun;
@@ -20,7 +20,7 @@ struct Pipelines {
     static Result<Pipelines> create(const gpu::Device& device, const Passes& passes, std::uint32_t samples);
 };
 
-/// Onto a target. `straight`: colors are not multiplied by alpha.
+/// The pipeline that writes to a target. `encode`: encodes sRGB. `straight`: colors are not multiplied by alpha.
 Result<gpu::GraphicsPipeline> make_present(const gpu::Device& device, const gpu::RenderPass& pass, bool encode,
                                            bool straight);
 

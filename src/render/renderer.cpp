@@ -21,7 +21,7 @@ constexpr std::uint32_t most_samples = 256;
 constexpr VkClearValue clear_depth{.depthStencil = {1, 0}};
 constexpr VkClearValue clear_nothing{};
 
-// As shaders have them (frame.data.h).
+// Same layout as in shaders (frame.data.h).
 struct Push {
     std::uint64_t frame = 0, object = 0;
     glm::vec4 numbers{0};
@@ -48,15 +48,15 @@ bool blends(const gpu::Device& device, VkFormat format) {
 }
 
 template <class Value>
-Result<Done> take(Result<Value> made, Value& into) {
+Result<void> take(Result<Value> made, Value& into) {
     if (!made) return made.errors();
     into = std::move(*made);
-    return Done{};
+    return {};
 }
 
-/// Where each thing of a drawing is on the device.
+/// Device addresses of a drawing's data.
 struct Placed {
-    std::vector<std::uint64_t> frames;  // a pass each, and one more for what is on top
+    std::vector<std::uint64_t> frames;  // one per pass, and one for lines and points on top
     std::vector<std::uint64_t> objects, grounds;
     std::uint64_t lines = 0, lines_on_top = 0, points = 0, flat = 0;
 };
@@ -80,7 +80,7 @@ std::uint64_t room_for(const Drawing& drawing, std::uint32_t passes) {
            drawing.points.size() * sizeof(PointData) + drawing.flat.size() * sizeof(FlatData) + 64;
 }
 
-/// Where a picture ends: its pass by format and layout.
+/// The last pass and its pipeline, by format and layout of the target.
 struct Presenting {
     VkFormat format{};
     VkImageLayout after{};
@@ -121,10 +121,10 @@ struct Renderer::Impl {
         if (device->submitted() > 0) (void)device->wait(device->submitted());
     }
 
-    Result<Done> open(const RendererOptions& options);
-    Result<Done> make_fixed();
-    Result<Done> fit(std::uint32_t width, std::uint32_t height, bool sheer);
-    Result<Done> make_sets();
+    Result<void> open(const RendererOptions& options);
+    Result<void> make_fixed();
+    Result<void> fit(std::uint32_t width, std::uint32_t height, bool sheer);
+    Result<void> make_sets();
     Result<const Presenting*> presenting_for(const Target& target, bool straight);
 
     Placed place(FrameSlot& slot, const Drawing& drawing);
@@ -145,11 +145,11 @@ struct Renderer::Impl {
                                bool straight);
 };
 
-// --- What stays
+// --- Independent of the image's size
 
-Result<Done> Renderer::Impl::open(const RendererOptions& options) {
+Result<void> Renderer::Impl::open(const RendererOptions& options) {
     const std::string& name = device->info().name;
-    if (!device->draws()) return Error::of_machine(name, "computes but does not draw; choose another device");
+    if (!device->draws()) return Error::of_machine(name, "has no graphics queue; choose another device");
     const std::uint32_t wanted = std::clamp(options.samples, 1u, most_samples);
     samples = gpu::supported_samples(*device, std::min(wanted, 4u));
     repeats = (wanted + samples - 1) / samples;
@@ -159,7 +159,7 @@ Result<Done> Renderer::Impl::open(const RendererOptions& options) {
     return make_fixed();
 }
 
-Result<Done> Renderer::Impl::make_fixed() {
+Result<void> Renderer::Impl::make_fixed() {
     constexpr auto clamp = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     const gpu::SamplerDesc compare{.address_u = clamp, .address_v = clamp, .compare = true};
     const gpu::SamplerDesc point{.filter = VK_FILTER_NEAREST, .address_u = clamp, .address_v = clamp};
@@ -179,11 +179,11 @@ Result<Done> Renderer::Impl::make_fixed() {
     return take(memory.buffer(sizeof(shading::LightData), gpu::MemoryKind::device, "sun"), light);
 }
 
-// --- What goes by the size
+// --- Dependent on the image's size
 
-Result<Done> Renderer::Impl::fit(std::uint32_t width, std::uint32_t height, bool sheer) {
+Result<void> Renderer::Impl::fit(std::uint32_t width, std::uint32_t height, bool sheer) {
     const bool same = targets.width == width && targets.height == height;
-    if (same && (targets.sheer || !sheer) && display_set.handle() != VK_NULL_HANDLE) return Done{};
+    if (same && (targets.sheer || !sheer) && display_set.handle() != VK_NULL_HANDLE) return {};
     if (auto idle = device->wait(device->submitted()); !idle) return idle;
     if (!same) {
         targets = {};
@@ -197,7 +197,7 @@ Result<Done> Renderer::Impl::fit(std::uint32_t width, std::uint32_t height, bool
     return make_sets();
 }
 
-Result<Done> Renderer::Impl::make_sets() {
+Result<void> Renderer::Impl::make_sets() {
     constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
     const auto make = [&](gpu::DescriptorSet& into, const gpu::GraphicsPipeline& pipeline,
                           std::initializer_list<gpu::BoundImage> images) {
@@ -207,7 +207,7 @@ Result<Done> Renderer::Impl::make_sets() {
         return gpu::BoundImage{binding, image.view(), nearest.handle()};
     };
     const gpu::BoundImage behind{0, background.view(), around_sampler.handle()};
-    Result<Done> made =
+    Result<void> made =
         make(depth_set, pipelines.occlusion, {{0, targets.depth.view(), nearest.handle(), depth_layout}});
     if (made) made = make(occlusion_set, pipelines.occlusion_smooth, {drawn(0, targets.occlusion)});
     if (made) {
@@ -281,7 +281,7 @@ void Renderer::Impl::draw_surface(gpu::Commands& commands, const Object& object)
     commands.draw_indexed(object.surface.triangles, 3 * object.surface.triangle_count);
 }
 
-// Where everything is that casts shadows is found on the device, which alone knows.
+// The bounds of all shadow casters are computed on the device, because the host may not have the positions.
 void Renderer::Impl::record_sun(gpu::Commands& commands, const Drawing& drawing, const Placed& placed) {
     commands.drawing_barrier();
     commands.fill(bounds, 0xffffffffu, 12, 0);
@@ -305,7 +305,7 @@ void Renderer::Impl::record_sun(gpu::Commands& commands, const Drawing& drawing,
 
 void Renderer::Impl::record_shadow(gpu::Commands& commands, const Drawing& drawing, const Placed& placed) {
     commands.begin_pass(passes.shadow, shadow_frame, {&clear_depth, 1});
-    for (std::size_t i = 0; i < drawing.objects.size() && drawing.lighting.sun.strength > 0; ++i) {
+    for (std::size_t i = 0; i < drawing.objects.size() && drawing.lighting.sun.intensity > 0; ++i) {
         const Object& object = drawing.objects[i];
         if (!object.casts_shadow || object.surface.triangle_count == 0) continue;
         commands.bind(is_sheer(object) ? pipelines.shadow_sheer : pipelines.shadow);
@@ -317,7 +317,7 @@ void Renderer::Impl::record_shadow(gpu::Commands& commands, const Drawing& drawi
 
 void Renderer::Impl::record_occlusion(gpu::Commands& commands, const Drawing& drawing, const Placed& placed,
                                       std::size_t pass) {
-    const bool wanted = drawing.lighting.occlusion > 0;
+    const bool wanted = drawing.lighting.ambient_occlusion > 0;
     commands.begin_pass(passes.depth, targets.depth_frame, {&clear_depth, 1});
     if (wanted) {
         commands.bind(pipelines.depth);
@@ -384,7 +384,7 @@ void Renderer::Impl::record_lit(gpu::Commands& commands, const Drawing& drawing,
         commands.draw(6);
     }
     if (!drawing.lines.empty()) {
-        constexpr float nearer = 2e-5f;  // of the depth: a tenth of a millimeter or so
+        constexpr float nearer = 2e-5f;  // of the depth range: about a tenth of a millimeter
         commands.bind(pipelines.line);
         push(commands, frame, placed.lines, {nearer, 0, 0, 0});
         commands.draw(6 * static_cast<std::uint32_t>(drawing.lines.size()));
@@ -473,7 +473,7 @@ Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target&
     commands.end_pass();
     if (auto ended = commands.end(); !ended) return ended.errors();
 
-    // Surfaces that the device makes are there at moments of one timeline; the latest is that of all.
+    // All surfaces have times of the same timeline, so waiting for the latest is enough.
     gpu::Moment ready;
     for (const Object& object : drawing.objects) {
         const gpu::Moment one = object.surface.ready;
@@ -487,7 +487,7 @@ Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target&
     return submitted;
 }
 
-// --- Outside
+// --- Public functions
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
@@ -512,7 +512,7 @@ void Renderer::remove(MaterialId material) {
     impl_->materials.remove(material);
 }
 
-Result<Done> Renderer::surround(const Lighting& light, const ImageF* environment) {
+Result<void> Renderer::surround(const Lighting& light, const ImageF* environment) {
     Impl& self = *impl_;
     self.surroundings = surroundings_of(light, environment);
     self.has_environment = environment != nullptr;
@@ -523,8 +523,8 @@ Result<Done> Renderer::surround(const Lighting& light, const ImageF* environment
     const std::span<const ImageF> behind(environment ? environment : &none, 1);
     if (auto made = take(make_texture(*self.device, behind, "background"), self.background); !made) return made;
     self.surrounded = true;
-    self.display_set = {};  // all sets are made again with the next frame
-    return Done{};
+    self.display_set = {};  // the next frame makes all descriptor sets again
+    return {};
 }
 
 Result<std::uint64_t> Renderer::draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window) {

@@ -1,4 +1,4 @@
-// Draws a Drawing: from buffers on the device into a picture there, the same way for a file and for a window.
+// Draws a Drawing from device buffers into an image on the device, in the same way for files and windows.
 #pragma once
 
 #include "base/image.h"
@@ -10,43 +10,44 @@
 
 namespace weft::render {
 
-/// Texels across the map of the sun's shadows: 1.5 mm each over 3 m.
+/// Width of the sun's shadow map in texels: 1.5 mm each over 3 m.
 inline constexpr std::uint32_t shadow_map_side = 2048;
 
 struct RendererOptions {
-    /// A pixel: 1, 2 or 4 at once, if the device has so many; more, up to 256, by drawing the picture again and again.
+    /// Samples per pixel, 1…256. 1, 2 or 4 in one pass, if the device supports them; more by drawing the image
+    /// repeatedly.
     std::uint32_t samples = 4;
 };
 
-/// What a picture is put into.
+/// The image that a drawing is written to.
 struct Target {
     VkImageView view = VK_NULL_HANDLE;
-    VkFormat format = VK_FORMAT_R8G8B8A8_SRGB;  ///< of those that don't encode sRGB, colors are encoded here
+    VkFormat format = VK_FORMAT_R8G8B8A8_SRGB;  ///< if it does not encode sRGB, the shader does
     std::uint32_t width = 0, height = 0;
-    VkImageLayout after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;  ///< as it is left; what was in it is gone
+    VkImageLayout after = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;  ///< final layout; the old content is lost
 };
 
 class Renderer {
   public:
-    /// Fails where the device's queue does not draw, or it lacks what drawing needs.
+    /// Fails if the device's queue does not support drawing, or the device lacks a required feature.
     static Result<Renderer> create(std::shared_ptr<gpu::Device> device, const RendererOptions& options = {});
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
     ~Renderer();
 
     const std::shared_ptr<gpu::Device>& device() const;
-    /// Pictures that it names are read by the caller; without, it is as if it named none.
+    /// The caller reads the maps that the material names. Null: the material has no such map.
     Result<MaterialId> add(const Material& material, const Image8* color_map = nullptr,
                            const Image8* normal_map = nullptr);
-    /// Nothing under way may be drawn with it. Its number is given out again.
+    /// No frame in flight may use the material. Its number is reused.
     void remove(MaterialId material);
-    /// What is around from now on, and what it lights. Waits for the frames under way.
-    Result<Done> surround(const Lighting& light, const ImageF* environment = nullptr);
+    /// Sets the surroundings and their light. Waits for the frames in flight.
+    Result<void> surround(const Lighting& light, const ImageF* environment = nullptr);
 
-    /// Records and submits; returns the value that the device's timeline reaches when the picture is there. Waits for
-    /// the frame before the last one, whose buffers it writes again. `window`: those of a window's image.
+    /// Records and submits a frame. Returns the value that the device's timeline reaches when the image is done. Waits
+    /// for the frame before the last one, whose buffers it overwrites. `window`: semaphores of a window's image.
     Result<std::uint64_t> draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window = {});
-    /// Draws, waits and reads back. Colors of a transparent picture are not multiplied by alpha.
+    /// Draws, waits and reads back. Colors of a transparent image are not multiplied by alpha.
     Result<Image8> picture(const Drawing& drawing, std::uint32_t width, std::uint32_t height);
 
   private:

@@ -1,4 +1,4 @@
-// Numbers that fill an interval evenly.
+// Sequences that are evenly distributed over an interval.
 #pragma once
 
 #include <cstdint>

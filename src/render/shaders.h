@@ -7,7 +7,7 @@
 
 namespace weft::render {
 
-/// By the name of its file: `lit_frag` of lit.frag.
+/// The shader by the name of its file: `lit_frag` for lit.frag.
 const gpu::Shader& shader(std::string_view name);
 
 }  // namespace weft::render

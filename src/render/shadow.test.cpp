@@ -1,4 +1,4 @@
-// Shadows, where geometry says that they are.
+// Compares shadows with their geometric positions.
 
 #include "render/studio.test.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 class VulkanShadows : public VulkanPictures {
   protected:
-    /// Of pictures from above: the pixel that shows (x, 0, z), `side` m from top to bottom.
+    /// For images from above with `side` m from top to bottom: the pixel index of a coordinate.
     static std::uint32_t pixel(float at, float side, std::uint32_t count, std::uint32_t height) {
         const float p = at / side * static_cast<float>(height) + 0.5f * static_cast<float>(count);
         return static_cast<std::uint32_t>(std::clamp(p, 0.0f, static_cast<float>(count - 1)));
@@ -71,8 +71,8 @@ TEST_F(VulkanShadows, have_edges_as_wide_as_the_sun) {
         }
         return static_cast<float>(between) * side / 192;
     };
-    // 1.41 m of way through the air, and the ground cuts the light at an angle: 2 m of ground a radian of sun, of which
-    // a round sun has 0.49 between 20 % and 80 %.
+    // The distance from edge to ground is 1.41 m, and the light hits the ground at an angle: 2 m of ground per radian
+    // of sun. For a round sun, 0.49 of it is between 20 % and 80 %.
     const auto expected = [](float size) { return 0.49f * 2 * size * std::numbers::pi_v<float> / 180; };
     EXPECT_LT(penumbra(0.1f), 0.006f);
     EXPECT_NEAR(penumbra(0.8f), expected(0.8f), 0.005f);
@@ -98,7 +98,7 @@ TEST_F(VulkanShadows, do_not_speckle_what_is_lit) {
     }
 }
 
-// A ball has every slope. Where the sun reaches it, nothing but the cosine makes it darker.
+// A ball has all slopes. In sunlight, only the cosine darkens it.
 TEST_F(VulkanShadows, do_not_speckle_a_ball) {
     objects = {object_of(patch(64,
                                [](float s, float t) {
@@ -131,7 +131,7 @@ TEST_F(VulkanShadows, do_not_speckle_a_ball) {
     }
 }
 
-// A wall that stands on the ground: its shadow begins at its foot.
+// The shadow of a wall that stands on the ground begins at its foot.
 TEST_F(VulkanShadows, begin_where_things_stand) {
     const MaterialId white = add(paper());
     objects = {object_of(patch(4, [](float s, float t) { return Vec3{0, 0.5f * t, s - 0.5f}; }), white)};
@@ -167,7 +167,7 @@ TEST_F(VulkanShadows, are_cast_by_what_casts_them) {
     EXPECT_NEAR(shadow(), std::sin(std::numbers::pi_v<float> / 4), 0.04f);
 }
 
-// Half of the light goes between threads that cover half, and more of the area is threads where light comes aslant.
+// Threads that cover half of the area pass half of the light, and less at an oblique angle.
 TEST_F(VulkanShadows, of_sheer_cloth_are_lighter) {
     Material gauze = paper();
     gauze.coverage = 0.5f;

@@ -1,5 +1,4 @@
-// For the tests of this folder: a renderer under the eyes of the validation layers, meshes made from formulas, and
-// what light a picture shows.
+// For the tests of this folder: a renderer with validation layers, meshes from formulas, and the light of pixels.
 #pragma once
 
 #include "gpu/test_device.h"
@@ -25,7 +24,8 @@ struct Shape {
     std::vector<Triangle> triangles;
 };
 
-/// `at(s, t)`: a place for each of 0…1. Its front is where s and t run counter-clockwise; u is s, v is t.
+/// A mesh of the positions `at(s, t)`, with s and t in 0…1. On the front side, s and t run counterclockwise; u is s,
+/// v is t.
 template <class At>
 Shape patch(std::uint32_t cells, At&& at) {
     Shape shape;
@@ -59,42 +59,44 @@ inline Shape level_sheet(float side, float height, std::uint32_t cells = 4) {
 
 inline Lighting no_light() {
     Lighting light;
-    light.sun.strength = 0;
-    light.sky.strength = 0;
-    light.occlusion = 0;
+    light.sun.intensity = 0;
+    light.sky.intensity = 0;
+    light.ambient_occlusion = 0;
     return light;
 }
 
 /// The same white from everywhere.
 inline Lighting furnace() {
     Lighting light = no_light();
-    light.sky = {.strength = 1, .zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}};
+    light.sky = {.intensity = 1, .zenith = {1, 1, 1}, .horizon = {1, 1, 1}, .ground = {1, 1, 1}};
     return light;
 }
 
-/// A sun of white alone.
+/// Only a white sun.
 inline Lighting sun_alone(float azimuth, float elevation, float size = 0.53f) {
     Lighting light = no_light();
-    light.sun = {.azimuth = azimuth, .elevation = elevation, .strength = 1, .color = {1, 1, 1}, .size = size};
+    light.sun = {
+        .azimuth = azimuth, .elevation = elevation, .intensity = 1, .color = {1, 1, 1}, .angular_diameter = size};
     return light;
 }
 
-/// A surface that scatters all light alike, and little else: F0 is 0.
+/// A diffuse surface without gloss: F0 is 0.
 inline Material paper(float share = 1) {
     return {.color = {share, share, share},
             .weft_color = {share, share, share},
             .specular = 0,
             .roughness = {1, 1},
-            .relief = 0};
+            .weave_depth = 0};
 }
 
-/// Straight down on (0, 0, 0); +x is to the right, +z is down. `side`: m from top to bottom, on the ground.
+/// A camera that looks straight down on (0, 0, 0); +x is to the right, +z is down. `side`: height of the image in m, on
+/// the ground.
 inline Camera from_above(float side, float height = 10) {
     const float fov = 2 * std::atan(0.5f * side / height) * 180 / 3.14159265f;
     return {.position = {0, height, 0}, .target = {0, 0, 0}, .fov = fov};
 }
 
-/// What light makes this pixel: the inverse of shading/tone.h, of colors that are not pressed together.
+/// The light of a pixel: the inverse of shading/tone.h, for colors below the compressed range.
 inline Vec3 light_of(const std::uint8_t* pixel) {
     glm::vec3 c(0);
     for (int i = 0; i < 3; ++i) c[i] = weft::shading::srgb_decoded(static_cast<float>(pixel[i]) / 255);
@@ -108,7 +110,7 @@ inline float gray_of(const std::uint8_t* pixel) {
     return (light.x + light.y + light.z) / 3;
 }
 
-/// Mean light of a part of a picture, from pixel (x, y) on.
+/// Mean light of a part of an image, from pixel (x, y) on.
 inline Vec3 mean_light(const Image8& image, std::uint32_t x, std::uint32_t y, std::uint32_t width,
                        std::uint32_t height) {
     Vec3 sum{};
@@ -121,7 +123,7 @@ inline Vec3 mean_light(const Image8& image) {
     return mean_light(image, 0, 0, image.width, image.height);
 }
 
-/// The largest difference of two pictures at one pixel, and how many pixels differ by more than `much`.
+/// The largest difference of two images at one pixel, and the number of pixels that differ by more than `much`.
 struct Difference {
     int largest = 0;
     std::size_t beyond = 0;
@@ -140,7 +142,7 @@ inline Difference difference(const Image8& a, const Image8& b, int much = 1) {
     return found;
 }
 
-/// A renderer, what it draws, and the drawing.
+/// A renderer with a drawing and its objects.
 class VulkanPictures : public gpu::OnDevice {
   protected:
     void SetUp() override {
@@ -168,7 +170,7 @@ class VulkanPictures : public gpu::OnDevice {
         EXPECT_TRUE(id.ok()) << id.error().message();
         return id.ok() ? *id : 0;
     }
-    /// On the device as long as the test lasts.
+    /// The mesh stays on the device until the end of the test.
     Object object_of(const Shape& shape, MaterialId material) {
         auto mesh = HostMesh::create(*device, static_cast<std::uint32_t>(shape.positions.size()), shape.triangles,
                                      shape.uvs, {}, "shape");

@@ -12,7 +12,7 @@ constexpr VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout depth_read = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout depth_kept = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
-/// Makes what is asked for, and remembers the first thing that could not be made.
+/// Moves a made object to `into`, or keeps the first error.
 template <class Value>
 bool take(Result<Value> made, Value& into, Errors& errors) {
     if (made) {
@@ -89,8 +89,8 @@ Result<Targets> Targets::create(gpu::Device& device, const Passes& passes, std::
     return targets;
 }
 
-Result<Done> Targets::add_sheer(gpu::Device& device, const Passes& passes, std::uint32_t samples) {
-    if (sheer) return Done{};
+Result<void> Targets::add_sheer(gpu::Device& device, const Passes& passes, std::uint32_t samples) {
+    if (sheer) return {};
     Errors errors;
     for (gpu::Image* into : {&sheer.sum, &sheer.depth}) {
         take(gpu::Image::create(device,
@@ -106,7 +106,7 @@ Result<Done> Targets::add_sheer(gpu::Device& device, const Passes& passes, std::
     const VkImageView views[] = {sheer.sum.view(), sheer.depth.view(), lit_depth.view()};
     take(gpu::Framebuffer::create(device, passes.sheer, views, width, height), sheer.frame, errors);
     if (!errors.empty()) return errors;
-    return Done{};
+    return {};
 }
 
 }  // namespace weft::render

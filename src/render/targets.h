@@ -1,4 +1,4 @@
-// The pictures that a frame is made in, of one size.
+// Render passes and intermediate images of a frame.
 #pragma once
 
 #include "gpu/graphics_pipeline.h"
@@ -9,16 +9,16 @@
 
 namespace weft::render {
 
-/// The passes of a frame, whatever its size. In the order in which they run.
+/// The passes of a frame, independent of its size, in order of execution.
 struct Passes {
-    gpu::RenderPass shadow;     ///< depth as the sun sees it
-    gpu::RenderPass depth;      ///< depth as the eye sees it, a sample a pixel
-    gpu::RenderPass occlusion;  ///< what is left of the light around, and the depth
-    gpu::RenderPass lit;        ///< all that is solid
-    gpu::RenderPass sheer;      ///< what is not: sums, optical depth
-    gpu::RenderPass first;      ///< samples to colors for a screen
-    gpu::RenderPass further;    ///< likewise, added to those that are there
-    gpu::RenderPass top;        ///< and what is on top of all
+    gpu::RenderPass shadow;     ///< depth seen from the sun
+    gpu::RenderPass depth;      ///< depth seen from the eye, one sample per pixel
+    gpu::RenderPass occlusion;  ///< ambient visibility, and the depth
+    gpu::RenderPass lit;        ///< solid objects
+    gpu::RenderPass sheer;      ///< sheer objects: sums, optical depth
+    gpu::RenderPass first;      ///< resolves samples to colors for a screen
+    gpu::RenderPass further;    ///< likewise, added to the colors of earlier passes
+    gpu::RenderPass top;        ///< lines, points and flat triangles on top
 
     static Result<Passes> create(const gpu::Device& device, std::uint32_t samples, VkFormat display);
 };
@@ -26,7 +26,7 @@ struct Passes {
 inline constexpr VkFormat light_format = VK_FORMAT_R16G16B16A16_SFLOAT, depth_format = VK_FORMAT_D32_SFLOAT,
                           occlusion_format = VK_FORMAT_R16G16_SFLOAT;
 
-/// For what is sheer; most scenes have nothing.
+/// Images for sheer objects. Made only for scenes that have some.
 struct SheerTargets {
     gpu::Image sum, depth;
     gpu::Framebuffer frame;
@@ -40,7 +40,7 @@ struct Targets {
     gpu::Framebuffer depth_frame, occlusion_frame, smooth_frame, lit_frame, display_frame;
     SheerTargets sheer;
 
-    Result<Done> add_sheer(gpu::Device& device, const Passes& passes, std::uint32_t samples);
+    Result<void> add_sheer(gpu::Device& device, const Passes& passes, std::uint32_t samples);
 
     static Result<Targets> create(gpu::Device& device, const Passes& passes, std::uint32_t width, std::uint32_t height,
                                   std::uint32_t samples, VkFormat display);

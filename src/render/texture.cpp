@@ -16,7 +16,7 @@ std::vector<std::byte> bytes_of(std::span<const std::uint8_t> values) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// Means are taken of light, not of what encodes it.
+/// The image at half the size. Means are computed in linear light.
 Image8 halved(const Image8& image) {
     Image8 half{std::max(1u, image.width / 2), std::max(1u, image.height / 2), {}};
     half.rgba.resize(std::size_t{half.width} * half.height * 4);
@@ -46,7 +46,7 @@ std::uint16_t half_float(float value) {
     value = std::clamp(value, -largest, largest);
     const std::uint32_t sign = std::bit_cast<std::uint32_t>(value) >> 16 & 0x8000u;
     const float size = std::abs(value);
-    if (size < 6.103515625e-5f)  // subnormal: whole steps of 2^-24
+    if (size < 6.103515625e-5f)  // subnormal: multiples of 2^-24
         return static_cast<std::uint16_t>(sign | static_cast<std::uint32_t>(std::lrint(size * 16777216.0f)));
     std::uint32_t bits = std::bit_cast<std::uint32_t>(size);
     bits += 0xfffu + (bits >> 13 & 1u);  // to the nearest, ties to even

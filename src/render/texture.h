@@ -1,4 +1,4 @@
-// Pictures that shaders sample, brought to the device.
+// Creates images that shaders sample.
 #pragma once
 
 #include "base/image.h"
@@ -12,15 +12,15 @@
 
 namespace weft::render {
 
-/// One level after another, each of half the size of the one before; bytes as `format` has them.
+/// `levels`: each has half the size of the one before; bytes in `format`.
 Result<gpu::Image> make_texture(gpu::Device& device, std::uint32_t width, std::uint32_t height, VkFormat format,
                                 std::span<const std::vector<std::byte>> levels, const std::string& name);
-/// Of colors as sRGB encodes them, with all smaller levels.
+/// From sRGB-encoded colors, with all smaller levels.
 Result<gpu::Image> make_texture(gpu::Device& device, const Image8& image, const std::string& name);
-/// In half floats, as many levels as there are pictures.
+/// In half floats, with one level per image.
 Result<gpu::Image> make_texture(gpu::Device& device, std::span<const ImageF> levels, const std::string& name);
 
-/// IEEE 754 binary16, rounded to nearest; what is too large becomes the largest there is.
+/// IEEE 754 binary16, rounded to nearest; too large values become the largest finite one.
 std::uint16_t half_float(float value);
 
 }  // namespace weft::render

@@ -23,7 +23,7 @@ Result<std::shared_ptr<const Display>> Display::open() {
     if (!glfwInit()) {
         return Error::of_machine(
             "window",
-            "there is no display; set DISPLAY or WAYLAND_DISPLAY, or write pictures to files (" + last_words() + ")");
+            "there is no display; set DISPLAY or WAYLAND_DISPLAY, or write images to files (" + last_words() + ")");
     }
     auto display = std::shared_ptr<const Display>(new Display);
     opened = display;
@@ -49,22 +49,22 @@ struct Window::Impl {
     std::optional<gpu::Swapchain> swapchain;
     WindowInput input;
     bool buttons[3]{};
-    double asked = 0;  // s
+    double asked = 0;  // s: time of the last call of input()
 
     ~Impl() {
         drop_surface();
         if (window) glfwDestroyWindow(window);
     }
 
-    Result<Done> open(const WindowOptions& options);
-    Result<Done> make_surface();
+    Result<void> open(const WindowOptions& options);
+    Result<void> make_surface();
     void drop_surface();
     void listen();
     void moved(double x, double y);
     void pressed(int key, int action);
 };
 
-Result<Done> Window::Impl::open(const WindowOptions& options) {
+Result<void> Window::Impl::open(const WindowOptions& options) {
     images = options.images;
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -76,19 +76,18 @@ Result<Done> Window::Impl::open(const WindowOptions& options) {
     return make_surface();
 }
 
-Result<Done> Window::Impl::make_surface() {
+Result<void> Window::Impl::make_surface() {
     if (!device->presents()) {
-        return Error::of_machine(
-            device->info().name,
-            "has no windows: its driver or the Vulkan loader cannot show pictures on this display; "
-            "write them to files");
+        return Error::of_machine(device->info().name,
+                                 "has no windows: its driver or the Vulkan loader cannot show images on this display; "
+                                 "write them to files");
     }
     const VkResult result = glfwCreateWindowSurface(device->instance().handle(), window, nullptr, &surface);
     if (result != VK_SUCCESS) return device->error("to make a window's surface", result);
     auto made = gpu::Swapchain::create(*device, surface, images);
     if (!made) return made.errors();
     swapchain = std::move(*made);
-    return Done{};
+    return {};
 }
 
 void Window::Impl::drop_surface() {
@@ -200,7 +199,7 @@ VkPresentModeKHR Window::mode() const {
 }
 
 Result<gpu::SwapchainImage> Window::next() {
-    if (!impl_->swapchain) {  // the last attempt to make it anew has failed
+    if (!impl_->swapchain) {  // the last attempt to make it again failed
         if (auto made = impl_->make_surface(); !made) return made.errors();
     }
     auto image = impl_->swapchain->acquire(extent());
@@ -208,11 +207,11 @@ Result<gpu::SwapchainImage> Window::next() {
     impl_->drop_surface();
     if (auto made = impl_->make_surface(); !made) return made.errors();
     image = impl_->swapchain->acquire(extent());
-    if (image && image->state == gpu::Acquired::surface_lost) return gpu::SwapchainImage{};  // lost again: next time
+    if (image && image->state == gpu::Acquired::surface_lost) return gpu::SwapchainImage{};  // retry next time
     return image;
 }
 
-Result<Done> Window::show(const gpu::SwapchainImage& image, std::uint64_t done) {
+Result<void> Window::show(const gpu::SwapchainImage& image, std::uint64_t done) {
     return impl_->swapchain->present(image, done);
 }
 

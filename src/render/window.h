@@ -1,4 +1,4 @@
-// Windows, by GLFW. All of this is used from the program's first thread.
+// Windows, with GLFW. Use everything here from the main thread only.
 #pragma once
 
 #include "gpu/swapchain.h"
@@ -13,16 +13,16 @@
 
 namespace weft::render {
 
-/// Where windows can be opened.
+/// The display that windows open on.
 class Display {
   public:
-    /// Fails where there is none. It is one for all who have it.
+    /// Fails if there is no display. All callers share one object.
     static Result<std::shared_ptr<const Display>> open();
     ~Display();
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
 
-    /// For gpu::InstanceOptions. Empty where Vulkan has nothing to do with windows.
+    /// For gpu::InstanceOptions. Empty if Vulkan does not support windows here.
     std::vector<std::string> surface_extensions() const;
 
   private:
@@ -37,31 +37,31 @@ struct WindowOptions {
 
 class Window {
   public:
-    /// The device's instance was made with the display's extensions.
+    /// The device's instance must have been made with the display's extensions.
     static Result<Window> create(std::shared_ptr<const Display> display, std::shared_ptr<gpu::Device> device,
                                  const WindowOptions& options = {});
     Window(Window&&) noexcept;
     Window& operator=(Window&&) noexcept;
     ~Window();
 
-    /// Hears what happened since the last call; of other windows too, which say it when they are asked. `patience`: how
-    /// long it waits for something to happen, s.
+    /// Returns the user input since the last call. Also collects events of other windows, which their own calls return.
+    /// `patience`: longest time to wait for an event, s.
     WindowInput input(double patience = 0);
-    /// Somebody wants it closed; it stays until it is destroyed.
+    /// Whether the user or close() asked to close the window. It stays open until it is destroyed.
     bool closed() const;
     void close();
     void set_title(const std::string& title);
     /// Pixels; 0 while it is minimized.
     VkExtent2D extent() const;
 
-    /// Those of its next image; another surface, after one is lost, may have others.
+    /// Properties of the next image. They may change if the surface is lost and made again.
     VkFormat format() const;
     bool encodes_srgb() const;
     VkPresentModeKHR mode() const;
-    /// What is drawn next: `image`, or `nothing`, as while it is minimized.
+    /// The next image to draw. Its state is `image` or `nothing`, for example while the window is minimized.
     Result<gpu::SwapchainImage> next();
-    /// `done`: what the submit returned that draws it.
-    Result<Done> show(const gpu::SwapchainImage& image, std::uint64_t done);
+    /// Presents the image. `done`: result of the submission that draws it.
+    Result<void> show(const gpu::SwapchainImage& image, std::uint64_t done);
 
   private:
     struct Impl;

@@ -39,7 +39,7 @@ std::uint64_t vertex_count(const GridDesc& grid) {
 }
 
 std::uint64_t vertex_count(const SphereMeshDesc& sphere) {
-    // More than the key allows, and still no overflow.
+    // A bound above the limit of the key that still does not overflow.
     return (std::uint64_t{10} << 2 * std::min(sphere.subdivisions, 20u)) + 2;
 }
 
@@ -49,7 +49,7 @@ std::uint64_t vertex_count(const BoxMeshDesc& box) {
     return 2 * (cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]) + 2;
 }
 
-// A mesh that the scene describes by numbers: unlike that of a file, it is known before it is there.
+// A mesh that the scene describes by parameters. Its size is known before the mesh is built.
 struct MadeMesh {
     std::string_view key;
     std::uint64_t vertices = 0;
@@ -62,7 +62,7 @@ std::optional<MadeMesh> made_mesh(const MeshDesc& mesh) {
     return {};
 }
 
-// `resolution` of a grid or a box.
+// Checks the size of a grid or a box, which follows from its `resolution`.
 void check_resolution(std::uint64_t vertices, const std::string& pointer, Problems& problems) {
     const std::string place = at(pointer, "resolution");
     if (vertices > max_made_vertices && !problems.concern(place))
@@ -75,7 +75,7 @@ void check_mesh_file(const MeshFileDesc& mesh, const std::string& pointer, Probl
     if (mesh.file.empty()) problems.add(at(pointer, "file"), "must name a file");
 }
 
-// The rest is seen when its topology is built.
+// Checks array sizes only; building the topology checks the rest.
 void check_given_mesh(const TriangleMesh& mesh, const std::string& pointer, Problems& problems) {
     const auto check_size = [&](std::size_t size, std::string_view what) {
         if (size != 0 && size != mesh.positions.size())
@@ -131,7 +131,7 @@ void check_keys(const std::vector<Key>& keys, std::span<const Parameter> table, 
     }
 }
 
-// Of the particles of a mesh that is not made here nothing is known.
+// `made` is empty for meshes from files or from the program: their particles are not known here.
 void check_pin(const PinDesc& pin, const std::optional<MadeMesh>& made, const std::string& pointer,
                Problems& problems) {
     if (const auto* vertices = std::get_if<VertexPins>(&pin.select)) {
@@ -166,13 +166,13 @@ void check_names(const std::vector<Named>& all, const std::string& pointer, Prob
             problems.add(at(at(pointer, i), "name"), "is taken: another before it is called " + in_quotes(all[i].name));
 }
 
-// Each mesh may be fine by itself.
+// Checks the sum over all cloths; each mesh alone may be within its limit.
 void check_total(const SceneDesc& scene, Problems& problems) {
     std::uint64_t total = 0;
     bool drawn = false;
     for (const SceneCloth& cloth : scene.cloths) {
         if (const auto made = made_mesh(cloth.mesh)) total += made->vertices;
-        if (const auto made = cloth.drawn ? made_mesh(*cloth.drawn) : std::nullopt)
+        if (const auto made = cloth.render_mesh ? made_mesh(*cloth.render_mesh) : std::nullopt)
             total += made->vertices, drawn = true;
     }
     if (total > max_made_vertices && !problems.concern("/cloths"))
@@ -198,11 +198,11 @@ std::vector<std::string> names_of(const std::vector<Named>& all, const std::stri
 std::string range_problem(const Parameter& parameter, double value, std::string_view got) {
     const bool integer = parameter.kind == ParameterKind::integer;
     const std::string text = got.empty() ? number_text(value) : std::string(got);
-    // Limits as floats, so that a limit written in a file lies within.
+    // The limits are rounded to float, so that a limit written in a file is within the range.
     const double min = integer ? parameter.min : static_cast<float>(parameter.min);
     const double max = integer ? parameter.max : static_cast<float>(parameter.max);
     const bool below = parameter.min_excluded ? value <= min : value < min;
-    // A side without a limit still ends where floats do.
+    // A side without a limit still has the range of float.
     if (!std::isfinite(value) || (below ? min == -any_float : value > max && max == any_float))
         return "must be a finite number, got " + text;
     if (!below && value <= max) return {};
@@ -237,7 +237,7 @@ void check_values(std::span<const Parameter> table, const void* base, const std:
                 check_numbers<std::uint32_t>(p, base, place, problems);
                 break;
             case ParameterKind::choice:
-                // Only a program can get this wrong.
+                // Only a program can pass such a value; the reader rejects it in files.
                 if (element<unsigned>(p, base, 0) >= choice_names(p).size())
                     problems.add(place, "is not one of its enumerators");
                 break;
@@ -285,14 +285,15 @@ void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::st
 void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& problems) {
     check_values(cloth_keys, &cloth, pointer, problems);
     check_mesh(cloth.mesh, at(pointer, "mesh"), problems);
-    if (cloth.drawn) check_mesh(*cloth.drawn, at(pointer, "drawn"), problems);
+    if (cloth.render_mesh) check_mesh(*cloth.render_mesh, at(pointer, "render_mesh"), problems);
     check_values(transform_keys, &cloth.transform, at(pointer, "transform"), problems);
     for (const FabricTable& table : fabric_tables())
         check_values(table.parameters, reinterpret_cast<const std::byte*>(&cloth.fabric) + table.offset,
                      at(pointer, "fabric"), problems);
-    // Of a mesh that is wrong nobody knows how many particles it has.
+    // If a mesh has errors, its number of particles is unknown.
     const bool sound = !problems.concern(at(pointer, "mesh"));
     check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
+    check_material(cloth.material, at(pointer, "material"), problems);
 }
 
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
@@ -349,8 +350,10 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     check_solver(scene.solver, "/solver", problems);
     if (scene.air) check_air(*scene.air, "/air", problems);
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) check_cloth(scene.cloths[i], at("/cloths", i), problems);
-    for (std::size_t i = 0; i < scene.colliders.size(); ++i)
+    for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
         check_collider(scene.colliders[i], at("/colliders", i), problems);
+        check_material(scene.colliders[i].material, at(at("/colliders", i), "material"), problems);
+    }
     check_names(scene.cloths, "/cloths", problems);
     check_names(scene.colliders, "/colliders", problems);
     const std::vector<std::string> called = collider_names(scene);
@@ -365,7 +368,6 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     check_total(scene, problems);
     if (scene.camera) check_camera(*scene.camera, "/camera", problems);
     check_light(scene.light, "/light", problems);
-    check_looks(scene, "/look", problems);
 }
 
 Errors check_scene(const SceneDesc& scene) {

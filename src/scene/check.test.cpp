@@ -22,7 +22,8 @@ SceneDesc valid_scene() {
     scene.cloths[0].pins = {{VertexPins{{0, 63}}}, {BoxPins{{{-1, -1, -1}, {1, 1, 1}}}}};
     scene.cloths[1].mesh = MeshFileDesc{.file = "bunny.obj"};
     scene.cloths[1].pins = {{ColorPins{.color = {1, 0, 0}}}};
-    scene.colliders = {{.name = "ground", .shape = PlaneDesc{}}, {.name = "ball", .shape = SphereDesc{}}};
+    scene.colliders = {ColliderDesc{.name = "ground", .shape = PlaneDesc{}},
+                       ColliderDesc{.name = "ball", .shape = SphereDesc{}}};
     return scene;
 }
 
@@ -71,7 +72,7 @@ TEST(CheckScene, HoldsFabricsToTheirRange) {
                 ElementsAre("/cloths/0/fabric/density: must be > 0 kg/m², got -1"));
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].fabric.stretch.stretch[1] = -4; }),
                 ElementsAre("/cloths/0/fabric/stretch/1: must be ≥ 0 N/m, got -4"));
-    // One number for both directions is one problem.
+    // One number for both directions is reported once.
     EXPECT_THAT(problems_after([](SceneDesc& s) {
                     s.cloths[0].fabric.stretch.stretch[0] = s.cloths[0].fabric.stretch.stretch[1] = -4;
                 }),
@@ -84,7 +85,7 @@ TEST(CheckScene, HoldsFabricsToTheirRange) {
 TEST(CheckScene, LimitsGrids) {
     EXPECT_THAT(problems_after([](SceneDesc& s) {
                     grid(s).resolution = {1, 4097};
-                    s.cloths[0].pins = {{VertexPins{{5000}}}};  // too many? of how many is not known
+                    s.cloths[0].pins = {{VertexPins{{5000}}}};  // unchecked: the vertex count is unknown
                 }),
                 ElementsAre("/cloths/0/mesh/grid/resolution/0: must be ≥ 2, got 1",
                             "/cloths/0/mesh/grid/resolution/1: must be ≤ 4096, got 4097"));
@@ -104,7 +105,7 @@ TEST(CheckScene, LimitsGrids) {
                 }),
                 ElementsAre("/cloths: must have at most 16777216 particles together, got 16781312"));
     EXPECT_THAT(problems_after([](SceneDesc& s) {
-                    s.cloths[1].drawn = GridDesc{.resolution = {4096, 4096}};
+                    s.cloths[1].render_mesh = GridDesc{.resolution = {4096, 4096}};
                 }),
                 ElementsAre("/cloths: must have at most 16777216 particles and drawn vertices together, got 16781312"));
     EXPECT_THAT(problems_after([](SceneDesc& s) {
@@ -122,7 +123,7 @@ TEST(CheckScene, KnowsTheParticlesOfAGrid) {
                 ElementsAre("/cloths/0/pins/0/vertices/1: must be less than 4096, the number of particles, got 4096"));
     EXPECT_THAT(problems_after([](SceneDesc& s) {
                     grid(s).diagonal = GridDiagonal::cross;
-                    s.cloths[0].pins = {{VertexPins{{8064}}}};  // 64² + 63² are 8065
+                    s.cloths[0].pins = {{VertexPins{{8064}}}};  // 64² + 63² = 8065 vertices
                 }),
                 ElementsAre());
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].pins = {{ColorPins{}}}; }),
@@ -138,7 +139,7 @@ TEST(CheckScene, KnowsTheParticlesOfAGrid) {
                     s.cloths[0].pins = {{VertexPins{{23, 24}}}};
                 }),
                 ElementsAre("/cloths/0/pins/0/vertices/1: must be less than 24, the number of particles, got 24"));
-    // How many a file has is not known yet.
+    // The number of vertices of a mesh file is not known yet.
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[1].pins = {{VertexPins{{1000000000}}}}; }), ElementsAre());
 }
 

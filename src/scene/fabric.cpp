@@ -11,7 +11,7 @@ namespace {
 constexpr bool textile = true;  // woven or knitted
 constexpr bool sheet = false;
 
-// The arguments as fabrics.def documents them; micronewton meters in, newton meters out.
+// One line of fabrics.def, with its arguments. Bending is in µN·m in the file and in N·m in a Fabric.
 struct Row {
     double density, stretch_warp, stretch_weft, shear, bend_warp, bend_bias, bend_weft;
 };
@@ -44,7 +44,7 @@ constexpr FabricPreset presets[] = {
 #undef WEFT_FABRIC
 };
 
-constexpr FabricTable tables[] = {
+constexpr FabricTable fabric_table_list[] = {
     {body_parameters, offsetof(Fabric, body)},
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) \
     WEFT_IF_FABRIC_##source({name##_parameters, offsetof(Fabric, name)}, )
@@ -57,11 +57,11 @@ constexpr FabricTable tables[] = {
 }  // namespace
 
 std::span<const FabricTable> fabric_tables() {
-    return tables;
+    return fabric_table_list;
 }
 
 bool operator==(const Fabric& a, const Fabric& b) {
-    return std::ranges::all_of(tables, [&](const FabricTable& table) {
+    return std::ranges::all_of(fabric_table_list, [&](const FabricTable& table) {
         const auto in = [&](const Fabric& fabric) {
             return reinterpret_cast<const std::byte*>(&fabric) + table.offset;
         };

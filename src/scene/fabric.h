@@ -1,4 +1,4 @@
-// A fabric: every material value of a cloth, and the fabrics known by name.
+// Fabrics: all material values of a cloth, and the presets.
 #pragma once
 
 #include "base/parameter.h"
@@ -19,23 +19,23 @@ namespace weft {
 struct BodyMaterial {
     float density = 0.14f;  ///< kg/m²
     float damping = 0.1f;   ///< s
-    /// Of stretch, compression and bend, 0…1, for plain position-based dynamics, which knows no N/m.
+    /// Of stretch, compression and bend, 0…1, for plain position-based dynamics, which has no stiffness in N/m.
     float stiffness[3] = {1, 1, 1};
 };
 
-// One entry is one key.
+// One entry per scene key.
 // clang-format off
 inline constexpr Parameter body_parameters[] = {
     {.key = "density", .count = 1, .offset = offsetof(BodyMaterial, density), .min = 0, .max = 1e4,
      .min_excluded = true, .unit = "kg/m²", .what = "mass per area"},
     {.key = "damping", .count = 1, .offset = offsetof(BodyMaterial, damping), .min = 0, .max = 1e4, .unit = "s",
-     .what = "retardation time of a Kelvin-Voigt solid: stress = stiffness · (strain + time · strain rate)"},
+     .what = "damping time (Kelvin-Voigt): stress = stiffness · (strain + time · strain rate)"},
     {.key = "stiffness", .count = 3, .offset = offsetof(BodyMaterial, stiffness), .min = 0, .max = 1,
-     .what = "part of a stretch, compression and bend that an iteration undoes, in place of N/m; `method` `pbd` only"},
+     .what = "fraction of the stretch, compression and bend that an iteration removes; only for `method` `pbd`"},
 };
 // clang-format on
 
-/// Defaults are the preset `cotton`.
+/// The default is the preset `cotton`.
 struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
@@ -45,34 +45,34 @@ struct Fabric {
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-    /// Of the values that have a key, bit by bit: an angle that the mesh has is a NaN.
+    /// Compares the values that have a key, bit by bit, because the angle `mesh` is stored as a NaN.
     friend bool operator==(const Fabric& a, const Fabric& b);
 };
 
-/// One table of parameters and where its struct stands in a Fabric.
+/// One table of parameters and the offset of its struct in a Fabric.
 struct FabricTable {
     std::span<const Parameter> parameters;
     std::size_t offset;
 };
 
-/// Every table, in the order in which documentation lists them. Address of a value: fabric + table.offset + p.offset.
+/// All tables, in the order of the documentation. Address of a value: fabric + table.offset + p.offset.
 std::span<const FabricTable> fabric_tables();
 
 struct FabricPreset {
     std::string_view name;
-    std::string_view source;  ///< where the values come from, and which of them are chosen rather than measured
+    std::string_view source;  ///< where the values come from, and which of them are chosen, not measured
     Fabric fabric;
     bool woven_or_knitted = true;
-    std::string_view material = "cotton";  ///< what it looks like where a scene does not say
+    std::string_view material = "cotton";  ///< used where a scene gives none
 };
 
-/// The fabric that a program describes. Every problem with it has its place below `pointer`.
+/// The fabric that a program describes. The places of its problems are below `pointer`.
 Result<Fabric> make_fabric(const FabricDesc& desc, const std::string& pointer = "/fabric");
 
-/// Where a description says how stiff a stretch is and not a compression, both are the same.
+/// Where only the stretch stiffness is given, sets the compression stiffness to the same values.
 void follow_stretch(Fabric& fabric, bool stretch_given, bool compression_given);
 
-/// Every fabric known by name.
+/// All presets.
 std::span<const FabricPreset> fabric_presets();
 /// nullptr if no preset has that name.
 const FabricPreset* find_fabric(std::string_view name);

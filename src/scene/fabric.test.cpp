@@ -66,8 +66,8 @@ TEST(Fabric, EveryPresetIsInRange) {
     }
 }
 
-// A strip of cloth bends under its own weight over about this length, whatever the cloth: Peirce's bending length of
-// real textiles is a few centimeters, and a slip of a decimal in stiffness or density leaves the interval.
+// A strip of cloth bends under its own weight over about this length: Peirce's bending length of real textiles is a few
+// centimeters. A decimal point error in stiffness or density leaves the interval.
 TEST(Fabric, BendingLengthIsThatOfTextiles) {
     for (const FabricPreset& preset : fabric_presets()) {
         if (!preset.woven_or_knitted) continue;

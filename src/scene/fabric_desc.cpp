@@ -1,4 +1,4 @@
-// From the fabric that a program describes by keys and values to the values themselves.
+// Builds a Fabric from the keys and values that a program gives.
 #include "scene/check.h"
 #include "scene/nearest_name.h"
 #include "scene/set_value.h"
@@ -31,7 +31,7 @@ std::vector<std::string_view> all_keys() {
 }  // namespace
 
 void follow_stretch(Fabric& fabric, bool stretch_given, bool compression_given) {
-    // A stretch out of range is one problem, not two.
+    // A stretch stiffness out of range is reported once: compression does not follow it then.
     Problems of_stretch;
     check_values(stretch_parameters, &fabric.stretch, "", of_stretch);
     if (stretch_given && !compression_given && !of_stretch.concern("/stretch"))

@@ -1,5 +1,5 @@
-// docs/rendering.md is written by hand, but for its table of materials: this holds every row to its preset, and sees
-// that its swatch is there. A failure prints the row to paste.
+// docs/rendering.md is written by hand, except for its table of materials: these tests compare every line with its
+// preset and check that its swatch exists. A failure prints the line to paste.
 #include "look/material.h"
 #include "scene/check.h"
 
@@ -35,7 +35,7 @@ std::string text_of(float value) {
     return text;
 }
 
-/// One number where both are the same.
+/// One number if both are equal.
 std::string text_of(const float (&values)[2]) {
     return text_of(values[0]) + (values[0] == values[1] ? "" : ", " + text_of(values[1]));
 }
@@ -51,7 +51,7 @@ std::string weave_of(const Material& material) {
     return {};
 }
 
-/// Of velvet the sheen's color is that of its hairs.
+/// For velvet, the sheen color is that of the hairs.
 std::string fuzz_of(const Material& m) {
     const std::string color = text_of(m.sheen_color);
     if (m.velvet > 0) return "pile " + text_of(m.velvet) + ", α " + text_of(m.velvet_alpha) + "; hairs " + color;
@@ -68,10 +68,11 @@ std::string row(const MaterialPreset& preset) {
     const Material& m = preset.material;
     const std::string name(preset.name);
     std::string text = "| " + image_begin + swatch_of(preset) + "\" width=\"160\" alt=\"" + name + "\"> |";
-    for (const std::string& cell : {'`' + name + "`: " + std::string(preset.what),
-                                    m.weave == Weave::smooth ? "" : weave_of(m) + ", " + text_of(m.thread) + " mm",
-                                    text_of(m.color), text_of(m.roughness_matte), text_of(m.specular),
-                                    m.velvet > 0 ? "" : text_of(m.roughness), fuzz_of(m), through_of(m)})
+    for (const std::string& cell :
+         {'`' + name + "`: " + std::string(preset.what),
+          m.weave == Weave::smooth ? "" : weave_of(m) + ", " + text_of(m.thread_spacing) + " mm", text_of(m.color),
+          text_of(m.diffuse_roughness), text_of(m.specular), m.velvet > 0 ? "" : text_of(m.roughness), fuzz_of(m),
+          through_of(m)})
         text += (cell.empty() ? "" : " " + cell) + " |";
     return text;
 }

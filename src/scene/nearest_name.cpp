@@ -2,12 +2,38 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace weft {
 namespace {
 
-// Distance of Damerau and Levenshtein in its restricted form: no letter takes part in two swaps.
+/// A former name of a scene key or value, and a name that is known beside it now.
+struct FormerName {
+    std::string_view before, now;
+    std::string_view hint = {};  ///< end of the message, where `now` is not simply the new name
+};
+
+// A former name may have several present ones.
+constexpr FormerName former_names[] = {
+    {"drawn", "render_mesh"},
+    {"look", "material"},
+    {"look", "colliders", "; each cloth and each collider has a key \"material\" now"},
+    {"hinges", "bend_edges"},
+    {"hinges", "dihedral"},
+    {"source", "no-diagonals"},
+    {"plate", "cosine"},
+    {"listing", "sine"},
+    {"thread", "thread_spacing"},
+    {"relief", "weave_depth"},
+    {"map_repeat", "uv_tiling"},
+    {"roughness_matte", "diffuse_roughness"},
+    {"strength", "intensity"},
+    {"size", "angular_diameter"},
+    {"occlusion", "ambient_occlusion"},
+};
+
+// Restricted Damerau-Levenshtein distance: no letter takes part in two swaps.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -44,7 +70,7 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
         const std::size_t shorter = std::min(word.size(), name.size());
         const std::size_t allowed = std::max<std::size_t>(longer / 3, 1);
         const bool begins = shorter >= 3 && (name.starts_with(word) || word.starts_with(name));
-        if (!begins && longer - shorter > allowed) continue;  // also spares the work for a word of a megabyte
+        if (!begins && longer - shorter > allowed) continue;  // also keeps the cost low for very long words
         const std::size_t errors = begins ? 1 : typing_errors(word, name);
         if ((begins || errors <= allowed) && errors < fewest) {
             fewest = errors;
@@ -58,7 +84,16 @@ std::string alternatives(std::span<const std::string_view> names) {
     return listed(names, " or ");
 }
 
+std::string former_name(std::string_view word, std::span<const std::string_view> known) {
+    for (const auto& [before, now, hint] : former_names) {
+        if (word != before || std::ranges::find(known, now) == known.end()) continue;
+        return hint.empty() ? "; this is called \"" + std::string(now) + "\" now" : std::string(hint);
+    }
+    return "";
+}
+
 std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+    if (std::string now = former_name(word, known); !now.empty()) return now;
     if (const std::string_view name = nearest_name(word, known); !name.empty())
         return "; did you mean \"" + std::string(name) + "\"?";
     return known.empty() ? "" : "; known are " + listed(known, " and ");

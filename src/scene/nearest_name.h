@@ -1,4 +1,4 @@
-// What a misspelled name was probably meant to be.
+// Suggestions for misspelled names.
 #pragma once
 
 #include <span>
@@ -7,15 +7,19 @@
 
 namespace weft {
 
-/// The known name that is fewest typing errors away (a letter missing, added, changed, or two swapped) if those are few
-/// for its length, or of which `word` is the beginning; otherwise empty.
+/// The known name with the fewest typing errors (a letter missing, added, changed, or two swapped), if they are few for
+/// its length, or a known name that begins with `word` or that `word` begins with; otherwise empty.
 std::string_view nearest_name(std::string_view word, std::span<const std::string_view> known);
 
 /// `"a", "b" or "c"`
 std::string alternatives(std::span<const std::string_view> names);
 
-/// For the end of a message about an unknown name: `; did you mean "density"?`, or where nothing is near,
-/// `; known are "a", "b" and "c"`.
+/// The end of an error message about a name that has changed: `; this is called "render_mesh" now`. Empty if `word` is
+/// not a former name of one of `known`.
+std::string former_name(std::string_view word, std::span<const std::string_view> known);
+
+/// The end of an error message about an unknown name: its present name, `; did you mean "density"?`, or, where no name
+/// is similar, `; known are "a", "b" and "c"`.
 std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 
 }  // namespace weft

@@ -17,7 +17,7 @@ TEST(NearestName, FindsWhatWasMeant) {
     EXPECT_EQ(nearest_name("Bend", keys), "bend");          // case
     EXPECT_EQ(nearest_name("rest-angle", keys), "rest_angle");
     EXPECT_EQ(nearest_name("restangle", keys), "rest_angle");
-    EXPECT_EQ(nearest_name("dens", keys), "density");  // the beginning of it
+    EXPECT_EQ(nearest_name("dens", keys), "density");  // a beginning of the name
     EXPECT_EQ(nearest_name("friction_static", keys), "friction");
     EXPECT_EQ(nearest_name("bend", keys), "bend");
 }
@@ -25,7 +25,7 @@ TEST(NearestName, FindsWhatWasMeant) {
 TEST(NearestName, PrefersTheFewestErrors) {
     constexpr std::string_view names[] = {"mask", "mass", "mast"};
     EXPECT_EQ(nearest_name("maass", names), "mass");
-    EXPECT_EQ(nearest_name("mas", names), "mask");  // all are as near: the first
+    EXPECT_EQ(nearest_name("mas", names), "mask");  // all are equally near: the first
 }
 
 TEST(NearestName, FindsNothingFarAway) {
@@ -43,6 +43,17 @@ TEST(NearestName, SuggestsOrLists) {
     EXPECT_EQ(suggestion("teapot", {}), "");
     EXPECT_EQ(alternatives(names), "\"plane\", \"sphere\" or \"box\"");
     EXPECT_EQ(alternatives(std::span(names).first(1)), "\"plane\"");
+}
+
+TEST(NearestName, a_former_name_is_answered_with_the_one_of_today) {
+    constexpr std::string_view keys[] = {"bend", "bend_edges", "bend_model"}, models[] = {"dihedral", "plate"};
+    EXPECT_EQ(suggestion("hinges", keys), "; this is called \"bend_edges\" now");
+    EXPECT_EQ(former_name("hinges", models), "; this is called \"dihedral\" now");
+    EXPECT_EQ(former_name("hinges", {}), "");
+    EXPECT_EQ(former_name("hinge", keys), "");
+    constexpr std::string_view of_scene[] = {"cloths", "colliders"};
+    EXPECT_EQ(suggestion("look", of_scene), "; each cloth and each collider has a key \"material\" now");
+    EXPECT_EQ(former_name("look", keys), "");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace weft {
 namespace {
 
-// More would only bury the cause.
+// A longer list would hide the cause.
 constexpr std::size_t max_problems = 100;
 constexpr std::size_t max_quote = 60;
 constexpr std::size_t max_place = 300;
@@ -18,7 +18,7 @@ constexpr bool continues_utf8(char c) {
     return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }
 
-// Errors are one line each, also when a key holds a newline.
+// Each error is one line, also where a key contains a newline.
 std::string printable(std::string_view text) {
     constexpr std::string_view digits = "0123456789abcdef";
     std::string result;
@@ -31,7 +31,7 @@ std::string printable(std::string_view text) {
     return result;
 }
 
-// `text`, or its beginning where it is long, with whole characters.
+// `text`, cut to whole characters if it is longer than `limit`.
 std::string shortened(std::string_view text, std::size_t limit) {
     if (text.size() <= limit) return printable(text);
     std::size_t end = limit;

@@ -31,7 +31,7 @@ TEST(Problems, QuotesStayShortAndOnOneLine) {
     EXPECT_EQ(in_quotes("silk"), "\"silk\"");
     EXPECT_EQ(in_quotes("a\nb"), "\"a\\u000ab\"");
     EXPECT_EQ(in_quotes(std::string(100, 'x')), '"' + std::string(60, 'x') + "…\"");
-    // The cut never splits a character: é has two bytes.
+    // The cut must not split a character: é has two bytes.
     std::string accents;
     for (int i = 0; i < 50; ++i) accents += "é";
     EXPECT_EQ(in_quotes("x" + accents), "\"x" + accents.substr(0, 58) + "…\"");

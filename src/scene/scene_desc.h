@@ -1,5 +1,5 @@
-// What a scene says, as values in SI units with their defaults. No file format and no simulation lives here. The ranges
-// of the values are in scene_keys.h; check.h applies them. The parts that a program may use too are in weft/scene.h.
+// The content of a scene as values in SI units with their defaults, independent of file format and simulation. The
+// ranges of the values are in scene_keys.h; check.h applies them. The types that programs use too are in weft/scene.h.
 #pragma once
 
 #include "base/transform.h"
@@ -12,9 +12,14 @@
 #include <weft/result.h>
 #include <weft/scene.h>
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace weft {
 
-// weft/scene.h names every wind that there is, in the same order.
+// weft/scene.h must list the winds in the same order.
 #define WEFT_WIND(name, Name) WindKind::name,
 inline constexpr WindKind wind_order[] = {
 #include "physics/air/winds.def"
@@ -27,26 +32,33 @@ static_assert([] {
     return true;
 }());
 
-/// A ClothDesc whose fabric has been looked up.
+/// The material of a cloth or a collider in images and exports.
+struct SceneMaterial {
+    std::string preset = {};  ///< name of the preset whose values are used where the scene gives none
+    Material values = {};
+    friend bool operator==(const SceneMaterial&, const SceneMaterial&) = default;
+};
+
+/// A ClothDesc with its fabric looked up, and a material.
 struct SceneCloth {
     std::string name = {};
-    MeshDesc mesh = {};                  ///< what is simulated
-    std::optional<MeshDesc> drawn = {};  ///< what is drawn and follows it; without, the same
+    MeshDesc mesh = {};                        ///< the simulated mesh
+    std::optional<MeshDesc> render_mesh = {};  ///< the drawn mesh, which follows `mesh`; by default the same
     TransformDesc transform = {};
     Fabric fabric = {};
-    std::string fabric_name = "cotton";  ///< of the preset that the fabric began as
+    std::string fabric_name = "cotton";  ///< of the preset that the fabric is based on
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;
-    float tether_slack = 0;  ///< of the way over the cloth
+    float tether_slack = 0;                      ///< relative to the geodesic distance
+    std::optional<SceneMaterial> material = {};  ///< by default that of the fabric
     friend bool operator==(const SceneCloth&, const SceneCloth&) = default;
 };
 
-/// How something in the scene looks.
-struct SceneLook {
-    std::string object = {};  ///< name of a cloth or a collider
-    std::string preset = {};  ///< name of the material whose values stand where none is given
-    Material material = {};
-    friend bool operator==(const SceneLook&, const SceneLook&) = default;
+/// A ColliderDesc with a material.
+struct SceneCollider : ColliderDesc {
+    SceneCollider(ColliderDesc collider = {}) : ColliderDesc(std::move(collider)) {}
+    std::optional<SceneMaterial> material = {};  ///< by default `floor` for a plane, `matte` for other shapes
+    friend bool operator==(const SceneCollider&, const SceneCollider&) = default;
 };
 
 struct SceneDesc {
@@ -54,13 +66,12 @@ struct SceneDesc {
     Vec3 gravity{0, -9.81f, 0};  ///< m/s²
     float frame_rate = 60;       ///< frames per second, > 0
     SolverDesc solver = {};
-    std::optional<AirDesc> air = {};      ///< without, a vacuum
+    std::optional<AirDesc> air = {};      ///< by default a vacuum
     std::vector<SceneCloth> cloths = {};  ///< at least one
-    std::vector<ColliderDesc> colliders = {};
+    std::vector<SceneCollider> colliders = {};
     std::vector<StitchDesc> stitches = {};
-    std::optional<Camera> camera = {};  ///< without, one from which everything is seen
+    std::optional<Camera> camera = {};  ///< by default placed so that everything is visible
     Lighting light = {};
-    std::vector<SceneLook> looks = {};  ///< of those that have one
     friend bool operator==(const SceneDesc&, const SceneDesc&) = default;
 };
 

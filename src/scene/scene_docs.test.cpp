@@ -1,5 +1,5 @@
-// docs/scene.md is written by hand, but for its tables: this holds every row to the parameter tables that the reader
-// and the checks go by. A failure prints the row to paste.
+// docs/scene.md is written by hand, except for its tables: these tests compare every line with the parameter tables of
+// the reader and the checks. A failure prints the line to paste.
 #include "scene/check.h"
 #include "scene/fabric.h"
 #include "scene/scene_keys.h"

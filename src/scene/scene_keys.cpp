@@ -5,6 +5,9 @@
 namespace weft {
 namespace {
 
+// Structs with the default values that the tables refer to.
+namespace defaults {
+
 const SceneHead scene_head;
 const FabricHead fabric_head;
 const SceneDesc scene;
@@ -24,12 +27,15 @@ const PinDesc pin;
 const OffsetKey offset_key;
 const PoseKey pose_key;
 const Camera camera;
-const LookHead look_head;
+const MaterialHead material_head;
 const StitchDesc stitch;
 const StitchEnd stitch_end;
 const MeshPoint surface_point;
 
+}  // namespace defaults
+
 std::vector<SceneTable> all_tables() {
+    using namespace defaults;
     std::vector<SceneTable> tables = {
         {"", head_keys, &scene_head},
         {"", scene_keys, &scene},
@@ -44,9 +50,9 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/mesh/grid", grid_keys, &grid},
         {"/cloths/*/mesh/sphere", sphere_mesh_keys, &sphere_mesh},
         {"/cloths/*/mesh/box", box_mesh_keys, &box_mesh},
-        // Its shapes have the keys that they have in `mesh`.
-        {"/cloths/*/drawn", mesh_keys, nullptr},
-        {"/cloths/*/drawn", mesh_file_keys, &mesh_file},
+        // Its shapes have the same keys as in `mesh`.
+        {"/cloths/*/render_mesh", mesh_keys, nullptr},
+        {"/cloths/*/render_mesh", mesh_file_keys, &mesh_file},
         {"/cloths/*/transform", transform_keys, &cloth.transform},
         {"/cloths/*/fabric", fabric_keys, &fabric_head},
     };
@@ -59,6 +65,9 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/pins/*", pin_motion_keys, &pin},
         {"/cloths/*/pins/*/motion/*", offset_key_keys, &offset_key},
         {"/cloths/*/pins/*/box", box_keys, nullptr},
+        {"/cloths/*/material", material_keys, &material_head},
+        {"/cloths/*/material", material_parameters, nullptr},
+        // Its material has the same keys as a cloth's material.
         {"/colliders/*", collider_keys, &collider},
         {"/colliders/*/transform", pose_keys, &collider.transform},
 #define WEFT_SHAPE(name, Name) {"/colliders/*/" #name, name##_parameters, &name##_shape},
@@ -69,15 +78,13 @@ std::vector<SceneTable> all_tables() {
         {"/stitches/*", stitch_keys, &stitch},
         {"/stitches/*/a", stitch_end_keys, &stitch_end},
         {"/stitches/*/a/points/*", surface_point_keys, &surface_point},
-        // Its points have the keys that they have in `a`.
+        // Its points have the same keys as in `a`.
         {"/stitches/*/b", stitch_end_keys, &stitch_end},
         {"/camera", camera_parameters, &camera},
         {"/light", lighting_parameters, &scene.light},
         {"/light/sun", sun_parameters, &scene.light.sun},
         {"/light/sky", sky_parameters, &scene.light.sky},
         {"/light/environment", environment_parameters, &scene.light.environment},
-        {"/look/*", look_keys, &look_head},
-        {"/look/*", material_parameters, nullptr},
     };
     tables.insert(tables.end(), std::begin(rest), std::end(rest));
     return tables;

@@ -40,7 +40,7 @@ std::string store_value(const Target& to, const std::vector<double>& numbers) {
         if (number != std::floor(number)) return "must be a whole number, got " + number_text(number);
         to.store(i, static_cast<std::uint32_t>(number));
     }
-    // A NaN stands for the mesh's own angle, which has a word of its own.
+    // NaN is the internal value for the mesh's own angle; the word "mesh" selects it.
     if (p.kind == ParameterKind::angle_or_mesh && std::isnan(numbers.front())) return "must be a number or \"mesh\"";
     return {};
 }
@@ -59,7 +59,8 @@ std::string store_value(const Target& to, const std::string& word) {
     if (to.parameter.kind != ParameterKind::choice) return "must not be a word, got " + in_quotes(word);
     const auto names = choice_names(to.parameter);
     const auto it = std::ranges::find(names, word);
-    if (it == names.end()) return "must be " + alternatives(names) + ", got " + in_quotes(word);
+    if (it == names.end())
+        return "must be " + alternatives(names) + ", got " + in_quotes(word) + former_name(word, names);
     to.store(0, static_cast<int>(it - names.begin()));
     return {};
 }

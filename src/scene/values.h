@@ -1,4 +1,4 @@
-// Values behind parameter tables, read without knowing the struct that holds them.
+// Reads values through parameter tables, without the type of the struct that holds them.
 #pragma once
 
 #include "base/parameter.h"
@@ -10,7 +10,7 @@
 
 namespace weft {
 
-/// Element `index` of the value in the struct at `base`. memcpy, because the struct is known by its offsets alone.
+/// Element `index` of the value in the struct at `base`. Uses memcpy because only the member's offset is known.
 template <class T>
 T element(const Parameter& parameter, const void* base, std::size_t index = 0) {
     T value;
@@ -22,7 +22,7 @@ inline const std::string& text_of(const Parameter& parameter, const void* base) 
     return *reinterpret_cast<const std::string*>(static_cast<const std::byte*>(base) + parameter.offset);
 }
 
-/// Whether both structs have the same value, to the bit. Objects and lists have none of their own.
+/// Whether both structs have the same value, bit for bit. Objects and lists have no value here and compare equal.
 inline bool same_value(const Parameter& parameter, const void* a, const void* b) {
     const auto same_bytes = [&](std::size_t size) {
         const auto* in_a = static_cast<const std::byte*>(a) + parameter.offset;

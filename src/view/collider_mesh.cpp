@@ -7,11 +7,11 @@
 namespace weft {
 namespace {
 
-using Numbers = std::array<float, 4>;  // of the shape, as its kernel file states
+using Numbers = std::array<float, 4>;  // parameters of the shape, see its kernel file
 
-constexpr std::uint32_t slices = 96, rings = 24;  // of what is round: around, and from a pole to the equator
+constexpr std::uint32_t slices = 96, rings = 24;  // of round shapes: around, and from a pole to the equator
 
-/// Turned about y: points (radius, height) with their normals, from the top down.
+/// Outline of a surface of revolution about y: points (radius, height) with their normals, from the top down.
 struct Outline {
     std::vector<Vec2> points, normals;
 };
@@ -85,8 +85,8 @@ TriangleMesh mesh_of_box(const Numbers& numbers) {
     return mesh;
 }
 
-// And a function `extent_of_<name>`: how far it reaches from its center along a unit vector in its own frame, m.
-// Infinite where it has no end.
+// A function `extent_of_<name>` for every shape: its extent from the center along a unit vector in the shape's own
+// frame, m. Infinite for an unbounded shape.
 
 float extent_of_plane(const Numbers&, Vec3) {
     return std::numeric_limits<float>::infinity();

@@ -1,4 +1,4 @@
-// What a collider looks like.
+// Meshes and bounds of colliders.
 #pragma once
 
 #include "solver/world/collider.h"
@@ -8,10 +8,10 @@
 
 namespace weft {
 
-/// In the collider's own frame, with normals; empty for a plane, which has no end.
+/// In the collider's own frame, with normals; empty for a plane, which is unbounded.
 TriangleMesh mesh_of(const Collider& collider);
 
-/// In the world, where it is now; empty for a plane.
+/// In world space, at the current pose; empty for a plane.
 Bounds bounds_of(const Collider& collider);
 
 }  // namespace weft

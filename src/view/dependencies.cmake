@@ -1,4 +1,4 @@
-# The text that shaders and C++ share.
+# For code that shaders and C++ share.
 find_package(glm REQUIRED)
 target_link_libraries(weft_view PUBLIC glm::glm)
 

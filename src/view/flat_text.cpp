@@ -1,6 +1,6 @@
 #include "view/flat_text.h"
 
-// Its functions are static, and not all of them are used here.
+// The functions of stb_easy_font are static, and not all of them are used here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include <stb/stb_easy_font.h>
@@ -11,14 +11,14 @@
 namespace weft {
 namespace {
 
-// As stb_easy_font writes it.
+// Vertex layout of stb_easy_font.
 struct FontVertex {
     float x, y, z;
     unsigned char color[4];
 };
 static_assert(sizeof(FontVertex) == 16);
 
-// More than the most segments of a character, 12, with four corners each.
+// Four corners for each segment. A character has at most 12 segments, and 16 leaves a margin.
 constexpr std::size_t vertices_per_character = 4 * 16;
 
 std::string printable(std::string_view text) {

@@ -8,11 +8,11 @@
 
 namespace weft {
 
-/// Of printable ASCII at a size of 1: a capital letter is 7 high, a line 12.
+/// Width of printable ASCII at size 1: a capital letter is 7 high, a line 12.
 float text_width(std::string_view text);
 
-/// `x`, `y`: the upper left corner, in pixels. `size` in pixels per unit; whole numbers keep letters sharp. Characters
-/// beyond ASCII become '?'.
+/// `x`, `y`: the upper left corner, in pixels. `size` in pixels per unit; integers keep letters sharp. Other characters
+/// than ASCII become '?'.
 void draw_text(std::string_view text, float x, float y, float size, Vec4 color, std::vector<render::FlatVertex>& flat);
 
 /// Corners from upper left to lower right.

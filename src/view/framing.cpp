@@ -11,9 +11,9 @@ namespace {
 
 constexpr float framing_fov = 32;         // degrees: a short telephoto lens, as for portraits
 constexpr float smallest_radius = 1e-3f;  // m
-constexpr float omega = 8;                // 1/s, of the spring: it has gone 95 % of a way after 0.6 s
-constexpr float margin = 1.1f;            // of the aim at the start, over the subject: room to move in
-constexpr float loosest = 1.25f;          // the aim shrinks to so much of a subject that became smaller
+constexpr float omega = 8;                // 1/s, of the spring: it covers 95 % of a distance in 0.6 s
+constexpr float aim_margin = 1.1f;        // initial radius of the aim over that of the subject
+constexpr float loosest = 1.25f;          // largest radius of the aim over that of the subject
 
 Ball ball_around(const Bounds& bounds) {
     return {bounds.center(), std::max(0.5f * length(bounds.size()), smallest_radius)};
@@ -35,8 +35,8 @@ Bounds common_part(const Bounds& a, const Bounds& b) {
     return {larger(a.min, b.min), smaller(a.max, b.max)};
 }
 
-/// One step of a critically damped spring towards a goal that moves at a constant speed, solved exactly:
-/// e(t) = (e₀ + (ė₀ + ω e₀) t) exp(-ω t) for the way e that is left, so that any step is stable.
+/// One step of a critically damped spring towards a goal that moves at a constant speed. The exact solution for the
+/// error e, e(t) = (e₀ + (ė₀ + ω e₀) t) exp(-ω t), is stable for any step.
 template <class Value>
 void spring(Value& at, Value& speed, const Value& goal_before, const Value& goal, float seconds) {
     const Value goal_speed = (goal - goal_before) * (1 / seconds);
@@ -85,7 +85,7 @@ FollowingCamera::FollowingCamera(const Subject& subject, float aspect) : aspect_
 
 void FollowingCamera::cut_to(const Subject& subject) {
     before_ = shown_;
-    aim_ = {subject.all.center, margin * subject.all.radius};
+    aim_ = {subject.all.center, aim_margin * subject.all.radius};
     shown_ = aim_;
     velocity_ = {};
     growth_ = 0;
@@ -110,7 +110,7 @@ void FollowingCamera::follow(const Subject& subject, float seconds) {
     }
 }
 
-Camera FollowingCamera::carried(const Camera& camera) const {
+Camera FollowingCamera::moved_along(const Camera& camera) const {
     const float scale = shown_.radius / before_.radius;
     Camera to = camera;
     to.target = shown_.center + (camera.target - before_.center) * scale;

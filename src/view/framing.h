@@ -1,4 +1,4 @@
-// A camera for scenes that have none: it frames all cloths and colliders, and follows them.
+// A camera for scenes without one. It frames all cloths and colliders, and follows them.
 #pragma once
 
 #include "look/camera.h"
@@ -14,43 +14,43 @@ struct Ball {
     float radius = 0;  ///< m
 };
 
-/// What a camera should show of a world, at its last frame.
+/// The part of a world that a camera should show, at the last frame.
 struct Subject {
     Ball cloths;  ///< around all particles: these must be in view
-    Ball all;     ///< and the parts of colliders that are near them
+    Ball all;     ///< around the cloths and nearby parts of colliders
 };
 
-/// Brings the frame to the host (World::frame). A collider counts as far as the cloths' bounding box, grown by its
-/// diagonal to all sides, reaches: what a cloth has fallen away from is left behind, and of a large one it shows a
-/// part. Without cloths, all colliders but planes.
+/// Reads the frame back to the host (World::frame). Colliders count only within the cloths' bounding box, enlarged by
+/// its diagonal on all sides. So colliders far from the cloths are ignored, and large ones count in part. Without
+/// cloths, all colliders except planes count.
 Subject subject_of(const World& world);
 
-/// From the front, a little from the right and above, so far away that the whole ball is in view. `aspect`: width over
-/// height of the picture.
+/// A camera in front of the ball, slightly to the right and above, that shows the whole ball. `aspect`: width over
+/// height of the image.
 Camera framing(const Ball& ball, float aspect);
 
-/// Follows a subject from one picture to the next as a person with a steady hand would:
+/// Follows a subject smoothly from one image to the next:
 ///
-///  * It aims at a ball a little larger than the subject, and moves its aim only as far as the subject would leave that
-///    ball otherwise. A flag that flutters within it does not make the camera breathe.
-///  * It goes after its aim as a critically damped spring that also knows the speed of the aim: it neither swings nor
-///    lags behind what falls freely by more than g/omega², 0.15 m.
-///  * Whatever happens, the cloths are in view: where the spring is too slow, the camera steps back.
+///  * It aims at a ball slightly larger than the subject. It moves the aim only as far as needed to keep the subject in
+///    that ball. A flag that flutters within it does not move the camera.
+///  * A critically damped spring, which also uses the speed of the aim, moves the camera to the aim. It does not
+///    oscillate, and lags behind free fall by at most g/omega², 0.15 m.
+///  * The cloths are always in view: if the spring is too slow, the camera moves back.
 ///
-/// It knows nothing of frames that are still to come, so that a film needs no second run.
+/// It needs no future frames, so a video needs no second run.
 class FollowingCamera {
   public:
     FollowingCamera(const Subject& subject, float aspect);
 
-    /// `seconds` after the call before; 0 if nothing has moved.
+    /// `seconds`: simulated time since the previous call; 0 if nothing has moved.
     void follow(const Subject& subject, float seconds);
-    /// A cut: as it would begin with that subject.
+    /// A cut: restarts with that subject.
     void cut_to(const Subject& subject);
 
     const Ball& shown() const { return shown_; }
     Camera camera() const { return framing(shown_, aspect_); }
-    /// A camera that was steered by hand since the last call of follow() or cut_to(), taken along with what it shows.
-    Camera carried(const Camera& camera) const;
+    /// Moves a camera that the user has steered along with the subject, by the change of the last follow() or cut_to().
+    Camera moved_along(const Camera& camera) const;
 
   private:
     float aspect_ = 1;

@@ -58,7 +58,7 @@ TEST(FollowingCamera, keeps_what_falls_and_lands_in_view_without_jumps) {
             sharpest = std::max(sharpest, length(velocity - velocity_before) * rate);
             before = camera.shown().center, velocity_before = velocity;
         }
-        // It lands at 19.6 m/s: the camera brakes with 2 ω of that, and is carried on by v / (e ω) = 0.9 m.
+        // It lands at 19.6 m/s. The camera brakes with 2 ω v and overshoots by v / (e ω) = 0.9 m.
         EXPECT_LT(sharpest, 330) << "m/s²; landing itself is " << 19.6f * rate;
         EXPECT_LT(farthest, 0.7f + 0.9f);
         EXPECT_NEAR(camera.shown().center.y, -19.62f, 0.15f);
@@ -89,9 +89,9 @@ TEST(FollowingCamera, takes_a_steered_camera_along) {
     FollowingCamera camera(ball_at({}, 1), 1.5f);
     const Camera steered{.position = {3, 1, 0}, .target = {0.5f, 0, 0}, .fov = 50};
     camera.follow(ball_at({}, 1), 0);
-    EXPECT_EQ(camera.carried(steered).position, steered.position) << "nothing has moved";
+    EXPECT_EQ(camera.moved_along(steered).position, steered.position) << "nothing has moved";
     camera.cut_to(ball_at({0, -10, 0}, 2));
-    const Camera carried = camera.carried(steered);
+    const Camera carried = camera.moved_along(steered);
     EXPECT_LT(length(carried.target - Vec3{1, -10, 0}), 1e-5f);
     EXPECT_LT(length(carried.position - Vec3{6, -8, 0}), 1e-5f);
     EXPECT_EQ(carried.fov, 50);

@@ -11,13 +11,13 @@ namespace weft {
 namespace {
 
 // Lengths in units of the text.
-constexpr float margin = 8, padding = 7, line = 12, capital = 7, between = 11;
+constexpr float margin = 8, padding = 7, line = 12, capital = 7, gap = 11;
 constexpr float bar_length = 132, bar_height = 8, tick = 3, patch = 7;
 
 constexpr Vec4 ink{0.96f, 0.96f, 0.96f, 1};
 constexpr Vec4 backdrop{0.06f, 0.07f, 0.09f, 0.62f};
 
-// Letters of 14 pixels in a picture of 720 rows, less where it is narrow, never below the 7 that the font has.
+// Letters are 14 pixels high in an image of height 720, smaller in narrow images, but at least 7, the font's own size.
 float unit_of(std::uint32_t width, std::uint32_t height) {
     return std::max(1.0f, std::round(std::min(static_cast<float>(height) / 360, static_cast<float>(width) / 400)));
 }
@@ -27,7 +27,7 @@ Vec4 color_at(const Legend::Bar& bar, float t) {
     return {color.x, color.y, color.z, 1};
 }
 
-// As much of it as has room.
+// The text, shortened to fit into `room`.
 std::string shortened(std::string text, float room) {
     if (text_width(text) <= room) return text;
     while (!text.empty() && text_width(text + "..") > room) text.pop_back();
@@ -42,7 +42,7 @@ float height_of(const Legend& legend) {
 
 float width_of(const Legend& legend) {
     float width = text_width(legend.title);
-    if (legend.bar) width = std::max(width, bar_length + 24);  // numbers reach beyond both ends
+    if (legend.bar) width = std::max(width, bar_length + 24);  // numbers extend beyond both ends
     for (const Legend::Entry& entry : legend.entries)
         width = std::max(width, text_width(entry.text) + (entry.color ? patch + 5 : 0));
     return width;
@@ -64,7 +64,7 @@ class Page {
             text(shortened(entry.text, room_ - indent), indent, 0);
             top_ += capital * unit_;
         }
-        top_ += between * unit_;
+        top_ += gap * unit_;
     }
 
   private:
@@ -92,7 +92,7 @@ class Page {
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             const float x = begin + length * static_cast<float>(i) / static_cast<float>(numbers.size() - 1);
             rectangle(x - 0.5f, 0, x + 0.5f, tick, ink);
-            // Its middle under the tick, on whole pixels, and inside the backdrop.
+            // Centered under the tick, at whole pixels, and inside the backdrop.
             const float width = text_width(numbers[i]);
             const float at = std::clamp(std::round(x - width / 2), 0.0f, std::max(0.0f, length + 24 - width));
             text(numbers[i], at, tick + 2);
@@ -104,7 +104,7 @@ class Page {
     std::vector<render::FlatVertex>& flat_;
 };
 
-// Darker where text is, and soft at the rim.
+// A dark rectangle behind the text, with soft edges.
 void draw_backdrop(float left, float top, float right, float bottom, float soft,
                    std::vector<render::FlatVertex>& flat) {
     Vec4 clear = backdrop;
@@ -118,7 +118,7 @@ void draw_backdrop(float left, float top, float right, float bottom, float soft,
         for (int column = 0; column < 3; ++column) {
             const auto a = corner(column, row), b = corner(column + 1, row), c = corner(column, row + 1),
                        d = corner(column + 1, row + 1);
-            // Cut so that corners fade evenly: along the side that leads to the inner corner.
+            // The diagonal of a corner cell goes to the inner corner, so that corners fade evenly.
             if (row == column || row == 1 || column == 1) {
                 flat.insert(flat.end(), {a, c, d, a, d, b});
             } else {
@@ -149,7 +149,7 @@ void draw_legends(std::span<const Legend> legends, std::uint32_t width, std::uin
     float wide = 0, high = 0;
     std::size_t shown = 0;
     for (; shown < legends.size(); ++shown) {
-        const float more = height_of(legends[shown]) + (shown > 0 ? between : 0);
+        const float more = height_of(legends[shown]) + (shown > 0 ? gap : 0);
         if (high + more > rows) break;
         high += more;
         wide = std::max(wide, width_of(legends[shown]));

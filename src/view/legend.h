@@ -1,4 +1,4 @@
-// What the colors and lines of an overlay mean, written into the lower left corner of the picture.
+// Legends of overlays, drawn into the lower left corner of the image.
 #pragma once
 
 #include "render/drawing.h"
@@ -28,13 +28,13 @@ struct Legend {
     std::string title;  ///< ASCII, like all text here; other characters become '?'
     std::optional<Bar> bar = {};
     std::vector<Entry> entries = {};
-    bool of_scalars = false;  ///< goes with OverlayOutput::scalars
+    bool of_scalars = false;  ///< belongs to OverlayOutput::scalars
 };
 
-/// What stands under a bar, from its left end to its right: five numbers, three where five have no room.
+/// Numbers under a bar, from its left end to its right: five, or three if five do not fit.
 std::vector<std::string> tick_texts(const Legend::Bar& bar, std::size_t count = 5);
 
-/// One below the other on a dark backdrop. What has no room in a picture of that size is left out: the last first.
+/// Draws the legends below one another on a dark backdrop. Leaves out the last ones if the image has no room for them.
 void draw_legends(std::span<const Legend> legends, std::uint32_t width, std::uint32_t height,
                   std::vector<render::FlatVertex>& flat);
 

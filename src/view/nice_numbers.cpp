@@ -9,7 +9,7 @@ namespace weft {
 double nice_above(double value) {
     if (!(value > 0) || !std::isfinite(value)) return 1;
     const double decade = std::floor(std::log10(value));
-    // What lies above by rounding alone is not above.
+    // The tolerance accepts values that exceed a nice number only by rounding.
     for (const double power : {decade - 1, decade, decade + 1}) {
         for (const double digit : {1.0, 2.0, 5.0}) {
             const double nice = power < 0 ? digit / std::pow(10, -power) : digit * std::pow(10, power);

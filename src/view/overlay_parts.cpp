@@ -38,13 +38,13 @@ std::vector<Vec3> anchor_places(const World& world, const ClothFrame& cloth, dou
     std::vector<Vec3> places;
     for (std::uint32_t i = 0; i < model.anchor_count; ++i)
         places.push_back(model.start[model.first_anchor() + i].xyz());
-    const Holds& holds = world.holds(cloth.id);
-    for (const HeldParticle& held : holds.particles) {
-        if (held.particle < model.first_anchor() || held.particle >= model.point_count()) continue;
-        const Mover& mover = holds.movers[held.mover];
-        places[held.particle - model.first_anchor()] = world.contains(mover.collider)
-                                                           ? to_world(world.collider(mover.collider).pose, held.local)
-                                                           : held.local + offset_at(mover.offsets, time);
+    const KinematicTargets& targets = world.kinematic_targets(cloth.id);
+    for (const KinematicTarget& target : targets.particles) {
+        if (target.particle < model.first_anchor() || target.particle >= model.point_count()) continue;
+        const TargetMotion& motion = targets.motions[target.motion];
+        places[target.particle - model.first_anchor()] =
+            world.contains(motion.collider) ? to_world(world.collider(motion.collider).pose, target.local)
+                                            : target.local + offset_at(motion.offsets, time);
     }
     return places;
 }

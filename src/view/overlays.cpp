@@ -7,7 +7,7 @@
 namespace weft {
 
 namespace overlay {
-#define WEFT_OVERLAY(name, needs_feedback, what) void name(const OverlayInput& input, OverlayOutput& output);
+#define WEFT_OVERLAY(name, needs_contact_forces, what) void name(const OverlayInput& input, OverlayOutput& output);
 #include "view/overlays.def"
 #undef WEFT_OVERLAY
 }  // namespace overlay
@@ -15,7 +15,7 @@ namespace overlay {
 namespace {
 
 constexpr Overlay all[] = {
-#define WEFT_OVERLAY(name, needs_feedback, what) {#name, what, overlay::name, needs_feedback},
+#define WEFT_OVERLAY(name, needs_contact_forces, what) {#name, what, overlay::name, needs_contact_forces},
 #include "view/overlays.def"
 #undef WEFT_OVERLAY
 };
@@ -44,7 +44,7 @@ OverlayOutput draw_overlays(std::span<const Overlay* const> chosen, const Overla
         if (output.scalars.empty()) {
             output.scalars = std::move(before);
         } else {
-            // The colors of one that went before are gone, and so is what they mean.
+            // These scalars replace those of an earlier overlay, so its legend is removed.
             const auto end = output.legends.begin() + static_cast<std::ptrdiff_t>(legends);
             output.legends.erase(
                 std::remove_if(output.legends.begin(), end, [](const Legend& l) { return l.of_scalars; }), end);

@@ -1,4 +1,4 @@
-// Simulated time beside that of a clock.
+// Synchronizes simulated time with a clock.
 #pragma once
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 
 namespace weft {
 
-/// How many steps are due. Where they take longer than the time that they stand for, the simulation falls behind the
-/// clock; it does not run after it with ever more steps at once.
+/// Computes how many steps are due. If steps take longer than the time that they simulate, the simulation falls behind
+/// the clock. It does not catch up with more and more steps at once.
 class Pace {
   public:
-    /// `most`: steps at once.
+    /// `most`: largest number of steps at once.
     explicit Pace(double step_seconds, unsigned most = 3) : step_(step_seconds), most_(most) {}
 
-    /// `seconds`: on the clock since it was last asked.
+    /// `seconds`: clock time since the previous call.
     unsigned due(double seconds) {
         owed_ += std::max(0.0, seconds) / step_;
         const double whole = std::floor(owed_ + 1e-9);

@@ -21,7 +21,8 @@ const Image8* SceneMaterials::picture(const std::string& file, const std::string
     if (file.empty()) return nullptr;
     const auto [entry, fresh] = pictures_.try_emplace(file);
     if (fresh) {
-        auto read = read_ ? read_(file) : Result<Image8>(Error{file, "there is nobody to read it"});
+        auto read =
+            read_ ? read_(file) : Result<Image8>(Error{file, "cannot be read: this program sets no image reader"});
         if (read) {
             entry->second = std::move(*read);
         } else {
@@ -35,7 +36,7 @@ Result<render::MaterialId> SceneMaterials::find(render::Renderer& renderer, cons
                                                 const Material& material, std::vector<std::string>& notes) {
     if (const auto known = ids_.find(name); known != ids_.end()) return known->second;
     const Image8* color = picture(material.color_map, name, "; it is checkered instead", notes);
-    const Image8* normal = picture(material.normal_map, name, "; its weave stands in for it", notes);
+    const Image8* normal = picture(material.normal_map, name, "; its weave is drawn instead", notes);
     const Image8 checker = checkered();
     if (!material.color_map.empty() && color == nullptr) color = &checker;
     auto id = renderer.add(material, color, normal);

@@ -1,4 +1,4 @@
-// The materials of a scene's things, with the pictures that they name.
+// The materials of a scene's objects, with the images that they name.
 #pragma once
 
 #include "render/renderer.h"
@@ -16,15 +16,15 @@ class SceneMaterials {
   public:
     explicit SceneMaterials(ReadPicture read) : read_(std::move(read)) {}
 
-    /// Of a cloth or collider by its name; made once.
+    /// The material of the cloth or collider `name`. Created on first use.
     Result<render::MaterialId> find(render::Renderer& renderer, const std::string& name, const Material& material,
                                     std::vector<std::string>& notes);
 
-    /// Frees the others. Nothing is being drawn.
+    /// Frees all other materials. No frame may be in flight.
     void keep(render::Renderer& renderer, std::span<const render::MaterialId> used);
 
   private:
-    /// Null if there is none. Of a file that cannot be read there is one note, which ends in `instead`.
+    /// Null if there is no such image. A file that cannot be read causes a single note, which ends with `instead`.
     const Image8* picture(const std::string& file, const std::string& name, const std::string& instead,
                           std::vector<std::string>& notes);
 
@@ -33,7 +33,7 @@ class SceneMaterials {
     std::map<std::string, std::optional<Image8>> pictures_;
 };
 
-/// Squares of two grays, by which one sees that a picture is missing, and how UVs lie.
+/// A checkerboard of two grays. It shows that an image is missing, and how the UVs are laid out.
 Image8 checkered();
 
 }  // namespace weft

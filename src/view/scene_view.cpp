@@ -3,7 +3,7 @@
 #include "mesh/uv_scale.h"
 #include "render/host_mesh.h"
 #include "render/renderer.h"
-#include "scene/looks.h"
+#include "scene/materials.h"
 #include "view/collider_mesh.h"
 #include "view/framing.h"
 #include "view/overlays.h"
@@ -24,19 +24,19 @@ struct ClothOnDevice {
     std::shared_ptr<const ClothModel> model;
     render::MaterialId material = 0;
     std::array<float, 2> uv_meters{1, 1};
-    std::optional<render::HostMesh> mesh;  // where the simulation has none there, or its overlays want it here
+    std::optional<render::HostMesh> mesh;  // only without a surface on the device, or with overlays
     gpu::Buffer rest;
-    std::array<gpu::Buffer, 2> scalars;  // in turn
+    std::array<gpu::Buffer, 2> scalars;  // used alternately
     std::uint64_t topology_version = 0;  // of `mesh`
 };
 
 struct ColliderOnDevice {
     ColliderId id;
     render::MaterialId material = 0;
-    std::optional<render::HostMesh> mesh;  // none of a plane
+    std::optional<render::HostMesh> mesh;  // none for a plane
 };
 
-/// m: half the diagonal of everything but planes, cloths as they start. Overlays go by it, and it stays.
+/// m: half the diagonal of the bounds of everything except planes, with cloths at rest. Constant scale for overlays.
 float size_of(const World& world) {
     Bounds bounds;
     for (std::size_t i = 0; i < world.cloth_count(); ++i) {
@@ -48,6 +48,13 @@ float size_of(const World& world) {
     }
     if (bounds.empty()) bounds.include(Bounds{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}});
     return 0.5f * length(bounds.size());
+}
+
+/// The material of the object with this name; `matte` if the scene has no such object.
+template <class Object>
+const Material& material_called(const std::vector<Object>& objects, const std::string& name) {
+    const auto found = std::ranges::find(objects, name, &Object::name);
+    return found != objects.end() ? material_of(*found) : find_material("matte")->material;
 }
 
 }  // namespace
@@ -64,9 +71,9 @@ struct SceneView::Impl {
     std::vector<ColliderOnDevice> colliders;
     std::uint32_t turn = 0;
 
-    std::array<std::uint64_t, 2> frames{};  // when the frame before the last one is there, and the last
+    std::array<std::uint64_t, 2> frames{};  // timeline values of the last two frames, older one first
 
-    // Of one picture.
+    // Data of the current image.
     std::uint32_t width = 1, height = 1;
     std::vector<render::Object> objects;
     std::vector<render::Ground> grounds;
@@ -75,22 +82,22 @@ struct SceneView::Impl {
     Impl(ViewOptions o, ViewSources from, render::Renderer r)
         : options(std::move(o)), sources(std::move(from)), renderer(std::move(r)), materials(sources.read_picture) {}
 
-    Result<Done> open(const SceneDesc& scene, World& world);
-    Result<Done> surround(const Lighting& light);
+    Result<void> open(const SceneDesc& scene, World& world);
+    Result<void> surround(const Lighting& light);
     Result<ClothOnDevice*> cloth(const SceneDesc& scene, World& world, ClothId id);
     Result<ColliderOnDevice*> collider(const SceneDesc& scene, const Collider& collider, ColliderId id);
-    Result<Done> drop_what_left(const World& world);
-    Result<Done> bring(const SceneDesc& scene, World& world);
-    Result<Done> add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame);
-    Result<Done> add_collider(const SceneDesc& scene, const Collider& collider, ColliderId id);
-    Result<Done> draw_overlays(World& world, const Frame& frame);
+    Result<void> drop_what_left(const World& world);
+    Result<void> bring(const SceneDesc& scene, World& world);
+    Result<void> add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame);
+    Result<void> add_collider(const SceneDesc& scene, const Collider& collider, ColliderId id);
+    Result<void> draw_overlays(World& world, const Frame& frame);
     Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth, const ClothFrame& now);
     Result<render::Drawing> draw(const SceneDesc& scene, World& world, const Camera& camera, std::uint32_t wide,
                                  std::uint32_t high);
     gpu::Device& device() { return *renderer.device(); }
 };
 
-Result<Done> SceneView::Impl::open(const SceneDesc& scene, World& world) {
+Result<void> SceneView::Impl::open(const SceneDesc& scene, World& world) {
     for (const std::string& name : options.overlays) {
         const auto overlay = find_overlay(name);
         if (!overlay) return overlay.errors();
@@ -98,20 +105,20 @@ Result<Done> SceneView::Impl::open(const SceneDesc& scene, World& world) {
     }
     size = size_of(world);
     if (auto surrounded = surround(scene.light); !surrounded) return surrounded;
-    return bring(scene, world);  // what cannot be brought there is told now
+    return bring(scene, world);  // reports failed uploads now
 }
 
-Result<Done> SceneView::Impl::surround(const Lighting& light) {
+Result<void> SceneView::Impl::surround(const Lighting& light) {
     const std::string& file = light.environment.file;
     if (file.empty()) return renderer.surround(light);
-    auto read =
-        sources.read_light ? sources.read_light(file) : Result<ImageF>(Error{file, "there is nobody to read it"});
+    auto read = sources.read_light ? sources.read_light(file)
+                                   : Result<ImageF>(Error{file, "cannot be read: this program sets no image reader"});
     if (read) return renderer.surround(light, &*read);
-    notes.push_back("light: " + read.error().message() + "; the sky stands in for it");
+    notes.push_back("light: " + read.error().message() + "; the sky is drawn instead");
     return renderer.surround(light);
 }
 
-// --- What there is, on the device
+// --- Device data of the scene's objects
 
 Result<ClothOnDevice*> SceneView::Impl::cloth(const SceneDesc& scene, World& world, ClothId id) {
     const std::shared_ptr<const ClothModel>& model = world.model(id);
@@ -125,7 +132,7 @@ Result<ClothOnDevice*> SceneView::Impl::cloth(const SceneDesc& scene, World& wor
     made.id = id;
     made.model = model;
     made.uv_meters = uv_meters(model->mesh());
-    auto material = materials.find(renderer, model->name, look_of(scene, model->name), notes);
+    auto material = materials.find(renderer, model->name, material_called(scene.cloths, model->name), notes);
     if (!material) return material.errors();
     made.material = *material;
     if (model->mesh().uvs.empty()) {
@@ -144,10 +151,8 @@ Result<ColliderOnDevice*> SceneView::Impl::collider(const SceneDesc& scene, cons
     if (known != colliders.end()) return &*known;
     ColliderOnDevice made;
     made.id = id;
-    const auto described = std::ranges::find(scene.colliders, collider.name, &ColliderDesc::name);
-    const Material look =
-        described != scene.colliders.end() ? look_of(scene, *described) : look_of(scene, std::string());
-    auto material = materials.find(renderer, "collider " + collider.name, look, notes);
+    auto material =
+        materials.find(renderer, "collider " + collider.name, material_called(scene.colliders, collider.name), notes);
     if (!material) return material.errors();
     made.material = *material;
     const TriangleMesh mesh = mesh_of(collider);
@@ -162,10 +167,10 @@ Result<ColliderOnDevice*> SceneView::Impl::collider(const SceneDesc& scene, cons
     return &colliders.back();
 }
 
-// Frames under way may be drawn from what goes. Of materials, those that nothing has any more go with it.
-Result<Done> SceneView::Impl::drop_what_left(const World& world) {
+// Waits first, because frames in flight may use the removed objects. Also frees materials that are no longer used.
+Result<void> SceneView::Impl::drop_what_left(const World& world) {
     const auto is_gone = [&](const auto& one) { return !world.contains(one.id); };
-    if (std::ranges::none_of(cloths, is_gone) && std::ranges::none_of(colliders, is_gone)) return Done{};
+    if (std::ranges::none_of(cloths, is_gone) && std::ranges::none_of(colliders, is_gone)) return {};
     if (auto idle = device().wait(device().submitted()); !idle) return idle;
     std::erase_if(cloths, is_gone);
     std::erase_if(colliders, is_gone);
@@ -173,7 +178,7 @@ Result<Done> SceneView::Impl::drop_what_left(const World& world) {
     for (const ClothOnDevice& one : cloths) used.push_back(one.material);
     for (const ColliderOnDevice& one : colliders) used.push_back(one.material);
     materials.keep(renderer, used);
-    return Done{};
+    return {};
 }
 
 Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth, const ClothFrame& now) {
@@ -195,9 +200,9 @@ Result<gpu::SurfaceBuffers> SceneView::Impl::host_surface(ClothOnDevice& cloth, 
     return surface;
 }
 
-// --- A picture
+// --- Drawing of an image
 
-Result<Done> SceneView::Impl::add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame) {
+Result<void> SceneView::Impl::add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame) {
     auto found = cloth(scene, world, world.cloth_id(place));
     if (!found) return found.errors();
     ClothOnDevice& one = **found;
@@ -210,10 +215,10 @@ Result<Done> SceneView::Impl::add_cloth(const SceneDesc& scene, World& world, st
     object.uv_meters[1] = one.uv_meters[1];
     if (one.rest) object.rest = render::range_of(one.rest, 0, one.rest.size());
     objects.push_back(object);
-    return Done{};
+    return {};
 }
 
-Result<Done> SceneView::Impl::add_collider(const SceneDesc& scene, const Collider& described, ColliderId id) {
+Result<void> SceneView::Impl::add_collider(const SceneDesc& scene, const Collider& described, ColliderId id) {
     auto found = collider(scene, described, id);
     if (!found) return found.errors();
     const ColliderOnDevice& one = **found;
@@ -221,7 +226,7 @@ Result<Done> SceneView::Impl::add_collider(const SceneDesc& scene, const Collide
         const Pose& pose = described.pose;
         const Vec3 normal = pose.rotation * Vec3{described.numbers[0], described.numbers[1], described.numbers[2]};
         grounds.push_back({normal, described.numbers[3] + dot(normal, pose.position), one.material});
-        return Done{};
+        return {};
     }
     render::Object object;
     object.surface = one.mesh->surface();
@@ -230,12 +235,12 @@ Result<Done> SceneView::Impl::add_collider(const SceneDesc& scene, const Collide
     const Pose& pose = described.pose;
     object.transform = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.position};
     objects.push_back(object);
-    return Done{};
+    return {};
 }
 
-Result<Done> SceneView::Impl::bring(const SceneDesc& scene, World& world) {
+Result<void> SceneView::Impl::bring(const SceneDesc& scene, World& world) {
     if (auto dropped = drop_what_left(world); !dropped) return dropped;
-    // Without overlays nothing needs to come from a device that simulates. A model has triangles: a cloth is an object.
+    // Without overlays, surfaces on the device need no readback. A model has triangles, so every cloth is an object.
     const bool here = !sources.surface || !overlays.empty();
     const Frame* frame = here ? &world.frame() : nullptr;
     objects.clear();
@@ -248,10 +253,10 @@ Result<Done> SceneView::Impl::bring(const SceneDesc& scene, World& world) {
     }
     for (std::size_t i = 0; i < world.colliders().size(); ++i)
         if (auto added = add_collider(scene, world.colliders()[i], world.collider_id(i)); !added) return added;
-    return Done{};
+    return {};
 }
 
-Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
+Result<void> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
     shown =
         weft::draw_overlays(overlays, {.world = world, .frame = frame, .size = size, .width = width, .height = height});
     turn = 1 - turn;
@@ -268,7 +273,7 @@ Result<Done> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
         std::ranges::copy(scalars.values, buffer.as<float>().begin());
         objects[i].scalars = {render::range_of(buffer, 0, buffer.size()), scalars.least, scalars.most, scalars.scale};
     }
-    return Done{};
+    return {};
 }
 
 Result<render::Drawing> SceneView::Impl::draw(const SceneDesc& scene, World& world, const Camera& from,
@@ -290,7 +295,7 @@ Result<render::Drawing> SceneView::Impl::draw(const SceneDesc& scene, World& wor
     return drawing;
 }
 
-// --- Outside
+// --- Public functions
 
 SceneView::SceneView(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SceneView::SceneView(SceneView&&) noexcept = default;
@@ -329,7 +334,7 @@ Result<Image8> SceneView::picture(const SceneDesc& scene, World& world, const Ca
 Result<std::uint64_t> SceneView::draw(const SceneDesc& scene, World& world, const Camera& camera,
                                       const render::Target& target, gpu::BinarySemaphores window) {
     Impl& self = *impl_;
-    // What is written for this frame was read by the one before the last.
+    // This frame overwrites data that the frame before the last one reads.
     if (auto waited = self.device().wait(self.frames[0]); !waited) return waited.errors();
     const auto drawing = self.draw(scene, world, camera, target.width, target.height);
     if (!drawing) return drawing.errors();

@@ -1,4 +1,4 @@
-// A scene as a picture: what a simulation holds becomes what a Renderer draws.
+// Draws a scene: converts the state of a simulation into a Drawing for a Renderer.
 #pragma once
 
 #include "base/image.h"
@@ -22,18 +22,18 @@ namespace weft {
 
 struct ViewOptions {
     std::uint32_t width = 1280, height = 720;  ///< pixels, 1…16384
-    std::uint32_t samples = 4;                 ///< a pixel: 1, 2, 4, and up to 256; more than 4 take that much longer
-    bool transparent = false;                  ///< no background; the ground is there by its shadows alone
+    std::uint32_t samples = 4;                 ///< per pixel, 1…256; more than 4 take proportionally longer
+    bool transparent = false;                  ///< no background; the ground shows only its shadows
     bool two_passes = false;                   ///< render/drawing.h
     std::vector<std::string> overlays;         ///< names of view/overlays.h
 
     float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
 
-/// The drawn surface of a cloth on the device, where the simulation has it there; otherwise the view brings it there.
+/// Returns the drawn surface of a cloth on the device. If the simulation has none there, the view uploads a copy.
 using SurfaceOnDevice = std::function<Result<gpu::SurfaceBuffers>(ClothId cloth)>;
 
-/// A picture that maps of materials are read from: `where` is the place in the scene, for errors.
+/// Reads the image of a material's map.
 using ReadPicture = std::function<Result<Image8>(const std::string& file)>;
 using ReadLight = std::function<Result<ImageF>(const std::string& file)>;
 
@@ -45,25 +45,25 @@ struct ViewSources {
 
 class SceneView {
   public:
-    /// On the simulation's device, or one of its own. Scene and world are read during calls alone and may move between
-    /// them. A map that cannot be read is a checkered one, and a note says so.
+    /// `device`: that of the simulation, or a separate one. Scene and world are read only during calls and may move
+    /// between them. A map that cannot be read is replaced by a checkerboard and causes a note.
     static Result<SceneView> create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene, World& world,
                                     const ViewOptions& options, const ViewSources& sources = {});
     SceneView(SceneView&&) noexcept;
     SceneView& operator=(SceneView&&) noexcept;
     ~SceneView();
 
-    /// The scene's camera; where it has none, one from which everything is seen as it is now (framing.h).
+    /// The scene's camera; if it has none, one that shows the current state of everything (framing.h).
     Camera camera(const SceneDesc& scene, const World& world) const;
-    /// The world as it is now. What has left it since the picture before is freed on the device.
+    /// Draws the current state of the world. Frees device data of objects that were removed since the previous image.
     Result<Image8> picture(const SceneDesc& scene, World& world, const Camera& camera);
-    /// The same into a target of any size; returns when it is there, on the device's timeline. `window`: of a window's
-    /// image.
+    /// The same into a target of any size. Returns the value that the device's timeline reaches when the image is done.
+    /// `window`: semaphores of a window's image.
     Result<std::uint64_t> draw(const SceneDesc& scene, World& world, const Camera& camera, const render::Target& target,
                                gpu::BinarySemaphores window = {});
-    /// From now on, in place of those before.
+    /// Replaces the overlays.
     void set_overlays(std::vector<const Overlay*> overlays);
-    /// What was put right, a line each: maps that cannot be read.
+    /// One line per problem that was worked around: maps that cannot be read.
     const std::vector<std::string>& notes() const;
 
   private:

@@ -6,13 +6,13 @@
 namespace weft::vulkan {
 namespace {
 
-// What any device wants storage to be aligned to, and a cache line of most.
+// Largest storage buffer alignment that Vulkan lets a device require, and at least a cache line on most devices.
 constexpr std::uint64_t alignment = 256;
 
 // Uploads go through staging memory of at most this size, one after another.
 constexpr std::uint64_t staging_bytes = std::uint64_t{32} << 20;
 
-Result<Done> copy_up(gpu::Device& device, const gpu::Buffer& to, std::uint64_t offset, std::span<const std::byte> data,
+Result<void> copy_up(gpu::Device& device, const gpu::Buffer& to, std::uint64_t offset, std::span<const std::byte> data,
                      gpu::Buffer& staging) {
     for (std::size_t at = 0; at < data.size();) {
         const std::size_t bytes = std::min<std::size_t>(data.size() - at, staging.size());
@@ -22,7 +22,7 @@ Result<Done> copy_up(gpu::Device& device, const gpu::Buffer& to, std::uint64_t o
         if (!done) return done;
         at += bytes;
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace
@@ -39,21 +39,21 @@ Slot Arena::reserve(std::uint64_t bytes) {
     return slot;
 }
 
-Result<Done> Arena::build(gpu::Device& device, const std::string& name, VkBufferUsageFlags usage) {
+Result<void> Arena::build(gpu::Device& device, const std::string& name, VkBufferUsageFlags usage) {
     auto buffer = device.memory().buffer(size_, gpu::MemoryKind::device, name, usage);
     if (!buffer) return buffer.errors();
     buffer_ = std::move(*buffer);
     auto cleared = gpu::run_once(device, [&](gpu::Commands& commands) { commands.fill(buffer_, 0); });
     if (!cleared) return cleared;
-    // What lies side by side goes up together.
+    // Adjacent arrays are copied in one go.
     std::uint64_t total = 0;
     for (const Upload& one : uploads_) total += one.slot.bytes + alignment;
-    if (total == 0) return Done{};
+    if (total == 0) return {};
     auto staging = device.memory().buffer(std::min(total, staging_bytes), gpu::MemoryKind::upload, "staging");
     if (!staging) return staging.errors();
-    std::uint64_t begin = 0, end = 0;  // of the buffer, in staging memory
-    const auto flush = [&]() -> Result<Done> {
-        if (begin == end) return Done{};
+    std::uint64_t begin = 0, end = 0;  // range of the buffer that staging memory holds
+    const auto flush = [&]() -> Result<void> {
+        if (begin == end) return {};
         return gpu::run_once(device,
                              [&](gpu::Commands& commands) { commands.copy(*staging, buffer_, end - begin, 0, begin); });
     };
@@ -75,19 +75,19 @@ Result<Done> Arena::build(gpu::Device& device, const std::string& name, VkBuffer
     }
     if (auto flushed = flush(); !flushed) return flushed;
     uploads_.clear();
-    return Done{};
+    return {};
 }
 
-Result<Done> upload(gpu::Device& device, const gpu::Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
-    if (data.empty()) return Done{};
+Result<void> upload(gpu::Device& device, const gpu::Buffer& to, std::uint64_t offset, std::span<const std::byte> data) {
+    if (data.empty()) return {};
     auto staging =
         device.memory().buffer(std::min<std::uint64_t>(data.size(), staging_bytes), gpu::MemoryKind::upload, "staging");
     if (!staging) return staging.errors();
     return copy_up(device, to, offset, data, *staging);
 }
 
-Result<Done> download(gpu::Device& device, const gpu::Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
-    if (data.empty()) return Done{};
+Result<void> download(gpu::Device& device, const gpu::Buffer& from, std::uint64_t offset, std::span<std::byte> data) {
+    if (data.empty()) return {};
     auto staging = device.memory().buffer(std::min<std::uint64_t>(data.size(), staging_bytes),
                                           gpu::MemoryKind::readback, "staging");
     if (!staging) return staging.errors();
@@ -101,10 +101,10 @@ Result<Done> download(gpu::Device& device, const gpu::Buffer& from, std::uint64_
         std::memcpy(data.data() + at, staging->mapped().data(), bytes);
         at += bytes;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> upload(gpu::Device& device, const Arena& arena, Slot slot, std::span<const std::byte> data) {
+Result<void> upload(gpu::Device& device, const Arena& arena, Slot slot, std::span<const std::byte> data) {
     return upload(device, arena.buffer(), slot.offset, data);
 }
 

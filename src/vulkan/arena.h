@@ -1,4 +1,4 @@
-// Many arrays in one buffer on the device: what is known goes up with it, the rest is zero.
+// Many arrays in one device buffer. build() uploads the known data and fills the rest with zeros.
 #pragma once
 
 #include "gpu/commands.h"
@@ -18,17 +18,17 @@ struct Slot {
 
 class Arena {
   public:
-    /// To be filled: the data is read when the arena is built.
+    /// Reserves an array and fills it with `data`. build() reads the data, so it must stay valid until then.
     Slot add(std::span<const std::byte> data);
     template <class Array>
     Slot add_array(const Array& array) {
         return add(std::as_bytes(std::span(array.data(), array.size())));
     }
-    /// Zeros.
+    /// Reserves an array of zeros.
     Slot reserve(std::uint64_t bytes);
 
-    /// `usage`: beside what every buffer is for.
-    Result<Done> build(gpu::Device& device, const std::string& name, VkBufferUsageFlags usage = 0);
+    /// `usage`: flags in addition to those that every buffer gets.
+    Result<void> build(gpu::Device& device, const std::string& name, VkBufferUsageFlags usage = 0);
 
     std::uint64_t address(Slot slot) const { return slot.bytes == 0 ? 0 : buffer_.address() + slot.offset; }
     const gpu::Buffer& buffer() const { return buffer_; }
@@ -44,13 +44,13 @@ class Arena {
     gpu::Buffer buffer_;
 };
 
-/// Through staging memory, piece by piece if it is much.
-Result<Done> upload(gpu::Device& device, const gpu::Buffer& to, std::uint64_t offset, std::span<const std::byte> data);
-Result<Done> download(gpu::Device& device, const gpu::Buffer& from, std::uint64_t offset, std::span<std::byte> data);
+/// Copies through staging memory, in pieces if the data is large.
+Result<void> upload(gpu::Device& device, const gpu::Buffer& to, std::uint64_t offset, std::span<const std::byte> data);
+Result<void> download(gpu::Device& device, const gpu::Buffer& from, std::uint64_t offset, std::span<std::byte> data);
 
-/// Replaces part of an array.
-Result<Done> upload(gpu::Device& device, const Arena& arena, Slot slot, std::span<const std::byte> data);
-/// Appends nothing, skips nothing: the bytes of the slot.
+/// Replaces the first bytes of an array.
+Result<void> upload(gpu::Device& device, const Arena& arena, Slot slot, std::span<const std::byte> data);
+/// Returns exactly the bytes of the slot.
 Result<std::vector<std::byte>> download(gpu::Device& device, const Arena& arena, Slot slot);
 
 }  // namespace weft::vulkan

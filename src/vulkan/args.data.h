@@ -1,6 +1,6 @@
-// What shaders are told, one struct per kind of pass, read by C++ and by GLSL: the same bytes are pushed as constants
-// with a dispatch, or lie in memory where one dispatch runs many commands. None is larger than 120 bytes: with the two
-// numbers that are pushed behind it, every device has room for it.
+// Arguments of the shaders, one struct per kind of pass, shared by C++ and GLSL. They are pushed as constants with a
+// dispatch, or are stored in a buffer where one dispatch runs many commands. No struct is larger than 120 bytes: with
+// the two numbers that are pushed after it, it fits into the 128 bytes that every device supports.
 #ifndef WEFT_VULKAN_ARGS_H
 #define WEFT_VULKAN_ARGS_H
 
@@ -21,7 +21,7 @@ using FrameRef = std::uint64_t;
 using ColliderRef = std::uint64_t;
 using PoseRef = std::uint64_t;
 using WindRef = std::uint64_t;
-using HeldRef = std::uint64_t;
+using TargetRef = std::uint64_t;
 using LimitsRef = std::uint64_t;
 #else
 #extension GL_EXT_buffer_reference : require
@@ -40,11 +40,11 @@ layout(buffer_reference) buffer FrameRef;
 layout(buffer_reference) buffer ColliderRef;
 layout(buffer_reference) buffer PoseRef;
 layout(buffer_reference) buffer WindRef;
-layout(buffer_reference) buffer HeldRef;
+layout(buffer_reference) buffer TargetRef;
 layout(buffer_reference) buffer LimitsRef;
 #endif
 
-// --- What a frame brings ---
+// --- Inputs of a frame ---
 
 struct FrameIn {
     float h;          // s    length of the substep
@@ -54,24 +54,24 @@ struct FrameIn {
     float gravity_x;  // m/s2
     float gravity_y;
     float gravity_z;
-    float viscous;         // s2   retardation time times the frame that damping acts for
+    float viscous;         // s2   retardation time times the length of the frame
     float half_thickness;  // m
-    float depenetration;   // m    of a substep
+    float depenetration;   // m    per substep
     float drag;            // kg/m3
     float lift;
-    float listing;
+    float sine_lift;
     uint colliders;
     uint winds;
-    uint movers;
-    float strain_per_lambda;  // 1/m  times the rest length, of the last frame's lambda of stretch; 0: there is none
-    uint again;               // 1: the frame has been run before, from the same state, and a list was full
+    uint motions;
+    float strain_per_lambda;  // rest length times strain over lambda of stretch in the last frame; 0: no lambda yet
+    uint again;               // 1: second run of the frame from the same state, because a list was full
     uint unused1;
     uint unused2;
 };
 
 struct ColliderIn {
     vec4 numbers;
-    float static_friction;  // of the pair
+    float static_friction;  // of the pair of cloth and collider
     float kinetic_friction;
     uint shape;
     uint sticks;  // 1: cloth sticks to it
@@ -99,71 +99,71 @@ struct WindIn {
     uint kind;
 };
 
-struct HeldIn {
-    vec4 local;  // m, in the mover's frame
+struct TargetIn {
+    vec4 local;  // m, in the motion's frame of reference
     uint particle;
-    uint mover;
+    uint motion;
     uint unused0;
     uint unused1;
 };
 
-// What one-sided rows allow for in a frame.
+// Slack of the one-sided constraints in a frame.
 struct LimitsIn {
     float tension;  // N/m
     float allowed;
 };
 
-// --- What a pass works on ---
+// --- Arguments of a pass ---
 
-// Particles one by one.
+// Passes over single particles.
 struct ParticleArgs {
     Vec4s position;
     Vec4s start;
     Vec4s velocity;
-    Vec4s carry;
+    Vec4s compensation;
     FrameRef frame;
     Uints report;
     uint count;
     uint unused;
 };
 
-struct HoldArgs {
+struct TargetArgs {
     Vec4s position;
-    HeldRef held;
-    PoseRef poses;  // of the movers
+    TargetRef targets;
+    PoseRef poses;  // of the motions
     FrameRef frame;
     uint count;
     uint substep;
 };
 
-// What becomes of lambda, which restarts at 0 in every substep.
+// Use of lambda, which restarts at 0 in every substep.
 #define WEFT_LAMBDA_DISCARD 0
 #define WEFT_LAMBDA_STORE 1
 #define WEFT_LAMBDA_ACCUMULATE 2
 
-// How rows are handed out.
-#define WEFT_ROWS_SINGLE 0  // one to an invocation
-#define WEFT_ROWS_SERIAL 1  // all to the first, in order
-#define WEFT_ROWS_LINES 2   // line by line, in order along each
+// Distribution of constraints to invocations.
+#define WEFT_ROWS_SINGLE 0  // one constraint per invocation
+#define WEFT_ROWS_SERIAL 1  // the first invocation solves all, in order
+#define WEFT_ROWS_LINES 2   // one line per invocation, in order along it
 
-// Rows of one kind: a batch, or all of them.
+// Constraints of one kind: a batch, or all of them.
 struct RowArgs {
     Vec4s position;
-    Vec4s velocity;     // of damp
+    Vec4s velocity;     // damp only
     Uints particles;    // [slot · stride + row]
     Floats fields;      // [field · stride + row]
-    Floats lambda;      // [multiplier · stride + row]; 0 where nobody keeps it
-    Vec4s corrections;  // of correct: [slot · stride + row]
-    Uints sums;         // of correct, in fixed point: four per particle; 0 for floats
-    Floats share;       // of correct: [row]; 0 for plain constraints
-    Uints blocks;       // of lines: begin and length of each block
+    Floats lambda;      // [multiplier · stride + row]; 0 if it is not stored
+    Vec4s corrections;  // correct only: [slot · stride + row]
+    Uints sums;         // correct only, in fixed point: four per particle; 0 for floats
+    Floats share;       // correct only: [row]; 0 for plain constraints
+    Uints blocks;       // lines only: begin and length of each block
     FrameRef frame;
     LimitsRef limits;
-    float plain_positive;  // part that plain constraints undo while C > 0
-    float plain_negative;
+    float plain_positive;  // part of C that plain constraints correct while C > 0
+    float plain_negative;  // the same while C < 0
     uint stride;
     uint begin;
-    uint count;  // rows; of lines, blocks
+    uint count;  // constraints; blocks with WEFT_ROWS_LINES
     uint lambda_use;
     uint hand_out;
     uint unused;
@@ -175,7 +175,7 @@ struct LineArgs {
     Floats fields;
     Floats lambda;
     Uints blocks;
-    Vec4s scratch;  // [part · stride + row]: two
+    Vec4s scratch;  // [part · stride + row], two parts
     FrameRef frame;
     uint stride;
     uint count;  // blocks
@@ -183,26 +183,26 @@ struct LineArgs {
     uint unused;
 };
 
-// Sums of what rows want.
+// Sums of the constraints' corrections.
 struct AverageArgs {
     Vec4s position;
     Vec4s corrections;
-    Uints sums;  // in fixed point, zero again when read; 0 for floats
+    Uints sums;  // in fixed point, reset to zero when read; 0 for floats
     Uints offsets;
     Uints items;
     uint count;
-    uint mean;  // 1: the sum divided by its terms
+    uint mean;  // 1: divide the sum by the number of terms
 };
 
 // A coarse level.
 struct LevelArgs {
-    Vec4s position;  // of the level's nodes, or of particles that are spread to
+    Vec4s position;  // of the level's nodes; prolongation: of the particles
     Vec4s origin;
     Vec4s displacement;
-    Vec4s finer;    // collect: where the finer ones are
-    Vec4s coarser;  // lift and spread: displacements of the coarser level; 0 if there is none
-    Uints begin;    // collect: as Restriction has it
-    Uints nodes;    // likewise; or the parents, [parent · stride + finer node]
+    Vec4s finer;    // restriction: positions of the finer level
+    Vec4s coarser;  // interpolation and prolongation: displacements of the coarser level; 0 if there is none
+    Uints begin;    // restriction: layout of Restriction (solver/model/hierarchy.h)
+    Uints nodes;    // likewise; otherwise the parents, [parent · stride + finer node]
     Floats weights;
     uint stride;
     uint count;
@@ -212,7 +212,7 @@ struct ContactArgs {
     Vec4s position;
     Vec4s start;
     Vec4s sums;  // [collider · capacity + particle]; 0 with one iteration
-    Vec4s felt;  // [collider · capacity + particle]: moved of ContactTrace, and then turned; 0 without feedback
+    Vec4s contact_log;  // [collider · capacity + particle]: ContactTrace::moved, then turned; 0 without contact forces
     FrameRef frame;
     ColliderRef colliders;
     PoseRef poses;  // [substep · colliders + collider]
@@ -228,8 +228,8 @@ struct FaceArgs {
     Vec4s velocity;
     Uints faces;    // [corner · stride + triangle]
     Floats mass;    // kg per triangle
-    Vec4s wind;     // m/s per triangle; 0 where the air stands still
-    Vec4s by_face;  // what air and faces find, per triangle
+    Vec4s wind;     // m/s per triangle; 0 without wind
+    Vec4s by_face;  // results of air and faces, per triangle
     FrameRef frame;
     WindRef winds;
     uint stride;
@@ -241,35 +241,35 @@ struct AroundArgs {
     Vec4s by_face;
     Uints offsets;
     Uints items;
-    Vec4s normals;   // of normals
-    Vec4s position;  // of push, from here on
+    Vec4s normals;   // normals only
+    Vec4s position;  // from here on push only
     Vec4s start;
     Vec4s velocity;
-    Vec4s carry;
+    Vec4s compensation;
     uint count;
     uint unused;
 };
 
-// The state and its last good copy.
+// The state and its last finite copy.
 struct KeepArgs {
     Vec4s position;
     Vec4s start;
     Vec4s velocity;
-    Vec4s carry;
-    Vec4s good_position;  // w: of start
+    Vec4s compensation;
+    Vec4s good_position;  // w: that of start
     Vec4s good_velocity;
-    Vec4s good_carry;
-    Floats weights;  // 1/kg: inverse masses as they are
+    Vec4s good_compensation;
+    Floats weights;  // 1/kg: current inverse masses
     Floats lambda;   // of stretch
     Uints report;
-    Uints island_report;  // of the first cloth of the island: what is not finite in one takes all back
+    Uints island_report;  // of the island's first cloth: a non-finite number in one cloth rolls all back
     uint count;
     uint lambdas;
 };
 
 struct LimitArgs {
     Vec4s position;
-    Uints particles;  // of the rows of stretch
+    Uints particles;  // of the stretch constraints
     Floats rest;
     Floats lambda;
     Uints span_ends;  // two per span
@@ -301,8 +301,8 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Po
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer WindRef {
     WindIn at[];
 };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer HeldRef {
-    HeldIn at[];
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TargetRef {
+    TargetIn at[];
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer LimitsRef {
     LimitsIn at;

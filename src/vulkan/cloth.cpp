@@ -16,7 +16,7 @@ Result<std::unique_ptr<Cloth>> Cloth::create(gpu::Device& device, Programs& prog
     return self;
 }
 
-Result<Done> Cloth::make_readable() {
+Result<void> Cloth::make_readable() {
     const std::uint64_t bytes = model().particle_count * sizeof(Vec4);
     auto readback =
         device_.memory().buffer(3 * bytes, gpu::MemoryKind::readback, "what the host reads of " + model().name);
@@ -33,10 +33,10 @@ Result<Done> Cloth::make_readable() {
     commands->host_barrier();
     if (auto ended = commands->end(); !ended) return ended;
     read_commands_ = std::move(*commands);
-    return Done{};
+    return {};
 }
 
-Result<Done> Cloth::update_normals() {
+Result<void> Cloth::update_normals() {
     auto surface = compile_surface(programs_, *state_);
     if (!surface) return surface.errors();
     auto done = gpu::run_once(device_, [&](gpu::Commands& commands) {
@@ -46,16 +46,16 @@ Result<Done> Cloth::update_normals() {
     return done;
 }
 
-Result<Done> Cloth::particles_moved() {
+Result<void> Cloth::particles_moved() {
     if (auto made = make_readable(); !made) return made;
-    return surface_ ? surface_->particles_moved() : Done{};
+    return surface_ ? surface_->particles_moved() : Result<void>();
 }
 
-Result<Done> Cloth::make_surface(std::shared_ptr<const DrawnMesh> mesh) {
+Result<void> Cloth::make_surface(std::shared_ptr<const DrawnMesh> mesh) {
     auto made = DrawnSurface::create(device_, programs_, *state_, std::move(mesh));
     if (!made) return made.errors();
     surface_ = std::move(*made);
-    return Done{};
+    return {};
 }
 
 Result<gpu::SurfaceBuffers> Cloth::surface(gpu::Moment before) {
@@ -64,7 +64,7 @@ Result<gpu::SurfaceBuffers> Cloth::surface(gpu::Moment before) {
     return surface_->update(changes_, before);
 }
 
-Result<Done> Cloth::read() {
+Result<void> Cloth::read() {
     auto value = read_commands_->submit();
     if (!value) return value.errors();
     return device_.wait(*value);
@@ -75,14 +75,14 @@ std::span<const Vec4> Cloth::read_array(std::uint32_t which) const {
     return std::span<const Vec4>(readback_.as<Vec4>()).subspan(which * count, count);
 }
 
-Result<Done> Cloth::restore(const ClothSnapshot& snapshot) {
+Result<void> Cloth::restore(const ClothSnapshot& snapshot) {
     if (auto done = state_->restore(device_, snapshot); !done) return done;
     return update_normals();
 }
 
 void Cloth::measure(MeasureSums& sums) {
     if (const auto found = vulkan::measure(device_, programs_, *state_); found && *found) return sums.add(**found);
-    (void)read();  // else as it was read last
+    (void)read();  // if it fails, the arrays keep what was read last
     sums.add(model(), positions(), velocities());
     const auto points = state_->download_points(device_, PointArray::position);
     const auto lambda = state_->download_lambda(device_);
@@ -93,11 +93,11 @@ void Cloth::measure(MeasureSums& sums) {
 void Cloth::hash(StateHash& hash) const {
     const auto position = state_->download_points(device_, PointArray::position);
     const auto velocity = state_->download_points(device_, PointArray::velocity);
-    const auto carry = state_->download_points(device_, PointArray::carry);
+    const auto compensation = state_->download_points(device_, PointArray::compensation);
     const auto start = state_->download_points(device_, PointArray::start);
-    if (!position || !velocity || !carry || !start) return;
+    if (!position || !velocity || !compensation || !start) return;
     for (std::uint32_t p = 0; p < model().particle_count; ++p) {
-        for (const Vec4& v : {(*position)[p], (*velocity)[p], (*carry)[p]}) {
+        for (const Vec4& v : {(*position)[p], (*velocity)[p], (*compensation)[p]}) {
             hash.add(v.x), hash.add(v.y), hash.add(v.z), hash.add(v.w);
         }
         hash.add((*start)[p].w);

@@ -1,4 +1,4 @@
-// One cloth on the device, and what the host sees of it.
+// One cloth on the device, and the host's copies of its arrays.
 #pragma once
 
 #include "base/hash.h"
@@ -24,37 +24,37 @@ class Cloth {
     ClothState& state() { return *state_; }
     const ClothState& state() const { return *state_; }
 
-    /// Brings positions, velocities and normals to the host, where they stay until the next call.
-    Result<Done> read();
+    /// Copies positions, velocities and normals to the host. The copies stay valid until the next call.
+    Result<void> read();
     std::span<const Vec4> positions() const { return read_array(0); }
     std::span<const Vec4> velocities() const { return read_array(1); }
     std::span<const Vec4> normals() const { return read_array(2); }
 
     Result<ClothSnapshot> save() const { return state_->save(device_); }
-    Result<Done> restore(const ClothSnapshot& snapshot);
-    Result<Done> update_normals();
-    /// On the device; on the host what is not finite there, or where the device has no room for it.
+    Result<void> restore(const ClothSnapshot& snapshot);
+    Result<void> update_normals();
+    /// Measures on the device; on the host if a result is not finite or the device has not enough memory.
     void measure(MeasureSums& sums);
 
-    /// What is submitted from now on finds it changed.
+    /// Marks the cloth as changed for all work that is submitted from now on.
     void changed(bool with_normals) {
         ++changes_;
         normals_stale_ = !with_normals;
     }
 
-    /// The arrays of the world lie elsewhere now; the device has nothing to do.
-    Result<Done> particles_moved();
+    /// Call after the arrays of the world got new addresses. The device must be idle.
+    Result<void> particles_moved();
 
     bool has_surface() const { return surface_ != nullptr; }
-    Result<Done> make_surface(std::shared_ptr<const DrawnMesh> mesh);
-    /// As it is now; there must be one.
+    Result<void> make_surface(std::shared_ptr<const DrawnMesh> mesh);
+    /// The current drawn surface. Call make_surface() first.
     Result<gpu::SurfaceBuffers> surface(gpu::Moment before);
 
     void hash(StateHash& hash) const;
 
   private:
     Cloth(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
-    Result<Done> make_readable();
+    Result<void> make_readable();
     std::span<const Vec4> read_array(std::uint32_t which) const;
 
     gpu::Device& device_;

@@ -31,7 +31,7 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     if (has(plan.frame_begin, PassKind::wind)) work.wind = work.arena.reserve(model.face_stride * block);
     std::vector<std::vector<Vec4>> nodes;
     nodes.reserve(model.hierarchy.size());
-    if (has(plan.substep, PassKind::spread)) {
+    if (has(plan.substep, PassKind::prolongation)) {
         for (const CoarseLevel& coarse : model.hierarchy) {
             auto& start = nodes.emplace_back(coarse.capacity());
             for (std::uint32_t node = 0; node < coarse.count; ++node) start[node].w = coarse.weight[node];
@@ -39,7 +39,7 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             work.levels.push_back({.position = work.arena.add_array(start),
                                    .origin = work.arena.reserve(bytes),
                                    .displacement = work.arena.reserve(bytes),
-                                   .lambda = work.arena.reserve(coarse.reach.stride * sizeof(float))});
+                                   .lambda = work.arena.reserve(coarse.limits.stride * sizeof(float))});
         }
     }
     for (const ConstraintTable& table : model.constraints) {
@@ -49,7 +49,8 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
     }
     if (plan.iterations > 1)
         work.contact_sums = work.arena.reserve(std::uint64_t{shape.colliders} * model.capacity() * block);
-    if (shape.feedback) work.felt = work.arena.reserve(2 * std::uint64_t{shape.colliders} * model.capacity() * block);
+    if (shape.contact_forces)
+        work.contact_log = work.arena.reserve(2 * std::uint64_t{shape.colliders} * model.capacity() * block);
     const ConstraintTable& stretch = model.table(ConstraintKind::stretch);
     if (plan.projection == Projection::lines && !stretch.blocks.empty())
         work.line_scratch = work.arena.reserve(2 * std::uint64_t{stretch.stride} * block);
@@ -87,10 +88,10 @@ Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std:
     self->weights = arena.add_array(weights);
     self->by_face = arena.reserve((std::uint64_t{model.face_stride} + 1) * sizeof(Vec4));
     self->lambda = arena.reserve(model.table(ConstraintKind::stretch).lambda_count() * sizeof(float));
-    const std::array none = {0.0f, 1.0f};  // no tension, nothing more allowed
+    const std::array none = {0.0f, 1.0f};  // tension and allowed (LimitsIn)
     self->limits = arena.add_array(none);
     if (auto built = arena.build(device, "state of " + model.name); !built) return built.errors();
-    // Another cloth may have been there before.
+    // The range may still hold the particles of a removed cloth.
     const std::vector<Vec4> zeros(model.capacity());
     for (std::uint32_t i = 0; i < point_array_count; ++i) {
         const auto array = static_cast<PointArray>(i);
@@ -112,9 +113,9 @@ Result<std::vector<float>> ClothState::download_lambda(gpu::Device& device) cons
     return download_as<float>(device, arena_, lambda);
 }
 
-// Few of them, and scattered: a copy each, all in one go.
-Result<Done> ClothState::set_weights(gpu::Device& device, std::span<const ParticleWeight> changed) {
-    if (changed.empty()) return Done{};
+// The changed weights are few and scattered: one submission copies each of them.
+Result<void> ClothState::set_weights(gpu::Device& device, std::span<const ParticleWeight> changed) {
+    if (changed.empty()) return {};
     std::vector<float> values;
     for (const ParticleWeight& one : changed) values.push_back(one.weight);
     auto staging = device.memory().buffer(values.size() * sizeof(float), gpu::MemoryKind::upload, "inverse masses");
@@ -130,8 +131,8 @@ Result<Done> ClothState::set_weights(gpu::Device& device, std::span<const Partic
     });
 }
 
-// Inverse masses stand in two arrays, in one of them beside the positions.
-Result<Done> ClothState::set_masses(gpu::Device& device, const ClothModel& other) {
+// Inverse masses are stored twice: in `weights` and as w of the positions.
+Result<void> ClothState::set_masses(gpu::Device& device, const ClothModel& other) {
     auto inverse = download_as<float>(device, arena_, weights);
     if (!inverse) return inverse.errors();
     auto position = download_points(device, PointArray::position);
@@ -142,10 +143,10 @@ Result<Done> ClothState::set_masses(gpu::Device& device, const ClothModel& other
     return upload(device, world_.buffer(), offset(PointArray::position), std::as_bytes(std::span(*position)));
 }
 
-Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other) {
+Result<void> ClothState::set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other) {
     const auto before = buffers_->model();
     if (auto done = buffers_->set_material(device, std::move(other)); !done) return done;
-    if (model().mass.shares(before->mass)) return Done{};
+    if (model().mass.shares(before->mass)) return {};
     auto done = set_masses(device, model());
     if (!done) {
         (void)buffers_->set_material(device, before);
@@ -154,7 +155,7 @@ Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<const
     return done;
 }
 
-Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers) {
+Result<void> ClothState::set_material(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers) {
     if (!buffers->model()->mass.shares(model().mass)) {
         if (auto done = set_masses(device, *buffers->model()); !done) {
             (void)set_masses(device, model());
@@ -162,17 +163,17 @@ Result<Done> ClothState::set_material(gpu::Device& device, std::shared_ptr<Model
         }
     }
     buffers_ = std::move(buffers);
-    return Done{};
+    return {};
 }
 
-Result<Done> ClothState::place_points(gpu::Device& device, std::uint32_t first, std::span<const Vec3> places) {
+Result<void> ClothState::place_points(gpu::Device& device, std::uint32_t first, std::span<const Vec3> places) {
     std::vector<Vec4> at;
     for (const Vec3& place : places) at.push_back({place.x, place.y, place.z, 0});
     std::vector<Vec4> zeros(at.size());
     const std::uint64_t skipped = first * sizeof(Vec4);
     for (const auto& [array, values] :
          {std::pair{PointArray::position, &at}, std::pair{PointArray::start, &at},
-          std::pair{PointArray::velocity, &zeros}, std::pair{PointArray::carry, &zeros}}) {
+          std::pair{PointArray::velocity, &zeros}, std::pair{PointArray::compensation, &zeros}}) {
         auto done = upload(device, world_.buffer(), offset(array) + skipped, std::as_bytes(std::span(*values)));
         if (!done) return done;
     }
@@ -186,7 +187,8 @@ Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {
     snapshot.substep_seconds = substep_seconds;
     for (const auto& [which, to] :
          {std::pair{PointArray::position, &snapshot.position}, std::pair{PointArray::start, &snapshot.start},
-          std::pair{PointArray::velocity, &snapshot.velocity}, std::pair{PointArray::carry, &snapshot.carry}}) {
+          std::pair{PointArray::velocity, &snapshot.velocity},
+          std::pair{PointArray::compensation, &snapshot.compensation}}) {
         auto array = download_points(device, which);
         if (!array) return array.errors();
         *to = std::move(*array);
@@ -200,7 +202,7 @@ Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {
     return snapshot;
 }
 
-Result<Done> ClothState::restore(gpu::Device& device, const ClothSnapshot& snapshot) {
+Result<void> ClothState::restore(gpu::Device& device, const ClothSnapshot& snapshot) {
     std::vector<float> inverse_masses;
     for (const Vec4& p : snapshot.position) inverse_masses.push_back(p.w);
     if (auto done = upload(device, arena_, weights, std::as_bytes(std::span(inverse_masses))); !done) return done;
@@ -210,7 +212,7 @@ Result<Done> ClothState::restore(gpu::Device& device, const ClothSnapshot& snaps
     if (auto done = put(PointArray::position, snapshot.position); !done) return done;
     if (auto done = put(PointArray::start, snapshot.start); !done) return done;
     if (auto done = put(PointArray::velocity, snapshot.velocity); !done) return done;
-    if (auto done = put(PointArray::carry, snapshot.carry); !done) return done;
+    if (auto done = put(PointArray::compensation, snapshot.compensation); !done) return done;
     substep_seconds = snapshot.substep_seconds;
     return upload(device, arena_, lambda, std::as_bytes(std::span(snapshot.lambda)));
 }

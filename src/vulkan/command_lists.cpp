@@ -8,30 +8,30 @@
 namespace weft::vulkan {
 namespace {
 
-// As fused.comp has them.
+// Same layout as in fused.comp.
 struct ListIn {
     std::uint64_t commands;
     std::uint32_t count, points;
     std::uint64_t position, sums;
     std::uint32_t repeat_begin, repeat_end, times, unused;
 };
-// Of shared memory: bins in which tensions are counted, and a few numbers.
+// Bytes of shared memory for other purposes: the histogram of limits.glsl and a few numbers.
 constexpr std::uint32_t shared_besides = 512;
 constexpr std::uint32_t quanta_per_point = 3;
 
 }  // namespace
 
-bool fits_at_hand(const gpu::Device& device, std::uint32_t points, bool sums) {
+bool fits_shared_memory(const gpu::Device& device, std::uint32_t points, bool sums) {
     const std::uint64_t each = sizeof(Vec4) + (sums ? quanta_per_point * sizeof(std::uint32_t) : 0);
     return points * each + shared_besides <= device.limits().shared_memory;
 }
 
-std::uint32_t line_rows_at_hand(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes) {
+std::uint32_t shared_line_rows(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes) {
     constexpr std::uint64_t each = sizeof(Vec4) + sizeof(float);
     const std::uint64_t shared = device.limits().shared_memory;
     const std::uint64_t room = shared > other_bytes ? (shared - other_bytes) / each : 0;
     if (rows.of_block == 0 || room < rows.of_block) return 1;
-    // Round numbers: pipelines differ by them.
+    // Rounded up, because each different number needs its own pipeline.
     constexpr std::uint64_t step = 256;
     return static_cast<std::uint32_t>(std::min(room, (rows.of_batch + step - 1) / step * step));
 }
@@ -51,7 +51,7 @@ LineRows largest_lines(const ConstraintTable& table) {
 Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view name, std::uint32_t rows) {
     const gpu::Device& device = programs.device();
     const std::array constants = {std::min(256u, device.limits().workgroup_size[0]),
-                                  line_rows_at_hand(device, {rows, rows})};
+                                  shared_line_rows(device, {rows, rows})};
     return programs.get(name, constants);
 }
 
@@ -70,9 +70,9 @@ std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t
     return static_cast<std::uint32_t>(lists_.size() - 1);
 }
 
-Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const CommandMemory& memory,
+Result<void> CommandLists::build(gpu::Device& device, Programs& programs, const CommandMemory& memory,
                                  const std::string& name) {
-    if (lists_.empty()) return Done{};
+    if (lists_.empty()) return {};
     std::vector<ListIn> table;
     for (const List& list : lists_) {
         table.push_back({.commands = memory.address(list.first),
@@ -90,7 +90,7 @@ Result<Done> CommandLists::build(gpu::Device& device, Programs& programs, const 
     return choose_pipeline(device, programs);
 }
 
-Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& programs) {
+Result<void> CommandLists::choose_pipeline(const gpu::Device& device, Programs& programs) {
     std::uint32_t points = 1, quanta = 1;
     LineRows lines;
     for (const List& list : lists_) {
@@ -107,11 +107,11 @@ Result<Done> CommandLists::choose_pipeline(const gpu::Device& device, Programs& 
                                   static_cast<std::uint32_t>(used_ >> 32),
                                   points,
                                   quanta,
-                                  line_rows_at_hand(device, lines, taken)};
+                                  shared_line_rows(device, lines, taken)};
     auto pipeline = programs.get("fused", constants);
     if (!pipeline) return pipeline.errors();
     pipeline_ = *pipeline;
-    return Done{};
+    return {};
 }
 
 void CommandLists::record(gpu::Commands& commands, std::uint32_t first, std::uint32_t count,

@@ -7,7 +7,7 @@
 namespace weft::vulkan {
 namespace {
 
-// As commands.glsl has them.
+// Same sizes as in commands.glsl.
 constexpr std::size_t head_bytes = 16, command_bytes = head_bytes + sizeof(Command::args);
 
 }  // namespace
@@ -25,8 +25,8 @@ std::uint32_t CommandMemory::add(std::span<const Command> commands) {
     return static_cast<std::uint32_t>(first);
 }
 
-Result<Done> CommandMemory::build(gpu::Device& device, const std::string& name) {
-    if (bytes_.empty()) return Done{};
+Result<void> CommandMemory::build(gpu::Device& device, const std::string& name) {
+    if (bytes_.empty()) return {};
     slot_ = arena_.add_array(bytes_);
     auto built = arena_.build(device, "commands of " + name);
     bytes_ = {};

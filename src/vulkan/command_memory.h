@@ -1,4 +1,4 @@
-// Commands of some cloths in the device's memory, where shaders that run those of several read them.
+// Commands of several cloths in device memory. Shaders that run commands of more than one cloth read them there.
 #pragma once
 
 #include "vulkan/compiled_plan.h"
@@ -14,7 +14,7 @@ class CommandMemory {
   public:
     /// Returns the number of the first one; the others follow.
     std::uint32_t add(std::span<const Command> commands);
-    Result<Done> build(gpu::Device& device, const std::string& name);
+    Result<void> build(gpu::Device& device, const std::string& name);
 
     std::uint64_t address(std::uint32_t command) const;
 

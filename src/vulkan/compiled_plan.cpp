@@ -26,8 +26,8 @@ class Compiler {
           plan_(plan),
           stiffness_(stiffness),
           island_(island) {
-        const PlannedCloth cloth_alone{&model_, shape.held > 0};
-        passes_ = IslandPlan(plan, {&cloth_alone, 1}, island.tables, Sharing::free);
+        const PlannedCloth single_cloth{&model_, shape.targets > 0};
+        passes_ = IslandPlan(plan, {&single_cloth, 1}, island.tables, Sharing::free);
     }
 
     Result<CompiledPlan> run() {
@@ -50,7 +50,7 @@ class Compiler {
   private:
     using List = std::vector<Command>;
 
-    // What has nothing to do is left out.
+    // Leaves out commands without invocations.
     template <class Args>
     Command& add(List& list, std::string_view program, const Args& args, std::uint32_t invocations, const Pass& pass,
                  std::uint32_t substep = 0) {
@@ -70,17 +70,17 @@ class Compiler {
         const Pass like_predict{.kind = PassKind::predict};
         add(list, "keep", keep_args(), model_.point_count(), like_predict);
         if (has_limits(model_, plan_))
-            add(list, "limits", limit_args(), 1, {.kind = PassKind::spread}).needs_barrier = false;
+            add(list, "limits", limit_args(), 1, {.kind = PassKind::prolongation}).needs_barrier = false;
         add_passes(list, passes_.frame_begin(), 0);
     }
 
     void add_passes(List& list, std::span<const IslandPass> passes, std::uint32_t substep) {
-        for (const auto& [pass, barrier, single] : passes) {
+        for (const auto& [pass, barrier, single, all] : passes) {
             const std::size_t before = list.size();
             add_pass(list, pass, substep);
             for (std::size_t i = before; i < list.size(); ++i) {
                 list[i].single = single && pass.source != RowSource::dynamic;
-                // What comes before the first pass is none.
+                // The commands before the first pass are not in the plan, so the plan has no barrier after them.
                 list[i].needs_barrier = barrier || first_pass_;
                 first_pass_ = false;
             }
@@ -89,7 +89,7 @@ class Compiler {
 
     void add_substeps(CompiledPlan& out) {
         List& list = out.commands;
-        // The first begins and the last ends in its own way; those between differ by their number alone.
+        // The first and the last substep have passes of their own. Those between differ only by their number.
         if (plan_.substeps > 0) add_substep(list, 0);
         out.repeat = {list.size(), list.size(), 1};
         if (plan_.substeps > 2) {
@@ -102,7 +102,7 @@ class Compiler {
 
     void add_substep(List& list, std::uint32_t substep) { add_passes(list, passes_.substep(substep), substep); }
 
-    // Whether all is finite is asked before normals are made of it.
+    // Normals come after the check for finite numbers, because it may roll the state back.
     void add_frame_end(CompiledPlan& out) {
         const auto is_surface = [](const Pass& pass) {
             return pass.kind == PassKind::faces || pass.kind == PassKind::normals;
@@ -121,7 +121,7 @@ class Compiler {
         }
     }
 
-    // Of all cloths together (FrameRun): here stands only when.
+    // Placeholder that marks the time of the pass. FrameRun runs it once for all cloths.
     void add_dynamic(List& list, const Pass& pass, std::uint32_t substep) {
         Command& command = list.emplace_back();
         command.groups = 1;
@@ -146,9 +146,9 @@ class Compiler {
             case PassKind::place:
             case PassKind::list:
             case PassKind::aim:
-                break;  // of dynamic lists alone
-            case PassKind::hold:
-                add_holds(list, pass, substep);
+                break;  // of dynamic lists only
+            case PassKind::targets:
+                add_targets(list, pass, substep);
                 break;
             case PassKind::project:
             case PassKind::damp:
@@ -163,16 +163,16 @@ class Compiler {
             case PassKind::contact:
                 add_contacts(list, pass, substep);
                 break;
-            case PassKind::collect:
-            case PassKind::lift:
-            case PassKind::settle:
+            case PassKind::restriction:
+            case PassKind::interpolation:
+            case PassKind::node_correction:
                 add_level(list, pass, substep);
                 break;
-            case PassKind::reach:
+            case PassKind::coarse_limit:
                 add_reach(list, pass, substep);
                 break;
-            case PassKind::spread:
-                add_spread(list, pass, substep);
+            case PassKind::prolongation:
+                add_prolongation(list, pass, substep);
                 break;
             case PassKind::wind:
                 add(list, "wind", face_args(), model_.face_stride, pass, substep);
@@ -196,7 +196,7 @@ class Compiler {
         return {.position = state(PointArray::position),
                 .start = state(PointArray::start),
                 .velocity = state(PointArray::velocity),
-                .carry = state(PointArray::carry),
+                .compensation = state(PointArray::compensation),
                 .frame = input_.frame(),
                 .report = input_.report(),
                 .count = model_.point_count(),
@@ -207,10 +207,10 @@ class Compiler {
         return {.position = state(PointArray::position),
                 .start = state(PointArray::start),
                 .velocity = state(PointArray::velocity),
-                .carry = state(PointArray::carry),
+                .compensation = state(PointArray::compensation),
                 .good_position = state(PointArray::good_position),
                 .good_velocity = state(PointArray::good_velocity),
-                .good_carry = state(PointArray::good_carry),
+                .good_compensation = state(PointArray::good_compensation),
                 .weights = state(cloth_.weights),
                 .lambda = state(cloth_.lambda),
                 .report = input_.report(),
@@ -264,7 +264,7 @@ class Compiler {
                 .position = state(PointArray::position),
                 .start = state(PointArray::start),
                 .velocity = state(PointArray::velocity),
-                .carry = state(PointArray::carry),
+                .compensation = state(PointArray::compensation),
                 .count = model_.particle_count,
                 .unused = 0};
     }
@@ -302,7 +302,7 @@ class Compiler {
                 .unused = 0};
     }
 
-    // The batch's part of the rows; returns invocations.
+    // Sets the batch's range of constraints and returns the number of invocations.
     static std::uint32_t hand_out(RowArgs& args, const Batch& batch, std::uint64_t blocks) {
         args.begin = batch.begin;
         args.count = batch.rows;
@@ -331,7 +331,7 @@ class Compiler {
         add(list, program + std::string(constraint_info(pass.constraint).name), args, invocations, pass, substep);
     }
 
-    // Their particles are numbered over the world.
+    // Links refer to particles by their numbers in the world.
     void add_links(List& list, const Pass& pass, std::uint32_t substep) {
         const LinkBuffers::Table& table = island_.links->table(pass.constraint);
         const bool plain = plan_.method == Method::pbd;
@@ -341,7 +341,7 @@ class Compiler {
         args.particles = island_.links->address(table.particles);
         args.fields = island_.links->address(table.fields);
         args.lambda = island_.links->address(table.lambda);
-        args.plain_positive = args.plain_negative = 1;  // no fabric says less
+        args.plain_positive = args.plain_negative = 1;  // links have no fabric that scales them
         args.stride = table.stride;
         args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
         const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], 0);
@@ -398,21 +398,21 @@ class Compiler {
         add(list, "average", args, args.count, pass, substep);
     }
 
-    void add_holds(List& list, const Pass& pass, std::uint32_t substep) {
-        const HoldArgs args{.position = state(PointArray::position),
-                            .held = input_.held(),
-                            .poses = input_.mover_poses(),
-                            .frame = input_.frame(),
-                            .count = shape_.held,
-                            .substep = substep};
-        if (args.count > 0) add(list, "hold", args, args.count, pass, substep);
+    void add_targets(List& list, const Pass& pass, std::uint32_t substep) {
+        const TargetArgs args{.position = state(PointArray::position),
+                              .targets = input_.targets(),
+                              .poses = input_.motion_poses(),
+                              .frame = input_.frame(),
+                              .count = shape_.targets,
+                              .substep = substep};
+        if (args.count > 0) add(list, "targets", args, args.count, pass, substep);
     }
 
     void add_contacts(List& list, const Pass& pass, std::uint32_t substep) {
         const ContactArgs args{.position = state(PointArray::position),
                                .start = state(PointArray::start),
                                .sums = work(work_.contact_sums),
-                               .felt = work(work_.felt),
+                               .contact_log = work(work_.contact_log),
                                .frame = input_.frame(),
                                .colliders = input_.colliders(),
                                .poses = input_.poses(),
@@ -437,36 +437,36 @@ class Compiler {
             .weights = of_model(buffers_.levels[pass.level].restriction_weight),
             .stride = 0,
             .count = level.count};
-        if (pass.kind == PassKind::collect) {
-            add(list, "collect", args, level.count, pass, substep);
-        } else if (pass.kind == PassKind::settle) {
-            add(list, "settle", args, level.count, pass, substep);
+        if (pass.kind == PassKind::restriction) {
+            add(list, "restriction", args, level.count, pass, substep);
+        } else if (pass.kind == PassKind::node_correction) {
+            add(list, "node_correction", args, level.count, pass, substep);
         } else {
             if (pass.level + 1 < model_.hierarchy.size()) follow(args, pass.level + 1);
-            add(list, "lift", args, level.count, pass, substep);
+            add(list, "interpolation", args, level.count, pass, substep);
         }
     }
 
-    // What moves the nodes of `level` moves those of the finer one.
+    // Prolongation of the displacements of `level` to the next finer level.
     void follow(LevelArgs& args, std::uint32_t level) const {
         args.coarser = work(work_.levels[level].displacement);
-        args.nodes = of_model(buffers_.levels[level].carry_node);
-        args.weights = of_model(buffers_.levels[level].carry_weight);
-        args.stride = model_.hierarchy[level].carry.stride;
+        args.nodes = of_model(buffers_.levels[level].prolongation_node);
+        args.weights = of_model(buffers_.levels[level].prolongation_weight);
+        args.stride = model_.hierarchy[level].prolongation.stride;
     }
 
-    void add_spread(List& list, const Pass& pass, std::uint32_t substep) {
+    void add_prolongation(List& list, const Pass& pass, std::uint32_t substep) {
         LevelArgs args{};
         args.position = state(PointArray::position);
         args.count = model_.particle_count;
         follow(args, 0);
-        add(list, "spread", args, args.count, pass, substep);
+        add(list, "prolongation", args, args.count, pass, substep);
     }
 
     void add_reach(List& list, const Pass& pass, std::uint32_t substep) {
-        const ConstraintTable& table = model_.hierarchy[pass.level].reach;
-        const TableBuffers& rows = buffers_.levels[pass.level].reach;
-        RowArgs args = row_args(ConstraintKind::reach);
+        const ConstraintTable& table = model_.hierarchy[pass.level].limits;
+        const TableBuffers& rows = buffers_.levels[pass.level].limits;
+        RowArgs args = row_args(ConstraintKind::coarse_limit);
         args.position = work(work_.levels[pass.level].position);
         args.particles = of_model(rows.particles);
         args.fields = of_model(rows.fields);
@@ -474,7 +474,7 @@ class Compiler {
         args.stride = table.stride;
         args.lambda_use = use_of_lambda(pass, substep);
         const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], of_model(rows.blocks));
-        add(list, "project_reach", args, invocations, pass, substep);
+        add(list, "project_coarse_limit", args, invocations, pass, substep);
     }
 
     Programs& programs_;
@@ -530,7 +530,7 @@ std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32
 
 void bind(gpu::Commands& commands, const Command& command, std::uint32_t substep) {
     std::array<std::byte, sizeof command.args> constants = command.args;
-    const std::array behind = {substep, command.invocations};  // as dispatch.glsl has it
+    const std::array behind = {substep, command.invocations};  // layout of dispatch.glsl
     std::memcpy(constants.data() + command.arg_bytes, behind.data(), sizeof behind);
     assert(command.arg_bytes + sizeof behind == command.pipeline->push_constants());
     commands.bind(*command.pipeline);

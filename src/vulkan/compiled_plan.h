@@ -1,4 +1,4 @@
-// The part of a cloth in the world's plan as a device runs it: commands with what each is told.
+// A cloth's part of the world's plan, compiled into commands for the device.
 #pragma once
 
 #include "vulkan/cloth_state.h"
@@ -18,23 +18,22 @@ struct Command {
     std::uint32_t program = 0;  ///< number of its shader
     std::uint32_t invocations = 0;
     std::uint32_t groups = 0;     ///< workgroups; 0: as many as the invocations fill
-    std::uint32_t line_rows = 0;  ///< of lines: rows of the largest block
-    bool needs_barrier = true;    ///< reads or writes what the command before it writes
-    Pass pass{};                  ///< what it comes from, or is part of
-    bool single = false;          ///< so little work that one workgroup does it
+    std::uint32_t line_rows = 0;  ///< lines only: constraints of the largest block
+    bool needs_barrier = true;    ///< reads or writes data that the command before it writes
+    Pass pass{};                  ///< the pass that the command belongs to
+    bool single = false;          ///< small enough for one workgroup
     std::uint32_t substep = 0;
     std::uint32_t arg_bytes = 0;
     alignas(8) std::array<std::byte, 128> args{};
 };
 
-/// Commands [begin, end) are those of a substep, and run so many times: each time for the next one.
+/// Commands [begin, end) are those of one substep. They run `times` times, each time for the next substep.
 struct Repeat {
     std::size_t begin = 0, end = 0;
     std::uint32_t times = 1;
 };
 
-/// Calls `f(i, substeps before)` for everything from 0 to `count` in the order in which it runs, as long as that is
-/// true.
+/// Calls `f(i, substeps before)` for the commands 0 … `count` - 1 in order of execution, until `f` returns false.
 template <class F>
 void run_through(std::size_t count, const Repeat& repeat, F&& f) {
     std::uint32_t round = 0;
@@ -48,18 +47,18 @@ void run_through(std::size_t count, const Repeat& repeat, F&& f) {
     }
 }
 
-/// What a frame does, in order.
+/// The commands of a frame, in order.
 struct CompiledPlan {
     std::vector<Command> commands;
     Repeat repeat;
-    std::size_t check = 0;      ///< from here on: whether all is finite, back if not, and the surface
-    std::size_t roll_back = 0;  ///< one of those
+    std::size_t check = 0;      ///< first of the commands that check for finite numbers, roll back and make normals
+    std::size_t roll_back = 0;  ///< the command that rolls back
 };
 
-/// What a cloth does for its island.
+/// Data of the island that a cloth belongs to.
 struct IslandPart {
-    std::uint64_t report = 0;            ///< address of that of the island's first cloth
-    const LinkTables* tables = nullptr;  ///< of the first cloth alone, if the island has links
+    std::uint64_t report = 0;            ///< address of the report of the island's first cloth
+    const LinkTables* tables = nullptr;  ///< only for the first cloth of an island with links
     const LinkBuffers* links = nullptr;  ///< likewise
 };
 
@@ -67,19 +66,19 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
                              const FrameInput& input, const InputShape& shape, const WorldPlan& plan,
                              const PlainStiffness& stiffness, const IslandPart& island);
 
-/// Normals for the state as it is.
+/// Commands that compute normals of the current state.
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);
 
-/// WEFT_LAMBDA_… of a pass.
+/// One of WEFT_LAMBDA_… for a pass.
 std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
 
 /// Workgroups that a command fills.
 std::uint32_t workgroups_of(const Command& command);
-/// So many workgroups, along more than one axis if one has no room for them.
+/// Dispatches `groups` workgroups, along a second axis if the limit of the first is exceeded.
 void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::DeviceLimits& limits);
-/// Its pipeline with what it is told. `substep` is added to its own.
+/// Binds the command's pipeline and pushes its arguments. `substep` is added to its own.
 void bind(gpu::Commands& commands, const Command& command, std::uint32_t substep);
-/// Behind a barrier if the command needs one. `substep` is added to its own.
+/// Records the command, after a barrier if it needs one. `substep` is added to its own.
 void record(gpu::Commands& commands, const Command& command, std::uint32_t substep, const gpu::DeviceLimits& limits);
 
 }  // namespace weft::vulkan

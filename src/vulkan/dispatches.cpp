@@ -9,7 +9,7 @@
 namespace weft::vulkan {
 namespace {
 
-// As dispatch.glsl has them.
+// Same layout as in dispatch.glsl.
 struct MemberIn {
     std::uint64_t command;
     std::uint32_t first_group, unused;
@@ -33,8 +33,8 @@ bool go_together(const SharedPass& a, const SharedPass& b) {
     return a.program == b.program && a.pass == b.pass;
 }
 
-// Joins commands [begin, end) of a plan to passes of others: each to the next one that is the same, or where none is,
-// in between.
+// Merges commands [begin, end) of a plan into `passes`: each command joins the next equal pass. If there is none, the
+// command becomes a pass of its own at this point.
 void join(std::vector<SharedPass>& passes, const CompiledPlan& plan, std::uint32_t member, std::size_t begin,
           std::size_t end, bool grouped) {
     std::size_t at = 0;
@@ -59,7 +59,7 @@ const Command& command_of(std::span<const CompiledPlan> plans, const PlanPart& p
     return plans[part.member].commands[part.begin];
 }
 
-// The shader for many cloths; of lines the one that has room for the longest.
+// The pipeline for many cloths. For lines, it has room for the largest block of all cloths.
 Result<const gpu::Pipeline*> pipeline_for_many(Programs& programs, std::span<const CompiledPlan> plans,
                                                const SharedPass& pass) {
     std::uint32_t line_rows = 0;
@@ -91,11 +91,11 @@ SharedPlan share_passes(std::span<const CompiledPlan> plans, bool grouped) {
     return shared;
 }
 
-Result<Done> Dispatches::build(gpu::Device& device, Programs& programs, const SharedPlan& shared,
+Result<void> Dispatches::build(gpu::Device& device, Programs& programs, const SharedPlan& shared,
                                std::span<const CompiledPlan> plans, const CommandMemory& memory,
                                std::span<const std::uint32_t> first, const std::string& name) {
     std::vector<MemberIn> table;
-    std::vector<std::size_t> in_table;  // of each dispatch of many cloths, its first entry
+    std::vector<std::size_t> in_table;  // per pass: index of its first entry
     for (const SharedPass& pass : shared.passes) {
         Dispatch& dispatch = dispatches_.emplace_back();
         dispatch.needs_barrier = pass.needs_barrier;
@@ -103,7 +103,7 @@ Result<Done> Dispatches::build(gpu::Device& device, Programs& programs, const Sh
         if (pass.is_list || pass.pass.source == RowSource::dynamic) continue;
         const Command& one = command_of(plans, pass.parts.front());
         if (pass.parts.size() == 1) {
-            dispatch.alone = &one;
+            dispatch.single = &one;
             continue;
         }
         auto pipeline = pipeline_for_many(programs, plans, pass);
@@ -119,18 +119,18 @@ Result<Done> Dispatches::build(gpu::Device& device, Programs& programs, const Sh
             args.groups += groups;
         }
     }
-    if (table.empty()) return Done{};
+    if (table.empty()) return {};
     const Slot slot = arena_.add_array(table);
     if (auto built = arena_.build(device, "dispatches of " + name); !built) return built;
     for (std::size_t i = 0; i < dispatches_.size(); ++i)
         dispatches_[i].args.table = arena_.address(slot) + in_table[i] * sizeof(MemberIn);
-    return Done{};
+    return {};
 }
 
 void Dispatches::record(gpu::Commands& commands, std::size_t pass, std::uint32_t substep,
                         const gpu::DeviceLimits& limits) const {
     const Dispatch& dispatch = dispatches_[pass];
-    if (dispatch.alone) return vulkan::record(commands, *dispatch.alone, substep, limits);
+    if (dispatch.single) return vulkan::record(commands, *dispatch.single, substep, limits);
     if (dispatch.needs_barrier) commands.barrier();
     ManyArgs args = dispatch.args;
     args.substep = substep;

@@ -1,4 +1,4 @@
-// Passes of several cloths side by side: one dispatch runs the same pass of all cloths that take part in it.
+// Dispatches for several cloths: one dispatch runs the same pass of all cloths that have it.
 #pragma once
 
 #include "vulkan/command_memory.h"
@@ -17,12 +17,12 @@ struct PlanPart {
     std::uint32_t begin = 0, end = 0;
 };
 
-/// A pass of the cloths that take part in it: a command of each, or a list of commands of each.
+/// A pass of several cloths: one command of each, or a list of commands of each.
 struct SharedPass {
     Pass pass{};
-    std::uint32_t program = 0;   ///< of a list that of its first command
-    bool is_list = false;        ///< a workgroup to each cloth works through its commands
-    bool needs_barrier = false;  ///< some cloth does
+    std::uint32_t program = 0;   ///< shader number; for a list, that of its first command
+    bool is_list = false;        ///< one workgroup per cloth runs the cloth's commands
+    bool needs_barrier = false;  ///< true if any cloth needs one
     std::vector<PlanPart> parts;
 };
 
@@ -31,39 +31,39 @@ struct SharedPlan {
     Repeat repeat;
 };
 
-/// Each plan's order is kept; the same passes of different plans come together where that allows it. All plans have as
-/// many substeps. `grouped`: passes of coarse levels of few nodes that follow one another become lists.
+/// Merges equal passes of different plans as far as the order within each plan allows. All plans must have the same
+/// number of substeps. `grouped`: consecutive passes of coarse levels with few nodes become lists.
 SharedPlan share_passes(std::span<const CompiledPlan> plans, bool grouped);
 
-/// The passes that are not lists, as dispatches.
+/// The dispatches of the passes that are not lists.
 class Dispatches {
   public:
-    /// `first` is the number in `memory` of each plan's first command. `plans` stay where they are.
-    Result<Done> build(gpu::Device& device, Programs& programs, const SharedPlan& shared,
+    /// `first` is the number in `memory` of each plan's first command. Keeps pointers into `plans`.
+    Result<void> build(gpu::Device& device, Programs& programs, const SharedPlan& shared,
                        std::span<const CompiledPlan> plans, const CommandMemory& memory,
                        std::span<const std::uint32_t> first, const std::string& name);
 
-    /// The pass of that number in the SharedPlan, behind a barrier if it needs one. `substep` is added to that of each
-    /// command.
+    /// Records pass number `pass` of the SharedPlan, after a barrier if it needs one. `substep` is added to that of
+    /// each command.
     void record(gpu::Commands& commands, std::size_t pass, std::uint32_t substep,
                 const gpu::DeviceLimits& limits) const;
 
   private:
-    // As dispatch.glsl has it.
+    // Same layout as in dispatch.glsl.
     struct ManyArgs {
         std::uint64_t table = 0;
         std::uint32_t members = 0;
         std::uint32_t groups = 0;       // workgroups of all
-        std::uint32_t groups_each = 0;  // of each; 0: they differ
+        std::uint32_t groups_each = 0;  // per cloth; 0: they differ
         std::uint32_t substep = 0;
     };
     struct Dispatch {
-        const Command* alone = nullptr;           // of one cloth, or
-        const gpu::Pipeline* pipeline = nullptr;  // of many
+        const Command* single = nullptr;          // command of one cloth, or
+        const gpu::Pipeline* pipeline = nullptr;  // pipeline for many
         ManyArgs args;
         bool needs_barrier = false;
     };
-    std::vector<Dispatch> dispatches_;  ///< by pass; lists and passes of dynamic lists have none
+    std::vector<Dispatch> dispatches_;  ///< by pass; unused for lists and passes of dynamic lists
     Arena arena_;
 };
 

@@ -8,9 +8,9 @@
 namespace weft::vulkan {
 namespace {
 
-// The layout that GLSL has.
+// Sizes of the GLSL layout.
 static_assert(sizeof(FrameIn) == 80 && sizeof(ColliderIn) == 48 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 &&
-              sizeof(HeldIn) == 32);
+              sizeof(TargetIn) == 32);
 
 Vec4 with(Vec3 v, float w) {
     return {v.x, v.y, v.z, w};
@@ -31,7 +31,7 @@ WindIn wind_in(const WindNow& wind) {
             .kind = static_cast<std::uint32_t>(wind.kind)};
 }
 
-// Strain of stretch per lambda and rest length: what tension_in (solver/plan/tension.h) begins with.
+// Strain times rest length over lambda of stretch. Same factor as in tension_in() (solver/plan/tension.h).
 float strain_per_lambda(const ClothModel& model, double substep_seconds) {
     const StretchMaterial& fabric = model.fabric.stretch;
     const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
@@ -55,10 +55,10 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .depenetration = numbers.depenetration,
             .drag = 0.5f * input.air_density * air.drag,
             .lift = 0.5f * input.air_density * air.lift,
-            .listing = air.lift_model == LiftModel::listing ? 1.0f : 0.0f,
+            .sine_lift = air.lift_model == LiftModel::sine ? 1.0f : 0.0f,
             .colliders = static_cast<std::uint32_t>(input.colliders.size()),
             .winds = static_cast<std::uint32_t>(input.winds.size()),
-            .movers = cloth.movers,
+            .motions = cloth.motions,
             .strain_per_lambda = strain_per_lambda(model, substep_seconds),
             .again = again ? 1u : 0u,
             .unused1 = 0,
@@ -71,9 +71,9 @@ InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothSt
     return {plan.substeps,
             static_cast<std::uint32_t>(input.colliders.size()),
             static_cast<std::uint32_t>(input.winds.size()),
-            cloth.movers,
-            static_cast<std::uint32_t>(cloth.held.size()),
-            input.feedback && !input.colliders.empty()};
+            cloth.motions,
+            static_cast<std::uint32_t>(cloth.targets.size()),
+            input.contact_forces && !input.colliders.empty()};
 }
 
 FrameInput::FrameInput(const InputShape& shape) {
@@ -88,8 +88,8 @@ FrameInput::FrameInput(const InputShape& shape) {
     colliders_ = take(shape.colliders * sizeof(ColliderIn));
     winds_ = take(shape.winds * sizeof(WindIn));
     poses_ = take(places * shape.colliders * sizeof(PoseIn));
-    mover_poses_ = take(places * shape.movers * sizeof(PoseIn));
-    held_ = take(shape.held * sizeof(HeldIn));
+    motion_poses_ = take(places * shape.motions * sizeof(PoseIn));
+    targets_ = take(shape.targets * sizeof(TargetIn));
 }
 
 void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
@@ -99,12 +99,12 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
     put(frame_, frame_in(model, plan, input, cloth, substep_seconds, again));
     for (std::size_t i = 0; i < input.colliders.size(); ++i) {
         const Collider& collider = input.colliders[i];
-        const auto [held, sliding] = friction_between(model, collider);
+        const auto [static_friction, kinetic_friction] = friction_between(model, collider);
         const auto& n = collider.numbers;
         put(colliders_ + i * sizeof(ColliderIn),
             ColliderIn{.numbers = {n[0], n[1], n[2], n[3]},
-                       .static_friction = held,
-                       .kinetic_friction = sliding,
+                       .static_friction = static_friction,
+                       .kinetic_friction = kinetic_friction,
                        .shape = static_cast<std::uint32_t>(collider.shape),
                        .sticks = collider.adhesion ? 1u : 0u,
                        .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
@@ -114,11 +114,11 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
     }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
     for (std::size_t i = 0; i < input.poses.size(); ++i) put(poses_ + i * sizeof(PoseIn), pose_in(input.poses[i]));
-    for (std::size_t i = 0; i < cloth.mover_poses.size(); ++i)
-        put(mover_poses_ + i * sizeof(PoseIn), pose_in(cloth.mover_poses[i]));
-    for (std::size_t i = 0; i < cloth.held.size(); ++i) {
-        const HeldParticle& held = cloth.held[i];
-        put(held_ + i * sizeof(HeldIn), HeldIn{with(held.local, 0), held.particle, held.mover, 0, 0});
+    for (std::size_t i = 0; i < cloth.motion_poses.size(); ++i)
+        put(motion_poses_ + i * sizeof(PoseIn), pose_in(cloth.motion_poses[i]));
+    for (std::size_t i = 0; i < cloth.targets.size(); ++i) {
+        const KinematicTarget& target = cloth.targets[i];
+        put(targets_ + i * sizeof(TargetIn), TargetIn{with(target.local, 0), target.particle, target.motion, 0, 0});
     }
 }
 

@@ -1,4 +1,4 @@
-// What a frame brings from the host: settings, colliders, winds, where things are in each substep.
+// Inputs of a frame from the host: settings, colliders, winds, and the poses in each substep.
 #pragma once
 
 #include "gpu/commands.h"
@@ -13,16 +13,16 @@
 
 namespace weft::vulkan {
 
-/// How many of each there are: as long as that stays, the places in the buffer do.
+/// Numbers of elements. They determine the layout of the buffer.
 struct InputShape {
-    std::uint32_t substeps = 0, colliders = 0, winds = 0, movers = 0, held = 0;
-    bool feedback = false;  ///< account is kept of contacts
+    std::uint32_t substeps = 0, colliders = 0, winds = 0, motions = 0, targets = 0;
+    bool contact_forces = false;  ///< contacts are recorded
     friend bool operator==(const InputShape&, const InputShape&) = default;
 };
 
 InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothStep& cloth);
 
-/// Places of all that in a buffer of `bytes()`, of which a host sees a copy.
+/// Layout of the inputs in a device buffer of `bytes()`, which the host writes through an upload buffer.
 class FrameInput {
   public:
     FrameInput() = default;
@@ -31,8 +31,8 @@ class FrameInput {
     std::uint64_t bytes() const { return bytes_; }
     void attach(std::byte* host, std::uint64_t address) { host_ = host, address_ = address; }
 
-    /// The device must be done with the frame before, which left a lambda of `substep_seconds` (lambda_seconds).
-    /// `again`: the frame has been run before, from the same state.
+    /// The device must have finished the previous frame. `substep_seconds`: that frame's lambda_seconds().
+    /// `again`: second run of a frame, from the same state.
     void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
                double substep_seconds, bool again);
 
@@ -41,16 +41,16 @@ class FrameInput {
     std::uint64_t colliders() const { return address_ + colliders_; }
     std::uint64_t winds() const { return address_ + winds_; }
     std::uint64_t poses() const { return address_ + poses_; }
-    std::uint64_t mover_poses() const { return address_ + mover_poses_; }
-    std::uint64_t held() const { return address_ + held_; }
+    std::uint64_t motion_poses() const { return address_ + motion_poses_; }
+    std::uint64_t targets() const { return address_ + targets_; }
 
   private:
-    std::uint64_t frame_ = 0, colliders_ = 0, winds_ = 0, poses_ = 0, mover_poses_ = 0, held_ = 0, bytes_ = 0;
+    std::uint64_t frame_ = 0, colliders_ = 0, winds_ = 0, poses_ = 0, motion_poses_ = 0, targets_ = 0, bytes_ = 0;
     std::byte* host_ = nullptr;
     std::uint64_t address_ = 0;
 };
 
-/// Those of some cloths: one copy brings all to the device, one brings their reports back.
+/// Inputs of several cloths. One copy uploads all of them; their reports are copied back to the host.
 class FrameBuffers {
   public:
     FrameBuffers() = default;
@@ -59,10 +59,10 @@ class FrameBuffers {
 
     FrameInput& input(std::size_t cloth) { return inputs_[cloth]; }
     const FrameInput& input(std::size_t cloth) const { return inputs_[cloth]; }
-    /// Reports are none after it.
+    /// Uploads the inputs and thereby clears the reports.
     void record_begin(gpu::Commands& commands) const;
     void record_end(gpu::Commands& commands) const;
-    /// Of the last frame; the device must be done with it.
+    /// Report of the last frame, which the device must have finished.
     std::uint32_t report(std::size_t cloth) const { return reports_.as<std::uint32_t>()[cloth]; }
 
   private:

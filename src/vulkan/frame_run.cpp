@@ -8,7 +8,7 @@
 namespace weft::vulkan {
 
 bool fits_fused(const gpu::Device& device, const ClothModel& model) {
-    return fits_at_hand(device, model.point_count(), false);
+    return fits_shared_memory(device, model.point_count(), false);
 }
 
 FrameRun::FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
@@ -28,21 +28,21 @@ Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs
     if (auto made = self->make_lists(list_capacity); !made) return made.errors();
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
     if (!recorded) return recorded.errors();
-    if (auto prepared = self->prepare_feedback(); !prepared) return prepared.errors();
+    if (auto prepared = self->prepare_contact_forces(); !prepared) return prepared.errors();
     return self;
 }
 
-// Those of a frame have the colliders of the world, all of them or none.
-Result<Done> FrameRun::prepare_feedback() {
-    if (!members_.front().shape.feedback) return Done{};
+// All cloths of a frame have the same colliders, so the first member decides for all.
+Result<void> FrameRun::prepare_contact_forces() {
+    if (!members_.front().shape.contact_forces) return {};
     std::vector<ContactReadback::Member> members;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const ClothState& cloth = members_[i].cloth->state();
-        const std::uint64_t felt = work_[i].arena.address(work_[i].felt);
+        const std::uint64_t contact_log = work_[i].arena.address(work_[i].contact_log);
         members.push_back({.account = {.position = cloth.address(PointArray::position),
-                                       .moved = felt,
-                                       .turned = felt + work_[i].felt.bytes / 2,
-                                       .report = buffers_.input(i).report(),
+                                       .moved = contact_log,
+                                       .turned = contact_log + work_[i].contact_log.bytes / 2,
+                                       .report = buffers_.input(first_of_island(i)).report(),
                                        .frame = buffers_.input(i).frame(),
                                        .sums = 0,
                                        .capacity = cloth.model().capacity(),
@@ -52,14 +52,14 @@ Result<Done> FrameRun::prepare_feedback() {
     auto contacts = ContactReadback::create(device_, programs_, members, name());
     if (!contacts) return contacts.errors();
     contacts_ = std::move(*contacts);
-    return Done{};
+    return {};
 }
 
-std::uint32_t FrameRun::read_feedback(std::size_t member, ClothFeedback& to) {
+std::uint32_t FrameRun::read_contact_forces(std::size_t member, ClothContactLog& to) {
     return contacts_ ? contacts_->read(member, to) : std::uint32_t{report_none};
 }
 
-Result<Done> FrameRun::compile_members() {
+Result<void> FrameRun::compile_members() {
     std::vector<InputShape> shapes;
     for (const Member& member : members_) shapes.push_back(member.shape);
     auto buffers = FrameBuffers::create(device_, shapes, name());
@@ -86,13 +86,13 @@ Result<Done> FrameRun::compile_members() {
         plans_.push_back(std::move(*plan));
         first_command_.push_back(memory_.add(plans_.back().commands));
     }
-    for (Member& member : members_) member.links = nullptr;  // the caller's
+    for (Member& member : members_) member.links = nullptr;  // valid only during create()
     return memory_.build(device_, name());
 }
 
-Result<Done> FrameRun::make_lists(std::uint32_t capacity) {
+Result<void> FrameRun::make_lists(std::uint32_t capacity) {
     const auto& begin = plan_.frame_begin;
-    if (std::ranges::find(begin, PassKind::find, &Pass::kind) == begin.end()) return Done{};
+    if (std::ranges::find(begin, PassKind::find, &Pass::kind) == begin.end()) return {};
     std::vector<AdhesionList::Member> members;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const ClothState& cloth = members_[i].cloth->state();
@@ -109,7 +109,7 @@ Result<Done> FrameRun::make_lists(std::uint32_t capacity) {
                                      first.address(first.limits), capacity, name());
     if (!made) return made.errors();
     adhesion_ = std::move(*made);
-    return Done{};
+    return {};
 }
 
 std::size_t FrameRun::first_of_island(std::size_t member) const {
@@ -121,16 +121,16 @@ std::uint32_t FrameRun::report(std::size_t member) const {
     return buffers_.report(member) | (buffers_.report(first_of_island(member)) & report_non_finite);
 }
 
-Result<Done> FrameRun::begin_recording(bool timings, std::size_t stages) {
+Result<void> FrameRun::begin_recording(bool timings, std::size_t stages) {
     auto commands = gpu::Commands::create(device_, timings ? static_cast<std::uint32_t>(stages + 1) : 0);
     if (!commands) return commands.errors();
     commands_ = std::move(*commands);
     if (auto begun = commands_->begin(); !begun) return begun;
     buffers_.record_begin(*commands_);
-    return Done{};
+    return {};
 }
 
-Result<Done> FrameRun::end_recording() {
+Result<void> FrameRun::end_recording() {
     commands_->stamp();
     buffers_.record_end(*commands_);
     if (adhesion_) {
@@ -140,14 +140,14 @@ Result<Done> FrameRun::end_recording() {
     return commands_->end();
 }
 
-Result<Done> FrameRun::record_fused(bool timings) {
+Result<void> FrameRun::record_fused(bool timings) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Cloth& cloth = *members_[i].cloth;
         PointsAtHand points;
         if (const std::uint32_t count = cloth.model().point_count(); fits_fused(device_, cloth.model())) {
             const std::uint64_t position = cloth.state().address(PointArray::position);
             points = {.position = position, .count = count};
-            if (fits_at_hand(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
+            if (fits_shared_memory(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
         }
         const bool lines = plan_.projection == Projection::lines;
         lists_.add(plans_[i].commands, first_command_[i], points,
@@ -162,9 +162,9 @@ Result<Done> FrameRun::record_fused(bool timings) {
     return end_recording();
 }
 
-Result<Done> FrameRun::record_passes(bool timings) {
+Result<void> FrameRun::record_passes(bool timings) {
     const SharedPlan shared = share_passes(plans_, execution_ == Execution::grouped);
-    std::vector<std::uint32_t> lists;  // of each pass, its first list
+    std::vector<std::uint32_t> lists;  // per pass: its first list
     for (const SharedPass& pass : shared.passes) {
         std::uint32_t first = none;
         for (const PlanPart& part : pass.parts) {
@@ -192,7 +192,7 @@ Result<Done> FrameRun::record_passes(bool timings) {
         const SharedPass& pass = shared.passes[i];
         if (const std::uint32_t stage = stage_of(pass.pass); stage != last) commands_->stamp(), last = stage;
         if (pass.pass.source == RowSource::dynamic) {
-            // Once for all cloths.
+            // Recorded once for all cloths.
             const PlanPart& part = pass.parts.front();
             auto recorded =
                 adhesion_->record(*commands_, pass.pass, plans_[part.member].commands[part.begin].substep + substep);
@@ -238,7 +238,7 @@ Result<FrameRun::Place> FrameRun::download_place(const Cloth& cloth) const {
     return Place{std::move(*positions), std::move(*velocities)};
 }
 
-// Runs the cloth's frame once more, command by command.
+// Runs the cloth's frame again, command by command.
 Result<std::string> FrameRun::replay(std::size_t member) {
     const Cloth& cloth = *members_[member].cloth;
     const CompiledPlan& plan = plans_[member];
@@ -257,9 +257,9 @@ Result<std::string> FrameRun::replay(std::size_t member) {
     return found;
 }
 
-// One command by itself.
-Result<Done> FrameRun::run(const Command& command, std::uint32_t substep, std::size_t member) {
-    Result<Done> recorded = Done{};
+// Submits a single command and waits for it.
+Result<void> FrameRun::run(const Command& command, std::uint32_t substep, std::size_t member) {
+    Result<void> recorded;
     auto done = gpu::run_once(device_, [&](gpu::Commands& now) {
         if (command.pass.source == RowSource::dynamic) {
             recorded =
@@ -275,11 +275,11 @@ Result<std::string> FrameRun::find_non_finite(std::size_t member, const StepInpu
     Cloth& cloth = *members_[member].cloth;
     const auto before = download_place(cloth);
     if (!before) return before.errors();
-    if (std::string culprit = name_input(input, step.mover_poses, before->positions, before->velocities);
+    if (std::string culprit = name_input(input, step.motion_poses, before->positions, before->velocities);
         !culprit.empty())
         return culprit;
     auto found = replay(member);
-    // The report still says that the frame was not finite, so this goes back.
+    // The report still has the non-finite flag, so this command restores the state.
     const CompiledPlan& plan = plans_[member];
     if (auto done = run(plan.commands[plan.roll_back], 0, member); !done) return done.errors();
     if (auto updated = cloth.update_normals(); !updated) return updated.errors();

@@ -1,11 +1,11 @@
-// The frame of some cloths as one command buffer, recorded once and submitted every frame.
+// The frame of several cloths as one command buffer, recorded once and submitted every frame.
 #pragma once
 
 #include "gpu/commands.h"
 #include "vulkan/cloth.h"
 #include "vulkan/command_lists.h"
+#include "vulkan/contact_forces/contact_readback.h"
 #include "vulkan/dispatches.h"
-#include "vulkan/feedback/contact_readback.h"
 #include "vulkan/frame_input.h"
 #include "vulkan/lists/adhesion_list.h"
 
@@ -21,12 +21,12 @@ namespace weft::vulkan {
 /// How passes become dispatches.
 enum class Execution {
     automatic,
-    streamed,  ///< a dispatch per pass, for all cloths
-    grouped,   ///< the same, but one for as many passes as are together on coarse levels of few nodes
-    fused,     ///< one for the whole frame, a workgroup to a cloth
+    streamed,  ///< one dispatch per pass for all cloths
+    grouped,   ///< the same, but one dispatch for consecutive passes on coarse levels with few nodes
+    fused,     ///< one dispatch for the whole frame, one workgroup per cloth
 };
 
-/// Whether a workgroup can have all of the cloth at hand.
+/// Whether a workgroup can keep all particles of the cloth in shared memory.
 bool fits_fused(const gpu::Device& device, const ClothModel& model);
 
 class FrameRun {
@@ -35,12 +35,12 @@ class FrameRun {
         Cloth* cloth = nullptr;
         InputShape shape;
         PlainStiffness stiffness{};
-        std::uint32_t island = 0;           ///< of the members of a run, those of one island follow one another
-        const LinkTables* links = nullptr;  ///< of the island; valid while the run is made
+        std::uint32_t island = 0;           ///< members of one island are consecutive
+        const LinkTables* links = nullptr;  ///< of the island; needed during create() only
     };
 
-    /// `execution` is not automatic, and not fused where the plan has dynamic lists. `serial`: that of the plan
-    /// (WorldStep), which is kept as a copy. `list_capacity`: rows of dynamic lists.
+    /// `execution` must not be automatic, and not fused if the plan has dynamic lists. Keeps a copy of the plan.
+    /// `serial`: that of the plan (WorldStep). `list_capacity`: constraints that dynamic lists have room for.
     static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
                                                     std::uint64_t serial, std::span<const Member> members,
                                                     Execution execution, bool timings, std::uint32_t list_capacity);
@@ -53,21 +53,21 @@ class FrameRun {
     }
     bool has(const Cloth* cloth) const { return std::ranges::find(members_, cloth, &Member::cloth) != members_.end(); }
 
-    /// A step for each member. The device may still be at work when this returns. `again`: the same frame once more, of
-    /// which a list was full.
+    /// Submits a step for each member and returns without waiting for the device. `again`: repeats a frame of which a
+    /// list was full.
     Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again = false);
-    /// Of the frame that the device is done with: the rows that the list had room for, or none without a list. Where
-    /// there were more, the state is as it was before the frame.
+    /// The adhesion list of the last finished frame; null without a list. If the list was full, the state is the one
+    /// before the frame.
     const AdhesionList* adhesion() const { return adhesion_.get(); }
     bool list_was_full() const { return adhesion_ && adhesion_->wanted() > adhesion_->capacity(); }
-    /// When the device is done with it.
+    /// Call when the device has finished the frame. Adds the stages' times to `stage_ms`.
     void finish(std::array<double, stage_count>& stage_ms);
-    /// What is not finite in one cloth is reported of all cloths of its island.
+    /// Reports of the member. A non-finite number in one cloth is reported for all cloths of its island.
     std::uint32_t report(std::size_t member) const;
-    /// What contacts did to colliders, if its shape asks for it: see ContactReadback::read.
-    std::uint32_t read_feedback(std::size_t member, ClothFeedback& to);
-    /// After a frame in which the cloth was not finite: what did it. The state is that before the frame, before and
-    /// after.
+    /// Contacts of the member if InputShape::contact_forces is set: see ContactReadback::read.
+    std::uint32_t read_contact_forces(std::size_t member, ClothContactLog& to);
+    /// Call after a frame in which the cloth was not finite. Returns the cause. Expects the state from before the frame
+    /// and leaves it unchanged.
     Result<std::string> find_non_finite(std::size_t member, const StepInput& input, const ClothStep& step);
 
   private:
@@ -77,17 +77,17 @@ class FrameRun {
 
     FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
              std::span<const Member> members, Execution execution);
-    Result<Done> compile_members();
-    Result<Done> make_lists(std::uint32_t capacity);
-    Result<Done> prepare_feedback();
-    Result<Done> record_fused(bool timings);
-    Result<Done> record_passes(bool timings);
+    Result<void> compile_members();
+    Result<void> make_lists(std::uint32_t capacity);
+    Result<void> prepare_contact_forces();
+    Result<void> record_fused(bool timings);
+    Result<void> record_passes(bool timings);
     std::size_t first_of_island(std::size_t member) const;
-    Result<Done> begin_recording(bool timings, std::size_t stages);
-    Result<Done> end_recording();
+    Result<void> begin_recording(bool timings, std::size_t stages);
+    Result<void> end_recording();
     Result<Place> download_place(const Cloth& cloth) const;
     Result<std::string> replay(std::size_t member);
-    Result<Done> run(const Command& command, std::uint32_t substep, std::size_t member);
+    Result<void> run(const Command& command, std::uint32_t substep, std::size_t member);
     const std::string& name() const { return members_.front().cloth->model().name; }
 
     gpu::Device& device_;
@@ -101,14 +101,14 @@ class FrameRun {
     std::vector<LinkBuffers> links_;
     std::vector<CompiledPlan> plans_;
     CommandMemory memory_;
-    std::vector<std::uint32_t> first_command_;  ///< in it, by member
-    std::unique_ptr<AdhesionList> adhesion_;    ///< none where nothing sticks
+    std::vector<std::uint32_t> first_command_;  ///< number in `memory_`, by member
+    std::unique_ptr<AdhesionList> adhesion_;    ///< null if nothing sticks
     CommandLists lists_;
     Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;
-    std::vector<std::uint32_t> stages_;          ///< between one stamp and the next
-    std::unique_ptr<ContactReadback> contacts_;  ///< none without feedback
-    std::vector<double> seconds_;                ///< lambda_seconds of the frame that runs, by member
+    std::vector<std::uint32_t> stages_;          ///< stage between each stamp and the next
+    std::unique_ptr<ContactReadback> contacts_;  ///< null without contact forces
+    std::vector<double> seconds_;                ///< lambda_seconds() of the submitted frame, by member
 };
 
 }  // namespace weft::vulkan

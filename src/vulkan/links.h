@@ -7,7 +7,7 @@
 
 namespace weft::vulkan {
 
-/// The tables of an island, and the multipliers that outlive an iteration.
+/// The constraint tables of an island, and the multipliers that outlive an iteration.
 class LinkBuffers {
   public:
     static Result<LinkBuffers> create(gpu::Device& device, const LinkTables& tables, const WorldPlan& plan);

@@ -1,4 +1,4 @@
-// A command of a shader and what it is told.
+// Makes a command from a shader and its arguments.
 #pragma once
 
 #include "vulkan/compiled_plan.h"
@@ -9,7 +9,7 @@
 
 namespace weft::vulkan {
 
-/// What goes wrong is added to `errors`.
+/// Adds failures to `errors`.
 template <class Args>
 Command make_command(Programs& programs, Errors& errors, std::string_view program, const Args& args,
                      std::uint32_t invocations) {

@@ -5,9 +5,9 @@
 namespace weft::vulkan {
 namespace {
 
-// What lies in an arena until it is built.
+// Arrays that the arena reads when it is built.
 struct Lists {
-    std::vector<std::vector<std::uint32_t>> blocks, carry_nodes;
+    std::vector<std::vector<std::uint32_t>> blocks, prolongation_nodes;
     std::vector<std::uint32_t> offsets, items, span_ends;
     std::vector<float> masses, span_lengths;
 };
@@ -21,8 +21,8 @@ TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists)
     return buffers;
 }
 
-// Lists of the triangles at each particle, one after another; the zeros that packets of lanes are padded with are left
-// out, so sums are the same.
+// Lists of the triangles at each particle, one after another. Leaves out the zeros that pad packets of lanes, which do
+// not change sums.
 void list_around(const ClothModel& model, Lists& lists) {
     const FacesAround& around = *model.around;
     lists.offsets.push_back(0);
@@ -49,19 +49,19 @@ Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
     const ClothModel& model = *self->model_;
     Arena& arena = self->arena_;
     Lists lists;
-    lists.blocks.reserve(constraint_kind_count + model.hierarchy.size());  // the arena reads them where they are
+    lists.blocks.reserve(constraint_kind_count + model.hierarchy.size());  // the arena keeps their addresses
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
         self->tables[kind] = add_table(arena, model.constraints[kind], lists);
-    lists.carry_nodes.reserve(model.hierarchy.size());
+    lists.prolongation_nodes.reserve(model.hierarchy.size());
     for (const CoarseLevel& level : model.hierarchy) {
-        auto& nodes = lists.carry_nodes.emplace_back(level.carry.weight.size());
-        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = level.carry.node(i);
+        auto& nodes = lists.prolongation_nodes.emplace_back(level.prolongation.weight.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = level.prolongation.node(i);
         self->levels.push_back({.restriction_begin = arena.add_array(level.restriction.begin),
                                 .restriction_node = arena.add_array(level.restriction.node),
                                 .restriction_weight = arena.add_array(level.restriction.weight),
-                                .carry_node = arena.add_array(nodes),
-                                .carry_weight = arena.add_array(level.carry.weight),
-                                .reach = add_table(arena, level.reach, lists)});
+                                .prolongation_node = arena.add_array(nodes),
+                                .prolongation_weight = arena.add_array(level.prolongation.weight),
+                                .limits = add_table(arena, level.limits, lists)});
     }
     list_around(model, lists);
     lists.masses = face_masses(model);
@@ -79,9 +79,9 @@ Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
     return self;
 }
 
-Result<Done> ModelBuffers::write_changed(gpu::Device& device, const ClothModel& from, const ClothModel& to) const {
+Result<void> ModelBuffers::write_changed(gpu::Device& device, const ClothModel& from, const ClothModel& to) const {
     const auto write = [&](Slot slot, const auto& numbers) {
-        return slot.bytes == 0 ? Result<Done>(Done{})
+        return slot.bytes == 0 ? Result<void>()
                                : upload(device, arena_, slot, std::as_bytes(std::span(numbers.data(), numbers.size())));
     };
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
@@ -89,18 +89,18 @@ Result<Done> ModelBuffers::write_changed(gpu::Device& device, const ClothModel& 
         if (fields.shares(from.constraints[kind].fields)) continue;
         if (auto written = write(tables[kind].fields, fields); !written) return written;
     }
-    if (to.mass.shares(from.mass)) return Done{};
+    if (to.mass.shares(from.mass)) return {};
     return write(face_mass, face_masses(to));
 }
 
-Result<Done> ModelBuffers::set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other) {
+Result<void> ModelBuffers::set_material(gpu::Device& device, std::shared_ptr<const ClothModel> other) {
     if (auto written = write_changed(device, *model_, *other); !written) {
         (void)write_changed(device, *other, *model_);
         return written;
     }
     if (!other->mass.shares(model_->mass)) measure_lists_ = nullptr;
     model_ = std::move(other);
-    return Done{};
+    return {};
 }
 
 Result<const MeasureLists*> ModelBuffers::measure_lists(gpu::Device& device) const {

@@ -8,7 +8,7 @@
 namespace weft::vulkan {
 namespace {
 
-// Invocations of a workgroup: enough to hide the way to memory, few enough that each has registers.
+// Invocations of a workgroup: enough to hide memory latency, few enough to leave registers for each.
 constexpr std::uint32_t usual_workgroup = 128;
 
 }  // namespace

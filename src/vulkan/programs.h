@@ -19,7 +19,7 @@ class Programs {
     const gpu::Device& device() const { return device_; }
 
     Result<const gpu::Pipeline*> get(std::string_view name);
-    /// With values for its specialization constants, the workgroup's size first.
+    /// `constants`: values of the specialization constants, the workgroup's size first.
     Result<const gpu::Pipeline*> get(std::string_view name, std::span<const std::uint32_t> constants);
 
   private:

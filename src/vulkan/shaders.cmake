@@ -1,5 +1,5 @@
-# Compiles this folder's shaders and embeds them: weft_shader(<name> <file> [macro=value…]). glslc finds out what each is
-# made of, so a changed kernel makes its shaders again. The list of constraints is read from constraints.def.
+# Compiles this folder's shaders and embeds them: weft_shader(<name> <file> [macro=value…]). glslc writes the
+# dependencies, so a changed kernel rebuilds its shaders. The list of constraints is read from constraints.def.
 include(weft_shaders)
 
 set(shader_output ${CMAKE_CURRENT_BINARY_DIR}/shaders)
@@ -13,7 +13,8 @@ function(weft_shader name file)
     set(shader_names ${shader_names} ${name} PARENT_SCOPE)
 endfunction()
 
-# weft_pass(<name> <file> <args> [macro=value…]): of one cloth, which is pushed its arguments; and <name>_many, of many.
+# weft_pass(<name> <file> <args> [macro=value…]): the shader <name> for one cloth, whose arguments are pushed as
+# constants, and <name>_many for several cloths.
 set(many_names)
 function(weft_pass name file args)
     string(REGEX REPLACE "([a-z])([A-Z])" "\\1_\\2" pushed ${args})
@@ -28,13 +29,13 @@ endfunction()
 foreach(pass predict velocities advance)
     weft_pass(${pass} particles.comp ParticleArgs WEFT_PASS=run_${pass})
 endforeach()
-weft_pass(hold particles.comp HoldArgs WEFT_PASS=run_hold)
+weft_pass(targets particles.comp TargetArgs WEFT_PASS=run_targets)
 weft_pass(average particles.comp AverageArgs WEFT_PASS=run_average)
 weft_pass(contact particles.comp ContactArgs WEFT_PASS=run_contact)
 foreach(pass keep check roll_back)
     weft_pass(${pass} particles.comp KeepArgs WEFT_PASS=run_${pass})
 endforeach()
-foreach(pass collect lift settle spread)
+foreach(pass restriction interpolation node_correction prolongation)
     weft_pass(${pass} particles.comp LevelArgs WEFT_PASS=run_${pass})
 endforeach()
 foreach(pass wind air faces)
@@ -69,7 +70,8 @@ foreach(line ${lines})
     endforeach()
 endforeach()
 
-# The number of each, which commands in lists begin with; the shader that runs them, and what is no part of a frame, have none.
+# The number of each shader, which commands in lists begin with. The shader that runs lists and shaders outside of
+# frames have no number.
 set(ids)
 set(number 0)
 foreach(name ${shader_names})
@@ -100,7 +102,7 @@ weft_shader(aim_adhesion lists/aim_adhesion.comp)
 weft_shader(list_size lists/size.comp)
 weft_shader(list_gather lists/gather.comp)
 foreach(pass count_contacts list_contacts)
-    weft_shader(${pass} feedback/${pass}.comp)
+    weft_shader(${pass} contact_forces/${pass}.comp)
 endforeach()
 
 # One table of all, for shaders.cpp.

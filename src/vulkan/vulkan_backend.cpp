@@ -19,7 +19,7 @@ using vulkan::Execution;
 using vulkan::FrameRun;
 using vulkan::ModelBuffers;
 
-// Where the system keeps what can be made again; nowhere if it does not say.
+// A file in the user's cache folder; empty if the environment does not name one.
 std::filesystem::path pipeline_cache_file(const gpu::DeviceInfo& device) {
     std::filesystem::path folder;
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
@@ -40,7 +40,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
   public:
     VulkanBackend(std::shared_ptr<gpu::Device> device, Execution execution, bool timings)
         : device_(std::move(device)), programs_(*device_), execution_(execution), timings_(timings) {}
-    // Nobody asks any more what came of a frame, but what it works on must stay until it ends.
+    // The results of a running frame are not needed any more, but its buffers must exist until it ends.
     ~VulkanBackend() override { (void)device_->wait(device_->submitted()); }
 
     std::string_view name() const override { return "vulkan"; }
@@ -66,14 +66,14 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         cloths_[handle.value] = nullptr;
     }
 
-    Result<Done> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+    Result<void> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         Cloth& old = cloth(handle);
         assert(model->first_anchor() == old.model().first_anchor());
         const auto before = old.save();
         if (!before) return before.errors();
         const bool same_anchors = model->anchor_count == old.model().anchor_count;
-        // The new cloth may take the place of the old one, which then gets back what it was.
-        const auto undone = [&](const Errors& errors) -> Result<Done> {
+        // The new cloth may overwrite the particles of the old one. After a failure, the old one is restored.
+        const auto undone = [&](const Errors& errors) -> Result<void> {
             (void)old.restore(*before);
             return errors;
         };
@@ -84,16 +84,16 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         if (auto restored = (*next)->restore(snapshot); !restored) return undone(restored.errors());
         forget_runs(old);
         cloths_[handle.value] = std::move(*next);
-        return Done{};
+        return {};
     }
 
-    Result<Done> set_material(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
+    Result<void> set_material(ClothHandle handle, std::shared_ptr<const ClothModel> model) override {
         vulkan::ClothState& state = cloth(handle).state();
-        // Commands that are recorded already have numbers of the fabric in them.
+        // Recorded commands contain numbers of the old fabric.
         forget_runs(cloth(handle));
         if (!state.owns_buffers() || models_[model.get()].lock()) {
             auto buffers = buffers_of(std::move(model));
-            return buffers ? state.set_material(*device_, std::move(*buffers)) : Result<Done>(buffers.errors());
+            return buffers ? state.set_material(*device_, std::move(*buffers)) : Result<void>(buffers.errors());
         }
         const std::weak_ptr<ModelBuffers> mine = state.shared_buffers();
         models_.erase(&state.model());
@@ -102,7 +102,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return done;
     }
 
-    Result<Done> set_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
+    Result<void> set_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
                               std::span<const std::uint32_t> copied) override {
         Cloth& old = cloth(handle);
         assert(model->capacity() == old.model().capacity());
@@ -111,17 +111,17 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         ClothSnapshot snapshot = *before;
         for (std::size_t i = 0; i < copied.size(); ++i) {
             const std::size_t to = old.model().particle_count + i, from = copied[i];
-            for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
+            for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
                 (*array)[to] = (*array)[from];
             snapshot.position[to].w = 0;
         }
         for (std::uint32_t p = 0; p < model->particle_count; ++p)
             snapshot.position[p].w = snapshot.position[p].w > 0 ? 1 / model->mass[p] : 0;
-        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
+        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
             array->resize(model->point_count());
-        // Where there is no room for both, the old one gets back what it was.
+        // The new cloth overwrites the particles of the old one. After a failure, the old one is restored.
         auto next = make_cloth(std::move(model), old.state().base());
-        Result<Done> done = Done{};
+        Result<void> done;
         if (!next) done = next.errors();
         if (done) done = (*next)->restore(snapshot);
         if (!done) {
@@ -130,16 +130,16 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         forget_runs(old);
         cloths_[handle.value] = std::move(*next);
-        return Done{};
+        return {};
     }
 
-    Result<Done> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
+    Result<void> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
         auto done = cloth(handle).state().place_points(*device_, first, places);
         cloth(handle).changed(true);
         return done;
     }
 
-    Result<Done> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
+    Result<void> set_weights(ClothHandle handle, std::span<const ParticleWeight> changed) override {
         auto done = cloth(handle).state().set_weights(*device_, changed);
         cloth(handle).changed(true);
         return done;
@@ -186,7 +186,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         auto snapshot = cloth(handle).save();
         return snapshot ? std::move(*snapshot) : ClothSnapshot{};
     }
-    Result<Done> restore(ClothHandle handle, const ClothSnapshot& snapshot) override {
+    Result<void> restore(ClothHandle handle, const ClothSnapshot& snapshot) override {
         return cloth(handle).restore(snapshot);
     }
     void hash(ClothHandle handle, StateHash& hash) const override { cloth(handle).hash(hash); }
@@ -208,17 +208,17 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return *cloths_[handle.value];
     }
 
-    // Room for a range of particles. Whoever knows where others lie is told if they move.
-    Result<Done> make_room(std::uint64_t end) {
+    // Makes room for particles up to `end`. If their addresses change, all users of the addresses are updated.
+    Result<void> make_room(std::uint64_t end) {
         const auto moved = particles_.make_room(*device_, end);
         if (!moved) return moved.errors();
-        if (!*moved) return Done{};
+        if (!*moved) return {};
         runs_.clear();
         for (const auto& one : cloths_) {
             if (!one) continue;
             if (auto done = one->particles_moved(); !done) return done;
         }
-        return Done{};
+        return {};
     }
 
     Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) {
@@ -228,7 +228,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return Cloth::create(*device_, programs_, std::move(*buffers), particles_, base);
     }
 
-    // Cloths of one model share it on the device too.
+    // Cloths of one model share its buffers.
     Result<std::shared_ptr<ModelBuffers>> buffers_of(std::shared_ptr<const ClothModel> model) {
         if (auto there = models_[model.get()].lock()) return there;
         std::erase_if(models_, [](const auto& one) { return one.second.expired(); });
@@ -245,32 +245,33 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return made;
     }
 
-    // Anchors of two different sets do not correspond; the new ones start where the model has them.
+    // Anchors of different sets do not correspond, so new ones start at the positions in the model.
     static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& model, bool same_anchors) {
         const std::size_t kept = same_anchors ? model.point_count() : model.first_anchor();
-        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.carry})
+        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
             array->resize(kept), array->resize(model.point_count());
         for (std::size_t p = kept; p < model.point_count(); ++p) snapshot.position[p] = model.start[p];
         for (std::size_t p = 0; p < kept; ++p) snapshot.position[p].w = model.start[p].w;
         snapshot.lambda.assign(model.table(ConstraintKind::stretch).lambda_count(), 0.0f);
     }
 
-    // Islands that a frame takes together.
+    // Islands that one FrameRun runs together.
     struct Group {
         Execution execution{};
         std::vector<const ClothStep*> steps;
         std::vector<FrameRun::Member> members;
-        FrameRun* run = nullptr;  ///< none where that failed
+        FrameRun* run = nullptr;  ///< null if it failed
     };
 
-    // A workgroup runs a cloth to the end of the frame without waiting for others, so it must be alone in its island,
-    // and without dynamic lists, which are those of all cloths.
+    // `fused`: a workgroup runs a cloth to the end of the frame without waiting for others. So the cloth must be the
+    // only one in its island, and there must be no dynamic lists, which all cloths share.
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
-        const bool alone = island.cloths.size() == 1 && !island.links && !has_lists(step);
-        if (execution_ != Execution::automatic && (alone || execution_ != Execution::fused)) return execution_;
+        const bool single_cloth = island.cloths.size() == 1 && !island.links && !has_lists(step);
+        if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
-        return alone && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model()) ? Execution::fused
-                                                                                                 : Execution::grouped;
+        return single_cloth && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model())
+                   ? Execution::fused
+                   : Execution::grouped;
     }
 
     static bool has_lists(const WorldStep& step) {
@@ -278,7 +279,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return std::ranges::find(begin, PassKind::find, &Pass::kind) != begin.end();
     }
 
-    // Those that are executed alike.
+    // Groups the islands by their execution.
     void group(const WorldStep& step) {
         for (std::uint32_t i = 0; i < step.islands.size(); ++i) {
             const IslandStep& island = step.islands[i];
@@ -319,7 +320,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (const ClothStep* one : group.steps) cloth(one->cloth).changed(normals);
     }
 
-    // The one that was recorded for a frame like this, or a new one in place of those with other plans.
+    // Returns the run that was recorded for the same frame, or records a new one in place of the cloths' other runs.
     Result<FrameRun*> find_run(const WorldStep& step, const Group& group) {
         for (const auto& run : runs_) {
             if (run->is_for(step.plan_serial, group.members, group.execution)) return run.get();
@@ -336,8 +337,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         std::erase_if(runs_, [&](const auto& run) { return run->has(&cloth); });
     }
 
-    // Where a list was full, the device has gone back to where the frame began: it runs the frame again with a longer
-    // one. False where that fails.
+    // If a list was full, the device has restored the state before the frame. Runs the frame again with a longer list.
+    // Returns false on failure.
     bool complete_lists(Group& group) {
         while (group.run->list_was_full()) {
             ++counts_.repeats;
@@ -346,7 +347,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
             auto run = find_run(*step_, group);
-            if (!run) list_capacity_ = before;  // there may be less to list in the next frame
+            if (!run) list_capacity_ = before;  // the next frame may need less
             if (!run) return fail(group, run.error()), false;
             const auto value = (*run)->submit(step_->input, group.steps, true);
             if (!value) return fail(group, value.error()), false;
@@ -366,13 +367,13 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (std::size_t i = 0; i < group.steps.size(); ++i) {
             ClothFrame& frame = *group.steps[i]->frame;
             frame.reports = group.run->report(i);
-            if (ClothFeedback* feedback = group.steps[i]->feedback)
-                frame.reports |= group.run->read_feedback(i, *feedback);
+            if (ClothContactLog* contact_forces = group.steps[i]->contact_forces)
+                frame.reports |= group.run->read_contact_forces(i, *contact_forces);
             if (frame.reports & report_non_finite) name_culprit(group, i);
         }
     }
 
-    // Of an island the first cloth in which there is one tells of all.
+    // All cloths of an island get the same detail: the first cause that is found in one of them.
     void name_culprit(Group& group, std::size_t member) {
         std::string& detail = group.steps[member]->frame->detail;
         const std::uint32_t island = group.members[member].island;
@@ -404,13 +405,14 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     vulkan::WorldParticles particles_;  // outlives the cloths
     std::vector<std::unique_ptr<Cloth>> cloths_;
     std::vector<std::unique_ptr<FrameRun>> runs_;
-    // What is submitted after a frame may wait for a host, which the next step must not.
-    std::uint64_t last_ = 0;  ///< when the device is done with the last frame
-    // Of a frame, until it is finished:
+    // Timeline value at the end of the last frame. Work that is submitted after it may wait for the host, so the next
+    // step must not wait for that work.
+    std::uint64_t last_ = 0;
+    // Valid until the frame is finished:
     std::vector<Group> groups_;
     const WorldStep* step_ = nullptr;
     ListCounts counts_;                ///< of the last frame
-    std::uint32_t list_capacity_ = 0;  ///< rows of dynamic lists, as far as they have grown
+    std::uint32_t list_capacity_ = 0;  ///< grown capacity of dynamic lists, in constraints
 };
 
 Result<Execution> execution_of(const VulkanOptions& options) {

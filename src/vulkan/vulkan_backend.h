@@ -18,35 +18,37 @@ struct VolkDeviceTable;
 
 namespace weft {
 
-/// How a frame becomes dispatches: `streamed` one per pass, `grouped` one for all passes of coarse levels that are too
-/// small for that, `fused` one for the whole frame, with a workgroup to a cloth; the same bits. `auto`: fused where a
-/// workgroup has room for the cloth, grouped otherwise; streamed where software plays the GPU, for which a workgroup is
-/// one thread.
+/// How a frame becomes dispatches. All give the same bits.
+/// - `streamed`: one dispatch per pass.
+/// - `grouped`: one dispatch for consecutive passes of coarse levels that are too small for one each.
+/// - `fused`: one dispatch for the whole frame, one workgroup per cloth.
+/// - `auto`: fused if a workgroup has room for the cloth, grouped otherwise; streamed on a software device, which runs
+///   a workgroup on one thread.
 inline constexpr std::array<std::string_view, 4> execution_names = {"auto", "streamed", "grouped", "fused"};
 
 struct VulkanOptions {
     std::string execution = "auto";
-    /// Part of the device's name, in whatever case; empty: the best GPU there is.
+    /// Part of the device's name, case-insensitive; empty: the best GPU.
     std::string device = {};
-    /// Whether a CPU that plays the GPU will do where there is none, and no name is given.
+    /// Whether to use a software device (on the CPU) if there is no GPU and `device` is empty.
     bool software = true;
-    /// Times for each stage, which cost a little; without, none.
+    /// Measures the time of each stage, at a small cost.
     bool timings = false;
-    /// Bytes: never takes more of the device than this; 0: as much as there is.
+    /// Largest amount of device memory to use, in bytes; 0: no limit.
     std::uint64_t memory_limit = 0;
-    /// For one that shows pictures in windows: gpu::InstanceOptions.
+    /// For presentation in windows: see gpu::InstanceOptions.
     std::vector<std::string> surface_extensions = {};
-    /// Validation layers, for tests; what they say.
+    /// Enables validation layers, for tests. `on_message` gets their messages.
     bool validation = false;
     std::function<void(std::string_view)> on_message = {};
-    /// For tests: lets calls fail that a healthy device never does.
+    /// For tests: replaces functions of the device, so that calls can fail.
     std::function<void(VolkDeviceTable&)> intercept = {};
 };
 
-/// Fails without a Vulkan loader, a driver, a device of that name, or one that can do what is needed.
+/// Fails without a Vulkan loader, a driver, a device of that name, or a device with the required features.
 Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options = {});
 
-/// Every device there is, those that will not do among them; empty without a loader or driver.
+/// All devices, including unsuitable ones; empty without a loader or driver.
 std::vector<gpu::DeviceInfo> vulkan_devices();
 
 }  // namespace weft

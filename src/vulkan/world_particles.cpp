@@ -8,7 +8,7 @@ namespace weft::vulkan {
 
 Result<bool> WorldParticles::make_room(gpu::Device& device, std::uint64_t end) {
     if (end <= capacity_) return false;
-    // One cloth alone takes what it needs; many that come one after another are moved few times.
+    // The first allocation is exact. Later ones double the capacity, so that few of them copy the particles.
     WorldParticles larger;
     larger.capacity_ = capacity_ == 0 ? end : std::max(end, 2 * capacity_);
     auto buffer = device.memory().buffer(point_array_count * larger.capacity_ * sizeof(Vec4), gpu::MemoryKind::device,

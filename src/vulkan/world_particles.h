@@ -11,28 +11,28 @@
 namespace weft::vulkan {
 
 /// Arrays of Vec4, one element per particle of the world. The fourth floats of positions are inverse masses; those of
-/// start, velocity and carry are what rounding dropped from the velocity. The good ones are what a frame found, to go
-/// back to.
+/// start, velocity and compensation are the velocity's compensation. The good_… arrays hold the state before the frame,
+/// for a roll-back.
 enum class PointArray : std::uint32_t {
     position,
     start,
     velocity,
-    carry,
+    compensation,
     good_position,
     good_velocity,
-    good_carry,
+    good_compensation,
     normals,
 };
 inline constexpr std::uint32_t point_array_count = 8;
 
 class WorldParticles {
   public:
-    /// Room for particles up to `end`. What is there is kept, and lies elsewhere then: true if it does. Where the
-    /// device has no room, all is as it was.
+    /// Makes room for particles up to `end` and keeps the present ones. Returns true if their addresses have changed. A
+    /// failure changes nothing.
     Result<bool> make_room(gpu::Device& device, std::uint64_t end);
 
     const gpu::Buffer& buffer() const { return buffer_; }
-    /// Bytes, of a particle in the buffer.
+    /// Offset of a particle in the buffer, in bytes.
     std::uint64_t offset(PointArray array, std::uint64_t particle) const {
         return (static_cast<std::uint64_t>(array) * capacity_ + particle) * sizeof(Vec4);
     }

@@ -32,7 +32,7 @@ Result<std::unique_ptr<Backend>> make_backend(const Options& options) {
         return Error{"device", "names a Vulkan device, and the backend is cpu"};
     if (options.backend != "cpu") {
         auto vulkan = make_vulkan(options);
-        // Who names a device wants that one.
+        // If the options name a device, do not fall back to the CPU.
         if (vulkan || options.backend == "vulkan" || !options.device.empty()) return vulkan;
     }
     return make_cpu_backend({.workers = options.threads - 1, .isa = options.isa});

@@ -1,4 +1,4 @@
-// Which backend a program's options ask for.
+// Creates the backend that the options select.
 #pragma once
 
 #include "solver/world/backend.h"
@@ -13,14 +13,13 @@
 
 namespace weft {
 
-/// What options may say.
+/// Values of Options::backend.
 inline constexpr std::array<std::string_view, 3> backend_names = {"auto", "cpu", "vulkan"};
 
-/// Makes the backend that options ask for.
+/// Creates a backend for the given options.
 using MakeBackend = std::function<Result<std::unique_ptr<Backend>>(const Options&)>;
 
-/// `auto` is a GPU if there is one that will do, and the CPU otherwise; never a GPU that software plays. `timings`: of
-/// each stage, where they cost something.
+/// `auto` selects a suitable GPU if there is one, otherwise the CPU. It never selects a software device.
 Result<std::unique_ptr<Backend>> make_backend(const Options& options);
 
 }  // namespace weft

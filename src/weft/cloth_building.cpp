@@ -15,7 +15,7 @@ namespace {
 
 struct LoadedMesh {
     TriangleMesh mesh;
-    std::string from;  // what errors about it call it
+    std::string from;  // name in error messages
 };
 
 Result<LoadedMesh> load(const GridDesc& grid, const MeshFiles&) {
@@ -38,14 +38,14 @@ Result<LoadedMesh> load(const MeshFileDesc& desc, const MeshFiles& files) {
     return LoadedMesh{std::move(*mesh), desc.file};
 }
 
-// Placed in the world.
+// Loads a mesh and places it in the world.
 Result<LoadedMesh> load_placed(const MeshDesc& desc, const TransformDesc& transform, const MeshFiles& files) {
     auto loaded = std::visit([&](const auto& shape) { return load(shape, files); }, desc);
     if (loaded) place_mesh(loaded->mesh, desc, transform);
     return loaded;
 }
 
-// `where` of what lies deeper, put behind the place in the scene.
+// Sets `where` of the errors to a place in the scene, and puts their own `where` into the text.
 Errors within(const std::string& place, const Errors& errors) {
     Errors placed;
     for (const Error& error : errors) placed.push_back({place, error.message(), error.fault});
@@ -63,15 +63,15 @@ void note_report(const std::string& cloth, const TopologyReport& report, std::ve
     note(report.inconsistent_edges, "edges between triangles of opposite winding");
 }
 
-// Two meshes that do not lie over each other come of a wrong scale or axis more often than of a wish.
+// Warns if the two meshes do not coincide, which usually means a wrong scale or axis.
 void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
-    constexpr float far_apart = 0.1f;  // of the extent: no lining, trimming or decimated mesh is so far off
+    constexpr float far_apart = 0.1f;  // of the extent; linings, trimmings and decimated meshes are nearer
     Bounds bounds;
     for (std::uint32_t p = 0; p < model.particle_count; ++p) bounds.include(model.rest_position(p));
     const float extent = length(bounds.size());
     if (model.binding.farthest > far_apart * extent)
-        notes.push_back("cloth '" + model.name + "': the drawn mesh lies up to " + number_text(model.binding.farthest) +
-                        " m away from the simulated one");
+        notes.push_back("cloth '" + model.name + "': the render mesh lies up to " +
+                        number_text(model.binding.farthest) + " m away from the simulated one");
 }
 
 }  // namespace
@@ -91,14 +91,14 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     auto loaded = load_placed(cloth.mesh, cloth.transform, files);
     if (!loaded) return within(pointer + "/mesh/file", loaded.errors());
     std::optional<TriangleMesh> drawn;
-    if (cloth.drawn) {
-        auto other = load_placed(*cloth.drawn, cloth.transform, files);
-        if (!other) return within(pointer + "/drawn/file", other.errors());
+    if (cloth.render_mesh) {
+        auto other = load_placed(*cloth.render_mesh, cloth.transform, files);
+        if (!other) return within(pointer + "/render_mesh/file", other.errors());
         drawn = std::move(other->mesh);
     }
     BuildTimes build_times;
     BuildClock clock(build_times);
-    // A generated grid comes in rows, which vector loads like better than any order found afterwards.
+    // A generated grid is ordered row by row, which suits vector loads better than any reordering.
     const TopologyOptions options{.reorder = !std::holds_alternative<GridDesc>(cloth.mesh)};
     auto topology = build_topology(loaded->mesh, options);
     if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
@@ -117,10 +117,10 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     if (!pinned) return pinned.errors();
     built.source.pins = pinned->pins;
     if (drawn) built.source.simulated = std::make_shared<const TriangleMesh>(loaded->mesh);
-    built.holds = std::move(pinned->holds);
+    built.targets = std::move(pinned->targets);
     auto model = build_cloth_model({.name = cloth.name,
                                     .mesh = std::move(loaded->mesh),
-                                    .drawn = std::move(drawn),
+                                    .render_mesh = std::move(drawn),
                                     .fabric = fabric_of(cloth),
                                     .pins = std::move(pinned->pins),
                                     .layout = world.settings().layout(),

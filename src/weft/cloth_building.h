@@ -1,4 +1,4 @@
-// From what a scene says of a cloth to the model that a world runs.
+// Builds the model of a cloth from its description in a scene.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -15,15 +15,15 @@
 
 namespace weft {
 
-/// How meshes that a scene names by file are read.
+/// How mesh files of a scene are read.
 struct MeshFiles {
-    MeshReader read = {};  ///< without, a cloth that names a file is refused
-    std::filesystem::path folder = {};
+    MeshReader read = {};               ///< if empty, a cloth with a mesh file is an error
+    std::filesystem::path folder = {};  ///< folder of the scene file
 };
 
-/// What is kept of a cloth beside its model, to make another model of the same particles.
+/// Data that is kept besides a cloth's model, to build another model of the same particles.
 struct ClothSource {
-    std::shared_ptr<const TriangleMesh> simulated = {};  ///< placed; where that is not the mesh that is drawn
+    std::shared_ptr<const TriangleMesh> simulated = {};  ///< in world space; null if it is the drawn mesh
     TopologyOptions topology = {};
     ParticleNumbers numbers = {};
     ClothPins pins = {};
@@ -31,27 +31,27 @@ struct ClothSource {
 
 struct BuiltCloth {
     std::shared_ptr<const ClothModel> model;
-    Holds holds;
+    KinematicTargets targets;
     ClothSource source;
 };
 
-/// Reads or makes the meshes of a cloth that has been checked, and builds its model for a world as it is. `pointer` is
-/// the place of the cloth in errors; `notes` gets what building found and survived, a line each.
+/// Reads or generates the meshes of a cloth and builds its model. The cloth must have been checked, and its colliders
+/// must be in `world`. `pointer`: the place of the cloth in errors. Appends one line per warning to `notes`.
 Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
                                const std::string& pointer, std::vector<std::string>& notes);
 
-/// What a scene says of tethers beside the fabric is a material like any other to the solver.
+/// The cloth's fabric with its tether settings, which the solver treats as part of the fabric.
 Fabric fabric_of(const SceneCloth& cloth);
 
-/// As it was placed at the start.
+/// The simulated mesh at the start, in world space.
 const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source);
 
-/// Another fabric, other pins or another layout for the particles of `now`.
+/// Builds a model with another fabric, other pins or another layout for the particles of `now`.
 Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,
                                                         const SceneCloth& cloth, const ClothPins& pins,
                                                         const ClothLayout& layout);
 
-/// The particles that `pins` name, where they are now.
+/// Selects the particles of `pins` at their current positions.
 Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource& source,
                                const std::vector<PinDesc>& pins);
 

@@ -1,4 +1,4 @@
-// Where a simulation is drawn: on the device that runs it, or on one of its own.
+// The Vulkan device that draws a simulation: the device that runs it, or a separate one.
 #pragma once
 
 #ifdef WEFT_VULKAN
@@ -14,12 +14,12 @@
 
 namespace weft {
 
-/// That of the world's backend where it is Vulkan. Otherwise one is made: the device of that name, or the best there
-/// is, a CPU that plays the GPU among them.
+/// Returns the device of the world's backend if that is Vulkan. Otherwise creates a device: the one that `name`
+/// selects, or the best one, including software devices.
 Result<std::shared_ptr<gpu::Device>> drawing_device(World& world, const std::string& name);
 
-/// The drawn surface of a cloth where the backend has it on that device; empty where it has none. The world stays where
-/// it is.
+/// Returns a function that computes the render mesh of a cloth on the device of the world's backend; empty if the
+/// backend is not Vulkan. The function keeps a reference to the world, which must not be moved.
 std::function<Result<gpu::SurfaceBuffers>(ClothId cloth)> surfaces_on_device(World& world);
 
 }  // namespace weft

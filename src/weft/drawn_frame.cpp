@@ -1,19 +1,29 @@
 #include "weft/drawn_frame.h"
 
+#include "scene/materials.h"
+
 #include <algorithm>
+#include <string>
 
 namespace weft {
 namespace {
 
-const Material* material_of(const ClothFrame& cloth, std::span<const SceneLook> looks) {
-    const auto look = std::ranges::find(looks, cloth.model->name, &SceneLook::object);
-    if (look != looks.end()) return &look->material;
-    return cloth.render_mesh().colors.empty() ? &find_material("cotton")->material : nullptr;
+// Frame and scene list the cloths in the same order, so the cloth with this name is usually at this `place`.
+const SceneCloth* find_cloth(std::span<const SceneCloth> cloths, const std::string& name, std::size_t place) {
+    if (place < cloths.size() && cloths[place].name == name) return &cloths[place];
+    const auto found = std::ranges::find(cloths, name, &SceneCloth::name);
+    return found != cloths.end() ? &*found : nullptr;
+}
+
+const Material* drawn_material(const ClothFrame& cloth, const SceneCloth* described) {
+    if (described && described->material) return &described->material->values;
+    if (!cloth.render_mesh().colors.empty()) return nullptr;
+    return described ? &material_of(*described) : &find_material("cotton")->material;
 }
 
 }  // namespace
 
-void DrawnFrame::update(const Frame& frame, std::span<const SceneLook> looks) {
+void DrawnFrame::update(const Frame& frame, std::span<const SceneCloth> cloths) {
     surfaces_.resize(frame.cloths.size());
     for (std::size_t i = 0; i < frame.cloths.size(); ++i) {
         const ClothFrame& cloth = frame.cloths[i];
@@ -26,7 +36,7 @@ void DrawnFrame::update(const Frame& frame, std::span<const SceneLook> looks) {
                         .colors = mesh.colors,
                         .rest_positions = mesh.rest_positions,
                         .topology_version = cloth.topology_version,
-                        .material = material_of(cloth, looks)};
+                        .material = drawn_material(cloth, find_cloth(cloths, cloth.model->name, i))};
     }
 }
 

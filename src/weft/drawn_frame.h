@@ -1,4 +1,4 @@
-// The drawn surfaces of a frame.
+// The render meshes of a frame, as exporters read them.
 #pragma once
 
 #include "look/drawn_surface.h"
@@ -10,12 +10,13 @@
 
 namespace weft {
 
-/// The cloths of a frame as exporters see them.
+/// The surfaces of a frame's cloths, with their materials.
 class DrawnFrame {
   public:
-    /// What the surfaces show is the frame's own, and is gone with it. `looks` must stay while surfaces are in use. A
-    /// cloth without one is of cotton, or of the colors of its mesh.
-    void update(const Frame& frame, std::span<const SceneLook> looks = {});
+    /// Sets the surfaces. They point into `frame` and into the materials of `cloths`, which are found by name. A cloth
+    /// without a material is drawn with the vertex colors of its mesh, or, without colors, with the material of its
+    /// fabric.
+    void update(const Frame& frame, std::span<const SceneCloth> cloths = {});
     std::span<const DrawnSurface> surfaces() const { return surfaces_; }
 
   private:

@@ -1,4 +1,4 @@
-// Fabrics of a scene that change while its cloths move.
+// Changes of fabric while cloths move.
 
 #include "scene/fabric.h"
 #include "weft/scene_world.h"
@@ -25,7 +25,7 @@ SceneDesc hung_sheet() {
     return scene;
 }
 
-SceneWorld open(const SceneDesc& scene, unsigned threads = 1) {
+SceneWorld open_world(const SceneDesc& scene, unsigned threads = 1) {
     auto world = SceneWorld::create(scene, {.backend = "cpu", .threads = threads});
     EXPECT_TRUE(world.ok()) << world.error().message();
     return std::move(*world);
@@ -39,7 +39,7 @@ const ClothModel& model_of(const SceneWorld& world) {
     return *world.world().model(world.world().cloth_id(0));
 }
 
-Result<Done> set_fabric(SceneWorld& world, const char* preset) {
+Result<void> set_fabric(SceneWorld& world, const char* preset) {
     return world.set_fabric(world.world().cloth_id(0), find_fabric(preset)->fabric, preset);
 }
 
@@ -47,23 +47,23 @@ bool rebuilding(const SceneWorld& world) {
     return world.world().is_rebuilding(world.world().cloth_id(0));
 }
 
-// The model that the document says.
+// Expects the model to equal one that is built from the document.
 void expect_built_model(const SceneWorld& world) {
     const ClothModel& now = model_of(world);
-    const SceneWorld anew = open(world.scene());
+    const SceneWorld anew = open_world(world.scene());
     const ClothModel& built = model_of(anew);
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
         EXPECT_EQ(now.constraints[kind].fields, built.constraints[kind].fields);
     EXPECT_EQ(now.mass, built.mass);
     ASSERT_EQ(now.hierarchy.size(), built.hierarchy.size());
     for (std::size_t i = 0; i < now.hierarchy.size(); ++i) {
-        EXPECT_EQ(now.hierarchy[i].reach.fields, built.hierarchy[i].reach.fields);
+        EXPECT_EQ(now.hierarchy[i].limits.fields, built.hierarchy[i].limits.fields);
         EXPECT_EQ(now.hierarchy[i].weight, built.hierarchy[i].weight);
     }
 }
 
 TEST(LiveFabric, acts_at_once_and_coarse_levels_follow) {
-    SceneWorld world = open(hung_sheet());
+    SceneWorld world = open_world(hung_sheet());
     advance(world, 3);
     const auto levels = model_of(world).hierarchy;
     ASSERT_FALSE(levels.empty());
@@ -83,7 +83,7 @@ TEST(LiveFabric, acts_at_once_and_coarse_levels_follow) {
 
 TEST(LiveFabric, leads_to_the_same_bits_with_and_without_threads) {
     const auto run = [](unsigned threads) {
-        SceneWorld world = open(hung_sheet(), threads);
+        SceneWorld world = open_world(hung_sheet(), threads);
         for (const char* preset : {"silk", "denim", "cotton"}) {
             advance(world, 4);
             EXPECT_TRUE(set_fabric(world, preset).ok());
@@ -96,7 +96,7 @@ TEST(LiveFabric, leads_to_the_same_bits_with_and_without_threads) {
 }
 
 TEST(LiveFabric, builds_nothing_for_what_no_level_depends_on) {
-    SceneWorld world = open(hung_sheet());
+    SceneWorld world = open_world(hung_sheet());
     Fabric fabric = world.scene().cloths[0].fabric;
     fabric.air.drag = 3;
     fabric.body.damping = 0;
@@ -109,7 +109,7 @@ TEST(LiveFabric, builds_nothing_for_what_no_level_depends_on) {
 }
 
 TEST(LiveFabric, with_other_rows_is_built) {
-    SceneWorld world = open(hung_sheet());
+    SceneWorld world = open_world(hung_sheet());
     advance(world, 3);
     Fabric fabric = find_fabric("silk")->fabric;
     fabric.bend.model = BendModel::distance;
@@ -125,7 +125,7 @@ TEST(LiveFabric, and_pins_that_change_together_both_hold) {
         for (const bool coarse : {true, false}) {
             SceneDesc scene = hung_sheet();
             scene.solver.hierarchy = coarse;
-            SceneWorld world = open(scene);
+            SceneWorld world = open_world(scene);
             advance(world, 2);
             const auto set_pins = [&] {
                 ASSERT_TRUE(world.set_pins(world.world().cloth_id(0), {{.select = VertexPins{{40}}}}).ok());
@@ -144,7 +144,7 @@ TEST(LiveFabric, and_pins_that_change_together_both_hold) {
 }
 
 TEST(LiveFabric, that_nearly_lost_its_levels_gets_them_back) {
-    SceneWorld world = open(hung_sheet());
+    SceneWorld world = open_world(hung_sheet());
     Fabric soft = find_fabric("cotton")->fabric;
     soft.stretch.stretch[0] = soft.stretch.stretch[1] = 0.5f;
     ASSERT_TRUE(world.set_fabric(world.world().cloth_id(0), soft, "cotton").ok());
@@ -159,7 +159,7 @@ TEST(LiveFabric, that_nearly_lost_its_levels_gets_them_back) {
 }
 
 TEST(LiveFabric, is_undone_by_a_former_document) {
-    SceneWorld world = open(hung_sheet());
+    SceneWorld world = open_world(hung_sheet());
     advance(world, 2);
     const SceneDesc before = world.scene();
     SceneDesc next = before;
@@ -170,7 +170,7 @@ TEST(LiveFabric, is_undone_by_a_former_document) {
         ASSERT_TRUE(world.change_to(*document).ok());
         EXPECT_TRUE(world.scene() == *document);
         EXPECT_TRUE(model_of(world).faces.shares(faces)) << "not built";
-        const Snapshot saved = world.world().save();  // builds what is pending
+        const Snapshot saved = world.world().save();  // waits for the pending model
         expect_built_model(world);
         ASSERT_TRUE(world.world().restore(saved).ok());
         advance(world, 2);
@@ -181,7 +181,7 @@ TEST(LiveFabric, with_tethers_gets_those_of_the_new_fabric) {
     SceneDesc scene = hung_sheet();
     scene.solver.hierarchy = false;
     scene.cloths[0].tethers = Tethers::on;
-    SceneWorld world = open(scene);
+    SceneWorld world = open_world(scene);
     ASSERT_GT(model_of(world).table(ConstraintKind::tether).rows, 0u);
     ASSERT_TRUE(set_fabric(world, "silk").ok());
     EXPECT_TRUE(rebuilding(world));
@@ -190,7 +190,7 @@ TEST(LiveFabric, with_tethers_gets_those_of_the_new_fabric) {
 }
 
 TEST(LiveFabric, that_no_simulation_could_follow_changes_nothing) {
-    SceneWorld world = open(hung_sheet());
+    SceneWorld world = open_world(hung_sheet());
     const SceneDesc before = world.scene();
     const auto model = world.world().model(world.world().cloth_id(0));
     for (const float density : {std::nanf(""), 0.0f, 1e-44f}) {

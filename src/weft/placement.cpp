@@ -93,9 +93,9 @@ void place_mesh(TriangleMesh& mesh, const MeshDesc& from, const TransformDesc& t
 
 namespace {
 
-// The pin that holds a particle, and what carries it.
-struct Hold {
-    std::uint32_t mover = none;
+// How a particle is pinned: motion of its target (`none`: it does not move) and compliance in m/N.
+struct PinOf {
+    std::uint32_t motion = none;
     float compliance = 0;
 };
 
@@ -111,7 +111,7 @@ Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& 
                            const std::string& pointer) {
     Pinned pinned;
     Errors errors;
-    std::map<std::uint32_t, Hold> hold_of;  // by particle
+    std::map<std::uint32_t, PinOf> pin_of;  // by particle
     for (std::size_t i = 0; i < pins.size(); ++i) {
         const PinDesc& pin = pins[i];
         PinSelector selector(cloth);
@@ -119,34 +119,34 @@ Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& 
         const Errors found = std::visit([&](const auto& select) { return selector.select(select, where); }, pin.select);
         errors.insert(errors.end(), found.begin(), found.end());
 
-        Hold hold{.mover = none, .compliance = pin.compliance};
+        PinOf held_by{.motion = none, .compliance = pin.compliance};
         if (!pin.attach.empty() || !pin.motion.empty()) {
-            hold.mover = static_cast<std::uint32_t>(pinned.holds.movers.size());
-            pinned.holds.movers.push_back(
+            held_by.motion = static_cast<std::uint32_t>(pinned.targets.motions.size());
+            pinned.targets.motions.push_back(
                 {pin.attach.empty() ? ColliderId{} : find_collider(world, pin.attach), pin.motion});
         }
-        for (std::uint32_t particle : selector.chosen) hold_of[particle] = hold;
+        for (std::uint32_t particle : selector.chosen) pin_of[particle] = held_by;
     }
     if (!errors.empty()) return errors;
 
     const PinSelector places(cloth);
-    std::vector<HeldParticle> anchors;
-    for (const auto& [particle, hold] : hold_of) {
+    std::vector<KinematicTarget> anchors;
+    for (const auto& [particle, held_by] : pin_of) {
         const Vec3 place = places.place(particle);
         std::uint32_t point = particle;
-        if (hold.compliance > 0) {
+        if (held_by.compliance > 0) {
             point = cloth.numbers.particle_count + static_cast<std::uint32_t>(pinned.pins.attachments.size());
-            pinned.pins.attachments.push_back({particle, hold.compliance, place});
+            pinned.pins.attachments.push_back({particle, held_by.compliance, place});
         } else {
             pinned.pins.particles.push_back(particle);
         }
-        if (hold.mover == none) continue;
-        const Mover& mover = pinned.holds.movers[hold.mover];
-        const Vec3 local = mover.collider ? to_local(world.collider(mover.collider).pose, place)
-                                          : place - offset_at(mover.offsets, cloth.time);
-        (point == particle ? pinned.holds.particles : anchors).push_back({point, hold.mover, local});
+        if (held_by.motion == none) continue;
+        const TargetMotion& motion = pinned.targets.motions[held_by.motion];
+        const Vec3 local = motion.collider ? to_local(world.collider(motion.collider).pose, place)
+                                           : place - offset_at(motion.offsets, cloth.time);
+        (point == particle ? pinned.targets.particles : anchors).push_back({point, held_by.motion, local});
     }
-    pinned.holds.particles.insert(pinned.holds.particles.end(), anchors.begin(), anchors.end());
+    pinned.targets.particles.insert(pinned.targets.particles.end(), anchors.begin(), anchors.end());
     return pinned;
 }
 

@@ -21,7 +21,7 @@ Errors apply(const Options& options, SolverDesc& solver) {
     return std::move(problems).take();
 }
 
-/// `now`, but with the solver and the surroundings that a scene has.
+/// `now`, with gravity and air of the scene and with this solver.
 WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, WorldSettings now) {
     now.gravity = scene.gravity;
     now.solver = solver;
@@ -35,22 +35,23 @@ const Named* find_named(const std::vector<Named>& all, const std::string& name) 
     return it != all.end() ? &*it : nullptr;
 }
 
-/// What of a cloth may change while it moves. Meshes are large, and stay where they are.
+/// The parts of a cloth that can change while it moves. Avoids a copy of the meshes, which are large.
 SceneCloth without_meshes(const SceneCloth& cloth) {
     return {.name = cloth.name,
             .mesh = {},
-            .drawn = {},
+            .render_mesh = {},
             .transform = cloth.transform,
             .fabric = cloth.fabric,
             .fabric_name = cloth.fabric_name,
             .pins = cloth.pins,
             .tethers = cloth.tethers,
-            .tether_slack = cloth.tether_slack};
+            .tether_slack = cloth.tether_slack,
+            .material = cloth.material};
 }
 
-/// Whether the differences are such as a cloth can take while it moves.
+/// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
-    return a.mesh == b.mesh && a.drawn == b.drawn && a.transform == b.transform;
+    return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform;
 }
 bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
     return a.shape == b.shape && (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));
@@ -58,11 +59,11 @@ bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
 
 }  // namespace
 
-/// Another model for a cloth.
+/// A new model for a cloth.
 struct SceneWorld::Change {
     ClothId id;
     std::shared_ptr<const ClothModel> model;
-    Holds holds;
+    KinematicTargets targets;
 };
 
 SceneWorld::SceneWorld() = default;
@@ -78,13 +79,13 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
     name_unnamed(scene);
     SceneWorld made;
     made.files_ = {options.read_mesh, folder};
-    const WorldSettings host{.feedback = options.feedback, .background = options.threads > 1};
+    const WorldSettings host{.contact_forces = options.contact_forces, .background = options.threads > 1};
     made.world_ = std::make_unique<World>(std::move(*backend), settings_of(scene, scene.solver, host));
     std::vector<SceneCloth> cloths = std::exchange(scene.cloths, {});
-    std::vector<ColliderDesc> colliders = std::exchange(scene.colliders, {});
+    std::vector<SceneCollider> colliders = std::exchange(scene.colliders, {});
     std::vector<StitchDesc> stitches = std::exchange(scene.stitches, {});
     made.scene_ = std::move(scene);
-    for (ColliderDesc& collider : colliders) made.add(std::move(collider));
+    for (SceneCollider& collider : colliders) made.add(std::move(collider));
     Errors errors;
     for (std::size_t i = 0; i < cloths.size(); ++i) {
         auto added = made.add(std::move(cloths[i]), "/cloths/" + std::to_string(i));
@@ -115,7 +116,7 @@ std::size_t SceneWorld::place_of(ColliderId id) const {
 Result<ClothId> SceneWorld::add(SceneCloth cloth, const std::string& pointer) {
     auto built = build_cloth(cloth, files_, *world_, pointer, notes_);
     if (!built) return built.errors();
-    auto id = world_->try_add(std::move(built->model), std::move(built->holds));
+    auto id = world_->try_add(std::move(built->model), std::move(built->targets));
     if (!id) return id.errors();
     sources_.push_back(std::move(built->source));
     scene_.cloths.push_back(std::move(cloth));
@@ -143,16 +144,10 @@ void SceneWorld::remove(StitchId id) {
     scene_.stitches.erase(scene_.stitches.begin() + place);
 }
 
-ColliderId SceneWorld::add(ColliderDesc collider) {
+ColliderId SceneWorld::add(SceneCollider collider) {
     const ColliderId id = world_->add(make_collider(collider));
     scene_.colliders.push_back(std::move(collider));
     return id;
-}
-
-// Looks go by names, which a cloth and a collider may share.
-void SceneWorld::forget_look(const std::string& name) {
-    if (find_named(scene_.cloths, name) || find_named(scene_.colliders, name)) return;
-    std::erase_if(scene_.looks, [&](const SceneLook& look) { return look.object == name; });
 }
 
 void SceneWorld::remove(ClothId id) {
@@ -162,9 +157,7 @@ void SceneWorld::remove(ClothId id) {
         if (scene_.stitches[i].a.cloth == called || scene_.stitches[i].b.cloth == called) remove(stitch_ids_[i]);
     world_->remove(id);
     sources_.erase(sources_.begin() + place);
-    const std::string name = std::move(scene_.cloths[static_cast<std::size_t>(place)].name);
     scene_.cloths.erase(scene_.cloths.begin() + place);
-    forget_look(name);
 }
 
 void SceneWorld::remove(ColliderId id) {
@@ -175,53 +168,52 @@ void SceneWorld::remove(ColliderId id) {
     for (SceneCloth& cloth : scene_.cloths)
         for (PinDesc& pin : cloth.pins)
             if (pin.attach == name) pin.attach.clear();
-    forget_look(name);
 }
 
-// All of them or none.
-Result<Done> SceneWorld::set_models(std::span<Change> changes) {
+// Sets all models, or none if one fails.
+Result<void> SceneWorld::set_models(std::span<Change> changes) {
     std::vector<Change> before;
     std::vector<ClothId> pending;
     for (Change& change : changes) {
-        Change now{change.id, world_->model(change.id), world_->holds(change.id)};
+        Change now{change.id, world_->model(change.id), world_->kinematic_targets(change.id)};
         if (world_->is_rebuilding(change.id)) pending.push_back(change.id);
-        if (auto set = world_->set_model(change.id, std::move(change.model), std::move(change.holds)); !set) {
-            // They fit before, and there is room again for each that goes back.
+        if (auto set = world_->set_model(change.id, std::move(change.model), std::move(change.targets)); !set) {
+            // The old models fitted before, so there is room for each of them.
             for (Change& earlier : before)
-                (void)world_->set_model(earlier.id, std::move(earlier.model), std::move(earlier.holds));
+                (void)world_->set_model(earlier.id, std::move(earlier.model), std::move(earlier.targets));
             for (const ClothId id : pending) rebuild_later(place_of(id));
             return set;
         }
         before.push_back(std::move(now));
     }
-    return Done{};
+    return {};
 }
 
-// `cloth` comes without its meshes.
-Result<Done> SceneWorld::change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, Holds holds) {
+// `cloth` has no meshes (without_meshes()).
+Result<void> SceneWorld::change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, KinematicTargets targets) {
     const std::size_t place = place_of(id);
     auto model = rebuild_cloth(*world_->model(id), sources_[place], cloth, pins, world_->settings().layout());
     if (!model) return model.errors();
-    Change change{id, std::move(*model), std::move(holds)};
+    Change change{id, std::move(*model), std::move(targets)};
     if (auto set = set_models(std::span(&change, 1)); !set) return set;
     SceneCloth& document = scene_.cloths[place];
     cloth.mesh = std::move(document.mesh);
-    cloth.drawn = std::move(document.drawn);
+    cloth.render_mesh = std::move(document.render_mesh);
     document = std::move(cloth);
     sources_[place].pins = std::move(pins);
-    return Done{};
+    return {};
 }
 
-Result<Done> SceneWorld::set_fabric(ClothId id, const Fabric& fabric, const std::string& preset) {
+Result<void> SceneWorld::set_fabric(ClothId id, const Fabric& fabric, const std::string& preset) {
     const std::size_t place = place_of(id);
     SceneCloth cloth = without_meshes(scene_.cloths[place]);
     cloth.fabric = fabric;
     cloth.fabric_name = preset;
     auto changed = change_material(place, cloth);
     if (!changed) return changed.errors();
-    if (*changed) return Done{};
-    // Not what was held when the pins were made: what carried them may be gone.
-    return change_cloth(id, std::move(cloth), sources_[place].pins, world_->holds(id));
+    if (*changed) return {};
+    // Use the current targets of the world: colliders that moved pins may have been removed.
+    return change_cloth(id, std::move(cloth), sources_[place].pins, world_->kinematic_targets(id));
 }
 
 Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cloth) {
@@ -235,39 +227,39 @@ Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cl
     if (auto set = world_->set_material(id, std::move(*model)); !set) return set.errors();
     scene_.cloths[place].fabric = cloth.fabric;
     scene_.cloths[place].fabric_name = cloth.fabric_name;
-    // A cloth that has no coarse levels yet may get some.
+    // The new fabric may need coarse levels even if the cloth has none yet.
     const bool limited = world_->settings().solver.hierarchy || before->table(ConstraintKind::tether).rows > 0;
     if (pending || (limited && limits_differ(before->fabric, fabric))) rebuild_later(place);
     return true;
 }
 
-Result<Done> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
+Result<void> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const std::size_t place = place_of(id);
     auto pinned = select_pins_now(*world_, id, sources_[place], pins);
     if (!pinned) return pinned.errors();
-    auto held = hold_at_once(place, *pinned);
-    if (!held) return held.errors();
-    if (*held) {
+    auto done = target_at_once(place, *pinned);
+    if (!done) return done.errors();
+    if (*done) {
         scene_.cloths[place].pins = std::move(pins);
-        return Done{};
+        return {};
     }
     SceneCloth cloth = without_meshes(scene_.cloths[place]);
     cloth.pins = std::move(pins);
-    return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->holds));
+    return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->targets));
 }
 
-// False, and nothing is changed, where the model has no room for so many springs.
-Result<bool> SceneWorld::hold_at_once(std::size_t place, const Pinned& pinned) {
+// Changes the pins without a new model. Returns false and changes nothing if the model has no room for the springs.
+Result<bool> SceneWorld::target_at_once(std::size_t place, const Pinned& pinned) {
     const ClothId id = world_->cloth_id(place);
     const auto& springs = pinned.pins.attachments;
     if (sources_[place].pins.attachments.empty() && springs.empty()) {
-        if (auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds); !set) return set.errors();
+        if (auto set = world_->set_pins(id, pinned.pins.particles, pinned.targets); !set) return set.errors();
     } else {
-        auto set = world_->set_pins(id, pinned.pins.particles, pinned.holds, springs);
+        auto set = world_->set_pins(id, pinned.pins.particles, pinned.targets, springs);
         if (!set || !*set) return set;
     }
     sources_[place].pins = pinned.pins;
-    // Coarse levels and tethers start from pins. What is pending already has other pins.
+    // Coarse levels and tethers depend on the pins, and a pending model was built for the old pins.
     const auto& now = world_->model(id);
     if (!now->hierarchy.empty() || now->table(ConstraintKind::tether).rows > 0 ||
         scene_.cloths[place].tethers == Tethers::on || world_->is_rebuilding(id))
@@ -275,7 +267,7 @@ Result<bool> SceneWorld::hold_at_once(std::size_t place, const Pinned& pinned) {
     return true;
 }
 
-// The model that the document says, in the background: coarse levels and tethers take long to build.
+// Builds the model of the document in the background, because coarse levels and tethers take long to build.
 void SceneWorld::rebuild_later(std::size_t place) {
     const ClothId id = world_->cloth_id(place);
     const auto now = world_->model(id);
@@ -309,12 +301,12 @@ void SceneWorld::set_air(const std::optional<AirDesc>& air) {
     world_->configure(settings_of(scene_, scene_.solver, world_->settings()));
 }
 
-void SceneWorld::set_feedback(bool on) {
+void SceneWorld::set_contact_forces(bool on) {
     WorldSettings settings = world_->settings();
-    if (std::exchange(settings.feedback, on) != on) world_->configure(std::move(settings));
+    if (std::exchange(settings.contact_forces, on) != on) world_->configure(std::move(settings));
 }
 
-Result<Done> SceneWorld::set_solver(const SolverDesc& solver) {
+Result<void> SceneWorld::set_solver(const SolverDesc& solver) {
     const WorldSettings settings = settings_of(scene_, solver, world_->settings());
     if (const ClothLayout layout = settings.layout(); layout != world_->settings().layout()) {
         std::vector<Change> changes;
@@ -322,28 +314,28 @@ Result<Done> SceneWorld::set_solver(const SolverDesc& solver) {
             const ClothId id = world_->cloth_id(i);
             auto model = rebuild_cloth(*world_->model(id), sources_[i], scene_.cloths[i], sources_[i].pins, layout);
             if (!model) return model.errors();
-            changes.push_back({id, std::move(*model), world_->holds(id)});
+            changes.push_back({id, std::move(*model), world_->kinematic_targets(id)});
         }
         if (auto set = set_models(changes); !set) return set;
     }
     world_->configure(settings);
     scene_.solver = solver;
-    return Done{};
+    return {};
 }
 
-Result<Done> SceneWorld::change_to(SceneDesc next) {
+Result<void> SceneWorld::change_to(SceneDesc next) {
     name_unnamed(next);
     Problems problems;
     check_parts(next, problems);
     if (!problems.none()) return std::move(problems).take();
     const SceneDesc before = scene_;
     auto done = follow(next);
-    // What was there a moment ago fits still.
+    // The old document fitted before, so this does not fail.
     if (!done) (void)follow(before);
     return done;
 }
 
-Result<Done> SceneWorld::follow(const SceneDesc& next) {
+Result<void> SceneWorld::follow(const SceneDesc& next) {
     remove_what_is_not_in(next);
     change_colliders(next);
     scene_.gravity = next.gravity;
@@ -357,8 +349,7 @@ Result<Done> SceneWorld::follow(const SceneDesc& next) {
     scene_.frame_rate = next.frame_rate;
     scene_.camera = next.camera;
     scene_.light = next.light;
-    scene_.looks = next.looks;
-    return Done{};
+    return {};
 }
 
 void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
@@ -367,36 +358,38 @@ void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
         if (!there || !same_particles(scene_.cloths[i], *there)) remove(world_->cloth_id(i));
     }
     for (std::size_t i = scene_.colliders.size(); i-- > 0;) {
-        const ColliderDesc* there = find_named(next.colliders, scene_.colliders[i].name);
+        const SceneCollider* there = find_named(next.colliders, scene_.colliders[i].name);
         if (!there || !same_body(scene_.colliders[i], *there)) remove(world_->collider_id(i));
     }
 }
 
-Result<Done> SceneWorld::change_stitches(const SceneDesc& next) {
+Result<void> SceneWorld::change_stitches(const SceneDesc& next) {
     for (std::size_t i = scene_.stitches.size(); i-- > 0;)
         if (std::ranges::find(next.stitches, scene_.stitches[i]) == next.stitches.end()) remove(stitch_ids_[i]);
     for (std::size_t i = 0; i < next.stitches.size(); ++i) {
         if (std::ranges::find(scene_.stitches, next.stitches[i]) != scene_.stitches.end()) continue;
         if (auto added = add(next.stitches[i], "/stitches/" + std::to_string(i)); !added) return added.errors();
     }
-    return Done{};
+    return {};
 }
 
 void SceneWorld::change_colliders(const SceneDesc& next) {
-    for (const ColliderDesc& wanted : next.colliders) {
-        const ColliderDesc* there = find_named(scene_.colliders, wanted.name);
+    for (const SceneCollider& wanted : next.colliders) {
+        const SceneCollider* there = find_named(scene_.colliders, wanted.name);
         if (!there) {
             add(wanted);
             continue;
         }
-        const ColliderId id = world_->collider_id(static_cast<std::size_t>(there - scene_.colliders.data()));
+        const auto place = static_cast<std::size_t>(there - scene_.colliders.data());
+        const ColliderId id = world_->collider_id(place);
+        scene_.colliders[place].material = wanted.material;
         if (there->friction != wanted.friction) set_friction(id, wanted.friction);
         if (there->transform != wanted.transform || there->motion != wanted.motion)
             move(id, wanted.transform.position, wanted.transform.rotation_degrees);
     }
 }
 
-Result<Done> SceneWorld::change_cloths(const SceneDesc& next) {
+Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
     for (std::size_t i = 0; i < next.cloths.size(); ++i) {
         const SceneCloth& wanted = next.cloths[i];
         const SceneCloth* there = find_named(scene_.cloths, wanted.name);
@@ -404,10 +397,11 @@ Result<Done> SceneWorld::change_cloths(const SceneDesc& next) {
             if (auto added = add(wanted, "/cloths/" + std::to_string(i)); !added) return added.errors();
             continue;
         }
-        if (*there == wanted) continue;
         const auto place = static_cast<std::size_t>(there - scene_.cloths.data());
+        scene_.cloths[place].material = wanted.material;
+        if (*there == wanted) continue;
         const ClothId id = world_->cloth_id(place);
-        Pinned pinned{sources_[place].pins, world_->holds(id)};
+        Pinned pinned{sources_[place].pins, world_->kinematic_targets(id)};
         if (there->pins == wanted.pins) {
             auto changed = change_material(place, wanted);
             if (!changed) return changed.errors();
@@ -417,10 +411,10 @@ Result<Done> SceneWorld::change_cloths(const SceneDesc& next) {
             if (!selected) return selected.errors();
             pinned = std::move(*selected);
         }
-        auto changed = change_cloth(id, without_meshes(wanted), std::move(pinned.pins), std::move(pinned.holds));
+        auto changed = change_cloth(id, without_meshes(wanted), std::move(pinned.pins), std::move(pinned.targets));
         if (!changed) return changed;
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

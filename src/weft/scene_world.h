@@ -1,4 +1,4 @@
-// A scene as a document, and the world that runs it.
+// A scene and the world that simulates it, kept in agreement.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -19,16 +19,16 @@
 
 namespace weft {
 
-/// scene() is the document. Every change is made here, to the document and to the world; what
-/// fails changes neither. The world adds to the document only what moves: positions, velocities, the poses of colliders
-/// on their way. So a world that is built from the document starts as this one would have.
+/// scene() is the document: the scene with all changes so far. Each function changes both the document and the world,
+/// or, if it fails, neither. Only the world contains what moves: positions, velocities and poses of moving colliders. A
+/// new world that is built from the document therefore begins at the start.
 ///
-/// Cloths and colliders stand in the document in the order of the world, and all have a name. Ids must name what is
-/// there; values have been checked (check.h), but by change_to().
+/// Cloths and colliders have the same order in document and world, and all have names. Ids must name existing objects.
+/// Values must have been checked (check.h); only change_to() checks them itself.
 class SceneWorld {
   public:
-    /// A scene that has been checked, or one without cloths, to be filled. Options override its solver. Problems have
-    /// JSON pointers as `where`. `make`: in place of make_backend().
+    /// `scene` must have been checked; it may have no cloths. Options::solver overrides its solver settings. `where` of
+    /// errors is a JSON pointer. `make`: used instead of make_backend(), if not empty.
     static Result<SceneWorld> create(SceneDesc scene, const Options& options, const std::filesystem::path& folder = {},
                                      const MakeBackend& make = {});
 
@@ -37,42 +37,42 @@ class SceneWorld {
     ~SceneWorld();
 
     const SceneDesc& scene() const { return scene_; }
-    /// Where files are looked for.
+    /// The folder in which files are searched.
     const std::filesystem::path& folder() const { return files_.folder; }
 
     /// `pointer` is the place of the cloth in errors.
     Result<ClothId> add(SceneCloth cloth, const std::string& pointer = {});
-    ColliderId add(ColliderDesc collider);
-    /// Between cloths that are there, from where they are now.
+    ColliderId add(SceneCollider collider);
+    /// Stitches existing cloths together at their current positions.
     Result<StitchId> add(StitchDesc stitches, const std::string& pointer = {});
     void remove(StitchId id);
-    /// Its stitches go with it.
+    /// Also removes the stitches of the cloth.
     void remove(ClothId id);
-    /// Pins that it carried stay where they are.
+    /// Pins that are attached to the collider stay at their current positions.
     void remove(ColliderId id);
-    /// Cloth goes on moving as it was. `preset`: the name of the one that the fabric began as. Builds a model only
-    /// where with_fabric() cannot make one; coarse levels and tethers may follow some frames later.
-    Result<Done> set_fabric(ClothId id, const Fabric& fabric, const std::string& preset);
-    /// Particles are held where they are now; boxes are where particles are now. Touches the particles concerned alone,
-    /// where pins hold without giving way before and after; what else pins decide follows some frames later.
-    Result<Done> set_pins(ClothId id, std::vector<PinDesc> pins);
-    /// During the next frame the collider moves there, and stays. Ends its motion by keys.
+    /// Positions and velocities are kept. `preset`: name of the preset that the fabric is based on. Rebuilds the model
+    /// only if with_fabric() cannot make one; coarse levels and tethers may follow some frames later.
+    Result<void> set_fabric(ClothId id, const Fabric& fabric, const std::string& preset);
+    /// Particles are pinned at their current positions; boxes select by current positions. Changes only the particles
+    /// concerned if neither old nor new pins have a compliance. Coarse levels and tethers follow some frames later.
+    Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
+    /// Moves the collider during the next frame; it then stays there. Ends its motion by keys.
     void move(ColliderId id, Vec3 position, Vec3 rotation_degrees);
     void set_friction(ColliderId id, std::array<float, 2> friction);
     void set_gravity(Vec3 gravity);
     void set_air(const std::optional<AirDesc>& air);
-    /// Makes coarse levels and lines where they are wanted now and were not before.
-    Result<Done> set_solver(const SolverDesc& solver);
-    /// Whether contacts are accounted for. Nothing of the scene: the same bits with and without.
-    void set_feedback(bool on);
+    /// Rebuilds all models if the new settings need another layout (coarse levels, lines).
+    Result<void> set_solver(const SolverDesc& solver);
+    /// Whether contacts are recorded. Not part of the document; the motion has the same bits with and without it.
+    void set_contact_forces(bool on);
 
-    /// Applies the differences from the document to `next`, as an editor does to undo. What has the same name is the
-    /// same thing: fabric, pins, friction and pose of what stays are changed while it moves on; a cloth whose mesh or
-    /// transform differs and a collider whose shape or keys differ are replaced by new ones. The order of what stays
-    /// is kept. Fails, with every problem, on a scene that does not pass its checks, and then changes nothing. If a
-    /// cloth cannot be built, the world goes back to the document as it was; cloths that had been removed for it start
-    /// anew.
-    Result<Done> change_to(SceneDesc next);
+    /// Applies the differences between the document and `next`, for example to undo edits. Objects are matched by name.
+    /// Fabric, pins, friction and pose of a matched object are changed while it keeps moving. A cloth whose mesh or
+    /// transform differs, and a collider whose shape or keys differ, are replaced by new ones. Kept objects keep their
+    /// order. Fails on a scene that does not pass its checks, with all problems, and then changes nothing. If a cloth
+    /// cannot be built, the world returns to the old document; cloths that were removed in the process begin at their
+    /// start.
+    Result<void> change_to(SceneDesc next);
 
     World& world() { return *world_; }
     const World& world() const { return *world_; }
@@ -82,9 +82,9 @@ class SceneWorld {
     const Frame& step() { return world_->step(frame_seconds()); }
     const Frame& step(double dt) { return world_->step(dt); }
 
-    /// What building found and survived, a line each.
+    /// Warnings of building cloths, one line each.
     const std::vector<std::string>& notes() const { return notes_; }
-    /// In the order of the document.
+    /// Ids of the stitches, in the order of the document.
     std::span<const StitchId> stitches() const { return stitch_ids_; }
 
   private:
@@ -93,23 +93,22 @@ class SceneWorld {
     SceneWorld();
     std::size_t place_of(ClothId id) const;
     std::size_t place_of(ColliderId id) const;
-    Result<Done> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, Holds holds);
-    Result<Done> set_models(std::span<Change> changes);
-    /// False, and nothing is changed, where the fabric needs a model that is built anew.
+    Result<void> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, KinematicTargets targets);
+    Result<void> set_models(std::span<Change> changes);
+    /// Returns false and changes nothing if the fabric needs a rebuilt model.
     Result<bool> change_material(std::size_t place, const SceneCloth& cloth);
     void rebuild_later(std::size_t place);
-    Result<bool> hold_at_once(std::size_t place, const Pinned& pinned);
-    Result<Done> change_stitches(const SceneDesc& next);
-    void forget_look(const std::string& name);
+    Result<bool> target_at_once(std::size_t place, const Pinned& pinned);
+    Result<void> change_stitches(const SceneDesc& next);
     void remove_what_is_not_in(const SceneDesc& next);
     void change_colliders(const SceneDesc& next);
-    Result<Done> change_cloths(const SceneDesc& next);
-    Result<Done> follow(const SceneDesc& next);
+    Result<void> change_cloths(const SceneDesc& next);
+    Result<void> follow(const SceneDesc& next);
 
     SceneDesc scene_;
     MeshFiles files_;
-    std::vector<ClothSource> sources_;  ///< of the cloths, in their order
-    std::vector<StitchId> stitch_ids_;  ///< of the rows of stitches, in their order
+    std::vector<ClothSource> sources_;  ///< per cloth, in the order of the document
+    std::vector<StitchId> stitch_ids_;  ///< per StitchDesc, in the order of the document
     std::unique_ptr<World> world_;
     std::vector<std::string> notes_;
 };

@@ -15,13 +15,13 @@ namespace weft {
 namespace {
 
 Error no_such(const char* what) {
-    return {what, "names nothing in this simulation"};
+    return {what, "is not in this simulation; it was removed or belongs to another one"};
 }
 
 SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
     return {.name = desc.name,
             .mesh = desc.mesh,
-            .drawn = desc.drawn,
+            .render_mesh = desc.render_mesh,
             .transform = desc.transform,
             .fabric = fabric,
             .fabric_name = desc.fabric.preset,
@@ -37,7 +37,7 @@ std::vector<std::string_view> names_of(const std::vector<Named>& all) {
     return names;
 }
 
-// Takes the name if it is free, or finds one.
+// Returns the wanted name, with a problem if it is taken, or a free name if none is wanted.
 std::string own_name(const std::string& wanted, const std::string& kind, std::span<const std::string_view> taken,
                      Problems& problems) {
     const auto is_taken = [&](std::string_view name) { return std::ranges::find(taken, name) != taken.end(); };
@@ -50,11 +50,11 @@ std::string own_name(const std::string& wanted, const std::string& kind, std::sp
 }
 
 template <class Check>
-Result<Done> checked(Check&& check) {
+Result<void> checked(Check&& check) {
     Problems problems;
     check(problems);
     if (!problems.none()) return std::move(problems).take();
-    return Done{};
+    return {};
 }
 
 Surface view(const DrawnSurface& surface) {
@@ -127,11 +127,11 @@ void Simulation::step() {
     impl_->changed();
 }
 
-Result<Done> Simulation::step(double dt) {
+Result<void> Simulation::step(double dt) {
     if (!(dt > 0 && dt <= 1000)) return Error{"dt", "must be > 0 s and ≤ 1000 s, got " + number_text(dt)};
     impl_->scene.advance(dt);
     impl_->changed();
-    return Done{};
+    return {};
 }
 
 std::uint64_t Simulation::frame() const {
@@ -178,10 +178,10 @@ Result<StitchId> Simulation::add(const StitchDesc& desc) {
     return impl_->scene.add(std::move(stitches));
 }
 
-Result<Done> Simulation::remove(StitchId id) {
+Result<void> Simulation::remove(StitchId id) {
     if (!impl_->world().contains(id)) return no_such("row of stitches");
     impl_->scene.remove(id);
-    return Done{};
+    return {};
 }
 
 std::vector<StitchId> Simulation::stitches() const {
@@ -189,17 +189,17 @@ std::vector<StitchId> Simulation::stitches() const {
     return {ids.begin(), ids.end()};
 }
 
-Result<Done> Simulation::remove(ClothId id) {
+Result<void> Simulation::remove(ClothId id) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     impl_->scene.remove(id);
     impl_->changed();
-    return Done{};
+    return {};
 }
 
-Result<Done> Simulation::remove(ColliderId id) {
+Result<void> Simulation::remove(ColliderId id) {
     if (!impl_->world().contains(id)) return no_such("collider");
     impl_->scene.remove(id);
-    return Done{};
+    return {};
 }
 
 std::vector<ClothId> Simulation::cloths() const {
@@ -227,7 +227,7 @@ ColliderId Simulation::find_collider(std::string_view name) const {
     return weft::find_collider(impl_->world(), name);
 }
 
-Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
+Result<void> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     const auto fabric = make_fabric(desc);
     if (!fabric) return fabric.errors();
@@ -236,7 +236,7 @@ Result<Done> Simulation::set_fabric(ClothId id, const FabricDesc& desc) {
     return done;
 }
 
-Result<Done> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
+Result<void> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     const auto sound = checked([&](Problems& problems) {
         check_pins(pins, MeshFileDesc(), "/pins", problems);
@@ -248,35 +248,35 @@ Result<Done> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     return done;
 }
 
-Result<Done> Simulation::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
+Result<void> Simulation::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
     if (!impl_->world().contains(id)) return no_such("collider");
     const TransformDesc transform{.position = position, .rotation_degrees = rotation_degrees};
     const auto sound = checked([&](Problems& problems) { check_values(pose_keys, &transform, "", problems); });
     if (!sound) return sound;
     impl_->scene.move(id, position, rotation_degrees);
-    return Done{};
+    return {};
 }
 
-Result<Done> Simulation::set_friction(ColliderId id, float static_friction, float kinetic_friction) {
+Result<void> Simulation::set_friction(ColliderId id, float static_friction, float kinetic_friction) {
     if (!impl_->world().contains(id)) return no_such("collider");
     ColliderDesc desc;
     desc.friction = {static_friction, kinetic_friction};
     const auto sound = checked([&](Problems& problems) { check_values(collider_keys, &desc, "", problems); });
     if (!sound) return sound;
     impl_->scene.set_friction(id, desc.friction);
-    return Done{};
+    return {};
 }
 
-Result<Done> Simulation::set_gravity(Vec3 gravity) {
+Result<void> Simulation::set_gravity(Vec3 gravity) {
     SceneDesc scene;
     scene.gravity = gravity;
     const auto sound = checked([&](Problems& problems) { check_values(scene_keys, &scene, "", problems); });
     if (!sound) return sound;
     impl_->scene.set_gravity(gravity);
-    return Done{};
+    return {};
 }
 
-Result<Done> Simulation::set_solver(const SolverDesc& solver) {
+Result<void> Simulation::set_solver(const SolverDesc& solver) {
     const auto sound = checked([&](Problems& problems) { check_solver(solver, "", problems); });
     if (!sound) return sound;
     auto done = impl_->scene.set_solver(solver);
@@ -284,13 +284,13 @@ Result<Done> Simulation::set_solver(const SolverDesc& solver) {
     return done;
 }
 
-Result<Done> Simulation::set_air(const std::optional<AirDesc>& air) {
+Result<void> Simulation::set_air(const std::optional<AirDesc>& air) {
     const auto sound = checked([&](Problems& problems) {
         if (air) check_air(*air, "", problems);
     });
     if (!sound) return sound;
     impl_->scene.set_air(air);
-    return Done{};
+    return {};
 }
 
 std::size_t Simulation::cloth_count() const {
@@ -314,7 +314,7 @@ std::span<const Vec4> Simulation::tangents(ClothId id) const {
 Measures Simulation::measure() const {
     const World& world = impl_->world();
     const ClothMeasures measures = world.measure();
-    // The only one for which positions must be here.
+    // The only measure that needs positions on the host.
     const double penetration =
         world.colliders().empty() ? 0 : measure_penetration(world.frame(), world.colliders()).max;
     return {.mean_stretch = measures.strain.stretch.mean,
@@ -328,8 +328,8 @@ Measures Simulation::measure() const {
             .max_penetration = penetration};
 }
 
-const Feedback& Simulation::feedback() const {
-    return impl_->world().feedback();
+const ContactForces& Simulation::contact_forces() const {
+    return impl_->world().contact_forces();
 }
 
 std::vector<std::string_view> Simulation::reports() const {
@@ -343,7 +343,7 @@ std::vector<std::byte> Simulation::save_state() const {
     return to_bytes(impl_->world().save());
 }
 
-Result<Done> Simulation::restore_state(std::span<const std::byte> state) {
+Result<void> Simulation::restore_state(std::span<const std::byte> state) {
     auto snapshot = snapshot_from_bytes(state);
     if (!snapshot) return snapshot.errors();
     auto done = impl_->world().restore(*snapshot);

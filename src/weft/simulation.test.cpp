@@ -1,4 +1,4 @@
-// The public interface, as a program uses it.
+// The public interface.
 #include <weft/weft.h>
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ std::vector<std::string> messages(const Result<T>& result) {
 TEST(Simulation, is_filled_and_runs) {
     Simulation simulation = make_simulation();
     EXPECT_EQ(simulation.cloth_count(), 0u);
-    simulation.step();  // an empty world is a world
+    simulation.step();  // an empty world can be stepped
     const auto sheet = simulation.add(small_sheet({0, 0.3f, 0}));
     const auto ball = simulation.add(ColliderDesc{.name = "ball", .shape = SphereDesc{0.2f}});
     ASSERT_TRUE(sheet.ok() && ball.ok());
@@ -53,28 +53,28 @@ TEST(Simulation, is_filled_and_runs) {
 }
 
 TEST(Simulation, tells_what_cloth_does_to_colliders) {
-    auto made = Simulation::create({}, {.feedback = true});
+    auto made = Simulation::create({}, {.contact_forces = true});
     ASSERT_TRUE(made.ok());
     Simulation& simulation = *made;
-    EXPECT_EQ(simulation.feedback().frame, 0u);
+    EXPECT_EQ(simulation.contact_forces().frame, 0u);
     const auto table =
         simulation.add(ColliderDesc{.shape = BoxDesc{{0.5f, 0.5f, 0.5f}}, .transform = {.position = {0, -0.501f, 0}}});
-    // A drawn mesh with a seam: the first of a place's vertices stands for it.
+    // A mesh with a seam: contacts name the first vertex of each particle.
     TriangleMesh mesh{.positions = {{0, 0, 0}, {0, 0, 0.2f}, {0.2f, 0, 0}, {0.2f, 0, 0}, {0, 0, 0.2f}, {0.2f, 0, 0.2f}},
                       .triangles = {{0, 1, 2}, {3, 4, 5}}};
     const auto cloth = simulation.add({.mesh = mesh, .fabric = FabricDesc("cotton").set("density", 0.5)});
     ASSERT_TRUE(table.ok() && cloth.ok());
     for (int i = 0; i < 20; ++i) simulation.step();
-    EXPECT_EQ(simulation.feedback().frame, 19u) << "nobody has waited for the last one";
+    EXPECT_EQ(simulation.contact_forces().frame, 19u) << "the last frame has not been waited for";
     (void)simulation.surface(*cloth);
-    const Feedback& feedback = simulation.feedback();
-    EXPECT_EQ(feedback.frame, 20u);
-    ASSERT_EQ(feedback.colliders.size(), 1u);
-    EXPECT_EQ(feedback.colliders[0].collider, *table);
-    EXPECT_NEAR(feedback.colliders[0].force.y, -0.5 * 0.04 * 9.81, 1e-4);
-    ASSERT_EQ(feedback.contacts.size(), 4u);
+    const ContactForces& contact_forces = simulation.contact_forces();
+    EXPECT_EQ(contact_forces.frame, 20u);
+    ASSERT_EQ(contact_forces.colliders.size(), 1u);
+    EXPECT_EQ(contact_forces.colliders[0].collider, *table);
+    EXPECT_NEAR(contact_forces.colliders[0].force.y, -0.5 * 0.04 * 9.81, 1e-4);
+    ASSERT_EQ(contact_forces.contacts.size(), 4u);
     std::vector<std::uint32_t> vertices;
-    for (const Contact& contact : feedback.contacts) {
+    for (const Contact& contact : contact_forces.contacts) {
         EXPECT_EQ(contact.cloth, *cloth);
         EXPECT_EQ(contact.collider, *table);
         EXPECT_EQ(contact.point, simulation.surface(*cloth).positions[contact.vertex]);
@@ -84,10 +84,10 @@ TEST(Simulation, tells_what_cloth_does_to_colliders) {
 
     const std::vector<std::byte> state = simulation.save_state();
     ASSERT_TRUE(simulation.restore_state(state).ok());
-    EXPECT_EQ(simulation.feedback().frame, 0u);
+    EXPECT_EQ(simulation.contact_forces().frame, 0u);
     Simulation without = make_simulation();
     without.step();
-    EXPECT_EQ(without.feedback().frame, 0u);
+    EXPECT_EQ(without.contact_forces().frame, 0u);
 }
 
 TEST(Simulation, shows_the_last_step_though_it_does_not_wait_for_it) {
@@ -140,7 +140,7 @@ TEST(Simulation, describes_fabrics_by_keys) {
     cloth.fabric = FabricDesc("slik")
                        .set("densty", 1)
                        .set("friction", {1, 2, 3})
-                       .set("hinges", "some")
+                       .set("bend_edges", "some")
                        .set("shear", true)
                        .set("inextensible", 1.0)
                        .set("damping", -1);
@@ -148,7 +148,7 @@ TEST(Simulation, describes_fabrics_by_keys) {
                 testing::UnorderedElementsAre("/fabric/preset: unknown fabric \"slik\"; did you mean \"silk\"?",
                                               "/fabric/densty: unknown key \"densty\"; did you mean \"density\"?",
                                               "/fabric/friction: must be one number or 2 numbers, got 3",
-                                              "/fabric/hinges: must be \"all\" or \"source\", got \"some\"",
+                                              "/fabric/bend_edges: must be \"all\" or \"no-diagonals\", got \"some\"",
                                               "/fabric/shear: must not be true or false",
                                               "/fabric/inextensible: must not be a number",
                                               "/fabric/damping: must be ≥ 0 s, got -1"));
@@ -226,7 +226,7 @@ TEST(Simulation, changes_while_it_runs) {
     const Vec3 before = simulation.surface(cloth).positions[80];
     ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("denim").set("damping", 0.3)).ok());
     EXPECT_EQ(simulation.surface(cloth).positions[80], before);
-    // Let go of, and held by another corner, where that is now.
+    // Release both corners, and pin another one at its current position.
     ASSERT_TRUE(simulation.set_pins(cloth, {{.select = VertexPins{{80}}}}).ok());
     for (int i = 0; i < 40; ++i) simulation.step();
     EXPECT_EQ(simulation.surface(cloth).positions[80], before);
@@ -242,7 +242,7 @@ TEST(Simulation, changes_while_it_runs) {
     EXPECT_EQ(simulation.surface(cloth).positions[0], there) << "levels come without a jump";
     for (int i = 0; i < 10; ++i) simulation.step();
     EXPECT_LT(simulation.measure().mean_stretch, 0.02);
-    // A box selects what is in it now; of nothing there is nothing to pin, and the old pins stay.
+    // A box selects by current positions. A box without particles is an error, and the old pins stay.
     EXPECT_FALSE(simulation.set_pins(cloth, {{.select = BoxPins{{{8, 8, 8}, {9, 9, 9}}}}}).ok());
     simulation.step();
     EXPECT_EQ(simulation.surface(cloth).positions[80], before);
@@ -263,7 +263,7 @@ TEST(Simulation, carries_cloth_that_is_attached_to_a_collider) {
     EXPECT_NEAR(simulation.surface(cloth).positions[0].x, corner.x + 0.6f, 1e-5f);
     for (int i = 0; i < 120; ++i) simulation.step();
     EXPECT_NEAR(simulation.surface(cloth).positions[8].x, soft.x + 0.6f, 0.02f);
-    // A change of fabric does not let go.
+    // Attached pins stay attached after a change of fabric.
     ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("wool")).ok());
     for (int i = 1; i <= 30; ++i) {
         ASSERT_TRUE(simulation.move(hand, {0.6f, 0.01f * static_cast<float>(i), 0}).ok());

@@ -1,4 +1,4 @@
-// What the library weft::io needs of a Simulation, beside what everyone may use.
+// Access of the library weft::io to the internals of a Simulation.
 #pragma once
 
 #include "look/drawn_surface.h"
@@ -16,21 +16,21 @@ namespace weft {
 class World;
 struct VulkanHost;
 
-/// What a world to be filled begins with, once it has been checked.
+/// Checks `world` and returns a scene with these settings and without objects.
 Result<SceneDesc> empty_scene(const WorldDesc& world);
 
-/// Marked as the public interface is: it lies between two libraries.
+/// Exported, because it is used by another library.
 struct WEFT_API SimulationAccess {
-    /// A scene that has been checked. Files are looked for in `folder`. Problems have JSON pointers as `where`. `make`:
-    /// another backend than that of the options.
+    /// `scene` must have been checked. Files are searched in `folder`. `where` of errors is a JSON pointer. `make`:
+    /// creates the backend; empty: make_backend().
     static Result<Simulation> create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
                                      const MakeBackend& make = {});
-    /// Of the backend on a host's device. `host` must stay while it is used.
+    /// Creates a backend on a host's device. `host` must outlive the returned function.
     static MakeBackend backend_on(const VulkanHost& host);
 
     static const SceneDesc& scene(const Simulation& simulation);
     static const std::filesystem::path& folder(const Simulation& simulation);
-    /// As they are now; valid until the next step or change.
+    /// Current surfaces; valid until the next step or change.
     static std::span<const DrawnSurface> surfaces(const Simulation& simulation);
     static World& world(Simulation& simulation);
     static const World& world(const Simulation& simulation);

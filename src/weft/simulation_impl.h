@@ -1,4 +1,4 @@
-// What is behind the public Simulation.
+// Implementation of the public Simulation.
 #pragma once
 
 #include "weft/drawn_frame.h"
@@ -18,9 +18,9 @@ struct Simulation::Impl {
 
     World& world() { return scene.world(); }
     const World& world() const { return scene.world(); }
-    /// Of the frame as it is; they come from the device when somebody asks for them.
+    /// Surfaces of the current frame. They are read from the device on request.
     std::span<const DrawnSurface> surfaces() const {
-        if (drawn_is_old) drawn.update(world().frame(), scene.scene().looks);
+        if (drawn_is_old) drawn.update(world().frame(), scene.scene().cloths);
         drawn_is_old = false;
         return drawn.surfaces();
     }

@@ -39,7 +39,7 @@ class EndReader {
             return {};
         }
         StitchPoint result;
-        // The sum is 1 but for the digits in the file.
+        // The sum is 1 up to rounding in the file.
         const float sum = point.weights.x + point.weights.y + point.weights.z;
         result.shares = {point.weights.x / sum, point.weights.y / sum, point.weights.z / sum};
         for (std::size_t k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// From rows of stitches as a scene says them to ties between particles.
+// Converts the stitches of a scene to ties between particles.
 #pragma once
 
 #include "solver/world/world.h"
@@ -10,15 +10,15 @@
 
 namespace weft {
 
-/// A cloth that stitches may name.
+/// A cloth with stitches.
 struct SewnCloth {
     ClothId id;
     const ClothModel& model;
     const ClothSource& source;
 };
 
-/// One stitch for each pair of points. The row has been checked (check.h). Fails on vertices and triangles that the
-/// meshes have not or that are not simulated; `pointer` is the place of the row in errors.
+/// Returns one stitch for each pair of points. `row` must have been checked (check.h). Fails on vertices and triangles
+/// that are out of range or not simulated. `pointer`: the place of `row` in errors.
 Result<std::vector<Stitch>> make_stitches(const StitchDesc& row, const SewnCloth& a, const SewnCloth& b,
                                           const std::string& pointer);
 

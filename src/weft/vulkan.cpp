@@ -1,5 +1,5 @@
 #ifdef WEFT_VULKAN
-// The Vulkan headers of the house come before the public one: without prototypes.
+// The internal Vulkan headers must come before the public one, because they disable prototypes.
 #include "gpu/device.h"
 #include "solver/world/world.h"
 #include "vulkan/interop.h"
@@ -92,11 +92,12 @@ Result<VulkanHost> vulkan_device(const Simulation& simulation) {
                       .unlock_queue = device.unlock_queue()};
 }
 
-Result<VulkanSurface> vulkan_surface(Simulation& simulation, ClothId cloth, VulkanMoment before) {
+Result<VulkanSurface> vulkan_surface(Simulation& simulation, ClothId cloth, TimelinePoint before) {
     World& world = SimulationAccess::world(simulation);
     auto* interop = dynamic_cast<VulkanInterop*>(&world.backend());
     if (!interop) return not_on_vulkan(world.backend());
-    if (!world.contains(cloth)) return Error{"cloth", "names nothing in this simulation"};
+    if (!world.contains(cloth))
+        return Error{"cloth", "is not in this simulation; it was removed or belongs to another one"};
     const auto surface = interop->surface(world.handle(cloth), {before.semaphore, before.value});
     if (!surface) return surface.errors();
     constexpr VkFormat four_floats = VK_FORMAT_R32G32B32A32_SFLOAT;

@@ -18,8 +18,8 @@ using namespace weft;
 // Enough for every path through a decoder, and few enough for thousands of inputs a second.
 constexpr PictureLimits limits{.side = 512, .pixels = 1 << 14};
 
-void require(bool holds, const char* what) {
-    if (holds) return;
+void require(bool targets, const char* what) {
+    if (targets) return;
     std::fprintf(stderr, "image fuzzer: %s\n", what);
     std::abort();
 }

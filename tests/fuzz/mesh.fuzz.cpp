@@ -29,8 +29,8 @@ namespace {
 
 using namespace weft;
 
-void require(bool holds, const std::string& what) {
-    if (holds) return;
+void require(bool targets, const std::string& what) {
+    if (targets) return;
     std::fprintf(stderr, "mesh fuzzer: %s\n", what.c_str());
     std::abort();
 }
@@ -129,7 +129,7 @@ void simulate(TriangleMesh mesh, ByteReader& in) {
     if (in.flag()) drawn = take_mesh(in);
     auto model = build_cloth_model({.name = "fuzz",
                                     .mesh = std::move(mesh),
-                                    .drawn = std::move(drawn),
+                                    .render_mesh = std::move(drawn),
                                     .fabric = take_fabric(in),
                                     .pins = {.particles = std::move(pinned)}},
                                    std::move(*topology));

@@ -1,5 +1,5 @@
 // Any bytes as a scene file: either a scene that passes its own checks, comes back when it is written, builds a world,
-// if its meshes are at hand, and stays finite, or errors that a user can read.
+// if its mesh files exist, and stays finite, or errors that a user can read.
 #include "io/scenes/scene_file.h"
 #include "io/scenes/scene_writer.h"
 #include "scene/check.h"
@@ -17,8 +17,8 @@ namespace {
 
 using namespace weft;
 
-void require(bool holds, const char* what) {
-    if (holds) return;
+void require(bool targets, const char* what) {
+    if (targets) return;
     std::fprintf(stderr, "scene fuzzer: %s\n", what);
     std::abort();
 }
@@ -54,8 +54,9 @@ bool shrink(SceneDesc& scene) {
     scene.solver.substeps = std::min(scene.solver.substeps, 3u);
     scene.solver.iterations = std::min(scene.solver.iterations, 2u);
     if (scene.cloths.size() > 4 || scene.colliders.size() > 8) return false;
-    return std::ranges::all_of(
-        scene.cloths, [](SceneCloth& cloth) { return shrink(cloth.mesh) && (!cloth.drawn || shrink(*cloth.drawn)); });
+    return std::ranges::all_of(scene.cloths, [](SceneCloth& cloth) {
+        return shrink(cloth.mesh) && (!cloth.render_mesh || shrink(*cloth.render_mesh));
+    });
 }
 
 void simulate(SceneDesc scene) {

@@ -24,8 +24,8 @@ namespace {
 
 using namespace weft;
 
-void require(bool holds, const char* what) {
-    if (holds) return;
+void require(bool targets, const char* what) {
+    if (targets) return;
     std::fprintf(stderr, "state fuzzer: %s\n", what);
     std::abort();
 }
@@ -123,7 +123,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     require(std::ranges::equal(to_bytes(*snapshot), bytes), "what was read is written otherwise");
-    const Result<Done> restored = world.restore(*snapshot);
+    const Result<void> restored = world.restore(*snapshot);
     if (!restored) {
         require_readable(restored.errors());
         require(world.state_hash() == hash, "refused, and yet the world is another");

@@ -78,7 +78,7 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
                             }});
             const Vec3 corner = model->rest_position(0);
             for (int cloth = 0; cloth < cloths; ++cloth)
-                world.add(model, {.movers = {{.collider = ball}}, .particles = {{0, 0, corner}}});
+                world.add(model, {.motions = {{.collider = ball}}, .particles = {{0, 0, corner}}});
             world.step(1.0 / 60);
             const std::uint64_t before = allocations;
             for (int i = 0; i < 10; ++i) world.step(1.0 / 60);
@@ -95,17 +95,17 @@ TEST(Allocation, of_an_account_of_contacts_is_the_calling_threads) {
     if (!WEFT_COUNTS) GTEST_SKIP() << "a sanitizer counts here";
     is_worker = false;
     for (const auto& [workers, cloths] : {std::pair(1u, 1u), {2u, 5u}}) {  // all threads on one, and one thread each
-        World world = make_world({.solver = {.substeps = 2}, .feedback = true}, {.workers = workers});
+        World world = make_world({.solver = {.substeps = 2}, .contact_forces = true}, {.workers = workers});
         world.add(make_collider({.shape = SphereDesc{0.3f}}));
         world.add(make_collider({.shape = PlaneDesc{.offset = -0.3f}}));
         const auto model = make_sheet({.resolution = {32, 32}, .position = {0, 0.35f, 0}});
         for (unsigned cloth = 0; cloth < cloths; ++cloth) world.add(model);
         world.step(1.0 / 60);  // the runtime's own, at a thread's first task
         const std::uint64_t before = on_workers;
-        std::size_t least = world.feedback().contacts.size(), most = least;
+        std::size_t least = world.contact_forces().contacts.size(), most = least;
         for (int i = 0; i < 30; ++i) {
             world.step(1.0 / 60);
-            most = std::max(most, world.feedback().contacts.size());
+            most = std::max(most, world.contact_forces().contacts.size());
         }
         EXPECT_EQ(on_workers - before, 0u) << cloths << " cloths";
         EXPECT_EQ(least, 0u) << "it has not fallen yet";

@@ -2,6 +2,7 @@
 
 #include "cut.h"
 #include "sheet.h"
+#include "solver/world/backend_without_room.test.h"
 
 #include <cmath>
 #include <limits>
@@ -147,6 +148,29 @@ TEST(Edits, go_on_with_the_same_bits_after_a_restore) {
     EXPECT_EQ(other.state_hash(), world.state_hash());
 }
 
+TEST(Edits, of_all_cloths_are_restored_or_of_none) {
+    int failing = -1;
+    auto cpu = make_cpu_backend(CpuOptions{});
+    ASSERT_TRUE(cpu.ok());
+    World world(std::make_unique<BackendWithoutRoom>(std::move(*cpu), failing), {.solver = {.substeps = 5}});
+    const auto model = make_cuttable({.lines = true});
+    world.add(model), world.add(model);
+    run(world, 0.1);
+    const Snapshot whole = world.save();
+    for (const std::size_t i : {0u, 1u}) ASSERT_TRUE(world.edit(world.cloth_id(i), cut_in_two(*model)).ok());
+    run(world, 0.1);
+    const std::string hash = world.state_hash();
+    failing = 3;  // two edits, the first of the restored cloths, the second
+    const auto refused = world.restore(whole);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().message(), "device: has no room");
+    EXPECT_EQ(world.state_hash(), hash);
+    EXPECT_EQ(world.frame().cloths[0].positions.size(), world.frame().cloths[1].positions.size());
+    failing = -1;
+    ASSERT_TRUE(world.restore(whole).ok());
+    EXPECT_NE(world.state_hash(), hash);
+}
+
 TEST(Edits, stay_when_a_frame_is_not_finite) {
     const auto model = make_cuttable({.lines = true});
     World world = make_world({.solver = {.substeps = 10}});
@@ -202,7 +226,7 @@ TEST(Edits, end_and_weaken_single_constraints_and_triangles) {
     EXPECT_FALSE(now.is_real(1));
     EXPECT_EQ(now.rows, rows.rows - 1);
     EXPECT_EQ((*edited)->topology_version, model->topology_version);
-    EXPECT_FALSE(with_edit(**edited, {.rows = {as_it_is(1, 0)}}).ok()) << "it is gone already";
+    EXPECT_FALSE(with_edit(**edited, {.rows = {as_it_is(1, 0)}}).ok()) << "it has been removed already";
 
     const auto holed = with_edit(*model, {.triangles = {{.triangle = 5, .corners = {0, 1, 2}, .alive = 0}}});
     ASSERT_TRUE(holed.ok());

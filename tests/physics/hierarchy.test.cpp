@@ -7,7 +7,7 @@
 namespace weft::physical {
 namespace {
 
-World hung(std::uint32_t side, const WorldSettings& settings) {
+World hung_leveled(std::uint32_t side, const WorldSettings& settings) {
     SheetDesc sheet = hung_by_corners(side, {.hierarchy = true});
     sheet.fabric.tether.use = Tethers::off;
     return make_world(settings, sheet);
@@ -26,8 +26,8 @@ double mean_stretch(World& world, double seconds) {
 // Labels: slow no-asan
 TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
     for (const std::uint32_t substeps : {5u, 10u}) {
-        World with = hung(64, {.solver = {.substeps = substeps, .hierarchy = true}}),
-              without = hung(64, {.solver = {.substeps = substeps, .hierarchy = false}});
+        World with = hung_leveled(64, {.solver = {.substeps = substeps, .hierarchy = true}}),
+              without = hung_leveled(64, {.solver = {.substeps = substeps, .hierarchy = false}});
         const double a = mean_stretch(with, 4), b = mean_stretch(without, 4);
         std::printf("  hung 64²  %2u substeps  stretch %.2f %%, without levels %.2f %%\n", substeps, 100 * a, 100 * b);
         EXPECT_LT(a, 0.5 * b);

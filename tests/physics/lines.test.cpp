@@ -7,7 +7,7 @@
 namespace weft::physical {
 namespace {
 
-World hung(std::uint32_t side, const WorldSettings& settings, GridDiagonal diagonal) {
+World hung_sheet(std::uint32_t side, const WorldSettings& settings, GridDiagonal diagonal) {
     SheetDesc sheet = hung_by_corners(side, settings.layout());
     sheet.diagonal = diagonal;
     sheet.fabric.body.density = 0.2f;
@@ -29,8 +29,8 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
     for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
         const auto error = [&](Projection projection, std::uint32_t substeps, bool hierarchy) {
             return residual_after(
-                hung(64, {.solver = {.substeps = substeps, .projection = projection, .hierarchy = hierarchy}},
-                     diagonal),
+                hung_sheet(64, {.solver = {.substeps = substeps, .projection = projection, .hierarchy = hierarchy}},
+                           diagonal),
                 4);
         };
         const double rows = error(Projection::gauss_seidel, 20, false), lines = error(Projection::lines, 20, false),
@@ -69,14 +69,15 @@ double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
     const auto at_edge = [](Vec3 p) { return std::abs(p.x) > 0.49f; };
     const auto model =
         make_sheet({.resolution = {64, 64}, .fabric = fabric, .layout = settings.layout(), .pinned = at_edge});
-    Holds holds{.movers = {{.offsets = {{0, {}}, {1, {-0.01f, 0, 0}}}}, {.offsets = {{0, {}}, {1, {0.01f, 0, 0}}}}},
-                .particles = {}};
+    KinematicTargets targets{
+        .motions = {{.offsets = {{0, {}}, {1, {-0.01f, 0, 0}}}}, {.offsets = {{0, {}}, {1, {0.01f, 0, 0}}}}},
+        .particles = {}};
     for (std::uint32_t p = 0; p < model->particle_count; ++p) {
         const Vec4 start = model->start[p];
-        if (start.w == 0) holds.particles.push_back({p, start.x < 0 ? 0u : 1u, start.xyz()});
+        if (start.w == 0) targets.particles.push_back({p, start.x < 0 ? 0u : 1u, start.xyz()});
     }
     World world = make_world(settings);
-    world.add(model, std::move(holds));
+    world.add(model, std::move(targets));
     run(world, 3);
     double fastest = 0;
     for (int i = 0; i < 30; ++i) {
@@ -124,11 +125,11 @@ TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
 // Rows laid out along lines serve the other projections too, as before a change of settings builds new ones.
 TEST(LinesOf, a_model_serve_every_projection) {
     for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
-        World lines = hung(24, {.solver = {.substeps = 10, .hierarchy = false}}, GridDiagonal::alternating);
+        World lines = hung_sheet(24, {.solver = {.substeps = 10, .hierarchy = false}}, GridDiagonal::alternating);
         lines.configure({.solver = {.substeps = 10, .projection = projection, .hierarchy = false}});
         run(lines, 1);
-        World rows = hung(24, {.solver = {.substeps = 10, .projection = projection, .hierarchy = false}},
-                          GridDiagonal::alternating);
+        World rows = hung_sheet(24, {.solver = {.substeps = 10, .projection = projection, .hierarchy = false}},
+                                GridDiagonal::alternating);
         run(rows, 1);
         EXPECT_NEAR(measure_strain(lines.frame()).stretch.mean, measure_strain(rows.frame()).stretch.mean,
                     0.5 * measure_strain(rows.frame()).stretch.mean);

@@ -17,7 +17,7 @@ Fabric heavy_and_soft() {
     return fabric;
 }
 
-Result<Done> set_fabric(World& world, ClothId id, const Fabric& fabric) {
+Result<void> set_fabric(World& world, ClothId id, const Fabric& fabric) {
     auto model = with_fabric(*world.model(id), fabric);
     EXPECT_TRUE(model.ok() && *model);
     return world.set_material(id, std::move(*model));

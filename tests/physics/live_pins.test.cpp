@@ -37,8 +37,9 @@ TEST(LivePins, are_carried_by_keys_from_where_they_are) {
     run(world, 0.25);
     const Vec3 at = world.frame().cloths[0].positions[100].xyz();
     const float now = static_cast<float>(world.time());
-    Holds holds{.movers = {{.offsets = {{now, {0, 0, 0}}, {now + 0.5f, {0, 0.3f, 0}}}}}, .particles = {{100, 0, at}}};
-    ASSERT_TRUE(world.set_pins(id, {100}, holds).ok());
+    KinematicTargets targets{.motions = {{.offsets = {{now, {0, 0, 0}}, {now + 0.5f, {0, 0.3f, 0}}}}},
+                             .particles = {{100, 0, at}}};
+    ASSERT_TRUE(world.set_pins(id, {100}, targets).ok());
     run(world, 0.5);
     EXPECT_NEAR(length(world.frame().cloths[0].positions[100].xyz() - (at + Vec3{0, 0.3f, 0})), 0, 1e-6);
     ASSERT_TRUE(world.set_pins(id, {}, {}).ok());
@@ -130,9 +131,9 @@ TEST(LivePins, of_coarse_cloth_stay_where_they_are) {
 TEST(LivePins, are_saved_and_restored) {
     World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;
-    const Holds holds{.movers = {{.offsets = {{0, {0, 0, 0}}, {2, {0, 0.5f, 0}}}}},
-                      .particles = {{40, 0, world.frame().cloths[0].positions[40].xyz()}}};
-    ASSERT_TRUE(world.set_pins(id, {40}, holds).ok());
+    const KinematicTargets targets{.motions = {{.offsets = {{0, {0, 0, 0}}, {2, {0, 0.5f, 0}}}}},
+                                   .particles = {{40, 0, world.frame().cloths[0].positions[40].xyz()}}};
+    ASSERT_TRUE(world.set_pins(id, {40}, targets).ok());
     run(world, 0.25);
     const Snapshot saved = world.save();
     const auto bytes = to_bytes(saved);

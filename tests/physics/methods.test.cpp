@@ -153,7 +153,7 @@ TEST(Attachment, follows_what_carries_its_anchor) {
         {.size = {0.2f, 0.2f}, .resolution = {3, 3}, .spring = [](Vec3 p) { return p == Vec3{} ? 1e-4f : 0; }});
     ASSERT_EQ(model->anchor_count, 1u);
     World world = make_world({.gravity = {}});
-    world.add(model, {.movers = {{.offsets = {{0, {}}, {1, {0, 0.4f, 0}}}}}, .particles = {{9, 0, {0, 0, 0}}}});
+    world.add(model, {.motions = {{.offsets = {{0, {}}, {1, {0, 0.4f, 0}}}}}, .particles = {{9, 0, {0, 0, 0}}}});
     run(world, 3);
     EXPECT_NEAR(world.frame().cloths[0].positions[4].y, 0.4f, 0.02f);
 }

@@ -70,23 +70,23 @@ TEST(MovingCollider, pushes_cloth_ahead_and_does_not_tunnel) {
     EXPECT_GT(center_of_mass(world.frame().cloths[0]).z, 0.2f) << "it went along";
 }
 
-Holds hold_all(const ClothModel& model, Mover mover, const Pose& frame) {
-    Holds holds{.movers = {std::move(mover)}, .particles = {}};
+KinematicTargets target_all(const ClothModel& model, TargetMotion motion, const Pose& frame) {
+    KinematicTargets targets{.motions = {std::move(motion)}, .particles = {}};
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
-        if (model.start[p].w == 0) holds.particles.push_back({p, 0, to_local(frame, model.rest_position(p))});
+        if (model.start[p].w == 0) targets.particles.push_back({p, 0, to_local(frame, model.rest_position(p))});
     }
-    return holds;
+    return targets;
 }
 
-const SheetDesc hung{
+const SheetDesc upright_by_edge{
     .resolution = {17, 17}, .rotation_degrees = {90, 0, 0}, .pinned = [](Vec3 p) { return p.z < -0.49f; }};
 
 // Labels: slow no-asan
 TEST(Pins, follow_their_offsets_and_take_the_cloth_along) {
     for (const unsigned workers : {0u, 2u}) {
         World world = make_world({.solver = {.substeps = 20}}, {.workers = workers});
-        const auto model = make_sheet(hung);
-        world.add(model, hold_all(*model, {.offsets = {{0, {}}, {1, {0, 0.5f, 0.3f}}}}, {}));
+        const auto model = make_sheet(upright_by_edge);
+        world.add(model, target_all(*model, {.offsets = {{0, {}}, {1, {0, 0.5f, 0.3f}}}}, {}));
         run(world, 0.5);
         const ClothFrame& cloth = world.frame().cloths[0];
         for (std::uint32_t p = 0; p < 17; ++p) {
@@ -106,8 +106,8 @@ TEST(Pins, ride_on_a_turning_collider) {
     world.add(make_collider({.shape = SphereDesc{0.01f},
                              .transform = {.position = {0, 0.5f, 0}},
                              .motion = {{0, {0, 0.5f, 0}, {}}, {1, {0, 0.5f, 0}, {0, 90, 0}}}}));
-    const auto model = make_sheet(hung);
-    world.add(model, hold_all(*model, {.collider = world.collider_id(0)}, world.colliders()[0].pose));
+    const auto model = make_sheet(upright_by_edge);
+    world.add(model, target_all(*model, {.collider = world.collider_id(0)}, world.colliders()[0].pose));
     run(world, 1);
     // The upper hem lay along x through the collider's center; a quarter turn lays it along -z.
     const ClothFrame& cloth = world.frame().cloths[0];

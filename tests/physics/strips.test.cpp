@@ -98,7 +98,7 @@ class Cantilever : public testing::TestWithParam<Strip> {};
 // Labels: slow no-asan
 TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
     for (const Case& one : cases) {
-        const double error = cantilever_error(GetParam(), BendModel::hinges, one.point, one.resolution);
+        const double error = cantilever_error(GetParam(), BendModel::dihedral, one.point, one.resolution);
         EXPECT_GT(error, -0.02);
         EXPECT_LT(error, one.point.gamma < 5 ? 0.22 : one.point.gamma < 20 ? 0.17 : 0.12);
     }
@@ -141,7 +141,7 @@ TEST(CantileverElsewhere, is_off_by_what_was_measured) {
         for (const int i : {0, 1}) {
             const Resolution resolution{14, coarse, 15};
             const CurvePoint& point = cantilever_curve[1 + i];
-            EXPECT_NEAR(cantilever_error(strip, BendModel::hinges, point, resolution), hinges[i], 0.01);
+            EXPECT_NEAR(cantilever_error(strip, BendModel::dihedral, point, resolution), hinges[i], 0.01);
             EXPECT_NEAR(cantilever_error(strip, BendModel::plate, point, resolution), plate[i], 0.01);
         }
     }
@@ -184,7 +184,7 @@ double rolled_energy(GridDiagonal diagonal, BendModel bend_model, double turn) {
 }
 
 TEST(RolledSheet, stores_what_its_bending_stiffness_says) {
-    for (const BendModel model : {BendModel::hinges, BendModel::plate}) {
+    for (const BendModel model : {BendModel::dihedral, BendModel::plate}) {
         for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
             EXPECT_NEAR(rolled_energy(diagonal, model, 0), 1, 2e-3) << "along the warp, " << name_of(diagonal);
             EXPECT_NEAR(rolled_energy(diagonal, model, 90), 1, 2e-3) << "along the weft, " << name_of(diagonal);

@@ -189,9 +189,9 @@ TEST(World, keeps_pins_where_their_collider_left_them) {
         world.add(make_collider({.shape = SphereDesc{0.01f}, .motion = {{0, {}, {}}, {1, {0, 1, 0}, {}}}}));
     const ColliderId other =
         world.add(make_collider({.shape = SphereDesc{0.01f}, .transform = {.position = {9, 9, 9}}}));
-    Holds holds{.movers = {{.collider = ball}}, .particles = {}};
-    for (std::uint32_t p = 0; p < 9; ++p) holds.particles.push_back({p, 0, model->rest_position(p)});
-    world.add(model, holds);
+    KinematicTargets targets{.motions = {{.collider = ball}}, .particles = {}};
+    for (std::uint32_t p = 0; p < 9; ++p) targets.particles.push_back({p, 0, model->rest_position(p)});
+    world.add(model, targets);
     run(world, 0.5);
     EXPECT_NEAR(world.frame().cloths[0].positions[4].y, 0.5f, 0.01f);
     const Vec4 there = world.frame().cloths[0].positions[4];

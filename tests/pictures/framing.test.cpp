@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-constexpr std::uint32_t width = 96, height = 54;
+constexpr std::uint32_t picture_width = 96, picture_height = 54;
 
 class FramedScenes : public gpu::OnDevice {
   protected:
@@ -32,9 +32,9 @@ class FramedScenes : public gpu::OnDevice {
         EXPECT_TRUE(session.ok()) << session.error().message();
         if (!session) return {};
         World& world = session->world();
-        auto view =
-            SceneView::create(device, session->scene(), world,
-                              {.width = width, .height = height, .samples = 1, .transparent = true, .overlays = {}});
+        auto view = SceneView::create(
+            device, session->scene(), world,
+            {.width = picture_width, .height = picture_height, .samples = 1, .transparent = true, .overlays = {}});
         EXPECT_TRUE(view.ok()) << view.error().message();
         if (!view) return {};
         const auto part_seen = [&](const Camera& camera) {
@@ -42,10 +42,10 @@ class FramedScenes : public gpu::OnDevice {
             EXPECT_TRUE(image.ok()) << image.error().message();
             std::size_t pixels = 0;
             for (std::size_t i = 3; image && i < image->rgba.size(); i += 4) pixels += image->rgba[i] > 127;
-            return 100.0 * static_cast<double>(pixels) / (width * height);
+            return 100.0 * static_cast<double>(pixels) / (picture_width * picture_height);
         };
         Covered result;
-        FollowingCamera following(subject_of(world), static_cast<float>(width) / height);
+        FollowingCamera following(subject_of(world), static_cast<float>(picture_width) / picture_height);
         for (int frame = 0; frame <= 120; ++frame) {
             if (frame > 0) {
                 session->advance();

@@ -89,7 +89,7 @@ TEST_F(VulkanGoldenCatches, brighter_by_5_percent) {
 TEST_F(VulkanGoldenCatches, other_normals) {
     const auto knit = [](const std::string& relief) {
         return PictureScene{.name = "knit",
-                            .look = R"({ "material": "ribknit", "thread": 30, "relief": )" + relief + " }"};
+                            .look = R"({ "preset": "ribknit", "thread_spacing": 30, "weave_depth": )" + relief + " }"};
     };
     expect_caught(knit("1"), knit("0.5"));
 }
@@ -99,13 +99,13 @@ TEST_F(VulkanGoldenCatches, light_from_elsewhere) {
 }
 // Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, no_occlusion) {
-    expect_caught({.name = "sky_alone", .light = R"({ "sun": { "strength": 0 } })"},
-                  {.name = "not_occluded", .light = R"({ "sun": { "strength": 0 }, "occlusion": 0 })"});
+    expect_caught({.name = "sky_alone", .light = R"({ "sun": { "intensity": 0 } })"},
+                  {.name = "not_occluded", .light = R"({ "sun": { "intensity": 0 }, "ambient_occlusion": 0 })"});
 }
 // Labels: slow no-asan
 TEST_F(VulkanGoldenCatches, another_material) {
     expect_caught({.name = "silk", .look = "\"silk\""},
-                  {.name = "rougher_silk", .look = R"({ "material": "silk", "roughness": [0.4, 0.5] })"});
+                  {.name = "rougher_silk", .look = R"({ "preset": "silk", "roughness": [0.4, 0.5] })"});
 }
 
 TEST(GoldenPictures, are_those_of_the_scenes_and_no_others) {

@@ -28,17 +28,18 @@ std::vector<PictureScene> all_scenes() {
         return scenes.emplace_back(PictureScene{.name = "light_" + name, .light = text});
     };
     light("sun_low", R"({ "sun": { "elevation": 8, "azimuth": -70 } })");
-    light("sun_off", R"({ "sun": { "strength": 0 } })");
-    light("sun_large", R"({ "sun": { "size": 25 } })");
+    light("sun_off", R"({ "sun": { "intensity": 0 } })");
+    light("sun_large", R"({ "sun": { "angular_diameter": 25 } })");
     light("sun_behind", R"({ "sun": { "azimuth": 200, "elevation": 35 } })").look = "\"linen\"";
-    light("overcast", R"({ "sun": { "strength": 0.2 }, "sky": { "strength": 1, "zenith": [0.5, 0.6, 0.8] } })");
+    light("overcast", R"({ "sun": { "intensity": 0.2 }, "sky": { "intensity": 1, "zenith": [0.5, 0.6, 0.8] } })");
     light("bright", R"({ "exposure": 2 })");
     light("dark", R"({ "exposure": -3 })");
-    light("without_occlusion", R"({ "occlusion": 0 })");
+    light("without_occlusion", R"({ "ambient_occlusion": 0 })");
     light("transparent", "{}").transparent = true;
-    light("environment", R"({ "sun": { "strength": 0 }, "environment": { "file": "window.hdr" } })").environment = true;
-    PictureScene& turned = light("environment_turned", R"({ "sun": { "strength": 0 },
-        "environment": { "file": "window.hdr", "rotation": 120, "strength": 1.5, "visible": false } })");
+    light("environment", R"({ "sun": { "intensity": 0 }, "environment": { "file": "window.hdr" } })").environment =
+        true;
+    PictureScene& turned = light("environment_turned", R"({ "sun": { "intensity": 0 },
+        "environment": { "file": "window.hdr", "rotation": 120, "intensity": 1.5, "visible": false } })");
     turned.environment = true;
     turned.look = "\"satin\"";
     light("many_samples", "{}").samples = 16;
@@ -57,16 +58,19 @@ const std::vector<PictureScene>& picture_scenes() {
 }
 
 std::string scene_text(const PictureScene& scene) {
+    const std::string material = ", \"material\": " + scene.look + " }],";
     const std::string laid = R"(
         "cloths": [{ "name": "cloth", "mesh": { "grid": { "size": [0.9, 0.9], "resolution": [31, 31] } },
-                     "transform": { "position": [0, 0.62, 0], "rotation": [0, 30, 0] }, "fabric": "cotton" }],
+                     "transform": { "position": [0, 0.62, 0], "rotation": [0, 30, 0] }, "fabric": "cotton")" +
+                             material + R"(
         "colliders": [{ "name": "ball", "sphere": { "radius": 0.25 }, "transform": { "position": [0, 0.3, 0] } },
                       { "name": "ground", "plane": {} }],)";
     const std::string hung = R"(
         "air": { "wind": [{ "velocity": [1.5, 0, -2] }] },
         "cloths": [{ "name": "cloth", "mesh": { "grid": { "size": [0.8, 0.8], "resolution": [17, 17] } },
                      "transform": { "position": [0, 0.5, 0.2], "rotation": [80, 0, 0] }, "fabric": "cotton",
-                     "pins": [{ "vertices": [0, 16] }] }],
+                     "pins": [{ "vertices": [0, 16] }])" +
+                             material + R"(
         "colliders": [{ "name": "ball", "sphere": { "radius": 0.25 }, "transform": { "position": [0, 0.3, 0] } },
                       { "name": "ground", "plane": {} }],)";
     const std::string from_near = R"({ "position": [0.55, 0.95, 1.75], "target": [0, 0.24, 0], "fov": 21 })",
@@ -75,9 +79,7 @@ std::string scene_text(const PictureScene& scene) {
         "camera": )" +
            (scene.hung ? from_far : from_near) + R"(,
         "light": )" +
-           scene.light + R"(,
-        "look": { "cloth": )" +
-           scene.look + " } }\n";
+           scene.light + " }\n";
 }
 
 ImageF window_light() {
@@ -108,7 +110,7 @@ Image8 PictureTest::drawn(const PictureScene& scene) {
     std::ofstream(file) << scene_text(scene);
     Options options;
     options.backend = "cpu";
-    options.feedback = true;
+    options.contact_forces = true;
     auto session = open_scene(file, options);
     EXPECT_TRUE(session.ok()) << session.error().message();
     if (!session) return {};

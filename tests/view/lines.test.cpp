@@ -96,10 +96,11 @@ TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
     const auto model = make_sheet(
         {.pinned = [](Vec3 p) { return p.z < -0.49f; }, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }});
     // Particles 0 and 1, and the first anchor.
-    Holds holds{.movers = {{.collider = bar}}, .particles = {}};
-    for (const std::uint32_t p : {0u, 1u}) holds.particles.push_back({p, 0, model->rest_position(p) - Vec3{0, 3, 0}});
-    holds.particles.push_back({model->particle_count, 0, model->rest_position(model->particle_count) - Vec3{0, 3, 0}});
-    const ClothId id = world.add(model, holds);
+    KinematicTargets targets{.motions = {{.collider = bar}}, .particles = {}};
+    for (const std::uint32_t p : {0u, 1u}) targets.particles.push_back({p, 0, model->rest_position(p) - Vec3{0, 3, 0}});
+    targets.particles.push_back(
+        {model->particle_count, 0, model->rest_position(model->particle_count) - Vec3{0, 3, 0}});
+    const ClothId id = world.add(model, targets);
     world.move(bar, {{}, {0, 3.5f, 0}});
     world.step(frame_seconds);
     Shown shown(world);
@@ -118,14 +119,14 @@ TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
         EXPECT_TRUE(std::abs(line.to.y - 0.5f) < 1e-5f || line.to.y == 0) << line.to.y;
     }
     EXPECT_EQ(up, 1u);
-    EXPECT_EQ(world.holds(id).particles.size(), 3u);
+    EXPECT_EQ(world.kinematic_targets(id).particles.size(), 3u);
 }
 
 TEST(PinsOverlay, shows_springs_where_keys_have_moved_them) {
     World world = make_world({.solver = {.substeps = 2}});
     const auto model = make_sheet({.spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }});
     const std::uint32_t anchor = model->particle_count + 4;
-    world.add(model, {.movers = {{.offsets = {{0, {}}, {2, {0, 1, 0}}}}},
+    world.add(model, {.motions = {{.offsets = {{0, {}}, {2, {0, 1, 0}}}}},
                       .particles = {{anchor, 0, model->rest_position(anchor)}}});
     run(world, 0.5);
     const OverlayOutput output = Shown(world).draw("pins");
@@ -176,7 +177,7 @@ TEST(ConstraintsOverlay, shows_plates_springs_and_rows_along_lines) {
 }
 
 TEST(ContactsOverlay, of_a_sheet_at_rest_are_all_its_particles) {
-    World world = make_world({.solver = {.substeps = 10}, .feedback = true});
+    World world = make_world({.solver = {.substeps = 10}, .contact_forces = true});
     world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
     world.add(make_sheet({.size = {0.4f, 0.4f}, .position = {0, 0.001f, 0}}));
     run(world, 0.2);
@@ -290,7 +291,7 @@ std::size_t beyond_numbers(const OverlayOutput& output) {
 TEST(Overlays, survive_positions_that_are_none) {
     AirDesc air;
     air.wind.push_back({.velocity = {3, 0, 1}});
-    World world = make_world({.air = air, .feedback = true});
+    World world = make_world({.air = air, .contact_forces = true});
     world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
     world.add(make_sheet(
         {.pinned = [](Vec3 p) { return p.z < -0.49f; }, .spring = [](Vec3 p) { return p.z > 0.49f ? 1e-3f : 0.0f; }}));
@@ -307,7 +308,7 @@ TEST(Overlays, survive_positions_that_are_none) {
 }
 
 TEST(Overlays, of_nothing_are_nothing) {
-    World world = make_world({.feedback = true});
+    World world = make_world({.contact_forces = true});
     world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
     for (int cloths = 0; cloths < 2; ++cloths) {
         // Then a cloth without a triangle or a particle.
@@ -328,8 +329,8 @@ TEST(Overlays, of_nothing_are_nothing) {
 TEST(Overlays, are_found_by_name) {
     ASSERT_EQ(overlays().size(), 8u);
     for (const Overlay& overlay : overlays()) EXPECT_EQ(*find_overlay(overlay.name), &overlay);
-    EXPECT_TRUE((*find_overlay("contacts"))->needs_feedback);
-    EXPECT_FALSE((*find_overlay("strain"))->needs_feedback);
+    EXPECT_TRUE((*find_overlay("contacts"))->needs_contact_forces);
+    EXPECT_FALSE((*find_overlay("strain"))->needs_contact_forces);
     EXPECT_EQ(find_overlay("strian").error().message(), "overlay: unknown name \"strian\"; did you mean \"strain\"?");
 }
 

@@ -80,7 +80,7 @@ Vec3 rolled(Vec3 p, float radius, float degrees) {
 }
 
 TEST(BendingOverlay, of_a_rolled_sheet_is_one_over_its_radius) {
-    for (const BendModel model : {BendModel::hinges, BendModel::plate}) {
+    for (const BendModel model : {BendModel::dihedral, BendModel::plate}) {
         for (const GridDiagonal diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
             SheetDesc desc{.resolution = {41, 41}, .diagonal = diagonal};
             desc.fabric.bend.model = model;

@@ -77,8 +77,8 @@ inline std::string entry(const OverlayOutput& output, std::size_t number) {
 inline std::shared_ptr<const ClothModel> make_bound_sheet(std::array<std::uint32_t, 2> simulated, TriangleMesh drawn) {
     TriangleMesh mesh = make_grid({1, 1}, simulated, GridDiagonal::alternating);
     auto topology = build_topology(mesh, {.reorder = false});
-    auto built =
-        build_cloth_model({.name = "sheet", .mesh = std::move(mesh), .drawn = std::move(drawn)}, std::move(*topology));
+    auto built = build_cloth_model({.name = "sheet", .mesh = std::move(mesh), .render_mesh = std::move(drawn)},
+                                   std::move(*topology));
     EXPECT_TRUE(built.ok());
     return *built;
 }

@@ -70,7 +70,7 @@ ClothDesc sheet() {
 }
 
 template <class T>
-std::vector<T> read(ReadBack& reader, const VulkanArray& array, const VulkanMoment& ready) {
+std::vector<T> read(ReadBack& reader, const VulkanArray& array, const TimelinePoint& ready) {
     EXPECT_EQ(array.stride, array.count > 0 ? sizeof(T) : 0);
     EXPECT_EQ(array.offset % 256, 0u);
     return reader.read<T>(array.buffer, array.offset, array.count, ready.semaphore, ready.value);
@@ -143,7 +143,7 @@ TEST_F(VulkanHosts, go_on_after_changes) {
     expect_same_surface(simulation, ball, host);
     const auto gone = vulkan_surface(simulation, id);
     ASSERT_FALSE(gone.ok());
-    EXPECT_EQ(gone.error().message(), "cloth: names nothing in this simulation");
+    EXPECT_EQ(gone.error().message(), "cloth: is not in this simulation; it was removed or belongs to another one");
 }
 
 TEST_F(VulkanHosts, may_load_scenes_and_bring_their_own_functions) {
@@ -208,7 +208,7 @@ TEST_F(VulkanHosts, are_told_what_does_not_fit_together) {
     EXPECT_THAT(refusal(wrong), ElementsAre(HasSubstr("queue family 77 does not compute")));
     wrong = host;
     wrong.physical_device = reinterpret_cast<VkPhysicalDevice>(&wrong);  // somebody else's
-    EXPECT_THAT(refusal(wrong), ElementsAre(HasSubstr("is none of the instance")));
+    EXPECT_THAT(refusal(wrong), ElementsAre(HasSubstr("does not belong to the instance")));
 }
 
 TEST_F(VulkanHosts, of_a_simulation_on_the_cpu_get_an_error) {

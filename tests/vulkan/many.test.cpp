@@ -15,8 +15,6 @@
 namespace weft {
 namespace {
 
-constexpr double frame_seconds = 1.0 / 60;
-
 // A sheet above the ground, hung by a corner where it has a pin.
 std::shared_ptr<const ClothModel> sheet(std::uint32_t side, const ClothLayout& layout, bool pinned,
                                         float bend = 1e-4f) {

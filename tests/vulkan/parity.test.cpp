@@ -117,7 +117,7 @@ class Parity : public testing::TestWithParam<const char*> {
                         .restore(*cloth, {.position = points(from.position),
                                           .start = points(from.start),
                                           .velocity = points(from.velocity),
-                                          .carry = points(from.carry),
+                                          .compensation = points(from.compensation),
                                           .lambda = std::vector<float>(
                                               model->table(ConstraintKind::stretch).lambda_count(), 0.25f)})
                         .ok());
@@ -155,11 +155,11 @@ class Parity : public testing::TestWithParam<const char*> {
         }
     }
 
-    void compare(const RandomState& state, Way way, bool nasty, const std::string& what) {
+    void compare(const RandomState& state, Way way, bool degenerate, const std::string& what) {
         const WorldPlan plan = plan_of(state.table, way);
         const Outcome cpu = run(*cpu_, state, plan), vulkan = run(*vulkan_, state, plan);
         for (const Vec4& p : vulkan.state.position) ASSERT_TRUE(finite(p.xyz())) << what;
-        if (nasty && !exact_) return;
+        if (degenerate && !exact_) return;
         ASSERT_EQ(cpu.reports, vulkan.reports) << what;
         ASSERT_EQ(cpu.detail, vulkan.detail) << what;
         const std::vector<Vec4> positions(state.position.begin(), state.position.begin() + particle_count);
@@ -179,7 +179,7 @@ class Parity : public testing::TestWithParam<const char*> {
             }
         }
         // Rows that are stiff: what soft ones of a plate do in a millisecond is rounded away.
-        if (way == Way::plain && !nasty) {
+        if (way == Way::plain && !degenerate) {
             EXPECT_NE(cpu.state.position, positions) << what << " moves something";
         }
     }
@@ -196,19 +196,20 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
                                                     {Way::fixed_point, "fixed point"},
                                                     {Way::damp, "damp"}};
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    constexpr unsigned seeds = 2;  // a nasty one and one that is not: the same code, and minutes for more
+    constexpr unsigned seeds = 2;  // a degenerate one and one that is not: the same code, and minutes for more
 #else
     constexpr unsigned seeds = 4;
 #endif
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
         for (unsigned seed = 0; seed < seeds; ++seed) {
-            const bool nasty = seed % 2;
-            RandomState state = random_points(seed, nasty);
-            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, nasty);
+            const bool degenerate = seed % 2;
+            RandomState state = random_points(seed, degenerate);
+            add_rows(state, static_cast<ConstraintKind>(kind), seed + 100, degenerate);
             const ConstraintInfo& info = constraint_info(static_cast<ConstraintKind>(kind));
             for (const auto& [way, name] : ways) {
                 if (exists(info, way))
-                    compare(state, way, nasty, std::string(info.name) + ", " + name + ", seed " + std::to_string(seed));
+                    compare(state, way, degenerate,
+                            std::string(info.name) + ", " + name + ", seed " + std::to_string(seed));
             }
         }
     }
@@ -229,11 +230,11 @@ TEST_P(Parity, of_rows_that_run_one_after_another) {
 TEST_P(Parity, of_lines) {
     ASSERT_TRUE(vulkan_);
     for (unsigned seed = 0; seed < 6; ++seed) {
-        const bool nasty = seed % 2;
-        RandomState state = random_points(seed, nasty);
-        add_lines(state, seed + 100, nasty);
+        const bool degenerate = seed % 2;
+        RandomState state = random_points(seed, degenerate);
+        add_lines(state, seed + 100, degenerate);
         for (const Way way : {Way::project, Way::plain, Way::damp})
-            compare(state, way, nasty, "lines, seed " + std::to_string(seed));
+            compare(state, way, degenerate, "lines, seed " + std::to_string(seed));
     }
 }
 

@@ -19,16 +19,16 @@ namespace {
 
 struct ModelDesc {
     TriangleMesh mesh = {};
-    std::optional<TriangleMesh> drawn = {};
+    std::optional<TriangleMesh> render_mesh = {};
     std::vector<std::uint32_t> pins = {0};
 };
 
 std::shared_ptr<const ClothModel> make_model(ModelDesc desc) {
     auto topology = build_topology(desc.mesh, {.reorder = true});
     EXPECT_TRUE(topology.ok());
-    auto model =
-        build_cloth_model({.name = "cloth", .mesh = desc.mesh, .drawn = desc.drawn, .pins = {.particles = desc.pins}},
-                          std::move(*topology));
+    auto model = build_cloth_model(
+        {.name = "cloth", .mesh = desc.mesh, .render_mesh = desc.render_mesh, .pins = {.particles = desc.pins}},
+        std::move(*topology));
     EXPECT_TRUE(model.ok());
     return *model;
 }
@@ -206,16 +206,16 @@ TEST_F(VulkanSurfaces, with_vertices_and_triangles_that_are_not_simulated) {
 TEST_F(VulkanSurfaces, that_follow_another_mesh) {
     TriangleMesh fine = make_grid({1.1f, 0.9f}, {31, 17}, GridDiagonal::cross);
     for (Vec3& p : fine.positions) p.y += 0.02f * std::sin(20 * p.x);
-    expect_surfaces_of_cpu({.mesh = sheet(), .drawn = fine});
+    expect_surfaces_of_cpu({.mesh = sheet(), .render_mesh = fine});
     TriangleMesh ball = make_sphere(0.35f, 3);
     ball.normals.clear();
-    expect_surfaces_of_cpu({.mesh = make_sphere(0.3f, 1), .drawn = ball});
+    expect_surfaces_of_cpu({.mesh = make_sphere(0.3f, 1), .render_mesh = ball});
 }
 
 // As crumpled as cloth never is: frames without a direction among them.
 TEST_F(VulkanSurfaces, of_particles_that_are_anywhere) {
     TriangleMesh fine = make_grid({1, 1}, {20, 20}, GridDiagonal::uniform);
-    const ClothId bound = add({.mesh = sheet(), .drawn = fine}), welded = add({.mesh = with_odd_uvs()});
+    const ClothId bound = add({.mesh = sheet(), .render_mesh = fine}), welded = add({.mesh = with_odd_uvs()});
     std::mt19937 random(5);
     for (int round = 0; round < 3; ++round) {
         Snapshot state = world().save();
@@ -284,8 +284,8 @@ TEST_F(VulkanSurfaces, wait_for_the_moment_that_a_host_names) {
     vk.vkDestroySemaphore(device().handle(), semaphore, nullptr);
 }
 
-// The frame is done before the surface is begun: who asks what came of it need not wait for the host.
-TEST_F(VulkanSurfaces, that_wait_for_a_host_hold_up_nobody_else) {
+// The frame finishes before the surface is computed, so queries of the frame do not wait for the host.
+TEST_F(VulkanSurfaces, that_wait_for_a_host_do_not_delay_queries) {
     const ClothId id = add({.mesh = sheet()});
     step();
     (void)surface(id);
@@ -361,7 +361,7 @@ TEST_F(VulkanSurfaces, have_normals_where_the_frame_has_none) {
 TEST_F(VulkanSurfaces, for_which_there_is_no_room_are_an_error) {
     open({.solver = {.substeps = 4}}, {.memory_limit = 3 << 20});
     const ClothId small = add({.mesh = sheet()});
-    const ClothId large = add({.mesh = sheet(), .drawn = make_grid({1, 1}, {150, 150}, GridDiagonal::uniform)});
+    const ClothId large = add({.mesh = sheet(), .render_mesh = make_grid({1, 1}, {150, 150}, GridDiagonal::uniform)});
     step();
     const auto none_left = interop_->surface(world().handle(large));
     ASSERT_FALSE(none_left.ok());

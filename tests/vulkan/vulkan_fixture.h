@@ -10,6 +10,8 @@
 
 namespace weft {
 
+inline constexpr double frame_seconds = 1.0 / 60;
+
 inline std::unique_ptr<Backend> checked_vulkan_backend(VulkanOptions options = {}) {
     options.validation = true;
     options.on_message = [](std::string_view message) { ADD_FAILURE() << message; };

@@ -4,7 +4,7 @@
 #include "gpu/test_device.h"
 #include "render/window.h"
 
-#include "hands.h"
+#include "user_input.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class OnDisplay : public gpu::OnDevice {
         open(device_options);
     }
     void TearDown() override {
-        hands.reset();
+        input.reset();
         window.reset();
         OnDevice::TearDown();
         display.reset();
@@ -45,7 +45,7 @@ class OnDisplay : public gpu::OnDevice {
         EXPECT_TRUE(made.ok()) << made.error().message();
         if (!made) return false;
         window.emplace(std::move(*made));
-        hands.emplace("weft test");
+        input.emplace("weft test");
         return true;
     }
 
@@ -66,7 +66,7 @@ class OnDisplay : public gpu::OnDevice {
     /// Whether the screen comes to show that color, give or take one, at a place of the window.
     bool shown(const std::array<int, 3>& bytes, int x, int y) {
         return until([&] {
-            const auto color = hands->color(x, y);
+            const auto color = input->color(x, y);
             for (std::size_t i = 0; i < 3; ++i)
                 if (std::abs(color[i] - bytes[i]) > 1) return false;
             return true;
@@ -76,7 +76,7 @@ class OnDisplay : public gpu::OnDevice {
     gpu::DeviceOptions device_options;
     std::shared_ptr<const Display> display;
     std::optional<Window> window;
-    std::optional<Hands> hands;
+    std::optional<UserInput> input;
 };
 
 }  // namespace weft::render

@@ -87,7 +87,7 @@ TEST_F(RendererInWindow, draws_on_through_another_size) {
     if (!set_up()) return;
     draw();
     for (const unsigned width : {500u, 150u}) {
-        hands->resize(width, 240);
+        input->resize(width, 240);
         ASSERT_TRUE(until([&] { return window->extent().width == width; }));
         for (int i = 0; i < 3; ++i) draw();
         expect_same_picture();
@@ -97,11 +97,11 @@ TEST_F(RendererInWindow, draws_on_through_another_size) {
 TEST_F(RendererInWindow, a_camera_in_hands_shows_the_other_side) {
     if (!set_up()) return;
     draw();
-    hands->point_at(100, 100);
+    input->point_at(100, 100);
     ASSERT_TRUE(until([&] { return window->input(0.02).pointer == Vec2{100, 100}; }));
-    hands->button(1, true);
-    hands->point_at(200, 100);  // half the height is a quarter of a turn
-    hands->button(1, false);
+    input->button(1, true);
+    input->point_at(200, 100);  // half the height is a quarter of a turn
+    input->button(1, false);
     float turned = 0;
     ASSERT_TRUE(until([&] {
         const WindowInput input = window->input(0.02);

@@ -1,5 +1,5 @@
 // `weft render --window`, and somebody before it.
-#include "hands.h"
+#include "user_input.h"
 
 #include <gmock/gmock.h>
 
@@ -61,16 +61,16 @@ bool until(const std::function<bool()>& so) {
     return false;
 }
 
-std::unique_ptr<Hands> hands_at(const std::string& title) {
-    std::unique_ptr<Hands> hands;
+std::unique_ptr<UserInput> input_at(const std::string& title) {
+    std::unique_ptr<UserInput> input;
     (void)until([&] {
         try {
-            hands = std::make_unique<Hands>(title);
+            input = std::make_unique<UserInput>(title);
         } catch (const std::runtime_error&) {
         }
-        return hands != nullptr;
+        return input != nullptr;
     });
-    return hands;
+    return input;
 }
 
 const std::string scene = WEFT_SOURCE_DIR "/scenes/hanging_sheet.json";
@@ -83,33 +83,33 @@ class ShowTest : public testing::Test {
         program.emplace(arguments);
     }
     void press(const std::string& key) {
-        hands->key(key, true);
-        hands->key(key, false);
+        input->key(key, true);
+        input->key(key, false);
     }
     bool titled(const std::string& part) {
-        return until([&] { return hands->title().find(part) != std::string::npos; });
+        return until([&] { return input->title().find(part) != std::string::npos; });
     }
 
     std::optional<Program> program;
-    std::unique_ptr<Hands> hands;
+    std::unique_ptr<UserInput> input;
 };
 
 TEST_F(ShowTest, runs_pauses_starts_again_and_closes_by_key) {
     begin();
-    hands = hands_at("weft: ");
-    ASSERT_TRUE(hands);
-    EXPECT_TRUE(titled(" fps, ")) << hands->title();
-    EXPECT_TRUE(titled(" ms a step"));
+    input = input_at("weft: ");
+    ASSERT_TRUE(input);
+    EXPECT_TRUE(titled(" fps, ")) << input->title();
+    EXPECT_TRUE(titled(" ms per step"));
     press("space");
-    EXPECT_TRUE(titled("paused")) << hands->title();
+    EXPECT_TRUE(titled("paused")) << input->title();
     press("r");
     press("space");
-    EXPECT_TRUE(until([&] { return hands->title().find("paused") == std::string::npos; }));
+    EXPECT_TRUE(until([&] { return input->title().find("paused") == std::string::npos; }));
     for (const char* overlay : {"1", "2", "3", "4", "5", "6", "7", "8", "8", "1"}) press(overlay);
-    hands->resize(400, 300);
-    hands->button(3, true);
-    hands->point_at(50, 60);
-    hands->button(3, false);
+    input->resize(400, 300);
+    input->button(3, true);
+    input->point_at(50, 60);
+    input->button(3, false);
     EXPECT_FALSE(program->ended());
     press("Escape");
     ASSERT_TRUE(until([&] { return program->ended(); }));
@@ -118,9 +118,9 @@ TEST_F(ShowTest, runs_pauses_starts_again_and_closes_by_key) {
 
 TEST_F(ShowTest, closes_when_somebody_asks_for_it) {
     begin();
-    hands = hands_at("weft: ");
-    ASSERT_TRUE(hands);
-    hands->ask_to_close();
+    input = input_at("weft: ");
+    ASSERT_TRUE(input);
+    input->ask_to_close();
     ASSERT_TRUE(until([&] { return program->ended(); }));
     EXPECT_EQ(program->exit(), 0);
 }
@@ -136,12 +136,12 @@ TEST_F(ShowTest, follows_where_the_scene_has_no_camera) {
     std::ofstream(file) << R"({ "weft": 1, "cloths": [{ "name": "sheet",
         "mesh": { "grid": { "size": [1, 1], "resolution": [9, 9] } } }] })";
     begin({}, file);
-    hands = hands_at("weft: ");
-    ASSERT_TRUE(hands);
-    EXPECT_TRUE(titled(" fps, ")) << hands->title();
-    hands->button(1, true);
-    hands->point_at(50, 60);
-    hands->button(1, false);
+    input = input_at("weft: ");
+    ASSERT_TRUE(input);
+    EXPECT_TRUE(titled(" fps, ")) << input->title();
+    input->button(1, true);
+    input->point_at(50, 60);
+    input->button(1, false);
     press("r");
     EXPECT_FALSE(program->ended());
     press("Escape");

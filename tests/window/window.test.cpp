@@ -169,7 +169,8 @@ TEST_F(WindowTest, two_frames_are_under_way_at_most) {
     }
 }
 
-// What shows an image waits for its semaphore, nobody knows until when; then the image comes back.
+// The presentation of an image waits for its semaphore until an unknown time. After that the image can be acquired
+// again.
 TEST_F(WindowTest, every_image_has_a_semaphore_of_its_own) {
     if (!show_window()) return;
     std::map<std::uint32_t, VkSemaphore> of_image;
@@ -203,7 +204,7 @@ TEST_F(WindowTest, has_new_images_when_it_is_resized) {
     if (!show_window()) return;
     draw(red);
     const std::uint64_t before = next().generation;
-    hands->resize(500, 300);
+    input->resize(500, 300);
     ASSERT_TRUE(until([&] { return window->extent().width == 500; }));
     const auto image = next();
     EXPECT_EQ(image.extent.width, 500u);
@@ -221,7 +222,7 @@ TEST_F(WindowTest, may_be_resized_between_getting_an_image_and_showing_it) {
         const auto image = next();
         ASSERT_EQ(image.state, Acquired::image);
         const std::uint64_t done = fill(image, green);
-        hands->resize(width, 250);
+        input->resize(width, 250);
         ASSERT_TRUE(until([&] { return window->extent().width == width; }));
         EXPECT_TRUE(window->show(image, done).ok());
         const auto after = next();
@@ -235,7 +236,7 @@ TEST_F(WindowTest, may_be_resized_between_getting_an_image_and_showing_it) {
 TEST_F(WindowTest, may_be_resized_again_and_again) {
     if (!show_window()) return;
     for (unsigned i = 0; i < 30; ++i) {
-        hands->resize(200 + 10 * i, 200);
+        input->resize(200 + 10 * i, 200);
         (void)window->input();
         if (const auto image = next(); image.state == Acquired::image && i % 3 != 0) show(image, red);
         EXPECT_LE(swapchains, 6) << "old ones are kept while they are in use, and no longer";
@@ -276,11 +277,11 @@ TEST_F(WindowTest, what_is_suboptimal_for_good_is_not_made_again_each_time) {
 TEST_F(WindowTest, draws_nothing_while_it_is_minimized) {
     if (!show_window()) return;
     draw(red);
-    hands->set_minimized(true);
+    input->set_minimized(true);
     ASSERT_TRUE(until([&] { return window->extent().width == 0; }));
     EXPECT_EQ(next().state, Acquired::nothing);
     EXPECT_EQ(next().state, Acquired::nothing);
-    hands->set_minimized(false);
+    input->set_minimized(false);
     ASSERT_TRUE(until([&] { return window->extent().width == 320; }));
     draw(blue);
     EXPECT_TRUE(seen(blue));
@@ -305,7 +306,7 @@ TEST_F(WindowTest, a_surface_that_is_lost_is_made_again) {
     draw(red);
     draw(blue);
     EXPECT_TRUE(seen(blue));
-    hands->resize(400, 200);
+    input->resize(400, 200);
     ASSERT_TRUE(until([&] { return window->extent().width == 400; }));
     create_says = VK_ERROR_SURFACE_LOST_KHR;
     draw(green);
@@ -334,7 +335,7 @@ TEST_F(WindowTest, a_device_that_is_lost_is_an_error) {
     const auto taken = next();
     present_says = VK_ERROR_DEVICE_LOST;
     EXPECT_FALSE(window->show(taken, fill(taken, red)).ok());
-    hands->resize(400, 200);
+    input->resize(400, 200);
     ASSERT_TRUE(until([&] { return window->extent().width == 400; }));
     create_says = VK_ERROR_DEVICE_LOST;
     EXPECT_FALSE(window->next().ok());
@@ -346,7 +347,7 @@ TEST_F(WindowTest, is_closed_when_somebody_asks_for_it) {
     if (!show_window()) return;
     (void)window->input();
     EXPECT_FALSE(window->closed());
-    hands->ask_to_close();
+    input->ask_to_close();
     EXPECT_TRUE(until([&] { return window->closed(); }));
     draw(red);  // until it is destroyed
 }
@@ -375,33 +376,33 @@ TEST_F(WindowTest, hears_what_hands_do) {
         }
         return so();
     };
-    hands->point_at(100, 50);
+    input->point_at(100, 50);
     EXPECT_TRUE(hear([&] { return all.pointer == Vec2{100, 50}; }));
     EXPECT_EQ(all.right, Vec2{}) << "no button was held";
     EXPECT_EQ(all.width, 320);
     EXPECT_EQ(all.height, 200);
-    hands->button(3, true);
-    hands->point_at(130, 60);
+    input->button(3, true);
+    input->point_at(130, 60);
     EXPECT_TRUE(hear([&] { return all.right == Vec2{30, 10}; }));
-    hands->button(3, false);
-    hands->point_at(200, 100);
+    input->button(3, false);
+    input->point_at(200, 100);
     EXPECT_TRUE(hear([&] { return all.pointer == Vec2{200, 100}; }));
     EXPECT_EQ(all.right, (Vec2{30, 10}));
     EXPECT_EQ(all.left, Vec2{});
-    hands->button(4, true);
-    hands->button(4, true);
+    input->button(4, true);
+    input->button(4, true);
     EXPECT_TRUE(hear([&] { return all.scroll == 2; }));
-    hands->button(5, true);
+    input->button(5, true);
     EXPECT_TRUE(hear([&] { return all.scroll == 1; }));
-    hands->key("w", true);
+    input->key("w", true);
     EXPECT_TRUE(hear([&] { return all.held['W']; }));
-    hands->key("w", false);
+    input->key("w", false);
     EXPECT_TRUE(hear([&] { return !all.held['W']; }));
-    hands->key("Shift_L", true);
+    input->key("Shift_L", true);
     EXPECT_TRUE(hear([&] { return all.shift; }));
-    hands->key("Escape", true);
-    hands->key("Escape", false);
-    hands->key("3", true);
+    input->key("Escape", true);
+    input->key("Escape", false);
+    input->key("3", true);
     EXPECT_TRUE(hear([&] { return all.held['3']; }));
     EXPECT_TRUE(all.pressed['W'] && all.pressed['3'] && all.pressed[escape_key]);
     EXPECT_FALSE(all.pressed['S'] || all.held[escape_key]);

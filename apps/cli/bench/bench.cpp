@@ -15,18 +15,18 @@ struct BenchOptions {
     std::vector<std::string> scenes;
     BenchSettings settings;
     std::string json, compare;
-    std::vector<std::uint32_t> build;  ///< sides of sheets with all that takes time to build
+    std::vector<std::uint32_t> build;  ///< sides of the sheets whose build is measured
 };
 
 void append(Errors& all, const Errors& more) {
-    // An option that is wrong is wrong for every scene.
+    // A wrong option fails for every scene; it is reported once.
     for (const Error& error : more) {
         const auto same = [&](const Error& known) { return known.message() == error.message(); };
         if (std::ranges::none_of(all, same)) all.push_back(error);
     }
 }
 
-// What is wrong with the input, known before the first run rather than after the last: a report may take minutes.
+// Checks the input before the first run, because a report may take minutes.
 Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subjects) {
     Errors errors;
     const auto range = [&](const char* name, std::uint32_t value, std::uint32_t least, std::uint32_t most) {
@@ -37,7 +37,7 @@ Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subje
     range("--repeat", options.settings.repeat, 1, 1000);
     range("--warmup", options.settings.warmup, 0, 1000000);
     for (const std::uint32_t side : options.build) range("--build", side, 8, 2048);
-    if (!errors.empty()) return errors;  // what is out of range need not be tried
+    if (!errors.empty()) return errors;  // do not open scenes with options that are out of range
     for (const BenchSubject& subject : subjects) {
         const auto session = subject.open(options.settings.common);
         if (!session) {
@@ -48,7 +48,7 @@ Errors check(const BenchOptions& options, const std::vector<BenchSubject>& subje
         const auto frames = frame_count(options.settings.length, session->frame_seconds());
         if (!frames) append(errors, frames.errors());
     }
-    if (!options.json.empty()) {  // made and gone again: at the end it would be too late to say that it cannot be
+    if (!options.json.empty()) {  // creates and removes the file, to report a wrong name before the runs
         if (const auto file = AtomicFile::create(options.json); !file) append(errors, file.errors());
     }
     return errors;
@@ -72,7 +72,7 @@ Result<BenchReport> measure(const BenchOptions& options, const std::vector<Bench
     return report;
 }
 
-// Of the sheets of --build, where their backend is a device.
+// For the sheets of --build, if their backend is a device.
 Result<std::vector<EdgeFigures>> edges_of(const BenchOptions& options, const BenchReport& report) {
     const bool on_device = std::ranges::find(report.scenes, "vulkan", &SceneFigures::backend) != report.scenes.end();
     if (options.build.empty() || !on_device) return std::vector<EdgeFigures>{};
@@ -113,17 +113,24 @@ int bench(BenchOptions options) {
 }  // namespace
 
 Command add_bench(Program& program) {
-    Arguments arguments = program.add_command("bench", "measures speed and quality, and compares them with before");
+    Arguments arguments =
+        program.add_command("bench", "Measure speed, stretch and memory; compare with an earlier run");
     auto options = std::make_shared<BenchOptions>();
-    arguments.add("scene", options->scenes, "scene files; without any, hung sheets of 32² to 256² particles");
+    arguments.add("scene", options->scenes, "scene files; if none is given, hanging sheets of 32² to 256² particles")
+        .called("FILE");
     add_length_options(arguments, options->settings.length, "measure");
-    arguments.add("--warmup", options->settings.warmup, "frames before those, not counted").with_default();
-    arguments.add("--repeat", options->settings.repeat, "runs, each from a fresh load").with_default();
-    arguments.add("--json", options->json, "write all figures to this file");
-    arguments.add("--compare", options->compare, "print ratios to the figures of this file, now / before");
-    arguments.add("--build", options->build,
-                  "hung sheets of these sides, with tethers and coarse levels: how long a cloth takes to make");
-    arguments.add("--quiet", options->settings.quiet, "no progress, no figures but the ratios");
+    arguments.add("--warmup", options->settings.warmup, "frames before those, not measured").called("N").with_default();
+    arguments.add("--repeat", options->settings.repeat, "runs, each from a newly loaded scene")
+        .called("N")
+        .with_default();
+    arguments.add("--json", options->json, "write all figures to this file").called("FILE");
+    arguments.add("--compare", options->compare, "print ratios to the figures of this file, now / before")
+        .called("FILE");
+    arguments
+        .add("--build", options->build,
+             "measure how long cloths of these resolutions take to build, with tethers and coarse levels")
+        .called("N");
+    arguments.add("--quiet", options->settings.quiet, "print ratios and errors only");
     add_common_options(arguments, options->settings.common);
     arguments.footer(
         "Examples:\n"
@@ -131,8 +138,7 @@ Command add_bench(Program& program) {
         "  weft bench --compare before.json\n"
         "  weft bench --build 128 317 --frames 1 --warmup 0 --repeat 5\n"
         "  weft bench scenes/banner.json scenes/curtain.json --threads 2 --repeat 5\n"
-        "One run more than --repeat goes first, without a clock: it measures stretch, shear and residual over its last "
-        "2 s.");
+        "A first run without timing measures stretch, shear and residual over its last 2 s.");
     return [options] { return bench(*options); };
 }
 

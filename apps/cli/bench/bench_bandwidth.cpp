@@ -14,14 +14,14 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// Called through a variable, or the compiler might see that copying the same twice is copying it once.
+// Called through a volatile pointer, so that the compiler cannot merge equal copies.
 void* (*volatile copy_bytes)(void*, const void*, std::size_t) = std::memcpy;
 
-// The C library copies large pieces past the caches and middle-sized ones with an instruction of its own; small ones go
-// through registers. Which is the fastest is up to the processor.
+// The C library copies large pieces past the caches, medium ones with a special instruction, and small ones through
+// registers. Which is fastest depends on the processor.
 constexpr std::size_t pieces[] = {std::size_t{1} << 62, 2048};
 
-constexpr std::size_t least_per_round = 4 << 20;  // bytes: so many that the clock and the start of threads do not count
+constexpr std::size_t least_per_round = 4 << 20;  // bytes: enough to make clock resolution and thread start negligible
 
 }  // namespace
 
@@ -36,8 +36,8 @@ double copy_bandwidth(unsigned threads, std::size_t bytes) {
         const auto begin = Clock::now();
         for (int round = 0; round < 2 || (round < 50 && Clock::now() - begin < 2ms); ++round) {
             const auto start = Clock::now();
-            team.run([&](unsigned rank) {
-                const Share share = share_of(lines, 1, rank, team.ranks());
+            team.run([&](unsigned worker) {
+                const Share share = share_of(lines, 1, worker, team.size());
                 const std::size_t end = std::size_t{share.end} * cache_line;
                 for (std::uint32_t pass = 0; pass < passes; ++pass) {
                     for (std::size_t at = std::size_t{share.begin} * cache_line; at < end;) {
@@ -57,7 +57,7 @@ double copy_bandwidth(unsigned threads, std::size_t bytes) {
 std::size_t beyond_caches() {
     long last_cache = 0;
 #ifdef _SC_LEVEL3_CACHE_SIZE
-    last_cache = sysconf(_SC_LEVEL3_CACHE_SIZE);  // 0 or -1 where nobody knows
+    last_cache = sysconf(_SC_LEVEL3_CACHE_SIZE);  // 0 or -1 if unknown
 #endif
     constexpr long least = 64l << 20, most = 256l << 20;
     return static_cast<std::size_t>(std::clamp(last_cache, least / 2, most / 2) * 2);

@@ -31,7 +31,7 @@ class Differences {
     std::string text_;
 };
 
-/// Lines that begin with what they concern: `sheet 32, sheet 64: settings differ: …`.
+/// Lines that begin with the scenes that they concern: `sheet 32, sheet 64: settings differ: …`.
 class Notes {
   public:
     void add(const std::string& concerned, const std::string& what, const std::string& differences) {
@@ -84,7 +84,7 @@ std::string settings_differences(const SceneFigures& now, const SceneFigures& be
 }
 
 std::string scene_differences(const SceneFigures& now, const SceneFigures& before) {
-    // The order of the kinds is no difference.
+    // The order of the kinds does not matter.
     const auto rows = [](std::vector<ConstraintFigures> constraints) {
         std::ranges::sort(constraints, {}, &ConstraintFigures::name);
         std::string text;
@@ -140,9 +140,9 @@ std::vector<std::string> line_of(const SceneFigures& now, const SceneFigures& be
     return cells;
 }
 
-/// Edges and hinges of the meshes that both reports have; empty without any.
+/// Edges and hinges of the meshes in both reports; empty if there are none.
 std::string edges_comparison(const BenchReport& now, const BenchReport& before) {
-    Table table({"edges and hinges, now / before", "triangles", "CPU", "device, there and back", "of it at work"});
+    Table table({"edges and hinges, now / before", "triangles", "CPU", "device with transfers", "device only"});
     bool any = false;
     for (const EdgeFigures& one : now.edges) {
         const auto former = std::ranges::find_if(before.edges, [&](const EdgeFigures& other) {

@@ -19,11 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double median_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return median(values);
-}
-
 Result<std::shared_ptr<gpu::Device>> open_device(const Options& options) {
     auto instance = gpu::Instance::create();
     if (!instance) return instance.errors();
@@ -46,7 +41,7 @@ Result<EdgeFigures> measure(gpu::Device& device, vulkan::Programs& programs, std
         if (!found) return found.errors();
         if (found->edges.edges != edges.edges || found->hinges.hinges != hinges.hinges)
             return Error::of_machine(name, "the device finds other edges and hinges than the CPU");
-        if (run == 0) continue;  // makes the pipelines
+        if (run == 0) continue;  // the first run builds the pipelines
         cpu_ms.push_back(taken.count());
         wall_ms.push_back(times.wall_ms);
         device_ms.push_back(times.device_ms);
@@ -76,7 +71,7 @@ Result<std::vector<EdgeFigures>> measure_edges(const std::vector<std::uint32_t>&
 #endif
 
 std::string edges_table(const std::vector<EdgeFigures>& figures) {
-    Table table({"ms for edges and hinges", "triangles", "CPU", "device, there and back", "of it at work"});
+    Table table({"ms for edges and hinges", "triangles", "CPU", "device with transfers", "device only"});
     for (const EdgeFigures& one : figures) {
         table.add({one.name, std::to_string(one.triangles), fixed(one.cpu_ms, 2), fixed(one.wall_ms, 2),
                    one.device_ms > 0 ? fixed(one.device_ms, 2) : "?"});

@@ -90,7 +90,7 @@ Json edges_json(const EdgeFigures& edges) {
     return out;
 }
 
-/// One object of a report. What is missing or of a wrong type is a problem, and stays as it was.
+/// One object of a report. A value that is missing or has a wrong type is a problem and stays unchanged.
 class Fields {
   public:
     Fields(const json& object, std::string pointer, Problems& problems)
@@ -145,7 +145,7 @@ class Fields {
 
   private:
     const json* find(const std::string& key) {
-        if (!object_.is_object()) return nullptr;  // said already
+        if (!object_.is_object()) return nullptr;  // already reported
         const auto found = object_.find(key);
         if (found != object_.end()) return &*found;
         problems_.add(at(pointer_, key), "is missing");
@@ -167,7 +167,7 @@ class Fields {
     Problems& problems_;
 };
 
-// What a comparison needs.
+// Reads only what a comparison needs.
 SceneFigures scene_of(Fields fields) {
     SceneFigures scene;
     fields.get("scene", scene.name);
@@ -199,7 +199,7 @@ SceneFigures scene_of(Fields fields) {
     fields.get("run_medians_ms", scene.run_medians);
     if (fields.has("quality_seconds")) {
         fields.get("quality_seconds", scene.quality_seconds);
-    } else if (scene.frame_rate > 0) {  // written when it was always this
+    } else if (scene.frame_rate > 0) {  // older reports have no quality_seconds; it was this value
         scene.quality_seconds = std::min(static_cast<double>(scene.frames) / scene.frame_rate, 1.0);
     }
     fields.get("stretch", scene.stretch);
@@ -220,7 +220,7 @@ EdgeFigures edges_of(Fields fields) {
 BenchReport report_of(const json& root, Problems& problems) {
     BenchReport report;
     if (!root.is_object() || !root.contains("weft_bench")) {
-        problems.add("", "is no report of weft bench");
+        problems.add("", "is not a report of weft bench");
         return report;
     }
     if (root["weft_bench"] != report_format) {

@@ -22,8 +22,8 @@ double ms_since(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-// Bytes that the program has asked for and not given back: unlike the process's size, free space that the allocator
-// keeps for later does not count. 0 where that cannot be known.
+// Bytes that the program has allocated and not freed: unlike the size of the process, this excludes free memory that
+// the allocator keeps. 0 if unknown.
 double heap_bytes() {
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
     const auto info = mallinfo2();
@@ -36,11 +36,11 @@ double heap_bytes() {
 // --- Built-in scenes
 
 SceneDesc sheet_scene(std::uint32_t side) {
-    SceneCloth sheet{.name = "sheet",
-                     .mesh = GridDesc{.size = {1, 1}, .resolution = {side, side}},
-                     .transform = {.position = {0, 1, 0},
-                                   .rotation_degrees = {85, 0, 0}},  // leaning, so that it may leave its plane
-                     .pins = {{.select = VertexPins{{0, side - 1}}}}};
+    SceneCloth sheet{
+        .name = "sheet",
+        .mesh = GridDesc{.size = {1, 1}, .resolution = {side, side}},
+        .transform = {.position = {0, 1, 0}, .rotation_degrees = {85, 0, 0}},  // tilted, so that it can leave its plane
+        .pins = {{.select = VertexPins{{0, side - 1}}}}};
     return {.name = "sheet " + std::to_string(side), .cloths = {std::move(sheet)}};
 }
 
@@ -57,7 +57,7 @@ struct Average {
     MeanMax over(double count) const { return {sum.mean / count, sum.max / count}; }
 };
 
-// A sheet that swings is stretched by turns more and less, and a window of a second tells where the swing is.
+// The strain of a swinging sheet oscillates; a window of one second would depend on the phase of the swing.
 constexpr double longest_quality_seconds = 2;
 
 std::uint64_t quality_frames(const SceneWorld& session, const Plan& plan) {
@@ -67,8 +67,8 @@ std::uint64_t quality_frames(const SceneWorld& session, const Plan& plan) {
 
 using GoOn = std::function<bool(std::uint64_t frames)>;
 
-// The run without a clock. `heap_before` is what the heap held before the session was opened. Whether it came to its
-// end.
+// The run without a clock. `heap_before`: size of the heap before the session was opened. Returns whether the run was
+// completed.
 bool run_for_quality(SceneWorld& session, const Plan& plan, double heap_before, const GoOn& go_on,
                      SceneFigures& figures) {
     const std::uint64_t window = quality_frames(session, plan);
@@ -95,14 +95,10 @@ bool run_for_quality(SceneWorld& session, const Plan& plan, double heap_before, 
     figures.state_hash = session.world().state_hash();
     if (figures.particles == 0) return true;
     const auto particles = static_cast<double>(figures.particles);
-    if (const double held = heap_bytes() - heap_before; held > 0) figures.bytes_per_particle = held / particles;
+    if (const double heap_used = heap_bytes() - heap_before; heap_used > 0)
+        figures.bytes_per_particle = heap_used / particles;
     figures.device_bytes_per_particle = static_cast<double>(device_bytes) / particles;
     return true;
-}
-
-double median_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return median(values);
 }
 
 struct Timings {
@@ -131,7 +127,7 @@ void add_build_times(const SceneWorld& session, Timings& timings) {
     for (std::uint32_t part = 0; part < build_part_count; ++part) timings.part_ms[part].push_back(sum.ms[part]);
 }
 
-/// The state that the run ended in.
+/// Returns the state hash at the end of the run.
 Result<std::string> run_for_time(const BenchSubject& subject, const Options& options, const Plan& plan,
                                  std::uint64_t frames_before, Progress& progress, Timings& timings) {
     const auto begin = Clock::now();
@@ -185,12 +181,12 @@ Result<Plan> plan_runs(const BenchSubject& subject, const BenchSettings& setting
     return Plan{settings.warmup, *frames};
 }
 
-// Stages and constraints are in the order of their numbers still.
+// Stages and constraints must still be in the order of their numbers.
 void refer(const FrameTraffic& traffic, SceneFigures& figures) {
     ReferenceFigures& reference = figures.reference;
     reference.bytes_per_frame = traffic.all();
     reference.working_set = traffic.working_set;
-    // What this processor copies says nothing of a device.
+    // The bandwidth of this processor is no reference for a device.
     if (figures.backend == "cpu") {
         reference.bandwidth =
             copy_bandwidth(static_cast<unsigned>(figures.threads), static_cast<std::size_t>(traffic.working_set));
@@ -291,7 +287,7 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
         return true;
     };
     run_for_quality(*session, plan, heap_before, on_frame, figures);
-    { const SceneWorld gone = std::move(*session); }  // two at once would share the caches
+    { const SceneWorld gone = std::move(*session); }  // frees the session, because two at once would share the caches
 
     Timings timings;
     for (std::uint32_t run = 1; run <= settings.repeat; ++run) {
@@ -299,7 +295,7 @@ Result<SceneFigures> measure_scene(const BenchSubject& subject, const BenchSetti
         if (!hash) return hash.errors();
         if (*hash != figures.state_hash) {
             return Error{subject.name, "two runs of the same scene end in different states, " + figures.state_hash +
-                                           " and " + *hash + ": the figures mean nothing"};
+                                           " and " + *hash + ": the measurement is invalid"};
         }
     }
     sum_up(std::move(timings), traffic, figures);

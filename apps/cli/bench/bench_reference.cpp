@@ -9,14 +9,14 @@
 namespace weft::cli {
 namespace {
 
-constexpr double word = 4;    // a number, an index, a multiplier
-constexpr double block = 16;  // four numbers: one of a particle's arrays, a node's or a triangle's
+constexpr double word = 4;    // bytes of a number, an index, a multiplier
+constexpr double block = 16;  // four numbers: one entry of a particle's, node's or triangle's array
 
-// Bytes of one pass.
+// Memory traffic of one pass, in bytes.
 struct PassTraffic {
-    double own = 0;     ///< what no other pass reads: rows, indices, weights
-    double shared = 0;  ///< blocks of particles, nodes and triangles, in and out
-    double rows = 0;    ///< how many rows are projected in it
+    double own = 0;     ///< read by no other pass: constraints, indices, weights
+    double shared = 0;  ///< blocks of particles, nodes and triangles, read and written
+    double rows = 0;    ///< constraints projected in it
 };
 
 class TrafficCounter {
@@ -24,15 +24,15 @@ class TrafficCounter {
     TrafficCounter(const ClothModel& model, const WorldPlan& plan, double colliders)
         : model_(model), plan_(plan), colliders_(colliders), seen_(model.capacity(), 0) {}
 
-    /// Lambda not included.
+    /// Without the multipliers (lambda).
     PassTraffic of(const Pass& pass) {
         const auto [found, fresh] = known_.try_emplace({pass.kind, pass.constraint, pass.batch, pass.level});
         if (fresh) found->second = count(pass);
         return found->second;
     }
 
-    /// A multiplier starts at 0 in the first iteration and is written only if another one goes on from it. (That the
-    /// last substep keeps it for statistics is left out.)
+    /// A multiplier starts at 0 in the first iteration and is written only if another iteration follows. (The last
+    /// substep also keeps it for statistics; that is not counted.)
     double lambda_bytes(const Pass& pass) {
         const bool projects = pass.kind == PassKind::project || pass.kind == PassKind::correct;
         if (!projects || plan_.iterations < 2 || plan_.method == Method::pbd) return 0;
@@ -40,7 +40,7 @@ class TrafficCounter {
         return of(pass).rows * constraint_info(pass.constraint).lambdas * word * transfers;
     }
 
-    /// What all passes of a substep go over: their own, the four arrays of the particles, and three of the nodes.
+    /// The data of all passes of a substep: their own, the four arrays of the particles, and three of the nodes.
     double working_set() {
         std::map<Key, double> own;
         for (const Pass& pass : plan_.substep) {
@@ -58,15 +58,15 @@ class TrafficCounter {
   private:
     using Key = std::tuple<PassKind, ConstraintKind, std::uint32_t, std::uint32_t>;
 
-    // Rows [begin, end) of a table without those that only fill it up: indices and fields once per row; and each
-    // particle once, however many of the rows share it.
+    // Traffic of the rows [begin, end) of a table without padding: indices and fields once per row, and each particle
+    // once, even if several rows share it.
     struct Touched {
         double rows = 0, read = 0, moved = 0;
     };
     Touched touched(const ConstraintTable& table, std::uint32_t begin, std::uint32_t end) {
         Touched sum;
         const std::uint32_t moved = constraint_info(table.kind).moved;
-        round_ += 2;  // marks of former rounds are smaller than this one's: round_ for read, round_ + 1 for moved
+        round_ += 2;  // marks of earlier rounds are smaller; round_: read, round_ + 1: moved
         for (std::uint32_t r = begin; r < end; ++r) {
             if (!table.is_real(r)) continue;
             ++sum.rows;
@@ -85,9 +85,10 @@ class TrafficCounter {
     }
     static double row_bytes(const ConstraintTable& table) { return word * (table.arity + table.field_count); }
 
-    static double carry_bytes(const Carry& carry) {
-        const std::size_t node = carry.narrow.empty() ? sizeof carry.wide[0] : sizeof carry.narrow[0];
-        return static_cast<double>(Carry::parents * (node + sizeof carry.weight[0]));
+    static double prolongation_bytes(const Prolongation& prolongation) {
+        const std::size_t node =
+            prolongation.narrow.empty() ? sizeof prolongation.wide[0] : sizeof prolongation.narrow[0];
+        return static_cast<double>(Prolongation::parents * (node + sizeof prolongation.weight[0]));
     }
 
     PassTraffic projected(const ConstraintTable& table, const Batch& batch) {
@@ -100,12 +101,12 @@ class TrafficCounter {
         const double nodes = level.count;
         const double finer = pass.level == 0 ? model_.particle_count : model_.hierarchy[pass.level - 1].count;
         const bool coarsest = pass.level + 1 == model_.hierarchy.size();
-        if (pass.kind == PassKind::reach) return projected(level.reach, level.reach.batches[pass.batch]);
-        if (pass.kind == PassKind::collect)
+        if (pass.kind == PassKind::coarse_limit) return projected(level.limits, level.limits.batches[pass.batch]);
+        if (pass.kind == PassKind::restriction)
             return {.own = 2 * word * static_cast<double>(level.restriction.node.size()),
                     .shared = block * (finer + nodes)};
-        if (pass.kind == PassKind::settle || coarsest) return {.own = 0, .shared = 3 * block * nodes};
-        return {.own = carry_bytes(model_.hierarchy[pass.level + 1].carry) * nodes,
+        if (pass.kind == PassKind::node_correction || coarsest) return {.own = 0, .shared = 3 * block * nodes};
+        return {.own = prolongation_bytes(model_.hierarchy[pass.level + 1].prolongation) * nodes,
                 .shared = block * (3 * nodes + model_.hierarchy[pass.level + 1].count)};
     }
 
@@ -116,18 +117,18 @@ class TrafficCounter {
         const auto triangles = static_cast<double>(model_.triangle_count);
         const double corners = 3 * word * triangles;
         switch (pass.kind) {
-            case PassKind::air:  // positions, velocities; a mass in, an impulse out, the wind where there is one
+            case PassKind::air:  // positions, velocities; a mass read, an impulse written, and the wind, if any
                 return {.own = corners + word * triangles,
                         .shared = block * (2 * particles + (plan_.frame_begin.empty() ? 1 : 2) * triangles)};
-            case PassKind::push:  // all four arrays of a particle in, three out
+            case PassKind::push:  // all four arrays of a particle read, three written
                 return {.own = corners, .shared = block * (7 * particles + triangles)};
-            default:  // wind, faces: positions in, a block per triangle out; normals: the other way
+            default:  // wind, faces: positions read, a block per triangle written; normals: the reverse
                 return {.own = corners, .shared = block * (particles + triangles)};
         }
     }
 
     PassTraffic count(const Pass& pass) {
-        if (pass.source == RowSource::dynamic) return {};  // how many there are shows only as it runs
+        if (pass.source == RowSource::dynamic) return {};  // their number is known only during the run
         const double points = model_.point_count();
         const ConstraintTable& table = model_.table(pass.constraint);
         switch (pass.kind) {
@@ -136,39 +137,39 @@ class TrafficCounter {
             case PassKind::list:
             case PassKind::aim:
                 return {};           // of dynamic lists
-            case PassKind::predict:  // four arrays in, four out
+            case PassKind::predict:  // four arrays read, four written
                 return {.own = 0, .shared = 8 * block * points};
-            case PassKind::velocities:  // four in, two out; all but the last are one pass with the next prediction
+            case PassKind::velocities:  // four read, two written; all but the last are merged with the next prediction
                 return {.own = 0, .shared = 6 * block * points / (predicts_first() ? plan_.substeps : 1)};
-            case PassKind::advance:  // counted where its halves are
-            case PassKind::hold:     // few particles are held
+            case PassKind::advance:  // counted as its two halves
+            case PassKind::targets:  // few particles are kinematic targets
                 return {};
-            case PassKind::contact:  // most of a cloth touches nothing: it is read
+            case PassKind::contact:  // most particles touch nothing and are only read
                 return {.own = 0, .shared = colliders_ * block * points};
             case PassKind::project:
                 return projected(table, table.batches[pass.batch]);
-            case PassKind::correct: {  // a share in, a correction out per particle that a row may move
+            case PassKind::correct: {  // a share read, a correction written per particle that a constraint may move
                 const Touched t = touched(table, 0, table.stride);
                 const double out = block * constraint_info(table.kind).moved * t.rows;
                 return {.own = t.rows * (row_bytes(table) + word), .shared = block * t.read + out, .rows = t.rows};
             }
-            case PassKind::average: {  // and all of them in again, found by an index
+            case PassKind::average: {  // all corrections read again, found by an index
                 double items = 0;
                 for (const ConstraintTable& each : model_.constraints)
                     items += static_cast<double>(each.rows) * constraint_info(each.kind).moved;
                 return {.own = (word + block) * items, .shared = 2 * block * points};
             }
-            case PassKind::damp: {  // positions and velocities in, velocities out
+            case PassKind::damp: {  // positions and velocities read, velocities written
                 const Touched t = touched(table, table.batches[pass.batch]);
                 return {.own = t.rows * row_bytes(table), .shared = block * (2 * t.read + t.moved), .rows = t.rows};
             }
-            case PassKind::spread:
-                return {.own = carry_bytes(model_.hierarchy.front().carry) * points,
+            case PassKind::prolongation:
+                return {.own = prolongation_bytes(model_.hierarchy.front().prolongation) * points,
                         .shared = block * (2 * points + model_.hierarchy.front().count)};
-            case PassKind::collect:
-            case PassKind::lift:
-            case PassKind::reach:
-            case PassKind::settle:
+            case PassKind::restriction:
+            case PassKind::interpolation:
+            case PassKind::coarse_limit:
+            case PassKind::node_correction:
                 return count_level(pass);
             case PassKind::wind:
             case PassKind::air:
@@ -184,7 +185,7 @@ class TrafficCounter {
     const WorldPlan& plan_;
     double colliders_;
     std::map<Key, PassTraffic> known_;
-    std::vector<std::uint32_t> seen_;  ///< per particle, or node: the last round that touched it
+    std::vector<std::uint32_t> seen_;  ///< per particle or node: the last round that touched it
     std::uint32_t round_ = 0;
 };
 

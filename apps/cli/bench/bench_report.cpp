@@ -12,7 +12,7 @@
 namespace weft::cli {
 namespace {
 
-// As Linux names it; empty elsewhere.
+// The name that Linux reports; empty on other systems.
 std::string processor_name() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);) {
@@ -24,7 +24,7 @@ std::string processor_name() {
 
 std::string compiler_name() {
 #if defined(__clang__)
-    return __VERSION__;  // says so itself
+    return __VERSION__;  // includes the name "Clang"
 #elif defined(__GNUC__)
     return "GCC " __VERSION__;
 #else
@@ -41,7 +41,7 @@ const ConstraintFigures* find_constraint(const SceneFigures& scene, const std::s
     return found == scene.constraints.end() ? nullptr : &*found;
 }
 
-// Names that any of the scenes has, in the order in which they come.
+// Names of the constraints in any of the scenes, in the order of their first appearance.
 std::vector<std::string> constraint_names(const BenchReport& report) {
     std::vector<std::string> names;
     for (const SceneFigures& scene : report.scenes) {
@@ -57,7 +57,7 @@ std::string head_lines(const BenchReport& report) {
     if (!report.processor.empty()) text += " on " + report.processor;
     text += ", " + std::to_string(report.hardware_threads) + " hardware threads\n";
     std::string before;
-    for (const SceneFigures& scene : report.scenes) {  // mostly the same line for all of them
+    for (const SceneFigures& scene : report.scenes) {  // one line for consecutive scenes with the same setup
         const std::string line = scene.backend + " (" + scene.device + "), " + std::to_string(scene.threads) +
                                  (scene.threads == 1 ? " thread, " : " threads, ") + scene.solver + ", " +
                                  std::to_string(scene.runs) + (scene.runs == 1 ? " run of " : " runs of ") +
@@ -73,7 +73,7 @@ std::string head_lines(const BenchReport& report) {
 }
 
 std::string times_table(const BenchReport& report) {
-    Table table({"ms a frame", "particles", "substeps", "median", "p95", "min", "max", "runs differ by", "load",
+    Table table({"ms per frame", "particles", "substeps", "median", "p95", "min", "max", "runs differ by", "load",
                  "first frame", "B/particle", "on the device"});
     for (const SceneFigures& scene : report.scenes) {
         table.add({scene.name, std::to_string(scene.particles), steps_text(scene), fixed(scene.ms.median, 3),
@@ -90,7 +90,7 @@ std::string ratio_text(std::optional<double> ratio) {
 }
 
 std::string reference_table(const BenchReport& report) {
-    Table table({"everything streamed once per pass", "MB a frame", "working set, MB", "GB/s within it", "reference ms",
+    Table table({"minimal memory traffic", "MB per frame", "working set, MB", "GB/s of copies", "reference ms",
                  "median ms", "ratio"});
     for (const SceneFigures& scene : report.scenes) {
         const ReferenceFigures& reference = scene.reference;
@@ -134,8 +134,8 @@ std::string stages_table(const BenchReport& report) {
 
 std::string rows_table(const BenchReport& report) {
     const std::vector<std::string> names = constraint_names(report);
-    std::vector<std::string> heads{"ns a row and iteration"};
-    for (const std::string& name : names) heads.insert(heads.end(), {name, "reference", "ratio", "rows"});
+    std::vector<std::string> heads{"ns per constraint and iteration"};
+    for (const std::string& name : names) heads.insert(heads.end(), {name, "reference", "ratio", "constraints"});
     Table table(heads);
     for (const SceneFigures& scene : report.scenes) {
         std::vector<std::string> cells{scene.name};

@@ -2,15 +2,17 @@
 
 #include "files/open_scene.h"
 #include "io/meshes/mesh_file.h"
-#include "scene/looks.h"
+#include "scene/materials.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
 namespace weft::cli {
 namespace {
 
-// Nothing moves by a picture, and what is drawn without one is marked: no error.
+// A missing image is a warning: it does not affect the simulation, and rendering marks the surface.
 void warn_of_missing_pictures(const SceneDesc& scene, const std::string& scene_file) {
     for (const PictureFile& picture : picture_files(scene)) {
         const auto found = find_asset(picture.file, std::filesystem::path(scene_file).parent_path());
@@ -18,12 +20,33 @@ void warn_of_missing_pictures(const SceneDesc& scene, const std::string& scene_f
     }
 }
 
+Vec3 size_of(const ClothFrame& cloth) {
+    Bounds bounds;
+    for (const Vec4& position : cloth.positions) bounds.include(position.xyz());
+    return bounds.size();
+}
+
+/// Three significant digits.
+std::string rounded(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+// Most cloths of these sizes come from files in centimeters or millimeters.
+void warn_of_size(const std::string& cloth, double largest, const std::string& scene_file) {
+    constexpr double large = 20, small = 0.02;  // m
+    if (largest >= small && largest <= large) return;
+    print_warning(scene_file + ": cloth '" + cloth + "' is " + rounded(largest) +
+                  " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
+}
+
 }  // namespace
 
 Command add_check(Program& program) {
-    Arguments arguments = program.add_command("check", "every problem of a scene, each with its place");
+    Arguments arguments = program.add_command("check", "Print every error of a scene file");
     auto scene = std::make_shared<std::string>();
-    arguments.add("scene", *scene, "scene file").required();
+    arguments.add("scene", *scene, "scene file").called("FILE").required();
     arguments.footer("Example:\n  weft check scenes/hanging_bunny.json");
     return [scene] {
         auto session = open_scene(*scene, {});
@@ -35,13 +58,16 @@ Command add_check(Program& program) {
         warn_of_missing_pictures(session->scene(), *scene);
         for (const ClothFrame& cloth : session->world().frame().cloths) {
             const ClothModel& model = *cloth.model;
+            const Vec3 size = size_of(cloth);
             std::cout << *scene << ": cloth '" << model.name << "': " << model.particle_count << " particles ("
-                      << model.pinned_count << " pinned), " << cloth.triangles.size() << " triangles";
+                      << model.pinned_count << " pinned), " << cloth.triangles.size() << " triangles, "
+                      << rounded(size.x) << " × " << rounded(size.y) << " × " << rounded(size.z) << " m, mean edge "
+                      << rounded(1000 * model.mean_edge) << " mm";
+            warn_of_size(model.name, std::max({size.x, size.y, size.z}), *scene);
             if (!model.binding.empty()) std::cout << ", drawn with " << cloth.render_mesh().triangles.size();
             for (const ConstraintTable& table : model.constraints) {
-                std::cout << ", " << table.rows << ' ' << constraint_info(table.kind).name << " rows in "
-                          << table.batches.size() << " batches";
-                if (table.overflow()) std::cout << " (" << table.overflow() << " rows in the overflow)";
+                if (table.rows == 0) continue;
+                std::cout << ", " << table.rows << ' ' << constraint_info(table.kind).name << " constraints";
             }
             std::cout << '\n';
         }

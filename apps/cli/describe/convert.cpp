@@ -25,7 +25,7 @@ int convert(const ConvertOptions& options) {
         print_errors(scene.errors());
         return exit_usage;
     }
-    // Made and gone again: a name that no file can have is the user's mistake, a full disk is not.
+    // Creates and removes the file: an invalid name is a usage error, a full disk is not.
     if (const auto file = AtomicFile::create(options.output); !file) {
         print_errors(file.errors());
         return exit_usage;
@@ -44,14 +44,15 @@ int convert(const ConvertOptions& options) {
 }  // namespace
 
 Command add_convert(Program& program) {
-    Arguments arguments = program.add_command("convert", "a scene as weft understands it, written to another file");
+    Arguments arguments =
+        program.add_command("convert", "Write a scene file anew: ordered keys, no defaults, no comments");
     auto options = std::make_shared<ConvertOptions>();
-    arguments.add("scene", options->scene, "scene file").required();
-    arguments.add("--out", options->output, "file to write, .json").required();
+    arguments.add("scene", options->scene, "scene file").called("FILE").required();
+    arguments.add("--out", options->output, "file to write, .json").called("FILE").required();
     arguments.add("--quiet", options->quiet, "print errors only");
     arguments.footer(
-        "Keys stand in one order, values that are the default are left out, and so are comments. Files that the\n"
-        "scene names are found from the new file's folder.\n"
+        "Keys are written in a fixed order, without default values and comments. File names are changed so that\n"
+        "they are found from the folder of the new file.\n"
         "Example:\n  weft convert scenes/hanging_bunny.json --out bunny.json");
     return [options] { return convert(*options); };
 }

@@ -1,4 +1,5 @@
 #include "cli/shell/command.h"
+#include "cli/shell/text.h"
 
 #include "cpu/cpu_backend.h"
 #include "io/exports/exporter.h"
@@ -17,11 +18,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <span>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace weft::cli {
 namespace {
@@ -36,7 +41,7 @@ Json value_json(const Parameter& parameter, const void* base) {
     if (parameter.kind == ParameterKind::text) return *reinterpret_cast<const std::string*>(at);
     const auto* numbers = reinterpret_cast<const float*>(at);
     if (parameter.kind == ParameterKind::angle_or_mesh && std::isnan(*numbers)) return "mesh";
-    // Through text, so that 0.14f reads 0.14 and not 0.14000000059604645.
+    // Converted as text, so that 0.14f prints as 0.14, not as 0.14000000059604645.
     const auto number = [](float x) {
         char text[32];
         std::snprintf(text, sizeof text, "%.7g", static_cast<double>(x));
@@ -67,7 +72,7 @@ Json material_json(const MaterialPreset& preset) {
     return material;
 }
 
-// What of a device matters here.
+// The properties of the Vulkan devices that matter for weft.
 Json devices_json() {
     Json list = Json::array();
 #ifdef WEFT_VULKAN
@@ -136,29 +141,40 @@ std::string triple(const Json& values, double scale, const char* format) {
     return text;
 }
 
+// Splits "measured by …: denim, 11 oz" into the source "measured by …" and the cloth "denim, 11 oz".
+std::pair<std::string, std::string> source_and_cloth(const std::string& text) {
+    const std::size_t colon = text.rfind(": ");
+    return colon == std::string::npos ? std::pair(text, std::string())
+                                      : std::pair(text.substr(0, colon), text.substr(colon + 2));
+}
+
 void print_fabrics(const Json& fabrics) {
-    std::printf("fabrics\n  %-12s %8s  %-11s %8s  %-15s  %s\n", "name", "kg/m²", " stretch N/m", "shear N/m",
-                "bend µN·m", "source");
-    std::printf("  %-12s %7s  %-11s %9s  %-15s\n", "", "", "warp/weft", "", "warp/bias/weft");
+    std::printf("fabrics\n  %-12s %8s  %-11s  %9s  %-15s  %s\n", "name", "kg/m²", "stretch N/m", "shear N/m",
+                "bend µN·m", " source");
+    std::printf("  %-12s %7s  %-11s  %9s  %-15s\n", "", "", "warp/weft", "", "warp/bias/weft");
+    std::vector<std::string> sources;
     for (const Json& fabric : fabrics) {
-        std::printf("  %-12s %7.4f  %-11s %9.0f  %-15s  %s\n", fabric["name"].get<std::string>().c_str(),
+        const auto [source, cloth] = source_and_cloth(fabric["source"].get<std::string>());
+        const auto known = std::ranges::find(sources, source);
+        const auto number = known - sources.begin() + 1;
+        if (known == sources.end()) sources.push_back(source);
+        std::printf("  %-12s %7.4f  %-11s  %9.0f  %-15s  [%td] %s\n", fabric["name"].get<std::string>().c_str(),
                     fabric["density"].get<double>(), triple(fabric["stretch"], 1, "%.0f").c_str(),
-                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(),
-                    fabric["source"].get<std::string>().c_str());
+                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(), number, cloth.c_str());
     }
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        std::printf("  [%zu] %s\n", i + 1, wrapped(sources[i], 94, 6).c_str());
 }
 
 void print_materials(const Json& materials) {
-    std::printf("materials\n  %-12s %-7s %9s  %-9s %-14s  %s\n", "name", "weave", "thread mm", "roughness", "sheen RGB",
-                "what");
+    std::printf("materials\n  %-10s %-7s %9s  %-9s  %s\n", "name", "weave", "thread mm", "roughness", "description");
     for (const Json& material : materials) {
-        const bool threads = material["weave"] != "smooth", sheen = material["sheen_color"] != Json({0, 0, 0});
-        std::printf("  %-12s %-7s %9s  %-9s %-14s  %s\n", material["name"].get<std::string>().c_str(),
+        const bool threads = material["weave"] != "smooth";
+        std::printf("  %-10s %-7s %9s  %-9s  %s\n", material["name"].get<std::string>().c_str(),
                     material["weave"].get<std::string>().c_str(),
-                    threads ? triple(material["thread"], 1, "%.3g").c_str() : "",
+                    threads ? triple(material["thread_spacing"], 1, "%.3g").c_str() : "",
                     triple(material["roughness"], 1, "%.2g").c_str(),
-                    sheen ? triple(material["sheen_color"], 1, "%.2g").c_str() : "",
-                    material["what"].get<std::string>().c_str());
+                    wrapped(material["what"].get<std::string>(), 56, 42).c_str());
     }
 }
 
@@ -196,13 +212,11 @@ void print_text(const Json& info) {
 
 Command add_info(Program& program) {
     Arguments arguments =
-        program.add_command("info",
-                            "instruction sets, threads, Vulkan devices, formats, fabrics and materials with their "
-                            "values");
+        program.add_command("info", "Print instruction sets, Vulkan devices, file formats, fabrics and materials");
     auto json = std::make_shared<bool>(false);
     auto schema = std::make_shared<bool>(false);
-    const Argument as_json = arguments.add("--json", *json, "as JSON");
-    arguments.add("--schema", *schema, "instead, the JSON Schema of scene files").excludes(as_json);
+    const Argument as_json = arguments.add("--json", *json, "print JSON");
+    arguments.add("--schema", *schema, "print the JSON Schema of scene files").excludes(as_json);
     return [json, schema] {
         if (*schema) {
             std::cout << scene_schema();

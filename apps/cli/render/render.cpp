@@ -6,6 +6,8 @@
 #include "cli/shell/interrupt.h"
 #include "cli/shell/progress.h"
 #include "files/open_scene.h"
+#include "io/exports/scene_export.h"
+#include "io/files/overwriting.h"
 #include "io/images/picture_writer.h"
 #include "view/framing.h"
 #include "view/overlays.h"
@@ -23,13 +25,13 @@ namespace {
 
 using Writers = std::vector<std::unique_ptr<PictureWriter>>;
 
-/// A run and what is drawn of it.
+/// A run and the images to draw of it.
 struct Job {
     SceneWorld& session;
     SceneView& view;
     Writers& writers;
-    std::optional<Camera> camera;  ///< of the command line or the scene; without one:
-    bool films = false;            ///< it follows what moves; otherwise it is placed for the last frame
+    std::optional<Camera> camera;  ///< of the command line or the scene; if empty, see `films`
+    bool films = false;            ///< true: the camera follows the cloth; false: placed for the last frame
     float aspect = 1;
     double orbit = 0;  ///< degrees, from the first frame to the last
     std::uint64_t frames = 0;
@@ -37,7 +39,7 @@ struct Job {
     bool quiet = false;
 
     std::optional<FollowingCamera> following = {};
-    std::uint64_t followed = 0;  ///< the frame that it has come to
+    std::uint64_t followed = 0;  ///< the last frame that the camera has followed
 };
 
 Result<Writers> make_writers(const RenderOptions& options) {
@@ -55,20 +57,20 @@ Result<Writers> make_writers(const RenderOptions& options) {
     return writers;
 }
 
-/// Whether any of them needs an account of contacts.
+/// Returns whether any of the overlays needs contact forces.
 Result<bool> check_overlays(const std::vector<std::string>& names) {
     Errors errors;
-    bool feedback = false;
+    bool contact_forces = false;
     for (const std::string& name : names) {
         const auto overlay = find_overlay(name);
         if (overlay) {
-            feedback = feedback || (*overlay)->needs_feedback;
+            contact_forces = contact_forces || (*overlay)->needs_contact_forces;
         } else {
             for (const Error& error : overlay.errors()) errors.push_back({"--overlay", error.message()});
         }
     }
     if (!errors.empty()) return errors;
-    return feedback;
+    return contact_forces;
 }
 
 Result<std::shared_ptr<gpu::Device>> find_device(World& world, const std::string& name) {
@@ -76,9 +78,9 @@ Result<std::shared_ptr<gpu::Device>> find_device(World& world, const std::string
     if (device) return device;
     Errors errors = device.errors();
     for (Error& error : errors) {
-        constexpr std::string_view elsewhere = ", or use --backend cpu";  // helps a run, not a picture
+        constexpr std::string_view elsewhere = ", or use --backend cpu";  // helps a run, not rendering
         if (const auto at = error.what.find(elsewhere); at != std::string::npos) error.what.erase(at, elsewhere.size());
-        error.what += "; pictures are drawn by Vulkan, whatever the backend";
+        error.what += "; rendering needs Vulkan, whatever the backend";
     }
     return errors;
 }
@@ -97,20 +99,20 @@ Camera camera_at(Job& job, std::uint64_t frame) {
     return job.following->camera();
 }
 
-Result<Done> draw(Job& job, std::uint64_t frame, bool in_film) {
+Result<void> draw(Job& job, std::uint64_t frame, bool in_film) {
     const double part = job.frames == 0 ? 1 : static_cast<double>(frame) / static_cast<double>(job.frames);
     auto picture = job.view.picture(job.session.scene(), job.session.world(),
                                     orbited(camera_at(job, frame), static_cast<float>(job.orbit * part)));
     if (!picture) return picture.errors();
     for (auto& writer : job.writers) {
-        if (!(writer->last_alone() ? frame == job.frames : in_film)) continue;
+        if (!(writer->keeps_last_only() ? frame == job.frames : in_film)) continue;
         if (auto written = writer->write(*picture); !written) return written;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> simulate_and_draw(Job& job) {
-    const bool stills = std::ranges::any_of(job.writers, [](const auto& writer) { return writer->last_alone(); });
+Result<void> simulate_and_draw(Job& job) {
+    const bool stills = std::ranges::any_of(job.writers, [](const auto& writer) { return writer->keeps_last_only(); });
     const EndOnSignal end_on_signal;
     Progress progress(job.films ? "rendering" : "simulating", job.frames, job.quiet);
     std::uint64_t picture = 0;
@@ -128,11 +130,11 @@ Result<Done> simulate_and_draw(Job& job) {
         if (i > 0) progress.update(i);
         if (end_on_signal.asked())
             return Error{"", "interrupted at frame " + std::to_string(i) + " of " + std::to_string(job.frames) +
-                                 ": only what was whole by then was written"};
+                                 ": only files that were complete by then were written"};
     }
     for (auto& writer : job.writers)
         if (auto finished = writer->finish(); !finished) return finished;
-    return Done{};
+    return {};
 }
 
 int wrong(const Errors& errors) {
@@ -140,7 +142,7 @@ int wrong(const Errors& errors) {
     return exit_code(errors);
 }
 
-int report(const RenderOptions& options, const Result<Done>& done) {
+int report(const RenderOptions& options, const Result<void>& done) {
     if (!done) {
         print_errors(done.errors());
         return exit_failed;
@@ -150,7 +152,7 @@ int report(const RenderOptions& options, const Result<Done>& done) {
     return exit_done;
 }
 
-/// --window: until it is closed, or so much time is simulated.
+/// --window: runs until the window is closed or the given time is simulated.
 int open_window(const RenderOptions& options, const RenderPlan& plan) {
     if (const auto checked = check_overlays(options.overlays); !checked) return wrong(checked.errors());
     return show({.scene = options.scene,
@@ -169,12 +171,12 @@ int render(const RenderOptions& options) {
     if (options.window) return open_window(options, *plan);
     auto writers = make_writers(options);
     if (!writers) return wrong(writers.errors());
-    const auto feedback = check_overlays(options.overlays);
-    if (!feedback) return wrong(feedback.errors());
+    const auto contact_forces = check_overlays(options.overlays);
+    if (!contact_forces) return wrong(contact_forces.errors());
 
     Options common = options.common;
-    common.feedback = *feedback;
-    if (common.backend == "cpu") common.device.clear();  // it names the one that draws
+    common.contact_forces = *contact_forces;
+    if (common.backend == "cpu") common.device.clear();  // --device names the drawing device
     auto session = open_scene(options.scene, common);
     if (!session) return wrong(session.errors());
     const auto frames = frame_count(options.length, session->frame_seconds(), 0);
@@ -184,6 +186,11 @@ int render(const RenderOptions& options) {
     if (!rate) return wrong(rate.errors());
     auto device = find_device(session->world(), options.common.device);
     if (!device) return wrong(device.errors());
+
+    const std::vector<std::filesystem::path> outputs(options.outputs.begin(), options.outputs.end());
+    if (const Errors errors = overwritten_inputs(outputs, files_of(session->scene(), session->folder()));
+        !errors.empty())
+        return wrong(errors);
 
     const FilmFrames film(*frames, frame_rate, *rate);
     for (auto& writer : *writers) {
@@ -209,7 +216,7 @@ int render(const RenderOptions& options) {
             .view = *view,
             .writers = *writers,
             .camera = plan->camera ? plan->camera : session->scene().camera,
-            .films = !std::ranges::all_of(*writers, [](const auto& writer) { return writer->last_alone(); }),
+            .films = !std::ranges::all_of(*writers, [](const auto& writer) { return writer->keeps_last_only(); }),
             .aspect = static_cast<float>(plan->size.width) / static_cast<float>(plan->size.height),
             .orbit = options.orbit,
             .frames = *frames,
@@ -231,7 +238,7 @@ int render(const RenderOptions& options) {
         print_errors(plan.errors());
         return exit_code(plan.errors());
     }
-    print_errors({{"", "this build has no Vulkan, by which pictures are drawn"}});
+    print_errors({{"", "this build has no Vulkan, which rendering needs; build with -D WEFT_VULKAN=ON"}});
     return exit_failed;
 }
 
@@ -244,27 +251,33 @@ std::string overlay_names() {
 }  // namespace
 
 Command add_render(Program& program) {
-    Arguments arguments = program.add_command("render", "simulates a scene and makes pictures of it, or a film");
+    Arguments arguments = program.add_command("render", "Simulate a scene and draw it: images, a video or a window");
     auto options = std::make_shared<RenderOptions>();
-    arguments.add("scene", options->scene, "scene file").required();
-    add_length_options(arguments, options->length, "simulate; 0 is the start alone");
-    Argument out =
-        arguments.add("--out", options->outputs,
-                      ".png (last frame), DIR/%04d.png (sequence), .mp4 (film, by the program ffmpeg); repeatable");
-    out.one_at_a_time();
-    arguments.add("--size", options->size, "of the picture, in pixels").with_default();
-    arguments.add("--samples", options->samples, "a pixel: 1 to 256, a power of two; more than 4 take longer")
+    arguments.add("scene", options->scene, "scene file").called("FILE").required();
+    add_length_options(arguments, options->length, "simulate; 0 draws the start");
+    Argument out = arguments.add(
+        "--out", options->outputs,
+        "FILE.png: the last frame; DIR/%04d.png: every frame; FILE.mp4: a video, written by ffmpeg; may be repeated");
+    out.called("FILE").one_at_a_time();
+    arguments.add("--size", options->size, "size of the image in pixels").called("WxH").with_default();
+    arguments
+        .add("--samples", options->samples, "samples per pixel, a power of two from 1 to 256; more than 4 take longer")
+        .called("N")
         .with_default();
-    arguments.add("--camera", options->camera,
-                  "px,py,pz,tx,ty,tz[,fov]: position, target (m), degrees; instead of the scene's");
-    arguments.add("--orbit", options->orbit, "degrees that the camera has gone around its target by the last frame");
-    arguments.add("--fps", options->fps, "pictures a second of a film or sequence, instead of all frames");
-    arguments.add("--overlay", options->overlays, "drawn on top, repeatable: " + overlay_names())
+    arguments
+        .add("--camera", options->camera, "position and target in m, field of view in degrees; in place of the scene's")
+        .called("PX,PY,PZ,TX,TY,TZ[,FOV]");
+    arguments.add("--orbit", options->orbit, "turn the camera around its target by this angle until the last frame")
+        .called("DEGREES");
+    arguments.add("--fps", options->fps, "images per second of a video or sequence; every frame if not given")
+        .called("N");
+    arguments.add("--overlay", options->overlays, "draw on top; may be repeated: " + overlay_names())
+        .called("NAME,...")
         .separated_by(',')
         .one_at_a_time();
-    arguments.add("--transparent", options->transparent, "no background; .png alone");
-    arguments.add("--window", options->window, "shows it as it moves, instead of writing it").excludes(out);
-    arguments.add("--quiet", options->quiet, "no progress, no word of what was written");
+    arguments.add("--transparent", options->transparent, "leave out the background; .png only");
+    arguments.add("--window", options->window, "show it in a window while it runs").excludes(out);
+    arguments.add("--quiet", options->quiet, "print errors only");
     add_common_options(arguments, options->common);
     arguments.footer(
         window_help() +

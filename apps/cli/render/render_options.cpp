@@ -20,7 +20,7 @@ std::string number_text(double value) {
     return text;
 }
 
-// The whole of it, or nothing.
+// Parses all of the text as a number, or returns nothing.
 template <class Number>
 std::optional<Number> whole_number(std::string_view text) {
     Number value{};
@@ -29,20 +29,20 @@ std::optional<Number> whole_number(std::string_view text) {
     return value;
 }
 
-Result<Done> check_samples(std::int64_t samples) {
+Result<void> check_samples(std::int64_t samples) {
     const bool power = samples >= 1 && samples <= most_samples && (samples & (samples - 1)) == 0;
-    if (power) return Done{};
+    if (power) return {};
     return Error{"--samples", "must be 1, 2, 4, 8, 16, 32, 64, 128 or 256, got " + std::to_string(samples)};
 }
 
-Result<Done> check_outputs(const std::vector<std::string>& outputs) {
+Result<void> check_outputs(const std::vector<std::string>& outputs) {
     std::set<std::filesystem::path> places;
     for (const std::string& output : outputs) {
         std::error_code ignored;
         if (!places.insert(std::filesystem::absolute(output, ignored).lexically_normal()).second)
-            return Error{output, "two of --out name this file"};
+            return Error{output, "two --out options name this file"};
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ Result<PictureSize> parse_size(const std::string& text) {
         if (!side || *side < 1 || *side > largest_side) return wrong;
     if (std::uint64_t{*width} * *height > PictureLimits{}.pixels)
         return Error{"--size",
-                     "must come to " + std::to_string(PictureLimits{}.pixels) + " pixels at most, got '" + text + "'"};
+                     "must have at most " + std::to_string(PictureLimits{}.pixels) + " pixels, got '" + text + "'"};
     return PictureSize{*width, *height};
 }
 
@@ -108,8 +108,8 @@ Result<RenderPlan> check_options(const RenderOptions& options) {
     note(check_samples(options.samples));
     note(check_outputs(options.outputs));
     if (options.outputs.empty() && !options.window)
-        errors.push_back({"--out", "is missing: where pictures go; or --window, to see them"});
-    // Floats count degrees beyond that in steps that can be seen.
+        errors.push_back({"--out", "is missing: give a file for the images, or --window to show them"});
+    // Above this, the steps between float degrees become visible.
     constexpr double most_degrees = 36000;
     if (!(std::abs(options.orbit) <= most_degrees))
         errors.push_back({"--orbit", "must be from -36000 to 36000 degrees, got " + number_text(options.orbit)});
@@ -118,7 +118,7 @@ Result<RenderPlan> check_options(const RenderOptions& options) {
 }
 
 FilmFrames::FilmFrames(std::uint64_t frames, double frame_rate, double film_rate) : step_(frame_rate / film_rate) {
-    constexpr double rounding = 1e-6;  // a hundred steps of 1.2 must come to 120
+    constexpr double rounding = 1e-6;  // a hundred steps of 1.2 must give 120
     count_ = static_cast<std::uint64_t>(std::floor(static_cast<double>(frames) / step_ + rounding)) + 1;
 }
 
@@ -130,7 +130,7 @@ Result<double> film_rate(const RenderOptions& options, double frame_rate) {
     if (!options.fps) return frame_rate;
     if (*options.fps > 0 && *options.fps <= frame_rate) return *options.fps;
     return Error{"--fps", "must be more than 0 and at most " + number_text(frame_rate) +
-                              ", as often as the scene is simulated (frame_rate), got " + number_text(*options.fps)};
+                              ", the frame_rate of the scene, got " + number_text(*options.fps)};
 }
 
 }  // namespace weft::cli

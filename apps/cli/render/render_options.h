@@ -1,4 +1,4 @@
-// What `weft render` is asked for, and whether it makes sense.
+// The options of `weft render` and their checks.
 #pragma once
 
 #include "cli/shell/command.h"
@@ -29,17 +29,17 @@ struct PictureSize {
 /// "1280x720"
 Result<PictureSize> parse_size(const std::string& text);
 
-/// "px,py,pz,tx,ty,tz" or with the field of view behind it; without that, it is that of a Camera.
+/// "px,py,pz,tx,ty,tz", optionally with the field of view at the end; the default is that of Camera.
 Result<Camera> parse_camera(const std::string& text);
 
-/// Everything that can be told without the scene.
+/// All options that can be checked without the scene.
 struct RenderPlan {
     PictureSize size;
     std::optional<Camera> camera;
 };
 Result<RenderPlan> check_options(const RenderOptions& options);
 
-/// Which frames of a run are pictures of a film of so many a second: each the one nearest to its time.
+/// Selects the frames of a run that become images of a video: for each image the frame nearest in time.
 class FilmFrames {
   public:
     /// frame_rate ≥ film_rate > 0
@@ -51,7 +51,7 @@ class FilmFrames {
     double step_;
     std::uint64_t count_;
 };
-/// Pictures a second of the film; fails if those are more than the scene has.
+/// Images per second of the video; fails if that is more than the frame rate of the scene.
 Result<double> film_rate(const RenderOptions& options, double frame_rate);
 
 }  // namespace weft::cli

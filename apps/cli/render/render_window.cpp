@@ -23,11 +23,11 @@ namespace weft::cli {
 #ifdef WEFT_VULKAN
 namespace {
 
-constexpr double idle_patience = 0.1;   // s: how long it sleeps while there is nothing to draw
+constexpr double idle_patience = 0.1;   // s: sleep time while there is nothing to draw
 constexpr double title_interval = 0.5;  // s
 constexpr std::size_t most_keys = 9;    // 1…9
 
-/// The device that draws, which must know windows, and simulates too where that is wanted of it.
+/// The drawing device, which must support windows. It also simulates, if the options allow it.
 struct Machine {
     std::shared_ptr<const render::Display> display;
     std::shared_ptr<gpu::Device> device;
@@ -46,12 +46,12 @@ struct Machine {
             return make_vulkan_backend(device, {.execution = options.execution, .timings = options.stage_timings});
         Options on_cpu = options;
         on_cpu.backend = "cpu";
-        on_cpu.device.clear();  // it names the one that draws
+        on_cpu.device.clear();  // --device names the drawing device
         return make_backend(on_cpu);
     }
 };
 
-/// A scene that runs, and the window in which that is seen.
+/// A running scene and its window.
 class Show {
   public:
     Show(SceneWorld& session, SceneView& view, render::Window& window, const ShowOptions& options,
@@ -73,7 +73,7 @@ class Show {
         camera_ = following_->camera();
     }
 
-    Result<Done> run() {
+    Result<void> run() {
         if (auto set = set_overlays(); !set) return set;
         while (!window_.closed()) {
             const render::WindowInput input = window_.input(drawn_ ? 0 : idle_patience);
@@ -82,7 +82,7 @@ class Show {
             if (auto drawn = draw(); !drawn) return drawn;
             tell(static_cast<double>(input.seconds));
         }
-        return Done{};
+        return {};
     }
 
   private:
@@ -90,7 +90,7 @@ class Show {
         return input.pressed[static_cast<std::size_t>(key)];
     }
 
-    Result<Done> obey(const render::WindowInput& input) {
+    Result<void> obey(const render::WindowInput& input) {
         camera_ = render::steered(camera_, input);
         if (pressed(input, render::escape_key)) window_.close();
         if (pressed(input, ' ')) paused_ = !paused_;
@@ -98,7 +98,7 @@ class Show {
             if (auto restored = session_.world().restore(start_); !restored) return restored;
             if (following_) {
                 following_->cut_to(subject_of(session_.world()));
-                camera_ = following_->carried(camera_);
+                camera_ = following_->moved_along(camera_);
                 followed_ = session_.world().time();
             }
         }
@@ -109,17 +109,17 @@ class Show {
             changed = true;
             if (std::erase(shown_, overlay) == 0) shown_.push_back(overlay);
         }
-        return changed ? set_overlays() : Done{};
+        return changed ? set_overlays() : Result<void>();
     }
 
-    Result<Done> set_overlays() {
-        const bool feedback = std::ranges::any_of(shown_, &Overlay::needs_feedback);
-        session_.set_feedback(feedback);
+    Result<void> set_overlays() {
+        const bool contact_forces = std::ranges::any_of(shown_, &Overlay::needs_contact_forces);
+        session_.set_contact_forces(contact_forces);
         view_.set_overlays(shown_);
-        return Done{};
+        return {};
     }
 
-    Result<Done> step(double seconds) {
+    Result<void> step(double seconds) {
         for (unsigned due = paused_ ? 0 : pace_.due(seconds); due > 0 && !window_.closed(); --due) {
             session_.advance();
             const Frame& frame = session_.world().summary();
@@ -128,23 +128,23 @@ class Show {
             if (auto went = check_step(frame, warned_); !went) return went;
             if (frames_ && frame.index >= *frames_) window_.close();
         }
-        return Done{};
+        return {};
     }
 
-    // Where the scene has no camera. Hands steer relative to what it follows.
+    // For scenes without a camera. User input moves the camera relative to what it follows.
     void follow() {
         if (!following_) return;
         const double now = session_.world().time();
         following_->follow(subject_of(session_.world()), static_cast<float>(now - std::exchange(followed_, now)));
-        camera_ = following_->carried(camera_);
+        camera_ = following_->moved_along(camera_);
     }
 
-    Result<Done> draw() {
+    Result<void> draw() {
         follow();
         const auto image = window_.next();
         if (!image) return image.errors();
         drawn_ = image->state == gpu::Acquired::image;
-        if (!drawn_) return Done{};
+        if (!drawn_) return {};
         const render::Target target{.view = image->view,
                                     .format = window_.format(),
                                     .width = image->extent.width,
@@ -160,7 +160,7 @@ class Show {
         clock_ += seconds;
         if (clock_ < title_interval) return;
         std::array<char, 96> figures{};
-        std::snprintf(figures.data(), figures.size(), "%.0f fps, %.2f ms a step%s", pictures_ / clock_,
+        std::snprintf(figures.data(), figures.size(), "%.0f fps, %.2f ms per step%s", pictures_ / clock_,
                       steps_ > 0 ? step_ms_ / steps_ : 0, paused_ ? ", paused" : "");
         window_.set_title("weft: " + session_.scene().name + ": " + figures.data());
         clock_ = step_ms_ = 0;
@@ -173,18 +173,18 @@ class Show {
     std::optional<std::uint64_t> frames_;
     Camera camera_;
     std::optional<FollowingCamera> following_;
-    double followed_ = 0;  // s: the time that it has come to
+    double followed_ = 0;  // s: the time up to which the camera has followed
     Snapshot start_;
     Pace pace_;
     std::vector<const Overlay*> shown_;
     bool paused_ = false, warned_ = false;
-    bool drawn_ = true;  // there was something to draw into
-    // Since the title was last written:
+    bool drawn_ = true;  // whether there was an image to draw into
+    // Since the title was last updated:
     double clock_ = 0, step_ms_ = 0;
     int pictures_ = 0, steps_ = 0;
 };
 
-Result<Done> open_and_run(const ShowOptions& options) {
+Result<void> open_and_run(const ShowOptions& options) {
     const auto machine = Machine::open(options.common);
     if (!machine) return machine.errors();
     auto session =
@@ -214,9 +214,12 @@ Result<Done> open_and_run(const ShowOptions& options) {
 
 std::string window_help() {
     std::string help =
-        "In the window: left button around, right button looks elsewhere, middle button (or shift and left) along,\n"
-        "wheel nearer; W S up and down, A D left and right, Q E back and forth; space pauses, R starts again,\n"
-        "Esc closes. Overlays:";
+        "In the window:\n"
+        "  left drag      orbit           W S   up, down\n"
+        "  right drag     look around     A D   left, right\n"
+        "  middle drag    pan             Q E   back, forward\n"
+        "  wheel          zoom            Space pause, R restart, Esc close\n"
+        "  overlays:";
     for (std::size_t i = 0; i < std::min(overlays().size(), most_keys); ++i)
         help += (i > 0 ? ", " : " ") + std::to_string(i + 1) + " " + std::string(overlays()[i].name);
     return help;
@@ -236,7 +239,7 @@ std::string window_help() {
 }
 
 int show(const ShowOptions&) {
-    print_errors({{"", "this build has no Vulkan, by which pictures are drawn"}});
+    print_errors({{"", "this build has no Vulkan, which rendering needs; build with -D WEFT_VULKAN=ON"}});
     return exit_failed;
 }
 

@@ -1,4 +1,4 @@
-// A scene in a window, as it moves.
+// Shows a running scene in a window.
 #pragma once
 
 #include "cli/shell/command.h"
@@ -13,18 +13,18 @@ namespace weft::cli {
 
 struct ShowOptions {
     std::string scene;
-    Length length;  ///< simulated; then it closes; neither: never
+    Length length;  ///< simulated before the window closes; unlimited if empty
     std::uint32_t width = 1280, height = 720;
     std::uint32_t samples = 4;
     std::optional<Camera> camera;
-    std::vector<std::string> overlays;  ///< those that are on at first; their names have been checked
+    std::vector<std::string> overlays;  ///< shown at the start; their names have been checked
     Options common;
 };
 
-/// What hands can do, for the help.
+/// Keys and mouse buttons of the window, for the help.
 std::string window_help();
 
-/// Until it is closed; the exit status.
+/// Runs until the window is closed; returns the exit status.
 int show(const ShowOptions& options);
 
 }  // namespace weft::cli

@@ -1,4 +1,4 @@
-// Where a view of a scene finds what it does not have itself.
+// Sources of the data that a view does not store itself.
 #pragma once
 
 #ifdef WEFT_VULKAN
@@ -9,7 +9,7 @@
 
 namespace weft::cli {
 
-/// Files are looked for beside the scene; surfaces come from the world's backend, where it has them on a device.
+/// Files are searched beside the scene; surfaces come from the world's backend if it has them on a device.
 ViewSources view_sources(const std::filesystem::path& scene, World& world);
 
 }  // namespace weft::cli

@@ -4,7 +4,9 @@
 #include "cli/shell/progress.h"
 #include "files/open_scene.h"
 #include "io/exports/export_plan.h"
+#include "io/exports/scene_export.h"
 #include "io/files/atomic_file.h"
+#include "io/files/overwriting.h"
 #include "weft/drawn_frame.h"
 
 #include <nlohmann/json.hpp>
@@ -41,30 +43,40 @@ Result<Exporters> open_exporters(const RunOptions& options) {
 }
 
 ExportInfo export_info(const SceneWorld& session, std::uint64_t frames) {
-    // The start is a frame too.
+    // The start is also a frame.
     return {session.scene().name, session.scene().frame_rate, frames + 1, session.folder()};
 }
 
 Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const SceneWorld& session, std::uint64_t frames) {
     DrawnFrame drawn;
-    if (!exporters.empty()) drawn.update(session.world().frame(), session.scene().looks);
+    if (!exporters.empty()) drawn.update(session.world().frame(), session.scene().cloths);
     return plan_exports(exporters, export_info(session, frames), drawn.surfaces());
 }
 
-Result<Done> simulate(SceneWorld& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
+// Companions of an export, such as the mesh of a point cache, could have the name of a mesh that the scene reads.
+Errors overwritten(const RunOptions& options, const SceneWorld& session, std::span<const ExportEstimate> estimates) {
+    std::vector<std::filesystem::path> outputs, inputs = files_of(session.scene(), session.folder());
+    for (const ExportEstimate& estimate : estimates)
+        outputs.insert(outputs.end(), estimate.files.begin(), estimate.files.end());
+    if (!options.stats.empty()) outputs.emplace_back(options.stats);
+    inputs.emplace_back(options.scene);
+    return overwritten_inputs(outputs, inputs);
+}
+
+Result<void> simulate(SceneWorld& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
                       bool quiet) {
     for (auto& exporter : exporters) {
         if (auto begun = exporter->begin(export_info(session, frames)); !begun) return begun;
     }
     DrawnFrame drawn;
-    const auto write = [&]() -> Result<Done> {
-        if (exporters.empty()) return Done{};
+    const auto write = [&]() -> Result<void> {
+        if (exporters.empty()) return {};
         const Frame& frame = session.world().frame();
-        drawn.update(frame, session.scene().looks);
+        drawn.update(frame, session.scene().cloths);
         for (auto& exporter : exporters) {
             if (auto written = exporter->write({frame.index, frame.time, drawn.surfaces()}); !written) return written;
         }
-        return Done{};
+        return {};
     };
     if (auto written = write(); !written) return written;
 
@@ -81,7 +93,7 @@ Result<Done> simulate(SceneWorld& session, std::uint64_t frames, Exporters& expo
     for (auto& exporter : exporters) {
         if (auto finished = exporter->finish(); !finished) return finished;
     }
-    return Done{};
+    return {};
 }
 
 int run(const RunOptions& options) {
@@ -99,9 +111,10 @@ int run(const RunOptions& options) {
     if (!frames) return wrong(frames.errors());
     const auto estimates = plan(*exporters, *session, *frames);
     if (!estimates) return wrong(estimates.errors());
-    if (!options.stats.empty()) {  // made and gone again: at the end it would be too late to say that it cannot be
+    if (!options.stats.empty()) {  // creates and removes the file, to report a wrong name before the run
         if (const auto file = AtomicFile::create(options.stats); !file) return wrong(file.errors());
     }
+    if (const Errors errors = overwritten(options, *session, *estimates); !errors.empty()) return wrong(errors);
     for (const std::string& note : session->notes()) print_warning(note);
     if (const auto note = large_export_note(*estimates)) print_warning(*note);
 
@@ -130,30 +143,34 @@ int run(const RunOptions& options) {
 
 }  // namespace
 
-Result<Done> check_step(const Frame& frame, bool& warned) {
+Result<void> check_step(const Frame& frame, bool& warned) {
     const std::string where = "frame " + std::to_string(frame.index);
     for (const ClothFrame& cloth : frame.cloths) {
         if (cloth.reports & report_device_failed) return Error::of_machine(where, cloth.detail);
         if (warned || !(cloth.reports & report_non_finite)) continue;
-        print_warning(where + ": cloth '" + cloth.model->name + "' is held where the frame began: " + cloth.detail);
+        print_warning(where + ": cloth '" + cloth.model->name +
+                      "' was reset to the start of the frame: " + cloth.detail);
         warned = true;
     }
-    return Done{};
+    return {};
 }
 
 Command add_run(Program& program) {
-    Arguments arguments = program.add_command("run", "simulates a scene, exports it, measures it");
+    Arguments arguments = program.add_command("run", "Simulate a scene, export and measure it");
     auto options = std::make_shared<RunOptions>();
-    arguments.add("scene", options->scene, "scene file").required();
+    arguments.add("scene", options->scene, "scene file").called("FILE").required();
     add_length_options(arguments, options->length, "simulate");
     arguments
         .add("--out", options->outputs,
-             ".glb or .pc2 (animated), .obj or .ply (last frame), DIR/%04d.obj (sequence); repeatable")
+             "FILE.glb or FILE.pc2: animated; FILE.obj or FILE.ply: the last frame; DIR/%04d.obj: every frame; may be "
+             "repeated")
+        .called("FILE")
         .one_at_a_time();
-    arguments.add("--stats", options->stats, "write the run's figures to this JSON file");
-    arguments.add("--feedback", options->common.feedback,
-                  "force and torque of the cloths on each collider, in the last frame");
-    arguments.add("--quiet", options->quiet, "no progress, no summary");
+    arguments.add("--stats", options->stats, "write times, stretch and energy of the run to this JSON file")
+        .called("FILE");
+    arguments.add("--contact-forces", options->common.contact_forces,
+                  "print force and torque of the cloths on each collider in the last frame");
+    arguments.add("--quiet", options->quiet, "print errors only");
     add_common_options(arguments, options->common);
     arguments.footer(
         "Examples:\n"

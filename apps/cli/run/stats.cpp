@@ -27,9 +27,9 @@ Json axes(Vec3 v) {
 // Of the last frame.
 Json loads(const World& world) {
     Json list = Json::array();
-    const Feedback& feedback = world.feedback();
-    for (std::size_t i = 0; i < feedback.colliders.size(); ++i) {
-        const ColliderLoad& load = feedback.colliders[i];
+    const ContactForces& contact_forces = world.contact_forces();
+    for (std::size_t i = 0; i < contact_forces.colliders.size(); ++i) {
+        const ColliderForce& load = contact_forces.colliders[i];
         list.push_back({{"name", world.collider(load.collider).name},
                         {"force", axes(load.force)},
                         {"torque", axes(load.torque)},
@@ -50,6 +50,11 @@ double median(const std::vector<double>& sorted) {
     if (sorted.empty()) return 0;
     const std::size_t half = sorted.size() / 2;
     return sorted.size() % 2 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+double median_of(std::vector<double> values) {
+    std::ranges::sort(values);
+    return median(values);
 }
 
 RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames)
@@ -124,10 +129,10 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["mean_speed"] = mean_speed(frame);
     stats["max_speed"] = measures.max_speed;
     stats["penetration"] = {{"max", penetration.max}, {"count", penetration.count}};
-    if (world.settings().feedback) stats["colliders"] = loads(world);
-    stats["self_contacts"] = 0;  // cloth does not yet see itself
+    if (world.settings().contact_forces) stats["colliders"] = loads(world);
+    stats["self_contacts"] = 0;  // cloth does not collide with itself yet
     stats["intersections"] = {{"triangles", intersections.triangles}, {"edges", intersections.edges}};
-    stats["torn_edges"] = 0;  // nor does it tear
+    stats["torn_edges"] = 0;  // cloth cannot tear yet
     stats["reports"] = report_names(reports_);
     stats["state_hash"] = world.state_hash();
     stats["finite"] = measures.finite;
@@ -145,7 +150,7 @@ std::string solver_text(const WorldSettings& settings) {
            (settings.solver.hierarchy ? ", hierarchy" : "");
 }
 
-Result<Done> write_stats(const Json& stats, const std::filesystem::path& file) {
+Result<void> write_stats(const Json& stats, const std::filesystem::path& file) {
     return write_atomically(file, [&](AtomicFile& out) { return out.write(stats.dump(2) + '\n'); });
 }
 
@@ -156,7 +161,7 @@ void print_summary(const Json& s) {
                 s["triangles"].get<unsigned long long>(), s["backend"].get<std::string>().c_str(),
                 s["device"].get<std::string>().c_str(), s["threads"].get<unsigned>(),
                 s["threads"].get<unsigned>() == 1 ? "" : "s");
-    std::printf("  ms a frame    median %.3f, p95 %.3f, max %.3f (%u substeps of %u)\n",
+    std::printf("  ms per frame  median %.3f, p95 %.3f, max %.3f (%u substeps of %u)\n",
                 number("ms_per_frame", "median"), number("ms_per_frame", "p95"), number("ms_per_frame", "max"),
                 s["substeps"].get<unsigned>(), s["iterations"].get<unsigned>());
     std::printf("  stretch       mean %.3f %%, max %.3f %%\n", 100 * number("stretch", "mean"),

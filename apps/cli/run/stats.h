@@ -1,4 +1,4 @@
-// The figures of a run: gathered frame by frame, written as JSON, summed up for a human.
+// The figures of a run: collected frame by frame, written as JSON, summarized on the terminal.
 #pragma once
 
 #include "weft/scene_world.h"
@@ -11,19 +11,21 @@
 
 namespace weft::cli {
 
-/// Of values in ascending order; 0 if there are none. The percentile is one of the values (nearest rank).
+/// `sorted` is ascending; the result is 0 if it is empty. The percentile is one of the values (nearest rank).
 double median(const std::vector<double>& sorted);
+/// The median of values in any order.
+double median_of(std::vector<double> values);
 double percentile(const std::vector<double>& sorted, double fraction);
 
 class RunStatistics {
   public:
-    /// `frames` steps are going to be run.
+    /// `frames`: the number of steps that will follow.
     RunStatistics(const SceneWorld& session, std::uint64_t frames);
 
-    /// After every step.
+    /// Call it after every step.
     void add(const World& world);
 
-    /// After the last one: everything that --stats writes. Counting intersections takes a while on large meshes.
+    /// After the last step: everything that --stats writes. Counting intersections takes long on large meshes.
     nlohmann::ordered_json gather(const SceneWorld& session, const std::string& scene_file) const;
 
   private:
@@ -31,7 +33,7 @@ class RunStatistics {
 
     double frame_seconds_;
     std::uint64_t snapshot_frame_;
-    std::vector<Vec3> snapshot_;  ///< positions a second before the end
+    std::vector<Vec3> snapshot_;  ///< positions one second before the end
     double snapshot_time_ = 0;
     std::vector<double> step_ms_;
     std::array<double, stage_count> stage_ms_{};
@@ -41,9 +43,9 @@ class RunStatistics {
 /// "xpbd, lines", "pbd, jacobi by gather, hierarchy"
 std::string solver_text(const WorldSettings& settings);
 
-Result<Done> write_stats(const nlohmann::ordered_json& stats, const std::filesystem::path& file);
+Result<void> write_stats(const nlohmann::ordered_json& stats, const std::filesystem::path& file);
 
-/// A few lines on stdout.
+/// Prints a few lines on stdout.
 void print_summary(const nlohmann::ordered_json& stats);
 
 }  // namespace weft::cli

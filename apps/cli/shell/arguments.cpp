@@ -1,6 +1,7 @@
 #include "cli/shell/arguments.h"
 
 #include "cli/shell/command.h"
+#include "cli/shell/text.h"
 
 #include <CLI/CLI.hpp>
 
@@ -10,7 +11,7 @@
 namespace weft::cli {
 namespace {
 
-// CLI11 answers wrong usage with several lines; this program prints one.
+// CLI11 reports wrong usage in several lines; this program prints one.
 int usage_error(const CLI::App& program, const CLI::ParseError& error) {
     std::string text = error.what();
     for (char& c : text) {
@@ -20,6 +21,11 @@ int usage_error(const CLI::App& program, const CLI::ParseError& error) {
     for (const CLI::App* chosen : program.get_subcommands()) command += ' ' + chosen->get_name();
     std::cerr << "weft: error: " << text << "; see " << command << " --help\n";
     return exit_usage;
+}
+
+// Wraps the text to fit beside the column of names, within 100 characters.
+std::string beside_name(const std::string& help) {
+    return wrapped(help, 68);
 }
 
 }  // namespace
@@ -36,6 +42,14 @@ Argument& Argument::excludes(const Argument& other) {
     option_->excludes(other.option_);
     return *this;
 }
+Argument& Argument::called(const std::string& value) {
+    option_->type_name(value);
+    return *this;
+}
+Argument& Argument::under(const std::string& heading) {
+    option_->group(heading);
+    return *this;
+}
 Argument& Argument::one_at_a_time() {
     option_->allow_extra_args(false);
     return *this;
@@ -46,41 +60,42 @@ Argument& Argument::separated_by(char separator) {
 }
 
 Argument Arguments::add(const std::string& name, std::string& value, const std::string& help) {
-    return Argument(*app_->add_option(name, value, help));
+    return Argument(*app_->add_option(name, value, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, std::vector<std::string>& values, const std::string& help) {
-    return Argument(*app_->add_option(name, values, help));
+    return Argument(*app_->add_option(name, values, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, std::uint32_t& value, const std::string& help) {
-    return Argument(*app_->add_option(name, value, help));
+    return Argument(*app_->add_option(name, value, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, std::vector<std::uint32_t>& values, const std::string& help) {
-    return Argument(*app_->add_option(name, values, help));
+    return Argument(*app_->add_option(name, values, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, std::int64_t& value, const std::string& help) {
-    return Argument(*app_->add_option(name, value, help));
+    return Argument(*app_->add_option(name, value, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, double& value, const std::string& help) {
-    return Argument(*app_->add_option(name, value, help));
+    return Argument(*app_->add_option(name, value, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, std::optional<double>& value, const std::string& help) {
-    return Argument(*app_->add_option(name, value, help));
+    return Argument(*app_->add_option(name, value, beside_name(help)));
 }
 Argument Arguments::add(const std::string& name, bool& flag, const std::string& help) {
-    return Argument(*app_->add_flag(name, flag, help));
+    return Argument(*app_->add_flag(name, flag, beside_name(help)));
 }
 
 Argument Arguments::add_text(const std::string& name, std::function<void(const std::string&)> use,
                              const std::string& help) {
-    return Argument(*app_->add_option_function<std::string>(name, std::move(use), help));
+    return Argument(*app_->add_option_function<std::string>(name, std::move(use), beside_name(help)));
 }
 Argument Arguments::add_number(const std::string& name, std::function<void(double)> use, const std::string& help) {
     return Argument(*app_->add_option_function<double>(
-        name, [use = std::move(use)](const double& value) { use(value); }, help));
+        name, [use = std::move(use)](const double& value) { use(value); }, beside_name(help)));
 }
 Argument Arguments::add_switch(const std::string& name, std::function<void(bool)> use, const std::string& help) {
     return Argument(*app_->add_flag_function(
-        "--" + name + ",!--no-" + name, [use = std::move(use)](std::int64_t count) { use(count > 0); }, help));
+        "--" + name + ",!--no-" + name, [use = std::move(use)](std::int64_t count) { use(count > 0); },
+        beside_name(help)));
 }
 
 void Arguments::footer(const std::string& text) {

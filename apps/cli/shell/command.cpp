@@ -26,35 +26,46 @@ void print_warning(const std::string& text) {
 
 namespace {
 
-// --substeps 8, --method pbd, --hierarchy, --no-hierarchy.
-void add_solver_option(Arguments arguments, const Parameter& option, ParameterValues& values) {
-    const std::string key(option.key), help = std::string(option.what) + "; instead of the scene's";
+// Adds the option of a solver parameter, such as --substeps 8, --method pbd, --hierarchy, --no-hierarchy.
+Argument add_solver_option(Arguments arguments, const Parameter& option, ParameterValues& values) {
+    const std::string key(option.key);
+    std::string help(option.what);
+    std::erase(help, '`');  // Markdown for docs/scene.md
     const auto set = [&values, key](const auto& value) { values.emplace_back(key, value); };
-    if (option.kind == ParameterKind::flag)
-        arguments.add_switch(key, set, help);
-    else if (option.kind == ParameterKind::choice)
-        arguments.add_text("--" + key, set, alternatives(choice_names(option)) + ": " + help);
-    else
-        arguments.add_number("--" + key, set, help);
+    if (option.kind == ParameterKind::flag) return arguments.add_switch(key, set, help);
+    if (option.kind == ParameterKind::choice)
+        return arguments.add_text("--" + key, set, help).called(std::string(option.choices));
+    return arguments.add_number("--" + key, set, help).called("N");
 }
 
 }  // namespace
 
 void add_common_options(Arguments arguments, Options& options) {
-    arguments.add("--backend", options.backend, "auto, cpu or vulkan").with_default();
-    arguments.add("--device", options.device, "Vulkan device: part of its name, see weft info");
     arguments
-        .add("--execution", options.execution,
-             "Vulkan: auto, streamed, grouped or fused; never changes the result on a device")
+        .add("--backend", options.backend, "where to simulate; auto takes a Vulkan GPU if there is one, else the CPU")
+        .called("auto|cpu|vulkan")
         .with_default();
-    arguments.add("--threads", options.threads, "threads in all, 1 to 256; never changes the result").with_default();
-    arguments.add("--isa", options.isa, "instruction set, see weft info; never changes the result");
-    for (const Parameter& option : solver_keys) add_solver_option(arguments, option, options.solver);
+    arguments.add("--device", options.device, "Vulkan device: part of a name that `weft info` prints").called("NAME");
+    arguments
+        .add("--execution", options.execution, "how the Vulkan backend groups its dispatches; the result is the same")
+        .called("auto|streamed|grouped|fused")
+        .with_default();
+    arguments.add("--threads", options.threads, "threads of the CPU backend, 1 to 256; the result is the same")
+        .called("N")
+        .with_default();
+    arguments
+        .add("--isa", options.isa,
+             "instruction set of the CPU backend, as `weft info` prints it; the result is the same")
+        .called("NAME");
+    for (const Parameter& option : solver_keys)
+        add_solver_option(arguments, option, options.solver).under("Solver options, in place of the scene's");
 }
 
 void add_length_options(Arguments arguments, Length& length, const std::string& verb) {
-    const Argument frames = arguments.add("--frames", length.frames, "how many frames to " + verb);
-    arguments.add("--seconds", length.seconds, "how many seconds instead (default 2)").excludes(frames);
+    const Argument frames = arguments.add("--frames", length.frames, "number of frames to " + verb).called("N");
+    arguments.add("--seconds", length.seconds, "the same in seconds; 2 if neither is given")
+        .called("S")
+        .excludes(frames);
 }
 
 Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, unsigned least) {
@@ -67,7 +78,7 @@ Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, un
     const std::string name = length.frames ? "--frames" : "--seconds";
     if (!(frames >= least && frames <= max_frames)) {
         char text[96];
-        std::snprintf(text, sizeof text, "must come to %u to %.0f frames, got %g", least, max_frames, frames);
+        std::snprintf(text, sizeof text, "must give %u to %.0f frames, got %g", least, max_frames, frames);
         return Error{name, text};
     }
     return static_cast<std::uint64_t>(frames);

@@ -1,4 +1,4 @@
-// What the subcommands share.
+// Declarations that the subcommands share.
 #pragma once
 
 #include "cli/shell/arguments.h"
@@ -19,27 +19,28 @@ namespace weft::cli {
 
 enum ExitCode : int { exit_done = 0, exit_failed = 1, exit_usage = 2 };
 
-/// What the program says with its exit status of these.
+/// The exit status of the program for these errors.
 int exit_code(const Errors& errors);
-/// `weft: error: …`, a line each, on stderr.
+/// Prints `weft: error: …`, one line per error, on stderr.
 void print_errors(const Errors& errors);
 void print_warning(const std::string& text);
 
-/// --backend, --threads, … with their checks.
+/// Adds --backend, --threads, … and their checks.
 void add_common_options(Arguments arguments, Options& options);
 
-/// How much simulated time: one of the two, or neither.
+/// An amount of simulated time: frames, seconds, or neither.
 struct Length {
     std::optional<double> frames, seconds;
 };
-/// --frames and --seconds; `verb` is what happens to them.
+/// Adds --frames and --seconds; `verb` completes their help text.
 void add_length_options(Arguments arguments, Length& length, const std::string& verb);
 Result<std::uint64_t> frame_count(const Length& length, double frame_seconds, unsigned least = 1);
 
-/// Fails where the device was lost in the step, and warns, once, of cloth that was held.
-Result<Done> check_step(const Frame& frame, bool& warned);
+/// Fails if the device was lost in the step. Warns, once per run, if non-finite values reset a cloth to the frame
+/// before.
+Result<void> check_step(const Frame& frame, bool& warned);
 
-/// A subcommand: adds itself to the program and returns what to run if it is the one chosen.
+/// A subcommand: adds itself to the program and returns the function that runs it.
 using Command = std::function<int()>;
 Command add_run(Program& program);
 Command add_render(Program& program);

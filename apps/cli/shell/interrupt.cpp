@@ -20,7 +20,7 @@ EndOnSignal::EndOnSignal() {
     asked_to_end = 0;
     for (std::size_t i = 0; i < signals.size(); ++i) {
         before_[i] = std::signal(signals[i], ask_to_end);
-        if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // in the background
+        if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);  // ignored in background jobs
     }
 }
 

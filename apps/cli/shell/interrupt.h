@@ -1,11 +1,11 @@
-// Ctrl-C between two frames, so that nothing is left half done.
+// Handles Ctrl-C between two frames, so that no output is left incomplete.
 #pragma once
 
 #include <array>
 
 namespace weft::cli {
 
-/// While one lives, SIGINT and SIGTERM ask for an end after this frame; who asks twice gets it at once.
+/// While an object exists, SIGINT and SIGTERM request an end after the current frame; a second signal ends at once.
 class EndOnSignal {
   public:
     EndOnSignal();

@@ -18,7 +18,7 @@ namespace weft::cli {
 namespace {
 
 int run_program(int argc, char** argv) {
-    Program program("weft: real-time cloth. Simulates a scene, exports it, and says how well it did.", "weft");
+    Program program("weft: real-time cloth. Simulates, draws, exports and measures scenes.", "weft");
     program.set_version(std::string("weft ") + version());
     program.require_command();
     program.arguments().footer(
@@ -50,11 +50,11 @@ int run_program(int argc, char** argv) {
     return commands.at(program.command())();
 }
 
-// What was printed may stand in a buffer still, and the file that it is sent to on a full disk.
+// Flushes stdout, because buffered output may still fail, for example on a full disk.
 int after_output(int code) {
     errno = 0;
     const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout);
-    if (written || errno == EPIPE) return code;  // who closes a pipe has read enough
+    if (written || errno == EPIPE) return code;  // a reader that closes the pipe has read enough
     print_errors(
         {{"standard output", errno == 0 ? "cannot be written" : "cannot be written: " + system_reason(errno)}});
     return code == exit_done ? exit_failed : code;
@@ -64,10 +64,10 @@ int after_output(int code) {
 }  // namespace weft::cli
 
 int main(int argc, char** argv) {
-    // A file past the system's size limit is an error to report, not a reason to die.
+    // Writing beyond the system's file size limit is reported as an error instead of ending the program.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    // As much as any command prints: the last flush then knows why output could not be written.
+    // Large enough for the output of any command, so that only the last flush can fail and its reason is known.
     static char buffer[1 << 18];
     if (!::isatty(STDOUT_FILENO)) std::setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     try {

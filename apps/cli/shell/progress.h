@@ -1,4 +1,4 @@
-// How far a run is: a bar on a terminal, plain lines elsewhere.
+// Shows the progress of a run: a bar on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -9,13 +9,13 @@ namespace weft::cli {
 
 class Progress {
   public:
-    enum Unit { frames, work };  ///< work is shown in per cent
-    /// On stderr. `quiet` says nothing at all.
+    enum Unit { frames, work };  ///< work is shown as a percentage
+    /// Prints on stderr; with `quiet`, prints nothing.
     Progress(std::string what, std::uint64_t total, bool quiet, Unit unit = frames);
     ~Progress();
     void update(std::uint64_t done);
     void set_what(std::string what) { what_ = std::move(what); }
-    /// Less to do than it seemed.
+    /// For a total that turns out smaller.
     void set_total(std::uint64_t total) { total_ = total; }
 
   private:

@@ -6,7 +6,7 @@
 namespace weft::cli {
 namespace {
 
-// In characters: bytes that continue one do not count.
+// Counts characters: UTF-8 continuation bytes do not count.
 std::size_t width(const std::string& text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));

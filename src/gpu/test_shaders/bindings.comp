@@ -1,5 +1,5 @@
 #version 450
-// Buffers that are bound, of both kinds, in two sets, and constants that may be set.
+// Bound buffers of both kinds in two sets, and specialization constants.
 layout(local_size_x = 8, local_size_y_id = 4, local_size_z = 2) in;
 layout(constant_id = 0) const uint first = 7;
 layout(constant_id = 2) const float scale = 2.0;

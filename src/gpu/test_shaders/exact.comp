@@ -1,5 +1,5 @@
 #version 450
-// Decorated by the compiler already.
+// Already decorated by the compiler.
 layout(local_size_x = 1) in;
 layout(std430, set = 0, binding = 0) buffer Out { float result[]; };
 

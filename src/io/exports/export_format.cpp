@@ -6,8 +6,8 @@
 namespace weft {
 namespace {
 
-// How far from 1 the squared length of a normal may be: an order above the rounding of a normalization in float, two
-// below what glTF's validator takes for an error.
+// Tolerance of a normal's squared length around 1: ten times the rounding error of a float normalization, a hundredth
+// of the error limit of the glTF validator.
 constexpr float unit_tolerance = 1e-5f;
 
 std::string problem_of(const ExportSurface& surface) {
@@ -34,7 +34,7 @@ std::string problem_of(const ExportSurface& surface) {
 
 }  // namespace
 
-Result<Done> check_frame(const ExportFrame& frame, const std::string& where) {
+Result<void> check_frame(const ExportFrame& frame, const std::string& where) {
     if (frame.surfaces.empty()) return Error{where, "there is no cloth to write"};
     for (const ExportSurface& surface : frame.surfaces) {
         const std::string problem = problem_of(surface);
@@ -42,13 +42,13 @@ Result<Done> check_frame(const ExportFrame& frame, const std::string& where) {
         return Error{
             where, "frame " + std::to_string(frame.index) + ": cloth \"" + std::string(surface.name) + "\" " + problem};
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> check_writable(const std::filesystem::path& path) {
+Result<void> check_writable(const std::filesystem::path& path) {
     const Result<AtomicFile> file = AtomicFile::create(path);
     if (!file) return file.errors();
-    return Done{};
+    return {};
 }
 
 Vec3 unit_normal(Vec3 normal) {

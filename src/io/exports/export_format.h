@@ -1,4 +1,4 @@
-// What a format must offer to stand in exports.def, and what the formats share.
+// What a format in exports.def must implement, and helpers that the formats share.
 #pragma once
 
 #include "io/exports/exporter.h"
@@ -10,24 +10,24 @@
 
 namespace weft {
 
-/// A format of one instant. The caller has checked the frame and commits the file.
-using StillWriter = Result<Done> (*)(const ExportFrame& frame, AtomicFile& file);
+/// Writes one frame to `file`. The caller has checked the frame and commits the file.
+using StillWriter = Result<void> (*)(const ExportFrame& frame, AtomicFile& file);
 
-/// About how many bytes a StillWriter writes; rather too many than too few. Called before the run, when every surface
-/// is there as it will be at the start.
+/// Estimates the bytes that a StillWriter writes, rather too high than too low. Called before the run with the surfaces
+/// as they are at the start.
 using StillSize = std::uint64_t (*)(std::span<const ExportSurface> surfaces);
 
-/// A format that holds the whole run.
+/// Makes an exporter that writes the whole run to one file.
 using FilmMaker = std::unique_ptr<Exporter> (*)(const std::filesystem::path& path);
 
 /// Whether a frame can be written: at least one cloth, each with triangles whose vertices exist, one finite position
-/// and one normal per vertex, UVs and colors for all vertices or for none. `where` is the file's name.
-Result<Done> check_frame(const ExportFrame& frame, const std::string& where);
+/// and one normal per vertex, UVs and colors for all vertices or for none. `where` is the file name for error messages.
+Result<void> check_frame(const ExportFrame& frame, const std::string& where);
 
-/// Fails where `path` cannot be written, so that it is known before the run and not after it. Leaves nothing behind.
-Result<Done> check_writable(const std::filesystem::path& path);
+/// Fails if `path` cannot be written, so that the error is reported before the run. Leaves no file behind.
+Result<void> check_writable(const std::filesystem::path& path);
 
-/// `normal` as readers of a file expect it: a vertex of degenerate triangles has none, and gets +y.
+/// The unit normal for an exported file: `normal` normalized, or +y for vertices of degenerate triangles.
 Vec3 unit_normal(Vec3 normal);
 
 }  // namespace weft

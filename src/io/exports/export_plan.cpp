@@ -21,7 +21,7 @@ fs::path same_for_all_spellings(const fs::path& path) {
 }
 
 void find_shared_files(std::span<const ExportEstimate> estimates, Errors& errors) {
-    std::map<fs::path, fs::path> writer;  // file -> the export that writes it, called by its first file
+    std::map<fs::path, fs::path> writer;  // file -> first file of the export that writes it
     for (const ExportEstimate& estimate : estimates) {
         for (const fs::path& file : estimate.files) {
             const auto [other, is_new] = writer.emplace(same_for_all_spellings(file), estimate.files.front());
@@ -59,7 +59,7 @@ std::optional<FreeSpace> free_space(const fs::path& folder) {
     std::error_code error;
     const fs::space_info space = fs::space(folder, error);
     struct stat status = {};
-    // Some network and virtual file systems know no size and say 0.
+    // Some network and virtual file systems report a capacity of 0.
     if (error || space.capacity == 0 || ::stat(folder.c_str(), &status) != 0) return std::nullopt;
     return FreeSpace{status.st_dev, space.available};
 }

@@ -51,7 +51,7 @@ class Plan : public testing::Test {
     }
 
     TestFolder folder_;
-    // Every kind of vertex data, and more vertices than short indices count.
+    // All kinds of vertex data, and more vertices than 16-bit indices allow.
     std::vector<Cloth> cloths_ = {make_cloth("large", 260, 0), make_cloth("colored", 40, 1, true)};
 };
 
@@ -86,11 +86,12 @@ TEST_F(Plan, ASequenceTakesWhatItsFramesTake) {
 TEST_F(Plan, AGlbPastFourGibIsRefusedBeforeTheRun) {
     EXPECT_TRUE(plan({"a.glb"}, 2400, endless).ok());
     EXPECT_THAT(problem({"a.glb"}, 2800, endless),
-                AllOf(HasSubstr("a.glb: would take 4."), HasSubstr("GiB for 2800 frames, and a .glb ends at 4 GiB")));
+                AllOf(HasSubstr("a.glb: would take 4."),
+                      HasSubstr("GiB for 2800 frames, but a .glb cannot be larger than 4 GiB")));
 }
 
 TEST_F(Plan, ADiskWithoutRoomIsNamedWithBothNumbers) {
-    // 69,200 vertices: a .pc2 takes 812 KiB a frame, its .obj some 15 MiB.
+    // 69,200 vertices: a .pc2 takes 812 KiB per frame, its .obj about 15 MiB.
     EXPECT_EQ(problem({"a.ply"}, 1, ten_mib), "none");
     const std::string full = problem({"a.glb"}, 10, ten_mib);
     EXPECT_THAT(full, AllOf(HasSubstr("a.glb: would take about 1"), HasSubstr("MiB, and only 10 MiB are free there")));

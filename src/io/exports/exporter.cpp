@@ -14,7 +14,7 @@ namespace weft {
 namespace fs = std::filesystem;
 
 #define WEFT_STILL(name, ending, what)                                     \
-    Result<Done> write_##name(const ExportFrame& frame, AtomicFile& file); \
+    Result<void> write_##name(const ExportFrame& frame, AtomicFile& file); \
     std::uint64_t size_##name(std::span<const ExportSurface> surfaces);
 #define WEFT_FILM(name, ending, what) std::unique_ptr<Exporter> make_##name(const fs::path& path);
 #include "io/exports/exports.def"
@@ -45,12 +45,12 @@ constexpr std::array<Writers, formats.size()> writers = {{
 #undef WEFT_FILM
 }};
 
-Result<Done> write_still(StillWriter writer, const ExportFrame& frame, const fs::path& path) {
-    if (Result<Done> checked = check_frame(frame, path.string()); !checked) return checked;
+Result<void> write_still(StillWriter writer, const ExportFrame& frame, const fs::path& path) {
+    if (Result<void> checked = check_frame(frame, path.string()); !checked) return checked;
     return write_atomically(path, [&](AtomicFile& file) { return writer(frame, file); });
 }
 
-/// Holds on to the newest frame, because only finish knows that it was the last.
+/// Keeps the newest frame and writes it in finish(), because the last frame is not known earlier.
 class LastFrameExporter : public Exporter {
   public:
     LastFrameExporter(const Writers& format, fs::path path)
@@ -60,9 +60,9 @@ class LastFrameExporter : public Exporter {
         return ExportEstimate{{path_}, size_(surfaces)};
     }
 
-    Result<Done> begin(const ExportInfo&) override { return check_writable(path_); }
+    Result<void> begin(const ExportInfo&) override { return check_writable(path_); }
 
-    Result<Done> write(const ExportFrame& frame) override {
+    Result<void> write(const ExportFrame& frame) override {
         index_ = frame.index;
         time_ = frame.time;
         surfaces_.resize(frame.surfaces.size());
@@ -78,10 +78,10 @@ class LastFrameExporter : public Exporter {
             to.uvs.assign(from.uvs.begin(), from.uvs.end());
             to.colors.assign(from.colors.begin(), from.colors.end());
         }
-        return Done{};
+        return {};
     }
 
-    Result<Done> finish() override {
+    Result<void> finish() override {
         std::vector<ExportSurface> views;
         for (const Surface& s : surfaces_) {
             views.push_back({.name = s.name,
@@ -102,7 +102,7 @@ class LastFrameExporter : public Exporter {
         std::vector<Triangle> triangles;
         std::vector<Vec2> uvs;
         std::vector<Vec4> colors;
-        std::uint64_t topology_version = 0;  ///< of the triangles, UVs and colors; none yet
+        std::uint64_t topology_version = 0;  ///< of the triangles, UVs and colors; 0: none yet
     };
 
     StillWriter writer_;
@@ -126,13 +126,13 @@ class SequenceExporter : public Exporter {
         return ExportEstimate{{path_}, info.frame_count * size_(surfaces)};
     }
 
-    Result<Done> begin(const ExportInfo&) override { return check_writable(folder_ / pattern_.name(0)); }
+    Result<void> begin(const ExportInfo&) override { return check_writable(folder_ / pattern_.name(0)); }
 
-    Result<Done> write(const ExportFrame& frame) override {
+    Result<void> write(const ExportFrame& frame) override {
         return write_still(writer_, frame, folder_ / pattern_.name(frame.index));
     }
 
-    Result<Done> finish() override { return Done{}; }
+    Result<void> finish() override { return {}; }
 
   private:
     StillWriter writer_;
@@ -141,7 +141,7 @@ class SequenceExporter : public Exporter {
     FilePattern pattern_;
 };
 
-/// The endings of formats that make sequences.
+/// The endings of the formats that can be written as sequences.
 std::string list_still_endings() {
     std::vector<ExportFormat> still;
     for (std::size_t i = 0; i < formats.size(); ++i)

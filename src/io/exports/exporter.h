@@ -1,4 +1,4 @@
-// Writing what was simulated: one interface for every format, chosen by a file name's ending.
+// Export of simulation results: one interface for all formats, which are chosen by the ending of the file name.
 #pragma once
 
 #include "look/drawn_surface.h"
@@ -15,10 +15,10 @@
 
 namespace weft {
 
-/// Spans are read during write alone.
+/// The spans are read only during write().
 using ExportSurface = DrawnSurface;
 
-/// A mesh as a surface, in its place or with other positions and normals.
+/// A surface of `mesh`, optionally with other positions and normals.
 inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh, std::span<const Vec3> positions,
                                 std::span<const Vec3> normals) {
     return {.name = name,
@@ -30,8 +30,8 @@ inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh,
             .rest_positions = mesh.positions};
 }
 
-/// Everything at one instant. The same cloths in the same order in every frame of a run. Formats that hold a whole film
-/// in one file hold one topology: they fail on a frame whose topology versions are not those of the first one.
+/// All cloths in one frame. Every frame of a run has the same cloths in the same order. Formats that hold a whole
+/// animation in one file need a constant topology: they fail on a frame whose topology versions differ from the first.
 struct ExportFrame {
     std::uint64_t index = 0;
     double time = 0;  ///< s
@@ -41,35 +41,36 @@ struct ExportFrame {
 struct ExportInfo {
     std::string scene_name;
     double frame_rate = 60;
-    std::uint64_t frame_count = 0;      ///< frames that will be written, the start included
-    std::filesystem::path folder = {};  ///< where pictures that materials name are looked for, as in find_asset
+    std::uint64_t frame_count = 0;      ///< frames that will be written, including the start
+    std::filesystem::path folder = {};  ///< where the image files of materials are searched, as in find_asset
 };
 
-/// What an export will leave on the disk.
+/// The files that an export will write, and their size.
 struct ExportEstimate {
-    std::vector<std::filesystem::path> files;  ///< a sequence: the name with its `%d`
-    std::uint64_t bytes = 0;                   ///< of all of them together; rather too many than too few
+    std::vector<std::filesystem::path> files;  ///< for a sequence: the name with its `%d`
+    std::uint64_t bytes = 0;                   ///< of all files together; rather too many than too few
 };
 
-/// begin, then write once per frame, then finish. Nothing appears under the final name before finish (a sequence:
-/// before its frame is whole); an exporter destroyed early leaves nothing behind, a sequence its whole frames. After an
-/// error an exporter is only good for being destroyed.
+/// Call begin(), then write() once per frame, then finish(). A file gets its final name only in finish(), the files of
+/// a sequence as soon as their frame is complete. An exporter destroyed before finish() leaves nothing behind, except
+/// the complete files of a sequence. After an error an exporter can only be destroyed.
 class Exporter {
   public:
     virtual ~Exporter() = default;
-    /// Before the run, from the cloths as they start. Fails where the format cannot hold what is announced.
+    /// Called before the run with the cloths as they start. Fails if the format cannot hold the announced run.
     virtual Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const = 0;
-    virtual Result<Done> begin(const ExportInfo& info) = 0;
-    virtual Result<Done> write(const ExportFrame& frame) = 0;
-    virtual Result<Done> finish() = 0;
+    virtual Result<void> begin(const ExportInfo& info) = 0;
+    virtual Result<void> write(const ExportFrame& frame) = 0;
+    virtual Result<void> finish() = 0;
 };
 
-/// By the ending of `path`: `.glb`, `.pc2` (animated), `.obj`, `.ply` (the last frame), or a sequence where the file
-/// name holds one `%d` or `%0Nd` (`frames/%04d.obj`). Fails on an unknown ending or a folder that cannot be made.
+/// The ending of `path` selects the format: `.glb`, `.pc2` (animated), `.obj`, `.ply` (the last frame). A `%d` or
+/// `%0Nd` in the file name selects a sequence (`frames/%04d.obj`). Fails on an unknown ending, or if the folder cannot
+/// be made.
 Result<std::unique_ptr<Exporter>> make_exporter(const std::filesystem::path& path);
 
 struct ExportFormat {
-    std::string_view ending;  ///< with the dot
+    std::string_view ending;  ///< including the dot
     std::string_view what;
 };
 std::span<const ExportFormat> export_formats();

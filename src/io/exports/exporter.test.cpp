@@ -92,7 +92,7 @@ TEST(Exporter, AStillHoldsTheLastFrameAndCopiesIt) {
     const TestFolder folder;
     const std::vector<Cloth> cloths = {make_cloth("sheet", 4, 0)};
     for (const char* name : {"still.obj", "still.ply"}) {
-        // export_film's frames are gone by the time finish writes.
+        // The frames of export_film() no longer exist when finish() writes.
         ASSERT_TRUE(export_film(folder / name, cloths, 3, 10).ok());
         const auto alone = make_exporter(folder / (std::string("alone_") + name));
         ASSERT_TRUE(alone.ok() && (*alone)->begin({"waves", 10, 1}).ok());
@@ -113,7 +113,7 @@ TEST(Exporter, AStillHasTheTrianglesOfTheLastFrame) {
         last.surfaces[0].triangles = torn;
         last.surfaces[0].topology_version = 2;
         ASSERT_TRUE((*made)->write(last.frame()).ok());
-        torn.assign(torn.size(), {});  // what was written is the exporter's own
+        torn.assign(torn.size(), {});  // the exporter must have copied its data
     }
     ASSERT_TRUE((*made)->finish().ok());
     const std::string text = read_text(folder / "a.obj");
@@ -130,7 +130,7 @@ TEST(Exporter, DestroyedEarlyLeavesNothing) {
         ASSERT_TRUE(made.ok());
         ASSERT_TRUE((*made)->begin({"s", 60, 100}).ok());
         EXPECT_THAT(folder.names(), ElementsAre("b.glb")) << "while running, " << name;
-        if (name[0] == '%') continue;  // whole frames of a sequence stay
+        if (name[0] == '%') continue;  // complete frames of a sequence stay
         for (std::uint64_t i = 0; i < 30; ++i) {
             ASSERT_TRUE((*made)->write(Instant(cloths, i, static_cast<double>(i) / 60).frame()).ok());
         }
@@ -158,7 +158,7 @@ TEST(Exporter, APlaceThatCannotBeWrittenIsKnownBeforeTheRun) {
     for (const char* name : {"folder.glb", "folder.obj"}) {
         const auto made = make_exporter(folder / name);
         ASSERT_TRUE(made.ok());
-        const Result<Done> begun = (*made)->begin({});
+        const Result<void> begun = (*made)->begin({});
         ASSERT_FALSE(begun.ok()) << name;
         EXPECT_THAT(begun.error().what, HasSubstr("it is a folder"));
     }
@@ -179,7 +179,7 @@ TEST(Exporter, AFullDiskIsAnErrorAndKeepsTheEarlierFile) {
         write_text(folder / name, "earlier");
         const rlimit limit{20000, before.rlim_max};
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-        const Result<Done> done = export_film(folder / (name[0] == '0' ? "%03d.obj" : name), cloths, 3);
+        const Result<void> done = export_film(folder / (name[0] == '0' ? "%03d.obj" : name), cloths, 3);
         ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
         ASSERT_FALSE(done.ok()) << name;
         EXPECT_EQ(done.error().where, (folder / name).string());
@@ -198,7 +198,7 @@ TEST(Exporter, BrokenFramesAreNamed) {
         EXPECT_TRUE(made.ok() && (*made)->begin({"s", 60, 1}).ok());
         Instant instant(cloths, 3, 0);
         spoil(instant);
-        const Result<Done> written = (*made)->write(instant.frame());
+        const Result<void> written = (*made)->write(instant.frame());
         return written ? std::string("none") : written.error().message();
     };
     EXPECT_EQ(problem_with([](Instant&) {}), "none");

@@ -1,4 +1,4 @@
-// Small films for the tests of the exporters: cloths that wave, with every kind of vertex data.
+// Small animations for the tests of the exporters: waving cloths with all kinds of vertex data.
 #pragma once
 
 #include "io/exports/exporter.h"
@@ -19,7 +19,7 @@ namespace weft::test {
 class TestFolder : public TemporaryFolder {
   public:
     std::filesystem::path operator/(const std::string& name) const { return path() / name; }
-    /// Names of everything in it, hidden or not.
+    /// Names of all files in it, including hidden ones.
     std::set<std::string> names() const {
         std::set<std::string> found;
         for (const auto& entry : std::filesystem::directory_iterator(path())) found.insert(entry.path().filename());
@@ -41,7 +41,7 @@ struct Cloth {
     TriangleMesh mesh;
     float phase = 0;
 
-    /// A wave whose normals are those of its exact surface y(x, t).
+    /// A wave with the exact normals of its surface y(x, t).
     std::pair<std::vector<Vec3>, std::vector<Vec3>> at(double time) const {
         std::vector<Vec3> positions = mesh.positions, normals(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -62,7 +62,7 @@ inline Cloth make_cloth(std::string name, std::uint32_t resolution, float phase,
     return cloth;
 }
 
-/// One frame with the memory its spans point to.
+/// One frame and the memory that its spans refer to.
 class Instant {
   public:
     Instant(const std::vector<Cloth>& cloths, std::uint64_t index, double time) : index_(index), time_(time) {
@@ -87,16 +87,16 @@ class Instant {
     std::vector<std::pair<std::vector<Vec3>, std::vector<Vec3>>> data_;
 };
 
-/// begin, `count` frames at `rate` per second, finish.
-inline Result<Done> export_film(const std::filesystem::path& path, const std::vector<Cloth>& cloths,
+/// Calls begin(), writes `count` frames at `rate` per second, calls finish().
+inline Result<void> export_film(const std::filesystem::path& path, const std::vector<Cloth>& cloths,
                                 std::uint64_t count, double rate = 60) {
     Result<std::unique_ptr<Exporter>> made = make_exporter(path);
     if (!made) return made.errors();
     Exporter& exporter = **made;
-    if (Result<Done> begun = exporter.begin({"waves", rate, count}); !begun) return begun;
+    if (Result<void> begun = exporter.begin({"waves", rate, count}); !begun) return begun;
     for (std::uint64_t i = 0; i < count; ++i) {
         const Instant instant(cloths, i, static_cast<double>(i) / rate);
-        if (Result<Done> written = exporter.write(instant.frame()); !written) return written;
+        if (Result<void> written = exporter.write(instant.frame()); !written) return written;
     }
     return exporter.finish();
 }

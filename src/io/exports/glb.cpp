@@ -1,9 +1,9 @@
-// Animated glTF 2.0 in its binary container. The first frame is the mesh, every later one a morph target, and one
-// animation of the weights plays them. Section numbers are those of the glTF 2.0 specification (Khronos, 2021).
+// Animated glTF 2.0 in its binary container. The first frame is the mesh, every later frame is a morph target, and one
+// animation of the weights plays them. Section numbers refer to the glTF 2.0 specification (Khronos, 2021).
 //
-// The numbers go to a nameless file while the run lasts: memory stays that of one frame, and a full disk shows at the
-// frame that fills it. tinygltf writes the JSON; the container is written here, because tinygltf's own writer would
-// hold the whole film in memory twice.
+// During the run the binary data goes to an unnamed temporary file: memory holds only one frame, and a full disk is
+// reported at the frame that fills it. tinygltf writes the JSON; this file writes the container, because tinygltf's own
+// writer would hold the whole animation in memory twice.
 #include "io/exports/export_format.h"
 #include "io/exports/glb_material.h"
 #include "solver/state/frame.h"
@@ -33,14 +33,14 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
-// The header of a .glb holds the file's length in 32 bits (4.4.2).
+// The header of a .glb stores the length of the file in 32 bits (4.4.2).
 constexpr double byte_limit = 4294967295.0;
 
 // 4.4: "glTF" and the types of the two chunks.
 constexpr std::uint32_t glb_magic = 0x46546c67, glb_version = 2, json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
 constexpr std::uint64_t header_bytes = 12, chunk_header_bytes = 8;
 
-// What the JSON of one cloth in one frame takes: two accessors with their bounds and views, a target, a weight.
+// Size of the JSON per cloth and frame: two accessors with their bounds and views, a target, a weight.
 constexpr double json_bytes_per_target = 700;
 
 struct FirstFrame {
@@ -54,10 +54,10 @@ bool has_short_indices(std::size_t vertices) {
     return vertices <= std::numeric_limits<std::uint16_t>::max();
 }
 
-/// Bytes of a film, estimated on the safe side.
+/// Estimated bytes of an animation, rather too many than too few.
 struct FilmSize {
     double base = 0;    ///< everything but the morph targets and their weights
-    double target = 0;  ///< of one frame
+    double target = 0;  ///< per frame
 
     double of(double frames) const { return base + (frames - 1) * target + frames * frames * sizeof(float); }
 };
@@ -73,7 +73,8 @@ FilmSize film_size(std::span<const ExportSurface> surfaces, const std::filesyste
                               (surface.uvs.empty() ? 0 : sizeof(Vec2) + (tangents ? sizeof(Vec4) : 0)) +
                               (surface.colors.empty() ? 0 : sizeof(Vec4));
         const double index = has_short_indices(surface.positions.size()) ? 2 : 4;
-        // The names stand in JSON, where a character may take six; the rest of the JSON of a cloth is a few lines.
+        // The name is in the JSON, where a character may take six bytes; the rest of the JSON of a cloth is a few
+        // lines.
         size.base += vertices * vertex + static_cast<double>(surface.triangles.size()) * 3 * index + 4096 +
                      6 * static_cast<double>(surface.name.size());
         size.target += vertices * 2 * sizeof(Vec3) + json_bytes_per_target;
@@ -85,7 +86,7 @@ int as_int(std::size_t value) {
     return static_cast<int>(value);
 }
 
-/// Of each component; 3.6.2.5 asks for them in the rounding of the stored values.
+/// Bounds per component; 3.6.2.5 requires them rounded like the stored values.
 void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3> values) {
     Vec3 low = values.front(), high = values.front();
     for (const Vec3& v : values) {
@@ -100,7 +101,7 @@ tinygltf::Material fabric_material(const std::string& name, bool vertex_colors) 
     tinygltf::Material material;
     material.name = name;
     material.doubleSided = true;
-    // Vertex colors are multiplied with the base color, so they need white to show as they are.
+    // Vertex colors are multiplied by the base color, so it must be white to keep them unchanged.
     const double base = vertex_colors ? 1.0 : 0.8;
     material.pbrMetallicRoughness.baseColorFactor = {base, base, base, 1.0};
     material.pbrMetallicRoughness.metallicFactor = 0;
@@ -113,30 +114,30 @@ class GlbExporter : public Exporter {
     explicit GlbExporter(std::filesystem::path path) : path_(std::move(path)) {}
 
     Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override;
-    Result<Done> begin(const ExportInfo& info) override;
-    Result<Done> write(const ExportFrame& frame) override;
-    Result<Done> finish() override;
+    Result<void> begin(const ExportInfo& info) override;
+    Result<void> write(const ExportFrame& frame) override;
+    Result<void> finish() override;
 
   private:
-    Result<Done> add_first_frame(const ExportFrame& frame);
-    Result<Done> add_base(const ExportSurface& surface);
-    Result<Done> add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive);
-    Result<Done> add_material(const ExportSurface& surface, tinygltf::Primitive& primitive);
-    Result<Done> add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive);
-    Result<Done> add_target(std::size_t cloth, const ExportSurface& surface);
-    Result<Done> add_animation();
-    Result<Done> write_container(std::string json);
+    Result<void> add_first_frame(const ExportFrame& frame);
+    Result<void> add_base(const ExportSurface& surface);
+    Result<void> add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive);
+    Result<void> add_material(const ExportSurface& surface, tinygltf::Primitive& primitive);
+    Result<void> add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive);
+    Result<void> add_target(std::size_t cloth, const ExportSurface& surface);
+    Result<void> add_animation();
+    Result<void> write_container(std::string json);
 
-    Result<Done> check_order(const ExportFrame& frame) const;
-    Result<Done> check_size(const FilmSize& size, std::uint64_t frames) const;
+    Result<void> check_order(const ExportFrame& frame) const;
+    Result<void> check_size(const FilmSize& size, std::uint64_t frames) const;
     Result<std::string> json_text() const;
     Error error(std::string what) const { return {path_.string(), std::move(what)}; }
 
-    /// Opens a view at the end of the binary data, and an accessor on all of it. The values are to follow.
+    /// Opens a view at the end of the binary data, and an accessor for the whole view. The caller appends the values.
     tinygltf::Accessor& open_accessor(int component, int type, std::size_t count, int target);
-    Result<Done> append(std::span<const std::byte> bytes) { return spool_.write(bytes); }
+    Result<void> append(std::span<const std::byte> bytes) { return spool_.write(bytes); }
     Result<int> add_vectors(std::span<const Vec3> values, bool bounds);
-    /// Of bytes that no accessor describes: a picture.
+    /// Adds a view without an accessor, for an image.
     Result<int> add_picture(std::span<const std::byte> bytes);
     int newest_accessor() const { return as_int(model_.accessors.size()) - 1; }
 
@@ -153,43 +154,44 @@ class GlbExporter : public Exporter {
 
 Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
     const FilmSize size = film_size(surfaces, info.folder);
-    if (Result<Done> checked = check_size(size, info.frame_count); !checked) return checked.errors();
+    if (Result<void> checked = check_size(size, info.frame_count); !checked) return checked.errors();
     return ExportEstimate{{path_}, static_cast<std::uint64_t>(size.of(static_cast<double>(info.frame_count)))};
 }
 
-Result<Done> GlbExporter::begin(const ExportInfo& info) {
+Result<void> GlbExporter::begin(const ExportInfo& info) {
     info_ = info;
-    if (Result<Done> writable = check_writable(path_); !writable) return writable;
+    if (Result<void> writable = check_writable(path_); !writable) return writable;
     Result<BufferedFile> spool = BufferedFile::open_nameless(folder_of(path_), path_.string());
     if (!spool) return spool.errors();
     spool_ = *std::move(spool);
     materials_.look_in(info.folder);
-    return Done{};
+    return {};
 }
 
-Result<Done> GlbExporter::write(const ExportFrame& frame) {
-    if (Result<Done> checked = check_frame(frame, path_.string()); !checked) return checked;
-    if (Result<Done> checked = check_order(frame); !checked) return checked;
+Result<void> GlbExporter::write(const ExportFrame& frame) {
+    if (Result<void> checked = check_frame(frame, path_.string()); !checked) return checked;
+    if (Result<void> checked = check_order(frame); !checked) return checked;
     if (times_.empty()) {
-        if (Result<Done> added = add_first_frame(frame); !added) return added;
+        if (Result<void> added = add_first_frame(frame); !added) return added;
     } else {
-        if (Result<Done> checked = check_size(size_, times_.size() + 1); !checked) return checked;
+        if (Result<void> checked = check_size(size_, times_.size() + 1); !checked) return checked;
         for (std::size_t i = 0; i < first_.size(); ++i) {
-            if (Result<Done> added = add_target(i, frame.surfaces[i]); !added) return added;
+            if (Result<void> added = add_target(i, frame.surfaces[i]); !added) return added;
         }
     }
     times_.push_back(static_cast<float>(frame.time));
-    return Done{};
+    return {};
 }
 
-/// Key times must grow (3.11), and a morph target moves the vertices of the first frame and no others.
-Result<Done> GlbExporter::check_order(const ExportFrame& frame) const {
+/// Key times must increase (3.11), and the vertices must be those of the first frame, which the morph targets move.
+Result<void> GlbExporter::check_order(const ExportFrame& frame) const {
     const std::string which = "frame " + std::to_string(frame.index) + ": ";
     const auto time = static_cast<float>(frame.time);
-    if (!std::isfinite(time) || time < 0) return error(which + "its time is not a number of seconds from 0 up");
-    if (times_.empty()) return Done{};
-    if (!(time > times_.back())) return error(which + "its time is not after that of the frame before");
-    if (frame.surfaces.size() != first_.size()) return error(which + "it does not hold the cloths of the first frame");
+    if (!std::isfinite(time) || time < 0)
+        return error(which + "its time must be a finite number of seconds, at least 0");
+    if (times_.empty()) return {};
+    if (!(time > times_.back())) return error(which + "its time must be later than that of the frame before");
+    if (frame.surfaces.size() != first_.size()) return error(which + "it does not have the cloths of the first frame");
     for (std::size_t i = 0; i < first_.size(); ++i) {
         const ExportSurface& surface = frame.surfaces[i];
         if (surface.positions.size() == first_[i].positions.size() && surface.triangles.size() == first_[i].triangles &&
@@ -200,20 +202,20 @@ Result<Done> GlbExporter::check_order(const ExportFrame& frame) const {
                      "\" has other vertices or triangles than in the first frame, which a .glb cannot animate; " +
                      "write a sequence instead");
     }
-    return Done{};
+    return {};
 }
 
-/// Made before the bytes are written anywhere.
-Result<Done> GlbExporter::check_size(const FilmSize& size, std::uint64_t frames) const {
+/// Fails before any bytes are written if the file would exceed its limit.
+Result<void> GlbExporter::check_size(const FilmSize& size, std::uint64_t frames) const {
     const double bytes = size.of(static_cast<double>(frames));
-    if (bytes <= byte_limit) return Done{};
+    if (bytes <= byte_limit) return {};
     char gib[32];
     std::snprintf(gib, sizeof gib, "%.1f", bytes / (1024.0 * 1024.0 * 1024.0));
     return error("would take " + std::string(gib) + " GiB for " + std::to_string(frames) +
-                 " frames, and a .glb ends at 4 GiB; write fewer frames or a sequence");
+                 " frames, but a .glb cannot be larger than 4 GiB; write fewer frames or a sequence");
 }
 
-Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
+Result<void> GlbExporter::add_first_frame(const ExportFrame& frame) {
     model_.asset.version = "2.0";
     model_.asset.generator = "weft " WEFT_VERSION;
     model_.scenes.emplace_back();
@@ -228,23 +230,23 @@ Result<Done> GlbExporter::add_first_frame(const ExportFrame& frame) {
         first.topology_version = surface.topology_version;
     }
     size_ = film_size(frame.surfaces, info_.folder);
-    if (Result<Done> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
+    if (Result<void> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
         return checked;
     }
     for (const ExportSurface& surface : frame.surfaces) {
-        if (Result<Done> added = add_base(surface); !added) return added;
+        if (Result<void> added = add_base(surface); !added) return added;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
+Result<void> GlbExporter::add_base(const ExportSurface& surface) {
     const FirstFrame& first = first_[model_.meshes.size()];
     const std::size_t count = first.positions.size();
     const std::string name(surface.name);
 
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    if (Result<Done> r = add_indices(surface, primitive); !r) return r;
+    if (Result<void> r = add_indices(surface, primitive); !r) return r;
     const Result<int> positions = add_vectors(first.positions, true);
     if (!positions) return positions.errors();
     primitive.attributes["POSITION"] = *positions;
@@ -258,10 +260,10 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
         for (const Vec2& uv : surface.uvs) uvs.push_back({uv.x, 1 - uv.y});  // v runs downward (3.8.3)
         open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, count, TINYGLTF_TARGET_ARRAY_BUFFER);
         primitive.attributes["TEXCOORD_0"] = newest_accessor();
-        if (Result<Done> r = append(std::as_bytes(std::span(uvs))); !r) return r;
+        if (Result<void> r = append(std::as_bytes(std::span(uvs))); !r) return r;
     }
-    if (Result<Done> r = add_colors(surface, primitive); !r) return r;
-    if (Result<Done> r = add_material(surface, primitive); !r) return r;
+    if (Result<void> r = add_colors(surface, primitive); !r) return r;
+    if (Result<void> r = add_material(surface, primitive); !r) return r;
 
     tinygltf::Node& node = model_.nodes.emplace_back();
     node.name = name;
@@ -270,11 +272,11 @@ Result<Done> GlbExporter::add_base(const ExportSurface& surface) {
     tinygltf::Mesh& gltf_mesh = model_.meshes.emplace_back();
     gltf_mesh.name = name;
     gltf_mesh.primitives.push_back(std::move(primitive));
-    return Done{};
+    return {};
 }
 
-Result<Done> GlbExporter::add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive) {
-    if (surface.colors.empty()) return Done{};
+Result<void> GlbExporter::add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive) {
+    if (surface.colors.empty()) return {};
     const auto clamped = [](float c) { return std::isnan(c) ? 0.0f : std::clamp(c, 0.0f, 1.0f); };
     std::vector<Vec4> colors;
     colors.reserve(surface.colors.size());
@@ -284,18 +286,18 @@ Result<Done> GlbExporter::add_colors(const ExportSurface& surface, tinygltf::Pri
     return append(std::as_bytes(std::span(colors)));
 }
 
-/// Of a single frame the tangents are written too, where a normal map needs them. A film has none: as morph targets
-/// they would be half as much again, and some readers that know tangents do not morph them; without, all of them find
-/// the tangents of each frame from its UVs.
-Result<Done> GlbExporter::add_material(const ExportSurface& surface, tinygltf::Primitive& primitive) {
+/// Tangents are written only for single frames with a normal map. An animation has none: as morph targets they would
+/// add half of its size, and some readers that load tangents do not morph them. Without tangents, readers compute them
+/// in each frame from the UVs.
+Result<void> GlbExporter::add_material(const ExportSurface& surface, tinygltf::Primitive& primitive) {
     const std::string name(surface.name);
     primitive.material = as_int(model_.materials.size());
     if (!surface.material) {
         model_.materials.push_back(fabric_material(name, !surface.colors.empty()));
-        return Done{};
+        return {};
     }
-    if (Result<Done> r = materials_.add(name, *surface.material, surface); !r) return r;
-    if (info_.frame_count != 1 || model_.materials.back().normalTexture.index < 0) return Done{};
+    if (Result<void> r = materials_.add(name, *surface.material, surface); !r) return r;
+    if (info_.frame_count != 1 || model_.materials.back().normalTexture.index < 0) return {};
     const FirstFrame& first = first_[model_.meshes.size()];
     std::vector<Vec4> tangents;
     compute_tangents(surface.triangles, surface.uvs, first.positions, first.normals, tangents);
@@ -304,7 +306,7 @@ Result<Done> GlbExporter::add_material(const ExportSurface& surface, tinygltf::P
     return append(std::as_bytes(std::span(tangents)));
 }
 
-Result<Done> GlbExporter::add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive) {
+Result<void> GlbExporter::add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive) {
     const std::span<const std::uint32_t> indices(surface.triangles.front().data(), surface.triangles.size() * 3);
     const bool is_short = has_short_indices(surface.positions.size());
     open_accessor(is_short ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
@@ -315,11 +317,11 @@ Result<Done> GlbExporter::add_indices(const ExportSurface& surface, tinygltf::Pr
     std::vector<std::uint16_t> narrow;
     narrow.reserve(indices.size() + 1);
     for (const std::uint32_t index : indices) narrow.push_back(static_cast<std::uint16_t>(index));
-    if (narrow.size() % 2 != 0) narrow.push_back(0);  // what follows is aligned to four bytes (3.6.2.4)
+    if (narrow.size() % 2 != 0) narrow.push_back(0);  // the next view must be aligned to four bytes (3.6.2.4)
     return append(std::as_bytes(std::span(narrow)));
 }
 
-Result<Done> GlbExporter::add_target(std::size_t cloth, const ExportSurface& surface) {
+Result<void> GlbExporter::add_target(std::size_t cloth, const ExportSurface& surface) {
     const FirstFrame& first = first_[cloth];
     const std::size_t count = first.positions.size();
     deltas_.resize(count);
@@ -330,27 +332,28 @@ Result<Done> GlbExporter::add_target(std::size_t cloth, const ExportSurface& sur
     const Result<int> normals = add_vectors(deltas_, false);
     if (!normals) return normals.errors();
     model_.meshes[cloth].primitives.front().targets.push_back({{"POSITION", *positions}, {"NORMAL", *normals}});
-    return Done{};
+    return {};
 }
 
-/// Key i shows target i - 1 alone, key 0 the first frame; in between two neighbors blend. All cloths share the keys.
-Result<Done> GlbExporter::add_animation() {
+/// Key i shows only target i - 1, key 0 the first frame; between two keys their frames are blended. All cloths share
+/// the keys.
+Result<void> GlbExporter::add_animation() {
     const std::size_t keys = times_.size(), targets = keys - 1;
-    if (targets == 0) return Done{};
+    if (targets == 0) return {};
     tinygltf::Accessor& input = open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys, 0);
     input.minValues = {times_.front()};
     input.maxValues = {times_.back()};
     tinygltf::AnimationSampler sampler;
     sampler.interpolation = "LINEAR";
     sampler.input = newest_accessor();
-    if (Result<Done> r = append(std::as_bytes(std::span(times_))); !r) return r;
+    if (Result<void> r = append(std::as_bytes(std::span(times_))); !r) return r;
 
     open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys * targets, 0);
     sampler.output = newest_accessor();
     std::vector<float> weights(targets, 0.0f);
     for (std::size_t key = 0; key < keys; ++key) {
         if (key > 0) weights[key - 1] = 1;
-        if (Result<Done> r = append(std::as_bytes(std::span(weights))); !r) return r;
+        if (Result<void> r = append(std::as_bytes(std::span(weights))); !r) return r;
         if (key > 0) weights[key - 1] = 0;
     }
 
@@ -364,12 +367,12 @@ Result<Done> GlbExporter::add_animation() {
         channel.target_node = as_int(cloth);
         channel.target_path = "weights";
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> GlbExporter::finish() {
+Result<void> GlbExporter::finish() {
     if (times_.empty()) return error("there is no frame to write");
-    if (Result<Done> r = add_animation(); !r) return r;
+    if (Result<void> r = add_animation(); !r) return r;
     Result<std::string> json = json_text();
     if (!json) return json.errors();
     return write_container(*std::move(json));
@@ -378,37 +381,37 @@ Result<Done> GlbExporter::finish() {
 Result<std::string> GlbExporter::json_text() const {
     std::ostringstream stream;
     try {
-        // A name that is not UTF-8 throws.
+        // tinygltf throws if a name is not UTF-8.
         if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model_, stream, false, false)) {
-            return error("the description of the scene cannot be written");
+            return error("its JSON part cannot be written");
         }
     } catch (const std::exception& exception) {
-        return error(std::string("the description of the scene cannot be written: ") + exception.what());
+        return error(std::string("its JSON part cannot be written: ") + exception.what());
     }
     std::string json = std::move(stream).str();
     json.erase(json.find_last_of('}') + 1);
-    // tinygltf takes the length of a buffer from bytes held in memory, and here there are none.
+    // tinygltf takes the length of a buffer from its bytes in memory, which are in the temporary file here.
     json.insert(1, "\"buffers\":[{\"byteLength\":" + std::to_string(spool_.size()) + "}],");
     json.append((4 - json.size() % 4) % 4, ' ');
     return json;
 }
 
-Result<Done> GlbExporter::write_container(std::string json) {
+Result<void> GlbExporter::write_container(std::string json) {
     const std::uint64_t total = header_bytes + 2 * chunk_header_bytes + json.size() + spool_.size();
     if (static_cast<double>(total) > byte_limit) {
-        return error("would take more than 4 GiB, where a .glb ends; write fewer frames or a sequence");
+        return error("would take more than 4 GiB, the limit of a .glb; write fewer frames or a sequence");
     }
     Result<AtomicFile> file = AtomicFile::create(path_);
     if (!file) return file.errors();
-    const auto put = [&](std::initializer_list<std::uint64_t> numbers) -> Result<Done> {
+    const auto put = [&](std::initializer_list<std::uint64_t> numbers) -> Result<void> {
         std::vector<std::uint32_t> words;
         for (const std::uint64_t number : numbers) words.push_back(static_cast<std::uint32_t>(number));
         return file->write(std::as_bytes(std::span(words)));
     };
-    if (Result<Done> r = put({glb_magic, glb_version, total, json.size(), json_chunk}); !r) return r;
-    if (Result<Done> r = file->write(json); !r) return r;
-    if (Result<Done> r = put({spool_.size(), binary_chunk}); !r) return r;
-    if (Result<Done> r = spool_.move_to(file->content()); !r) return r;
+    if (Result<void> r = put({glb_magic, glb_version, total, json.size(), json_chunk}); !r) return r;
+    if (Result<void> r = file->write(json); !r) return r;
+    if (Result<void> r = put({spool_.size(), binary_chunk}); !r) return r;
+    if (Result<void> r = spool_.move_to(file->content()); !r) return r;
     return file->commit();
 }
 
@@ -433,9 +436,9 @@ Result<int> GlbExporter::add_picture(std::span<const std::byte> bytes) {
     view.buffer = 0;
     view.byteOffset = spool_.size();
     view.byteLength = bytes.size();
-    if (Result<Done> r = append(bytes); !r) return r.errors();
-    constexpr std::byte zeros[3] = {};  // what follows is aligned to four bytes (3.6.2.4)
-    if (Result<Done> r = append(std::span(zeros).first((4 - bytes.size() % 4) % 4)); !r) return r.errors();
+    if (Result<void> r = append(bytes); !r) return r.errors();
+    constexpr std::byte zeros[3] = {};  // the next view must be aligned to four bytes (3.6.2.4)
+    if (Result<void> r = append(std::span(zeros).first((4 - bytes.size() % 4) % 4)); !r) return r.errors();
     return as_int(model_.bufferViews.size()) - 1;
 }
 
@@ -443,7 +446,7 @@ Result<int> GlbExporter::add_vectors(std::span<const Vec3> values, bool bounds) 
     tinygltf::Accessor& accessor =
         open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, values.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
     if (bounds) set_bounds(accessor, values);
-    if (Result<Done> r = append(std::as_bytes(values)); !r) return r.errors();
+    if (Result<void> r = append(std::as_bytes(values)); !r) return r.errors();
     return newest_accessor();
 }
 

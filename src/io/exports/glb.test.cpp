@@ -51,7 +51,7 @@ void expect_bounds(const tinygltf::Model& model, int accessor_index) {
     EXPECT_EQ(accessor.maxValues, (std::vector<double>{high.x, high.y, high.z}));
 }
 
-/// base + delta, both rounded to float, may miss by a rounding of each.
+/// base + delta, both rounded to float, may be off by the rounding error of each.
 void expect_close(const std::vector<Vec3>& base, const std::vector<Vec3>& delta, const std::vector<Vec3>& expected) {
     ASSERT_EQ(base.size(), expected.size());
     ASSERT_EQ(delta.size(), expected.size());
@@ -65,7 +65,7 @@ void expect_close(const std::vector<Vec3>& base, const std::vector<Vec3>& delta,
 
 TEST(GlbExport, EveryTargetAndKeyIsItsFrame) {
     const TestFolder folder;
-    // Two of the same name, one with colors, one without UVs.
+    // Two cloths of the same name, one with colors, one without UVs.
     std::vector<Cloth> cloths = {make_cloth("cloth", 6, 0.2f, true), make_cloth("cloth", 9, 1)};
     cloths[1].mesh.uvs.clear();
     constexpr std::size_t frames = 5;
@@ -190,14 +190,15 @@ TEST(GlbExport, MissingNormalsBecomeUnit) {
 TEST(GlbExport, FourGibibytesAreRefusedAtTheFirstFrame) {
     const TestFolder folder;
     const std::vector<Cloth> cloths = {make_cloth("c", 300, 0)};
-    // 2000 frames of 90 000 vertices: 4.3e9 bytes of deltas. A million frames: the weights alone.
+    // 2000 frames of 90 000 vertices: 4.3e9 bytes of deltas. A million frames: the weights alone exceed the limit.
     for (const auto& [frames, cloth] :
          {std::pair{2000u, cloths}, std::pair{1000000u, std::vector{make_cloth("d", 2, 0)}}}) {
         const auto exporter = make_exporter(folder / "a.glb");
         ASSERT_TRUE(exporter.ok() && (*exporter)->begin({"s", 60, frames}).ok());
-        const Result<Done> written = (*exporter)->write(Instant(cloth, 0, 0).frame());
+        const Result<void> written = (*exporter)->write(Instant(cloth, 0, 0).frame());
         ASSERT_FALSE(written.ok());
-        EXPECT_THAT(written.error().message(), AllOf(HasSubstr("a.glb: would take"), HasSubstr("ends at 4 GiB")));
+        EXPECT_THAT(written.error().message(),
+                    AllOf(HasSubstr("a.glb: would take"), HasSubstr("cannot be larger than 4 GiB")));
     }
     EXPECT_THAT(folder.names(), IsEmpty());
 }
@@ -210,18 +211,18 @@ TEST(GlbExport, RefusesFramesThatAreNoFilm) {
     ASSERT_TRUE((*exporter)->write(Instant(cloths, 0, 0.5).frame()).ok());
     const auto problem = [&](const std::vector<Cloth>& content, double time) {
         const Instant instant(content, 1, 1);
-        const Result<Done> written = (*exporter)->write({1, time, instant.surfaces});
+        const Result<void> written = (*exporter)->write({1, time, instant.surfaces});
         return written ? std::string("none") : written.error().what;
     };
-    EXPECT_THAT(problem(cloths, 0.5), HasSubstr("not after"));
-    EXPECT_THAT(problem(cloths, -1), HasSubstr("from 0 up"));
-    EXPECT_THAT(problem(cloths, std::numeric_limits<double>::quiet_NaN()), HasSubstr("from 0 up"));
+    EXPECT_THAT(problem(cloths, 0.5), HasSubstr("must be later than"));
+    EXPECT_THAT(problem(cloths, -1), HasSubstr("at least 0"));
+    EXPECT_THAT(problem(cloths, std::numeric_limits<double>::quiet_NaN()), HasSubstr("at least 0"));
     EXPECT_THAT(problem(more, 1), HasSubstr("other vertices"));
     EXPECT_THAT(problem({cloths[0], cloths[0]}, 1), HasSubstr("cloths of the first frame"));
     EXPECT_EQ(problem(cloths, 1), "none");
     Instant torn(cloths, 2, 2);
-    torn.surfaces[0].topology_version = 2;  // as many triangles, and others
-    const Result<Done> written = (*exporter)->write(torn.frame());
+    torn.surfaces[0].topology_version = 2;  // the same number of triangles, but other ones
+    const Result<void> written = (*exporter)->write(torn.frame());
     ASSERT_FALSE(written.ok());
     EXPECT_THAT(written.error().what, HasSubstr("frame 2: cloth \"c\" has other vertices or triangles"));
     EXPECT_THAT(written.error().what, HasSubstr("write a sequence instead"));
@@ -230,7 +231,7 @@ TEST(GlbExport, RefusesFramesThatAreNoFilm) {
 
 TEST(GlbExport, ANameThatIsNotTextIsAnError) {
     const TestFolder folder;
-    const Result<Done> done = export_film(folder / "a.glb", {make_cloth("\xff\xfe", 3, 0)}, 1);
+    const Result<void> done = export_film(folder / "a.glb", {make_cloth("\xff\xfe", 3, 0)}, 1);
     ASSERT_FALSE(done.ok());
     EXPECT_THAT(done.error().what, HasSubstr("cannot be written"));
     EXPECT_THAT(folder.names(), IsEmpty());

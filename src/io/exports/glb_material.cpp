@@ -16,20 +16,20 @@ namespace {
 
 using tinygltf::Value;
 
-// What a tile takes as a PNG: 256 by 256 pixels of three bytes, each of which the packing may make nine bits long.
+// Largest PNG of a tile: 256 by 256 pixels of three bytes, each of which the compression may expand to nine bits.
 constexpr std::uint64_t most_tile_bytes = 225'000;
 
-// glTF's reflection of dielectrics straight on, which KHR_materials_specular multiplies.
+// Reflectance of dielectrics at normal incidence in glTF, which KHR_materials_specular multiplies.
 constexpr float gltf_specular = 0.04f;
 
-/// A picture as it can stand in a .glb.
+/// An image in a form that a .glb can hold.
 struct Embedded {
     Image8 image;
     std::string mime_type;
     std::vector<std::byte> bytes;
 };
 
-/// Nothing where it cannot be read.
+/// Nothing if the file cannot be read.
 std::optional<Embedded> embedded(const std::string& name, const std::filesystem::path& folder) {
     const auto path = find_asset(name, folder);
     if (!path) return {};
@@ -51,14 +51,14 @@ Vec3 between(Vec3 weft, Vec3 warp, float share) {
     return weft + (warp - weft) * share;
 }
 
-/// IEC 61966-2-1.
+/// sRGB encoding, IEC 61966-2-1.
 std::uint8_t srgb_byte(float linear) {
     const float c = std::clamp(linear, 0.0f, 1.0f);
     const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
     return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
-/// Warp and weft in their colors, as dark as they are in their gaps.
+/// A color map of the warp and weft colors, darkened in the gaps between the threads.
 Image8 colors_of(const Material& material) {
     const Relief relief = make_weave(material.weave);
     const ReliefLevel& level = relief.levels.front();
@@ -94,7 +94,7 @@ Value numbers(std::initializer_list<double> values) {
     return Value(std::move(array));
 }
 
-/// UVs of a .glb run downward: the repeats are counted from the bottom all the same.
+/// The UVs of a .glb run downward, but the repeats are counted from the bottom.
 Value::Object transform_of(std::array<double, 2> repeat) {
     const double offset = 1 - repeat[1];
     return {{"scale", numbers({repeat[0], repeat[1]})}, {"offset", numbers({0, offset - std::floor(offset)})}};
@@ -149,7 +149,8 @@ Result<GltfMaterials::Tile> GltfMaterials::tile_of(const Material& material, Tex
         } else {
             auto png = png_bytes(normal_map_of(relief, 1));
             if (!png) return png.errors();
-            picture = {{}, "image/png", *std::move(png)};
+            picture.mime_type = "image/png";
+            picture.bytes = *std::move(png);
         }
         const Result<int> texture = add_texture(picture.mime_type, picture.bytes);
         if (!texture) return texture.errors();
@@ -159,13 +160,13 @@ Result<GltfMaterials::Tile> GltfMaterials::tile_of(const Material& material, Tex
     return tile;
 }
 
-Result<Done> GltfMaterials::add_color(const Material& material, const Tile& tile, std::array<double, 2> tile_repeat,
+Result<void> GltfMaterials::add_color(const Material& material, const Tile& tile, std::array<double, 2> tile_repeat,
                                       Textures textures, tinygltf::Material& to) {
     Vec3 color = tile.light * between(material.weft_color, material.color, tile.warp);
     std::array<double, 2> repeat = tile_repeat;
     int texture = -1;
     if (textures == Textures::with && !material.color_map.empty()) {
-        repeat = {material.map_repeat[0], material.map_repeat[1]};
+        repeat = {material.uv_tiling[0], material.uv_tiling[1]};
         if (!color_files_.contains(material.color_map)) {
             int& number = color_files_[material.color_map] = -1;
             if (const auto file = embedded(material.color_map, folder_)) {
@@ -190,16 +191,16 @@ Result<Done> GltfMaterials::add_color(const Material& material, const Tile& tile
         pbr.baseColorTexture.index = texture;
         extend(pbr.baseColorTexture.extensions, texture_transform, transform_of(repeat));
     }
-    return Done{};
+    return {};
 }
 
-/// A reader that shows the weave as a normal map loses its roughness with the distance; from where clothes are seen,
-/// the slopes are roughness alone (Olano and Baker 2010).
+/// A reader that shows the weave as a normal map loses its roughness at a distance. At common viewing distances the
+/// slopes contribute only roughness (Olano and Baker 2010).
 void GltfMaterials::add_highlight(const Material& material, const Tile& tile, tinygltf::Material& to) {
     double alpha[2];
     for (int i = 0; i < 2; ++i) {
         const double own = double{material.roughness[i]} * material.roughness[i];
-        const double slopes = double{material.relief} * material.relief * tile.slopes[i];
+        const double slopes = double{material.weave_depth} * material.weave_depth * tile.slopes[i];
         alpha[i] = std::min(1.0, std::sqrt(own * own + 2 * slopes));
     }
     const bool rougher_along_v = alpha[1] > alpha[0];
@@ -207,8 +208,8 @@ void GltfMaterials::add_highlight(const Material& material, const Tile& tile, ti
     to.pbrMetallicRoughness.metallicFactor = 0;
     to.pbrMetallicRoughness.roughnessFactor = std::sqrt(least);
 
-    // The extension's alpha along its direction is that of the material mixed with 1 by the square of the strength.
-    constexpr double seen = 0.05;  // of a highlight less far from round nobody sees that it is
+    // The extension defines alpha along its direction as mix(alpha, 1, strength²).
+    constexpr double seen = 0.05;  // smaller differences are not visible
     if (most - least > seen) {
         extend(to.extensions, "KHR_materials_anisotropy",
                {{"anisotropyStrength", number(std::sqrt((most - least) / (1 - least)))},
@@ -225,36 +226,36 @@ void GltfMaterials::add_highlight(const Material& material, const Tile& tile, ti
 void GltfMaterials::add_fuzz(const Material& material, tinygltf::Material& to) {
     const Vec3 color = material.sheen_color;
     float roughness = material.sheen_roughness;
-    if (material.velvet > 0) roughness = material.velvet_alpha;  // its hairs have their color as that of the sheen
+    if (material.velvet > 0) roughness = material.velvet_alpha;  // the sheen color is that of the hairs
     if (color == Vec3{}) return;
     extend(to.extensions, "KHR_materials_sheen",
            {{"sheenColorFactor", numbers({color.x, color.y, color.z})}, {"sheenRoughnessFactor", number(roughness)}});
 }
 
-Result<Done> GltfMaterials::add(const std::string& name, const Material& material, const ExportSurface& surface) {
+Result<void> GltfMaterials::add(const std::string& name, const Material& material, const ExportSurface& surface) {
     const Textures textures = surface.uvs.empty() ? Textures::without : Textures::with;
     const Result<Tile> tile = tile_of(material, textures);
     if (!tile) return tile.errors();
     const std::array<float, 2> meters = uv_meters(
         surface.rest_positions.empty() ? surface.positions : surface.rest_positions, surface.uvs, surface.triangles);
     std::array<double, 2> repeat;
-    for (std::size_t i = 0; i < 2; ++i) repeat[i] = meters[i] / (tile->threads[i] * (material.thread * 1e-3));
+    for (std::size_t i = 0; i < 2; ++i) repeat[i] = meters[i] / (tile->threads[i] * (material.thread_spacing * 1e-3));
 
     tinygltf::Material to;
     to.name = name;
     to.doubleSided = true;
-    if (Result<Done> r = add_color(material, *tile, repeat, textures, to); !r) return r;
+    if (Result<void> r = add_color(material, *tile, repeat, textures, to); !r) return r;
     add_highlight(material, *tile, to);
     add_fuzz(material, to);
-    if (textures == Textures::with && tile->texture >= 0 && material.relief > 0) {
+    if (textures == Textures::with && tile->texture >= 0 && material.weave_depth > 0) {
         const bool of_file = !material.normal_map.empty() && tiles_.contains("file " + material.normal_map);
-        if (of_file) repeat = {material.map_repeat[0], material.map_repeat[1]};
+        if (of_file) repeat = {material.uv_tiling[0], material.uv_tiling[1]};
         to.normalTexture.index = tile->texture;
-        to.normalTexture.scale = material.relief;
+        to.normalTexture.scale = material.weave_depth;
         extend(to.normalTexture.extensions, texture_transform, transform_of(repeat));
     }
     model_.materials.push_back(std::move(to));
-    return Done{};
+    return {};
 }
 
 std::uint64_t GltfMaterials::most_picture_bytes(std::span<const ExportSurface> surfaces,

@@ -71,14 +71,14 @@ std::vector<double> numbers(const tinygltf::ExtensionMap& extensions, const std:
 TEST_F(GlbMaterial, ThreadsAreAsFarApartAsTheyAre) {
     Cloth sheet{"c", make_grid({2, 0.5f}, {4, 4}, GridDiagonal::alternating), 0};
     Material cotton = preset("cotton");
-    cotton.thread = 0.5f;
-    cotton.relief = 0.75f;
+    cotton.thread_spacing = 0.5f;
+    cotton.weave_depth = 0.75f;
     const tinygltf::Model model = export_of({sheet}, {&cotton});
     const tinygltf::Material& material = model.materials.at(0);
     EXPECT_TRUE(material.doubleSided);
     EXPECT_EQ(material.alphaMode, "OPAQUE");
     EXPECT_EQ(material.normalTexture.scale, 0.75);
-    // Eight threads a tile: 4 mm. Two meters are 500 tiles.
+    // Eight threads per tile: 4 mm. Two meters are 500 tiles.
     const auto repeat = numbers(material.normalTexture.extensions, "KHR_texture_transform", "scale");
     EXPECT_NEAR(repeat.at(0), 500, 1e-3);
     EXPECT_NEAR(repeat.at(1), 125, 1e-3);
@@ -107,7 +107,7 @@ TEST_F(GlbMaterial, OneFrameHasTheTangentsThatNormalMapsNeed) {
         EXPECT_NEAR(length(tangents[i].xyz()), 1, 1e-5);
         EXPECT_NEAR(dot(tangents[i].xyz(), normals[i]), 0, 1e-5);
         EXPECT_GT(tangents[i].x, 0.3f) << "u runs along x";
-        // v runs along z, upward in the picture as the green of a normal map does.
+        // v runs along z, upward in the image like the green channel of a normal map.
         EXPECT_GT((tangents[i].w * cross(normals[i], tangents[i].xyz())).z, 0.3f);
     }
     EXPECT_FALSE(export_of(preset("velvet")).meshes[0].primitives[0].attributes.contains("TANGENT"));
@@ -176,7 +176,7 @@ TEST_F(GlbMaterial, DenimShowsWarpAndWeft) {
     EXPECT_EQ(pbr.baseColorFactor, (std::vector<double>{1, 1, 1, 1}));
     const auto image = decode_image(picture_bytes(model, pbr.baseColorTexture.index), "colors");
     ASSERT_TRUE(image.ok());
-    // Both threads are there, about as bright as they are where nothing shades them.
+    // Both thread colors occur, nearly as bright as without shading.
     const auto reds = [&] {
         std::vector<int> values;
         for (std::size_t i = 0; i < image->rgba.size(); i += 4) values.push_back(image->rgba[i]);
@@ -203,7 +203,7 @@ TEST_F(GlbMaterial, PicturesOfFilesAreInIt) {
     Material material = preset("cotton");
     material.color_map = "colors.png";
     material.normal_map = "normals.png";
-    material.map_repeat[0] = 3, material.map_repeat[1] = 2.5f;
+    material.uv_tiling[0] = 3, material.uv_tiling[1] = 2.5f;
     const tinygltf::Model model = export_of(material);
     const tinygltf::Material& to = model.materials[0];
     EXPECT_TRUE(std::ranges::equal(picture_bytes(model, to.pbrMetallicRoughness.baseColorTexture.index), png));

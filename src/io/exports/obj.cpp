@@ -7,7 +7,7 @@
 #include <string_view>
 
 namespace weft {
-Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file);
+Result<void> write_obj(const ExportFrame& frame, AtomicFile& file);
 std::uint64_t size_obj(std::span<const ExportSurface> surfaces);
 
 namespace {
@@ -35,7 +35,7 @@ class Line {
     std::string text_;
 };
 
-/// A name ends at white space for most readers.
+/// Most readers end a name at white space.
 std::string object_name(std::string_view name) {
     std::string safe(name.empty() ? "cloth" : name);
     for (char& c : safe) {
@@ -44,26 +44,26 @@ std::string object_name(std::string_view name) {
     return safe;
 }
 
-/// Indices count from 1 through all objects of a file, for each kind of vertex data on its own.
+/// Indices count from 1 through all objects of a file, separately for each kind of vertex data.
 struct FirstIndex {
     std::uint64_t position = 1, uv = 1;
 };
 
-Result<Done> write_vertices(const ExportSurface& surface, AtomicFile& file) {
+Result<void> write_vertices(const ExportSurface& surface, AtomicFile& file) {
     for (const Vec3& p : surface.positions) {
-        if (Result<Done> r = file.write(Line("v").add(p.x).add(p.y).add(p.z).end()); !r) return r;
+        if (Result<void> r = file.write(Line("v").add(p.x).add(p.y).add(p.z).end()); !r) return r;
     }
     for (const Vec2& uv : surface.uvs) {
-        if (Result<Done> r = file.write(Line("vt").add(uv.x).add(uv.y).end()); !r) return r;
+        if (Result<void> r = file.write(Line("vt").add(uv.x).add(uv.y).end()); !r) return r;
     }
     for (const Vec3& given : surface.normals) {
         const Vec3 n = unit_normal(given);
-        if (Result<Done> r = file.write(Line("vn").add(n.x).add(n.y).add(n.z).end()); !r) return r;
+        if (Result<void> r = file.write(Line("vn").add(n.x).add(n.y).add(n.z).end()); !r) return r;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> write_triangles(const ExportSurface& surface, FirstIndex first, AtomicFile& file) {
+Result<void> write_triangles(const ExportSurface& surface, FirstIndex first, AtomicFile& file) {
     const bool has_uvs = !surface.uvs.empty();
     for (const Triangle& triangle : surface.triangles) {
         Line line("f");
@@ -72,15 +72,15 @@ Result<Done> write_triangles(const ExportSurface& surface, FirstIndex first, Ato
             has_uvs ? line.add(first.uv + vertex, '/') : line.slash();
             line.add(first.position + vertex, '/');
         }
-        if (Result<Done> r = file.write(line.end()); !r) return r;
+        if (Result<void> r = file.write(line.end()); !r) return r;
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace
 
 std::uint64_t size_obj(std::span<const ExportSurface> surfaces) {
-    // A coordinate of a moving cloth takes all of a float's digits, as in " -0.12345678".
+    // A coordinate of a moving cloth takes all digits of a float, as in " -0.12345678".
     constexpr std::uint64_t number = 12, keyword = 3;
     std::uint64_t vertices = 0, bytes = 0;
     for (const ExportSurface& surface : surfaces) vertices += surface.positions.size();
@@ -94,16 +94,16 @@ std::uint64_t size_obj(std::span<const ExportSurface> surfaces) {
     return bytes;
 }
 
-Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file) {
+Result<void> write_obj(const ExportFrame& frame, AtomicFile& file) {
     FirstIndex first;
     for (const ExportSurface& surface : frame.surfaces) {
-        if (Result<Done> r = file.write("o " + object_name(surface.name) + "\n"); !r) return r;
-        if (Result<Done> r = write_vertices(surface, file); !r) return r;
-        if (Result<Done> r = write_triangles(surface, first, file); !r) return r;
+        if (Result<void> r = file.write("o " + object_name(surface.name) + "\n"); !r) return r;
+        if (Result<void> r = write_vertices(surface, file); !r) return r;
+        if (Result<void> r = write_triangles(surface, first, file); !r) return r;
         first.position += surface.positions.size();
         first.uv += surface.uvs.size();
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

@@ -19,7 +19,7 @@ struct Corner {
     std::size_t position = 0, uv = 0, normal = 0;
 };
 
-/// Only what the exporter writes.
+/// Reads only what the exporter writes.
 struct ObjText {
     std::vector<std::string> names;
     std::vector<Vec3> positions, normals;

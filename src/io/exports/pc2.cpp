@@ -1,11 +1,11 @@
-// PC2 point cache: the positions of every vertex in every frame, and beside it, as .obj, the mesh that they move.
+// PC2 point cache: the positions of every vertex in every frame, and beside it the mesh that they move, as .obj.
 //
 //     "POINTCACHE2\0", int32 version = 1, int32 points, float32 first frame, float32 frames per sample, int32 samples,
 //     then float32 x, y, z of every point of every sample; all little-endian
 //
-// All cloths are one mesh, one after another, since the format knows only one list of points. Readers match it to the
-// mesh by the number and order of vertices alone, and those that load an .obj drop vertices that no face uses: both
-// files leave them out. Coordinates are the scene's own in both.
+// All cloths form one mesh, one after another, because the format has a single list of points. Readers match it to the
+// mesh only by the number and order of vertices, and readers of .obj drop vertices that no face uses: both files leave
+// them out. Both files have the coordinates of the scene.
 #include "io/exports/export_format.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace weft {
 std::unique_ptr<Exporter> make_pc2(const std::filesystem::path& path);
-Result<Done> write_obj(const ExportFrame& frame, AtomicFile& file);
+Result<void> write_obj(const ExportFrame& frame, AtomicFile& file);
 std::uint64_t size_obj(std::span<const ExportSurface> surfaces);
 
 namespace {
@@ -37,7 +37,7 @@ static_assert(sizeof(Header) == 32);
 
 constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
 
-/// A triangle whose corners are three vertices. Readers of .obj take no other for a face.
+/// Whether a triangle has three different corners. Readers of .obj skip other faces.
 bool is_face(const Triangle& t) {
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
 }
@@ -57,12 +57,12 @@ std::vector<std::uint32_t> used_vertices(const ExportSurface& surface) {
     return vertices;
 }
 
-/// Vertices, triangles, and which ones.
+/// The numbers of vertices and triangles, and the topology version.
 std::array<std::uint64_t, 3> shape_of(const ExportSurface& surface) {
     return {surface.positions.size(), surface.triangles.size(), surface.topology_version};
 }
 
-/// All cloths as one, without what no reader keeps.
+/// All cloths as one mesh, without what readers drop.
 struct RestMesh {
     TriangleMesh mesh;
     std::vector<std::vector<std::uint32_t>> kept;     ///< per cloth: its vertices that are in `mesh`, ascending
@@ -92,15 +92,15 @@ class Pc2Exporter : public Exporter {
         : path_(std::move(path)), rest_path_(std::filesystem::path(path_).replace_extension(".obj")) {}
 
     Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override;
-    Result<Done> begin(const ExportInfo& info) override;
-    Result<Done> write(const ExportFrame& frame) override;
-    Result<Done> finish() override;
+    Result<void> begin(const ExportInfo& info) override;
+    Result<void> write(const ExportFrame& frame) override;
+    Result<void> finish() override;
 
   private:
-    Result<Done> check_counts(std::uint64_t points, std::uint64_t samples) const;
-    Result<Done> check_shape(const ExportFrame& frame) const;
+    Result<void> check_counts(std::uint64_t points, std::uint64_t samples) const;
+    Result<void> check_shape(const ExportFrame& frame) const;
     void keep_rest_mesh(const ExportFrame& frame);
-    Result<Done> write_rest_mesh(AtomicFile& file) const;
+    Result<void> write_rest_mesh(AtomicFile& file) const;
     Error error(std::string what) const { return {path_.string(), std::move(what)}; }
 
     std::filesystem::path path_, rest_path_;
@@ -111,35 +111,35 @@ class Pc2Exporter : public Exporter {
     std::vector<Vec3> sample_;
 };
 
-Result<Done> Pc2Exporter::check_counts(std::uint64_t points, std::uint64_t samples) const {
-    if (points <= most && samples <= most) return Done{};
+Result<void> Pc2Exporter::check_counts(std::uint64_t points, std::uint64_t samples) const {
+    if (points <= most && samples <= most) return {};
     return error("would take " + std::to_string(samples) + " frames of " + std::to_string(points) +
-                 " vertices, and a .pc2 counts either up to " + std::to_string(most));
+                 " vertices, but a .pc2 can have at most " + std::to_string(most) + " of each");
 }
 
 Result<ExportEstimate> Pc2Exporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
     std::uint64_t points = 0;
     for (const ExportSurface& surface : surfaces) points += surface.positions.size();
-    if (Result<Done> checked = check_counts(points, info.frame_count); !checked) return checked.errors();
+    if (Result<void> checked = check_counts(points, info.frame_count); !checked) return checked.errors();
     return ExportEstimate{{path_, rest_path_},
                           sizeof(Header) + info.frame_count * points * sizeof(Vec3) + size_obj(surfaces)};
 }
 
-Result<Done> Pc2Exporter::begin(const ExportInfo& info) {
+Result<void> Pc2Exporter::begin(const ExportInfo& info) {
     name_ = info.scene_name;
     for (const std::filesystem::path& path : {path_, rest_path_}) {
-        if (Result<Done> writable = check_writable(path); !writable) return writable;
+        if (Result<void> writable = check_writable(path); !writable) return writable;
     }
     Result<BufferedFile> spool = BufferedFile::open_nameless(folder_of(path_), path_.string());
     if (!spool) return spool.errors();
     spool_ = *std::move(spool);
-    return Done{};
+    return {};
 }
 
-Result<Done> Pc2Exporter::check_shape(const ExportFrame& frame) const {
+Result<void> Pc2Exporter::check_shape(const ExportFrame& frame) const {
     const std::string which = "frame " + std::to_string(frame.index) + ": ";
     if (frame.surfaces.size() != rest_.shape.size()) {
-        return error(which + "it does not hold the cloths of the first frame");
+        return error(which + "it does not have the cloths of the first frame");
     }
     for (std::size_t i = 0; i < rest_.shape.size(); ++i) {
         const ExportSurface& surface = frame.surfaces[i];
@@ -148,7 +148,7 @@ Result<Done> Pc2Exporter::check_shape(const ExportFrame& frame) const {
                      "\" has other vertices or triangles than in the first frame, which a .pc2 cannot hold; " +
                      "write a sequence instead");
     }
-    return Done{};
+    return {};
 }
 
 void Pc2Exporter::keep_rest_mesh(const ExportFrame& frame) {
@@ -158,11 +158,11 @@ void Pc2Exporter::keep_rest_mesh(const ExportFrame& frame) {
     if (name_.empty()) name_ = frame.surfaces.front().name;
 }
 
-Result<Done> Pc2Exporter::write(const ExportFrame& frame) {
-    if (Result<Done> checked = check_frame(frame, path_.string()); !checked) return checked;
+Result<void> Pc2Exporter::write(const ExportFrame& frame) {
+    if (Result<void> checked = check_frame(frame, path_.string()); !checked) return checked;
     if (samples_ == 0) keep_rest_mesh(frame);
-    if (Result<Done> checked = check_shape(frame); !checked) return checked;
-    if (Result<Done> checked = check_counts(rest_.mesh.positions.size(), samples_ + 1); !checked) return checked;
+    if (Result<void> checked = check_shape(frame); !checked) return checked;
+    if (Result<void> checked = check_counts(rest_.mesh.positions.size(), samples_ + 1); !checked) return checked;
     if (rest_.mesh.triangles.empty()) return error("no triangle has three different corners");
     sample_.clear();
     for (std::size_t i = 0; i < frame.surfaces.size(); ++i) {
@@ -172,27 +172,27 @@ Result<Done> Pc2Exporter::write(const ExportFrame& frame) {
     return spool_.write(std::as_bytes(std::span(sample_)));
 }
 
-Result<Done> Pc2Exporter::write_rest_mesh(AtomicFile& file) const {
+Result<void> Pc2Exporter::write_rest_mesh(AtomicFile& file) const {
     const ExportSurface surface = surface_of(name_, rest_.mesh, rest_.mesh.positions, rest_.mesh.normals);
     return write_obj({0, 0, std::span(&surface, 1)}, file);
 }
 
-Result<Done> Pc2Exporter::finish() {
+Result<void> Pc2Exporter::finish() {
     if (samples_ == 0) return error("there is no frame to write");
     Result<AtomicFile> cache = AtomicFile::create(path_);
     if (!cache) return cache.errors();
     const Header header{.points = static_cast<std::int32_t>(rest_.mesh.positions.size()),
                         .samples = static_cast<std::int32_t>(samples_)};
-    if (Result<Done> r = cache->write(std::as_bytes(std::span(&header, 1))); !r) return r;
-    if (Result<Done> r = spool_.move_to(cache->content()); !r) return r;
-    if (Result<Done> r = cache->prepare(); !r) return r;
+    if (Result<void> r = cache->write(std::as_bytes(std::span(&header, 1))); !r) return r;
+    if (Result<void> r = spool_.move_to(cache->content()); !r) return r;
+    if (Result<void> r = cache->prepare(); !r) return r;
 
     Result<AtomicFile> rest = AtomicFile::create(rest_path_);
     if (!rest) return rest.errors();
-    if (Result<Done> r = write_rest_mesh(*rest); !r) return r;
-    if (Result<Done> r = rest->prepare(); !r) return r;
+    if (Result<void> r = write_rest_mesh(*rest); !r) return r;
+    if (Result<void> r = rest->prepare(); !r) return r;
 
-    if (Result<Done> r = rest->commit(); !r) return r;
+    if (Result<void> r = rest->commit(); !r) return r;
     return cache->commit();
 }
 

@@ -19,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Read by the published layout, not by the exporter's own struct.
+/// Reads by the published layout, independently of the exporter's struct.
 struct Cache {
     std::string signature;
     std::int32_t version = 0, points = 0, samples = 0;
@@ -89,7 +89,7 @@ TEST(Pc2Export, TheRestMeshIsOneObjectInTheOrderOfTheCache) {
     EXPECT_EQ(rest->uvs[30], Vec2{});
 }
 
-// Blender's importer drops them, and then numbers of vertices would differ.
+// Blender's importer drops them, so the numbers of vertices would differ.
 TEST(Pc2Export, VerticesThatNoFaceUsesAreInNeitherFile) {
     const TestFolder folder;
     std::vector<Cloth> cloths = {make_cloth("a", 3, 0), make_cloth("b", 3, 1)};
@@ -100,7 +100,7 @@ TEST(Pc2Export, VerticesThatNoFaceUsesAreInNeitherFile) {
         for (std::uint32_t& vertex : triangle) vertex += vertex >= 4;
     }
     mesh.positions.push_back({9, 9, 9});
-    mesh.triangles.push_back({0, 10, 10});  // no face either
+    mesh.triangles.push_back({0, 10, 10});  // not a face either
     ASSERT_TRUE(export_film(folder / "film.pc2", cloths, 2).ok());
 
     const Cache cache(read_text(folder / "film.pc2"));
@@ -124,11 +124,11 @@ TEST(Pc2Export, AFrameOfAnotherShapeIsRefused) {
         EXPECT_TRUE((*made)->write(Instant(cloths, 0, 0).frame()).ok());
         Instant second(later, 1, 0.1);
         second.surfaces.back().topology_version = topology_version;
-        const Result<Done> written = (*made)->write(second.frame());
+        const Result<void> written = (*made)->write(second.frame());
         return written ? std::string("none") : written.error().message();
     };
     EXPECT_EQ(second_frame(cloths), "none");
-    EXPECT_THAT(second_frame({cloths[0]}), HasSubstr("film.pc2: frame 1: it does not hold the cloths"));
+    EXPECT_THAT(second_frame({cloths[0]}), HasSubstr("film.pc2: frame 1: it does not have the cloths"));
     EXPECT_THAT(second_frame({cloths[0], make_cloth("b", 4, 1)}), HasSubstr("cloth \"b\" has other vertices"));
     EXPECT_THAT(second_frame(cloths, 2), HasSubstr("cloth \"b\" has other vertices or triangles"));
     EXPECT_THAT(folder.names(), IsEmpty());
@@ -139,7 +139,7 @@ TEST(Pc2Export, ARestMeshThatCannotBeWrittenIsKnownBeforeTheRun) {
     std::filesystem::create_directory(folder / "film.obj");
     const auto made = make_exporter(folder / "film.pc2");
     ASSERT_TRUE(made.ok());
-    const Result<Done> begun = (*made)->begin({"s", 60, 2});
+    const Result<void> begun = (*made)->begin({"s", 60, 2});
     ASSERT_FALSE(begun.ok());
     EXPECT_EQ(begun.error().where, (folder / "film.obj").string());
 }
@@ -150,7 +150,7 @@ TEST(Pc2Export, BothFilesAppearOrNeither) {
     const auto made = make_exporter(folder / "film.pc2");
     ASSERT_TRUE(made.ok() && (*made)->begin({"s", 60, 1}).ok());
     ASSERT_TRUE((*made)->write(Instant(cloths, 0, 0).frame()).ok());
-    // What begin found free is taken by the time finish writes.
+    // The path that begin() found free is taken when finish() writes.
     std::filesystem::create_directory(folder / "film.pc2");
     EXPECT_FALSE((*made)->finish().ok());
     EXPECT_THAT(folder.names(), ElementsAre("film.pc2"));
@@ -160,7 +160,7 @@ TEST(Pc2Export, BothFilesAppearOrNeither) {
 TEST(Pc2Export, MoreVerticesThanItCountsAreRefused) {
     const auto made = make_exporter("film.pc2");
     ASSERT_TRUE(made.ok());
-    // Never read: only their number counts.
+    // Never read; only their number matters.
     const std::span<const Vec3> many(reinterpret_cast<const Vec3*>(0x1000), std::size_t{1} << 31);
     const ExportSurface surface = surface_of("huge", {}, many, many);
     const auto estimate = (*made)->estimate({"s", 60, 1}, std::span(&surface, 1));

@@ -1,4 +1,4 @@
-// Binary little-endian PLY: all cloths as one mesh, since the format knows only one.
+// Binary little-endian PLY: all cloths as one mesh, because the format has only one.
 #include "io/exports/export_format.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace weft {
-Result<Done> write_ply(const ExportFrame& frame, AtomicFile& file);
+Result<void> write_ply(const ExportFrame& frame, AtomicFile& file);
 std::uint64_t size_ply(std::span<const ExportSurface> surfaces);
 
 namespace {
@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 
 struct Contents {
     std::uint64_t vertices = 0, triangles = 0;
-    bool uvs = false, colors = false;  ///< of any cloth; the others get zeros and white
+    bool uvs = false, colors = false;  ///< if any cloth has them; the others get zeros and white
 };
 
 Contents contents_of(std::span<const ExportSurface> surfaces) {
@@ -51,12 +51,12 @@ void append(std::vector<std::byte>& bytes, const Value& value) {
     bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
-/// Eight bits of the linear value itself: readers hand these numbers on without decoding, our own included.
+/// Quantizes the linear value to eight bits: readers do not decode sRGB, weft's included.
 std::uint8_t byte_color(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(std::isnan(value) ? 0 : value, 0.0f, 1.0f) * 255));
 }
 
-Result<Done> write_vertices(const ExportSurface& surface, const Contents& contents, AtomicFile& file) {
+Result<void> write_vertices(const ExportSurface& surface, const Contents& contents, AtomicFile& file) {
     std::vector<std::byte> record;
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {
         record.clear();
@@ -67,20 +67,20 @@ Result<Done> write_vertices(const ExportSurface& surface, const Contents& conten
             const Vec4 color = surface.colors.empty() ? Vec4{1, 1, 1, 1} : surface.colors[i];
             for (const float channel : {color.x, color.y, color.z, color.w}) append(record, byte_color(channel));
         }
-        if (Result<Done> r = file.write(record); !r) return r;
+        if (Result<void> r = file.write(record); !r) return r;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> write_triangles(const ExportSurface& surface, std::uint32_t first_vertex, AtomicFile& file) {
+Result<void> write_triangles(const ExportSurface& surface, std::uint32_t first_vertex, AtomicFile& file) {
     std::vector<std::byte> record;
     for (const Triangle& triangle : surface.triangles) {
         record.clear();
         append(record, std::uint8_t{3});
         for (const std::uint32_t vertex : triangle) append(record, first_vertex + vertex);
-        if (Result<Done> r = file.write(record); !r) return r;
+        if (Result<void> r = file.write(record); !r) return r;
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace
@@ -92,21 +92,21 @@ std::uint64_t size_ply(std::span<const ExportSurface> surfaces) {
     return header(contents).size() + contents.vertices * vertex + contents.triangles * triangle;
 }
 
-Result<Done> write_ply(const ExportFrame& frame, AtomicFile& file) {
+Result<void> write_ply(const ExportFrame& frame, AtomicFile& file) {
     const Contents contents = contents_of(frame.surfaces);
     if (contents.vertices > std::numeric_limits<std::uint32_t>::max()) {
         return Error{file.path().string(), "a .ply holds at most 4294967295 vertices"};
     }
-    if (Result<Done> r = file.write(header(contents)); !r) return r;
+    if (Result<void> r = file.write(header(contents)); !r) return r;
     for (const ExportSurface& surface : frame.surfaces) {
-        if (Result<Done> r = write_vertices(surface, contents, file); !r) return r;
+        if (Result<void> r = write_vertices(surface, contents, file); !r) return r;
     }
     std::uint32_t first_vertex = 0;
     for (const ExportSurface& surface : frame.surfaces) {
-        if (Result<Done> r = write_triangles(surface, first_vertex, file); !r) return r;
+        if (Result<void> r = write_triangles(surface, first_vertex, file); !r) return r;
         first_vertex += static_cast<std::uint32_t>(surface.positions.size());
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

@@ -21,7 +21,7 @@ struct PlyVertex {
     std::array<std::uint8_t, 4> color{};
 };
 
-/// Takes sizes and order from the header, as any reader would.
+/// Takes sizes and order from the header, like any reader.
 struct PlyFile {
     std::vector<std::string> properties;
     std::vector<PlyVertex> vertices;

@@ -1,11 +1,11 @@
 #include "io/exports/scene_export.h"
 
 #include "io/files/atomic_file.h"
+#include "io/files/overwriting.h"
 #include "io/meshes/mesh_file.h"
 #include "io/meshes/mesh_writer.h"
 #include "io/scenes/scene_writer.h"
 
-#include <functional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -15,28 +15,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calls `change` with every name of a file in the scene.
-void for_each_file(SceneDesc& scene, const std::function<void(std::string&)>& change) {
-    const auto in_mesh = [&](MeshDesc& mesh) {
+/// Calls `change` with every name of a file in the scene, which may be const.
+template <class Scene, class Change>
+void for_each_file(Scene& scene, Change&& change) {
+    const auto in_mesh = [&](auto& mesh) {
         if (auto* file = std::get_if<MeshFileDesc>(&mesh)) change(file->file);
     };
-    for (SceneCloth& cloth : scene.cloths) {
+    const auto in_material = [&](auto& material) {
+        if (!material) return;
+        change(material->values.color_map);
+        change(material->values.normal_map);
+    };
+    for (auto& cloth : scene.cloths) {
         in_mesh(cloth.mesh);
-        if (cloth.drawn) in_mesh(*cloth.drawn);
+        if (cloth.render_mesh) in_mesh(*cloth.render_mesh);
+        in_material(cloth.material);
     }
+    for (auto& collider : scene.colliders) in_material(collider.material);
     change(scene.light.environment.file);
-    for (SceneLook& look : scene.looks) {
-        change(look.material.color_map);
-        change(look.material.normal_map);
-    }
 }
 
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    return fs::equivalent(a, b, error) && !error;
-}
-
-/// What names, in a scene in the folder `to`, the file that `name` names in `from`.
+/// A name that, in a scene in the folder `to`, refers to the file that `name` refers to in `from`.
 std::string renamed(const std::string& name, const fs::path& from, const fs::path& to) {
     const auto found = find_asset(name, from);
     if (!found) return name;
@@ -44,7 +43,7 @@ std::string renamed(const std::string& name, const fs::path& from, const fs::pat
     std::error_code error;
     const fs::path absolute = fs::absolute(*found, error);
     if (error) return name;
-    // Only what lies by the scene moves with it.
+    // Only files beside the scene get relative names.
     const bool beside = *found == from / name;
     const fs::path relative = beside ? fs::relative(absolute, fs::absolute(to), error) : fs::path();
     return error || relative.empty() ? absolute.generic_string() : relative.generic_string();
@@ -55,7 +54,7 @@ struct MeshToWrite {
     fs::path path;
 };
 
-/// Gives names to meshes in memory, and takes them out.
+/// Names the meshes in memory and moves them out of the scene.
 std::vector<MeshToWrite> name_meshes(SceneDesc& scene, const fs::path& path) {
     std::set<std::string> taken;
     for_each_file(scene, [&](std::string& name) { taken.insert(fs::path(name).filename().string()); });
@@ -73,12 +72,21 @@ std::vector<MeshToWrite> name_meshes(SceneDesc& scene, const fs::path& path) {
     };
     for (SceneCloth& cloth : scene.cloths) {
         name(cloth.mesh);
-        if (cloth.drawn) name(*cloth.drawn);
+        if (cloth.render_mesh) name(*cloth.render_mesh);
     }
     return meshes;
 }
 
 }  // namespace
+
+std::vector<fs::path> files_of(const SceneDesc& scene, const fs::path& folder) {
+    std::vector<fs::path> files;
+    for_each_file(scene, [&](const std::string& name) {
+        if (name.empty()) return;
+        if (auto found = find_asset(name, folder)) files.push_back(std::move(*found));
+    });
+    return files;
+}
 
 Result<std::vector<fs::path>> export_scene(SceneDesc scene, const fs::path& folder, const fs::path& path) {
     for_each_file(scene, [&](std::string& name) {
@@ -89,11 +97,11 @@ Result<std::vector<fs::path>> export_scene(SceneDesc scene, const fs::path& fold
     if (!text) return text.errors();
 
     std::vector<AtomicFile> files;
-    const auto begin = [&](const fs::path& to) -> Result<Done> {
+    const auto begin = [&](const fs::path& to) -> Result<void> {
         auto file = AtomicFile::create(to);
         if (!file) return file.errors();
         files.push_back(std::move(*file));
-        return Done{};
+        return {};
     };
     if (auto begun = begin(path); !begun) return begun.errors();
     if (auto done = files.back().write(*text); !done) return done.errors();
@@ -103,7 +111,7 @@ Result<std::vector<fs::path>> export_scene(SceneDesc scene, const fs::path& fold
     }
     for (AtomicFile& file : files)
         if (auto done = file.prepare(); !done) return done.errors();
-    // The scene last: it names the others.
+    // The scene is committed last, because it names the other files.
     for (std::size_t i = files.size(); i-- > 0;)
         if (auto done = files[i].commit(); !done) return done.errors();
 

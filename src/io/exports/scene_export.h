@@ -1,4 +1,4 @@
-// A scene to a file from which it can be read again, with the meshes that are in no file yet beside it.
+// Writes a scene to a file from which it can be read again, and meshes that are only in memory to files beside it.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -10,15 +10,18 @@
 
 namespace weft {
 
-/// Writes `scene` to `path` and, for `scenes/a.json`, each mesh that lies in memory to `scenes/a-mesh0.ply`,
-/// `scenes/a-mesh1.ply`, …; numbers that the scene itself names already are left out. All appear, or none.
+/// Writes `scene` to `path` and, for `scenes/a.json`, each mesh in memory to `scenes/a-mesh0.ply`,
+/// `scenes/a-mesh1.ply`, …; names that the scene already uses are skipped. Either all files appear, or none.
 ///
-/// `folder`: where the scene looks for its files now. Names of files are changed where that is needed to find the same
-/// ones from the new folder: relative to it for those in `folder`, absolute for others that would not be found there.
-/// Names of files that are not found stay as they are.
+/// `folder`: where the scene finds its files now. File names are changed where this is needed to find the same files
+/// from the new folder: relative to it for files in `folder`, absolute for others that would not be found there. Names
+/// of missing files stay unchanged.
 ///
 /// Returns the files in the order of their names in the scene, the scene itself first.
 Result<std::vector<std::filesystem::path>> export_scene(SceneDesc scene, const std::filesystem::path& folder,
                                                         const std::filesystem::path& path);
+
+/// The existing files that the scene names: meshes and images, as find_asset() finds them from `folder`.
+std::vector<std::filesystem::path> files_of(const SceneDesc& scene, const std::filesystem::path& folder);
 
 }  // namespace weft

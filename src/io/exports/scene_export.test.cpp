@@ -64,7 +64,7 @@ TEST_F(SceneExport, FilesAreFoundFromTheNewFolder) {
     EXPECT_EQ(name_in(here / "b/s.json", "missing.obj"), "missing.obj");
     const std::string absolute = (here / "a/m.obj").string();
     EXPECT_EQ(name_in(here / "b/s.json", absolute), absolute);
-    // Another file of that name lies where the scene goes.
+    // The target folder has another file of that name.
     folder.write("b/m.obj", triangle);
     EXPECT_EQ(name_in(here / "b/s.json", "m.obj"), "../a/m.obj");
 }
@@ -75,20 +75,22 @@ TEST_F(SceneExport, PicturesMoveWithTheSceneToo) {
     folder.write("b/other.txt", "");
     SceneDesc scene = one_cloth(GridDesc{});
     scene.light.environment.file = "hall.hdr";
-    scene.looks = {{.object = "cloth 0", .preset = "cotton", .material = find_material("cotton")->material}};
-    scene.looks[0].material.color_map = "cloth.png";
-    scene.looks[0].material.normal_map = "cloth.png";
+    scene.cloths[0].material = {.preset = "cotton", .values = find_material("cotton")->material};
+    scene.colliders = {ColliderDesc{.name = "ball"}};
+    scene.colliders[0].material = scene.cloths[0].material;
+    scene.cloths[0].material->values.color_map = "cloth.png";
+    scene.colliders[0].material->values.normal_map = "cloth.png";
     ASSERT_TRUE(export_scene(scene, folder.path() / "a", folder.path() / "b/s.json").ok());
     const auto again = load_scene(folder.path() / "b/s.json");
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(again->light.environment.file, "../a/hall.hdr");
-    EXPECT_EQ(again->looks[0].material.color_map, "../a/cloth.png");
-    EXPECT_EQ(again->looks[0].material.normal_map, "../a/cloth.png");
+    EXPECT_EQ(again->cloths[0].material->values.color_map, "../a/cloth.png");
+    EXPECT_EQ(again->colliders[0].material->values.normal_map, "../a/cloth.png");
 }
 
 TEST_F(SceneExport, MeshesInMemoryGoIntoFilesBesideIt) {
     SceneDesc scene = one_cloth(mesh_in_memory());
-    scene.cloths[0].drawn = mesh_in_memory();
+    scene.cloths[0].render_mesh = mesh_in_memory();
     SceneCloth& other = scene.cloths.emplace_back();
     other.name = "cloth 1";
     other.mesh = MeshFileDesc{.file = "s-mesh1.ply"};
@@ -100,7 +102,7 @@ TEST_F(SceneExport, MeshesInMemoryGoIntoFilesBesideIt) {
     const auto again = load_scene(path);
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(file_of(again->cloths[0].mesh), "s-mesh0.ply");
-    EXPECT_EQ(file_of(*again->cloths[0].drawn), "s-mesh2.ply");
+    EXPECT_EQ(file_of(*again->cloths[0].render_mesh), "s-mesh2.ply");
     const auto mesh = load_mesh(folder.path() / "s-mesh0.ply");
     ASSERT_TRUE(mesh.ok()) << mesh.error().message();
     EXPECT_TRUE(*mesh == mesh_in_memory());

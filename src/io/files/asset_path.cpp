@@ -19,7 +19,8 @@ constexpr std::array system_folders{
     "/usr/share/assimp/models/3DS",    //
 };
 
-std::vector<std::filesystem::path> folders_to_search(const std::filesystem::path& scene_folder) {
+// Those that the user chooses.
+std::vector<std::filesystem::path> own_folders(const std::filesystem::path& scene_folder) {
     std::vector<std::filesystem::path> folders{scene_folder};
     if (const char* variable = std::getenv("WEFT_ASSETS")) {
         std::string_view rest = variable;
@@ -29,7 +30,6 @@ std::vector<std::filesystem::path> folders_to_search(const std::filesystem::path
             rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
         }
     }
-    folders.insert(folders.end(), system_folders.begin(), system_folders.end());
     return folders;
 }
 
@@ -38,21 +38,24 @@ std::vector<std::filesystem::path> folders_to_search(const std::filesystem::path
 Result<std::filesystem::path> find_asset(std::string_view file, const std::filesystem::path& scene_folder) {
     if (file.empty()) return Error{"", "a file name is empty"};
     const std::filesystem::path given(file);
-    std::vector<std::filesystem::path> candidates;
+    const auto is_there = [](const std::filesystem::path& path) {
+        std::error_code code;
+        return std::filesystem::is_regular_file(path, code);
+    };
     if (given.is_absolute()) {
-        candidates.push_back(given);
-    } else {
-        for (const std::filesystem::path& folder : folders_to_search(scene_folder)) {
-            candidates.push_back(folder / given);
-        }
+        if (is_there(given)) return given;
+        return Error{std::string(file), "not found"};
     }
     std::string tried;
-    for (const std::filesystem::path& candidate : candidates) {
-        std::error_code code;
-        if (std::filesystem::is_regular_file(candidate, code)) return candidate;
-        tried.append(tried.empty() ? "" : ", ").append(candidate.string());
+    for (const std::filesystem::path& folder : own_folders(scene_folder)) {
+        if (is_there(folder / given)) return folder / given;
+        tried.append((folder / given).string()).append(", ");
     }
-    return Error{std::string(file), "not found; tried " + tried};
+    for (const std::filesystem::path folder : system_folders)
+        if (is_there(folder / given)) return folder / given;
+    return Error{std::string(file), "not found; tried " + tried +
+                                        "and the folders of installed models; put it beside the scene, or its folder "
+                                        "into WEFT_ASSETS"};
 }
 
 }  // namespace weft

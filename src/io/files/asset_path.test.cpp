@@ -55,7 +55,7 @@ TEST_F(FindAsset, AnAbsolutePathIsTakenAsItIs) {
     EXPECT_EQ(*find_asset(file.string(), "/nowhere"), file);
     const auto missing = find_asset("/nowhere/a.obj", folder_.path());
     ASSERT_FALSE(missing.ok());
-    EXPECT_EQ(missing.error().message(), "/nowhere/a.obj: not found; tried /nowhere/a.obj");
+    EXPECT_EQ(missing.error().message(), "/nowhere/a.obj: not found");
 }
 
 TEST_F(FindAsset, TheErrorListsEveryPlaceInOrder) {
@@ -64,8 +64,8 @@ TEST_F(FindAsset, TheErrorListsEveryPlaceInOrder) {
     ASSERT_FALSE(missing.ok());
     EXPECT_EQ(missing.error().where, "no-such-mesh.obj");
     const std::string begin = "not found; tried " + (folder_.path() / "no-such-mesh.obj").string() +
-                              ", /assets/one/no-such-mesh.obj, /assets/two/no-such-mesh.obj, "
-                              "/usr/share/glmark2/models/no-such-mesh.obj";
+                              ", /assets/one/no-such-mesh.obj, /assets/two/no-such-mesh.obj, and the folders of "
+                              "installed models; put it beside the scene";
     EXPECT_TRUE(missing.error().what.starts_with(begin)) << missing.error().what;
 }
 

@@ -13,14 +13,14 @@ namespace weft {
 namespace fs = std::filesystem;
 namespace {
 
-// Short, so that a name near the system's limit still has a temporary one; the process and a count keep it unique.
+// Short, so that it fits even for a name near the system's limit; process id and counter make it unique.
 fs::path temporary_name(const fs::path& folder) {
     static std::atomic<std::uint64_t> count{0};
     return folder / (".weft-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp");
 }
 
-// A rename is durable once the folder itself is on the disk. Some file systems cannot sync a folder; nothing is lost
-// then but that guarantee.
+// A rename is durable once the folder itself is on the disk. Some file systems cannot sync a folder; then only this
+// guarantee is missing.
 void sync_folder(const fs::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -28,7 +28,7 @@ void sync_folder(const fs::path& folder) {
     ::close(descriptor);
 }
 
-// Renaming onto a link would replace the link and leave the file it points to as it was.
+// Renaming onto a link would replace the link instead of the file that it points to.
 fs::path behind_links(const fs::path& path) {
     std::error_code error;
     if (!fs::is_symlink(path, error)) return path;
@@ -73,7 +73,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
     }
     int descriptor = -1;
     fs::path temporary;
-    do {  // a name already there is the remnant of a killed process that had the same number
+    do {  // an existing name is left from a killed process with the same id
         temporary = temporary_name(folder_of(target));
         descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor < 0 && (errno == EEXIST || errno == EINTR));
@@ -81,36 +81,36 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
     return AtomicFile(target, std::move(temporary), BufferedFile(descriptor, path.string()));
 }
 
-Result<Done> AtomicFile::prepare() {
-    if (Result<Done> closed = content_.sync_and_close(); !closed) return closed;
+Result<void> AtomicFile::prepare() {
+    if (Result<void> closed = content_.sync_and_close(); !closed) return closed;
     prepared_ = true;
-    return Done{};
+    return {};
 }
 
-Result<Done> AtomicFile::commit() {
+Result<void> AtomicFile::commit() {
     if (!prepared_) {
-        if (Result<Done> prepared = prepare(); !prepared) return prepared;
+        if (Result<void> prepared = prepare(); !prepared) return prepared;
     }
     if (std::rename(temporary_.c_str(), path_.c_str()) != 0) {
         return Error{path_.string(), "cannot be written: " + system_reason(errno)};
     }
     temporary_.clear();
     sync_folder(folder_of(path_));
-    return Done{};
+    return {};
 }
 
-Result<Done> write_atomically(const fs::path& path, const std::function<Result<Done>(AtomicFile&)>& fill) {
+Result<void> write_atomically(const fs::path& path, const std::function<Result<void>(AtomicFile&)>& fill) {
     Result<AtomicFile> file = AtomicFile::create(path);
     if (!file) return file.errors();
-    if (Result<Done> filled = fill(*file); !filled) return filled;
+    if (Result<void> filled = fill(*file); !filled) return filled;
     return file->commit();
 }
 
-Result<Done> make_folder_of(const fs::path& file) {
+Result<void> make_folder_of(const fs::path& file) {
     std::error_code error;
     fs::create_directories(folder_of(file), error);
     if (error) return Error{file.string(), "its folder cannot be made: " + error.message()};
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// A file that appears under its name whole or not at all.
+// A file that appears under its name either complete or not at all.
 #pragma once
 
 #include "io/files/buffered_file.h"
@@ -13,24 +13,24 @@
 
 namespace weft {
 
-/// Written under a temporary name in the folder of its own and renamed by commit(); an earlier file of that name stays
-/// as it is until then. Destroyed without commit, it leaves nothing behind. Errors name the file and the reason.
+/// Written under a temporary name in the folder of the target and renamed by commit(); until then an existing file
+/// stays unchanged. Destroyed without commit(), it leaves nothing behind. Errors name the file and the reason.
 class AtomicFile {
   public:
-    /// Fails where a file cannot be created in that folder, or where `path` is something else than a file.
+    /// Fails if no file can be created in that folder, or if `path` exists and is not a file.
     static Result<AtomicFile> create(const std::filesystem::path& path);
 
     AtomicFile(AtomicFile&& other) noexcept;
     AtomicFile& operator=(AtomicFile&& other) noexcept;
     ~AtomicFile();
 
-    Result<Done> write(std::span<const std::byte> bytes) { return content_.write(bytes); }
-    Result<Done> write(std::string_view text) { return content_.write(std::as_bytes(std::span(text))); }
-    /// Puts all of it on the disk, so that nothing but the renaming is left to fail. For files that must appear
-    /// together: prepare all, then commit all.
-    Result<Done> prepare();
-    /// Once, as the last call.
-    Result<Done> commit();
+    Result<void> write(std::span<const std::byte> bytes) { return content_.write(bytes); }
+    Result<void> write(std::string_view text) { return content_.write(std::as_bytes(std::span(text))); }
+    /// Syncs the content to the disk, so that only the rename can still fail. For files that must appear together:
+    /// prepare all, then commit all.
+    Result<void> prepare();
+    /// Call it once, as the last call.
+    Result<void> commit();
 
     const std::filesystem::path& path() const { return path_; }
     BufferedFile& content() { return content_; }
@@ -44,13 +44,13 @@ class AtomicFile {
     BufferedFile content_;
 };
 
-/// Makes the file, lets `fill` write it, and commits it unless that fails.
-Result<Done> write_atomically(const std::filesystem::path& path, const std::function<Result<Done>(AtomicFile&)>& fill);
+/// Creates the file, calls `fill` to write it, and commits it unless `fill` fails.
+Result<void> write_atomically(const std::filesystem::path& path, const std::function<Result<void>(AtomicFile&)>& fill);
 
-/// Makes the folder that the file is going to be in.
-Result<Done> make_folder_of(const std::filesystem::path& file);
+/// Creates the folder of the file.
+Result<void> make_folder_of(const std::filesystem::path& file);
 
-/// The folder a file is in, "." for a bare name.
+/// The folder of a file; "." for a bare name.
 std::filesystem::path folder_of(const std::filesystem::path& file);
 
 }  // namespace weft

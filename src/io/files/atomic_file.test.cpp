@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// While it lives, writing past `bytes` of a file fails, as on a full disk.
+/// While it exists, writing more than `bytes` to a file fails, as on a full disk.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -41,7 +41,7 @@ class FileSizeLimit {
     void (*handler_)(int);
 };
 
-/// The administrator may write everywhere, so as such the test steps down to nobody.
+/// The user root can write to every folder. A test that runs as root switches to the unprivileged user 65534.
 class WithoutPrivileges {
   public:
     WithoutPrivileges() : user_(::geteuid()) {
@@ -109,7 +109,7 @@ TEST(AtomicFile, FullDiskIsNamedAndLeavesTheEarlierFile) {
         Result<AtomicFile> file = AtomicFile::create(folder / "a.txt");
         ASSERT_TRUE(file.ok());
         ASSERT_TRUE(file->write(std::string(100000, 'x')).ok());  // still in the buffer
-        const Result<Done> committed = file->commit();
+        const Result<void> committed = file->commit();
         ASSERT_FALSE(committed.ok());
         error = committed.error();
     }
@@ -122,7 +122,7 @@ TEST(AtomicFile, FullDiskIsNamedAndLeavesTheEarlierFile) {
 TEST(AtomicFile, ADeviceThatIsFullSaysSo) {
     BufferedFile full(::open("/dev/full", O_WRONLY), "/dev/full");
     ASSERT_TRUE(full.write(std::as_bytes(std::span("x"))).ok());
-    const Result<Done> closed = full.sync_and_close();
+    const Result<void> closed = full.sync_and_close();
     ASSERT_FALSE(closed.ok());
     EXPECT_EQ(closed.error().message(), "/dev/full: cannot be written: No space left on device");
 }

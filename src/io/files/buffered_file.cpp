@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-// Large enough that the cost of a system call vanishes, small enough to have one per open file.
+// Large enough to make the cost of system calls negligible, small enough for one per open file.
 constexpr std::size_t buffer_size = 1 << 20;
 
 }  // namespace
@@ -42,7 +42,7 @@ BufferedFile::~BufferedFile() {
 Result<BufferedFile> BufferedFile::open_nameless(const std::filesystem::path& folder, std::string name) {
     int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor < 0 && (errno == EOPNOTSUPP || errno == EISDIR || errno == ENOENT)) {
-        // File systems without O_TMPFILE (network shares, some overlays) and kernels that never heard of it.
+        // O_TMPFILE is missing in some file systems (network shares, some overlays) and in old kernels.
         std::string pattern = (folder / ".weft-XXXXXX").string();
         descriptor = ::mkostemp(pattern.data(), O_CLOEXEC);
         if (descriptor >= 0) ::unlink(pattern.c_str());
@@ -55,42 +55,42 @@ Error BufferedFile::failure(const char* action, int error_number) const {
     return Error{name_, std::string("cannot be ") + action + ": " + system_reason(error_number)};
 }
 
-Result<Done> BufferedFile::write(std::span<const std::byte> bytes) {
+Result<void> BufferedFile::write(std::span<const std::byte> bytes) {
     size_ += bytes.size();
     if (buffer_.size() + bytes.size() > buffer_size) {
-        if (Result<Done> flushed = flush(); !flushed) return flushed;
+        if (Result<void> flushed = flush(); !flushed) return flushed;
         if (bytes.size() > buffer_size) return write_through(bytes);
     }
     buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
-    return Done{};
+    return {};
 }
 
-Result<Done> BufferedFile::flush() {
-    Result<Done> written = write_through(buffer_);
+Result<void> BufferedFile::flush() {
+    Result<void> written = write_through(buffer_);
     buffer_.clear();
     return written;
 }
 
-Result<Done> BufferedFile::write_through(std::span<const std::byte> bytes) {
+Result<void> BufferedFile::write_through(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) return failure("written", errno);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> BufferedFile::sync_and_close() {
-    if (Result<Done> flushed = flush(); !flushed) return flushed;
-    // EINVAL is the answer of special files that have nothing to sync.
+Result<void> BufferedFile::sync_and_close() {
+    if (Result<void> flushed = flush(); !flushed) return flushed;
+    // Special files that cannot be synced return EINVAL.
     if (::fsync(descriptor_) != 0 && errno != EINVAL) return failure("written", errno);
     if (::close(std::exchange(descriptor_, -1)) != 0) return failure("closed", errno);
-    return Done{};
+    return {};
 }
 
-Result<Done> BufferedFile::move_to(BufferedFile& target) {
-    if (Result<Done> flushed = flush(); !flushed) return flushed;
+Result<void> BufferedFile::move_to(BufferedFile& target) {
+    if (Result<void> flushed = flush(); !flushed) return flushed;
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0) return failure("read back", errno);
     const auto size = static_cast<std::uint64_t>(status.st_size);
@@ -101,12 +101,12 @@ Result<Done> BufferedFile::move_to(BufferedFile& target) {
         if (count < 0) return failure("read back", errno);
         if (count == 0) return failure("read back", EIO);
         const auto length = static_cast<std::size_t>(count);
-        if (Result<Done> written = target.write(std::span(block).first(length)); !written) return written;
-        // May fail, as on file systems without holes: then the space is freed at the end.
+        if (Result<void> written = target.write(std::span(block).first(length)); !written) return written;
+        // May fail on file systems without holes: then the space is freed when the file is closed.
         (void)::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset), count);
         offset += length;
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

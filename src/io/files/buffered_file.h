@@ -1,4 +1,4 @@
-// A file that is written front to back through a buffer, with every failure checked and named.
+// A file written from front to back through a buffer. Every failure is checked and reported.
 #pragma once
 
 #include <weft/result.h>
@@ -15,30 +15,31 @@ namespace weft {
 class BufferedFile {
   public:
     BufferedFile() = default;
-    /// Takes over an open descriptor. Errors name `name`.
+    /// Takes over an open descriptor. `name` is the name in error messages.
     BufferedFile(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
     BufferedFile(BufferedFile&& other) noexcept;
     BufferedFile& operator=(BufferedFile&& other) noexcept;
     ~BufferedFile();
 
-    /// A file in `folder` that has no name there, so that not even a crash leaves it behind. Errors name `name`.
+    /// Opens an unnamed file in `folder`, so that even a crash leaves nothing behind. `name` is the name in error
+    /// messages.
     static Result<BufferedFile> open_nameless(const std::filesystem::path& folder, std::string name);
 
-    Result<Done> write(std::span<const std::byte> bytes);
-    Result<Done> flush();
-    /// On return the bytes are on the disk, not only in the system's cache.
-    Result<Done> sync_and_close();
-    /// For another process to write to in its stead, before anything is written here.
+    Result<void> write(std::span<const std::byte> bytes);
+    Result<void> flush();
+    /// When it returns, the bytes are on the disk, not only in the system's cache.
+    Result<void> sync_and_close();
+    /// For another process that writes to the file instead, before anything is written here.
     int descriptor() const { return descriptor_; }
-    /// Appends all that the file holds to `target`, and frees each block here once it is there: where the file system
-    /// can do that, the two together never take much more space than one. Good for nothing afterwards.
-    Result<Done> move_to(BufferedFile& target);
+    /// Appends the content to `target`, and frees each block here once it is copied: where the file system supports
+    /// this, both files together take little more space than one. The file cannot be used afterwards.
+    Result<void> move_to(BufferedFile& target);
 
-    /// Bytes written so far, those still in the buffer included.
+    /// Bytes written so far, including those in the buffer.
     std::uint64_t size() const { return size_; }
 
   private:
-    Result<Done> write_through(std::span<const std::byte> bytes);
+    Result<void> write_through(std::span<const std::byte> bytes);
     Error failure(const char* action, int error_number) const;
 
     int descriptor_ = -1;
@@ -47,7 +48,7 @@ class BufferedFile {
     std::uint64_t size_ = 0;
 };
 
-/// "No space left on device": what the system calls an errno.
+/// The system's text for an errno, such as "No space left on device".
 std::string system_reason(int error_number);
 
 }  // namespace weft

@@ -22,16 +22,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Enough for the lines that say why; a program that complains of every frame is not kept in full.
+// Enough for an error message; output beyond it, such as a warning per frame, is dropped.
 constexpr std::size_t kept_messages = 2000;
-// What a program that reads no more may take to say why and end.
+// Time for a program that has stopped reading to print the reason and end.
 constexpr auto time_to_explain = 5s;
 
 void close_one(int& descriptor) {
     if (descriptor >= 0) ::close(std::exchange(descriptor, -1));
 }
 
-// Above those that the child is going to have, so that none is overwritten before it is passed on.
+// Moves a descriptor above those that the child will use, so that none is overwritten before it is passed on.
 int above_standard(int descriptor) {
     const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
     const int reason = errno;
@@ -40,11 +40,11 @@ int above_standard(int descriptor) {
     return moved;
 }
 
-/// Pairs of ends, ours first.
+/// Pairs of descriptors, the parent's first.
 struct Ends {
     int input[2] = {-1, -1}, messages[2] = {-1, -1};
 
-    // A pipe would raise SIGPIPE, a socket can be asked not to.
+    // A write to a broken pipe raises SIGPIPE; for a socket this can be disabled.
     bool open() {
         if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0) return false;
         if (::pipe2(messages, O_CLOEXEC) != 0) return false;
@@ -101,7 +101,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     if (problem == 0) problem = spawn(arguments, ends, options.output, process);
     if (problem == ENOENT)
         return Error::of_machine(options.where, "needs the program " + child.program_ +
-                                                    ", which is not there: install " + child.program_ +
+                                                    ", which was not found: install " + child.program_ +
                                                     " (Debian: " + options.package + ")");
     if (problem != 0) return child.failure("cannot be started: " + system_reason(problem));
     child.process_ = process;
@@ -135,7 +135,7 @@ void ChildProcess::close_all() {
     close_one(messages_);
 }
 
-// What it has said so far; never waits.
+// Reads the messages so far, without waiting.
 void ChildProcess::listen() {
     char block[4096];
     while (messages_ >= 0) {
@@ -148,18 +148,18 @@ void ChildProcess::listen() {
     }
 }
 
-// Until it has ended; false if it has not by then.
+// Waits for the end of the process; false if `limit` passes first.
 bool ChildProcess::wait(std::optional<std::chrono::milliseconds> limit) {
     const auto begin = std::chrono::steady_clock::now();
     while (process_ >= 0) {
         const pid_t ended = ::waitpid(process_, &status_, WNOHANG);
-        // No child: the host has said that it wants to hear of none, and how it ended nobody knows.
+        // ECHILD: the host ignores SIGCHLD, so the exit status is unknown.
         if (ended == process_ || (ended < 0 && errno != EINTR)) process_ = -1;
         listen();
         if (process_ < 0) break;
         if (limit && std::chrono::steady_clock::now() - begin > *limit) return false;
         pollfd wake{messages_, POLLIN, 0};
-        ::poll(&wake, 1, 10);  // ms: the end of a program that has closed its messages is seen that late
+        ::poll(&wake, 1, 10);  // ms: if the program has closed its messages, its end is noticed up to 10 ms late
     }
     return true;
 }
@@ -176,7 +176,7 @@ Error ChildProcess::failure(const std::string& what) const {
     std::string text = program_ + ' ' + what;
     std::string said = said_;
     while (!said.empty() && std::isspace(static_cast<unsigned char>(said.back()))) said.pop_back();
-    // The last lines, in one.
+    // Joins the last lines into one.
     constexpr int lines = 4;
     std::size_t begin = said.size();
     for (int i = 0; i < lines && begin != std::string::npos && begin > 0; ++i) begin = said.rfind('\n', begin - 1);
@@ -187,31 +187,32 @@ Error ChildProcess::failure(const std::string& what) const {
     return Error::of_machine(where_, text);
 }
 
-Result<Done> ChildProcess::write(std::span<const std::byte> bytes) {
+Result<void> ChildProcess::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         pollfd ends[] = {{input_, POLLOUT, 0}, {messages_, POLLIN, 0}};
-        if (::poll(ends, 2, -1) < 0 && errno != EINTR) return failure("cannot be fed: " + system_reason(errno));
-        listen();  // a program that waits for somebody to hear it does not read
+        if (::poll(ends, 2, -1) < 0 && errno != EINTR)
+            return failure("cannot be given its input: " + system_reason(errno));
+        listen();  // a program blocked on writing messages does not read
         const ssize_t count = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (count >= 0) {
             bytes = bytes.subspan(static_cast<std::size_t>(count));
         } else if (errno == EPIPE || errno == ECONNRESET) {
             close_one(input_);
-            if (wait(time_to_explain)) return failure(ending(status_) + " before it had everything");
+            if (wait(time_to_explain)) return failure(ending(status_) + " before it had read all of its input");
             kill();
-            return failure("reads no more");
+            return failure("stopped reading its input");
         } else if (errno != EINTR && errno != EAGAIN) {
-            return failure("cannot be fed: " + system_reason(errno));
+            return failure("cannot be given its input: " + system_reason(errno));
         }
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> ChildProcess::finish() {
+Result<void> ChildProcess::finish() {
     close_one(input_);
     wait({});
     if (status_ != 0) return failure(ending(status_));
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Another program at work, fed through its standard input.
+// Runs another program and feeds it through its standard input.
 #pragma once
 
 #include <weft/result.h>
@@ -15,28 +15,28 @@
 namespace weft {
 
 struct ChildOptions {
-    std::string where;    ///< of errors: what the program is to make
-    std::string package;  ///< Debian's that has the program
-    int output = -1;      ///< becomes the program's descriptor 3; -1: none
+    std::string where;    ///< for errors: what the program makes
+    std::string package;  ///< the Debian package of the program
+    int output = -1;      ///< passed as the program's descriptor 3; -1: none
 };
 
-/// Never raises SIGPIPE, never waits for a program that waits itself, and leaves no process behind: destroyed before
-/// finish(), it ends the program. The program is in a process group of its own, so that what a terminal sends to this
-/// one (Ctrl-C) does not reach it.
+/// Never raises SIGPIPE, never deadlocks with a program that waits for its messages to be read, and leaves no process
+/// behind: destroyed before finish(), it ends the program. The program has its own process group, so that signals of
+/// the terminal (Ctrl-C) do not reach it.
 class ChildProcess {
   public:
-    /// `arguments` begin with the program's name, which is looked for on PATH. Fails where it is not there.
+    /// `arguments` begin with the program's name, which is searched on PATH. Fails if it is not found.
     static Result<ChildProcess> start(const std::vector<std::string>& arguments, const ChildOptions& options);
 
     ChildProcess(ChildProcess&& other) noexcept;
     ChildProcess& operator=(ChildProcess&& other) noexcept;
     ~ChildProcess();
 
-    /// Fails with what the program said if it reads no more.
-    Result<Done> write(std::span<const std::byte> bytes);
-    /// No more input: waits for its end. Fails unless it says that all went well.
-    Result<Done> finish();
-    /// What is wrong with it, and the last that it said.
+    /// If the program does not read any more, fails with its messages.
+    Result<void> write(std::span<const std::byte> bytes);
+    /// Closes the input and waits for the end. Fails unless the program exits with success.
+    Result<void> finish();
+    /// An error with `what` and the last messages of the program.
     Error failure(const std::string& what) const;
 
   private:
@@ -50,7 +50,7 @@ class ChildProcess {
     pid_t process_ = -1;  // -1: ended
     int input_ = -1, messages_ = -1;
     int status_ = 0;
-    std::string said_;  // the last of it
+    std::string said_;  // the end of its messages
 };
 
 }  // namespace weft

@@ -24,7 +24,7 @@ std::optional<FilePattern> parse_pattern(const std::string& file_name) {
         const std::size_t first = ++at;
         while (at < file_name.size() && std::isdigit(static_cast<unsigned char>(file_name[at]))) ++at;
         const std::string width = file_name.substr(first, at - first);
-        // One digit: nine places hold a billion frames, so more of them are a typing error.
+        // One digit: a width of nine covers a billion frames, so more digits are a typing error.
         if (width.size() != 1 || width == "0") return std::nullopt;
         pattern.width = static_cast<std::size_t>(width.front() - '0');
     }

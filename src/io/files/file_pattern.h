@@ -1,4 +1,4 @@
-// File names with a place for a number: frames/%04d.obj.
+// File names with a placeholder for a number: frames/%04d.obj.
 #pragma once
 
 #include <weft/result.h>
@@ -11,7 +11,7 @@
 
 namespace weft {
 
-/// A file name with a place for the frame's number, zero-padded to `width` digits.
+/// A file name with a placeholder for the frame number, zero-padded to `width` digits.
 struct FilePattern {
     std::string before, after;
     std::size_t width = 0;
@@ -19,25 +19,25 @@ struct FilePattern {
     std::string name(std::uint64_t number) const;
 };
 
-/// What is said of those that parse_pattern does not know.
+/// Part of the error message for names that parse_pattern() rejects.
 inline constexpr const char* pattern_rule =
-    "a '%' stands for the frame's number, once, as %d or %04d, and for nothing else";
+    "a file name may contain only one '%', as %d or %04d, for the number of the frame";
 
-/// Whether the name is meant as one.
+/// Whether the file name contains a '%' and so must be a pattern.
 bool has_pattern(const std::filesystem::path& path);
-/// One `%d` or `%0Nd`. Reads the user's text as data: it never reaches a printf.
+/// Parses one `%d` or `%0Nd`. The user's text is never passed to printf.
 std::optional<FilePattern> parse_pattern(const std::string& file_name);
 
-/// With the dot, in lower case.
+/// The ending in lower case, including the dot.
 std::string ending_of(const std::filesystem::path& path);
-/// ".glb, .obj": of some formats.
+/// The endings of formats as a list: ".glb, .obj".
 template <class Formats>
 std::string list_endings(const Formats& formats) {
     std::string list;
     for (const auto& format : formats) list += (list.empty() ? "" : ", ") + std::string(format.ending);
     return list;
 }
-/// Of a file whose ending is that of no format. `known`: "known are .glb, .obj".
+/// The error for a file with an unknown ending. `known`: "known are .glb, .obj".
 Error unknown_ending(const std::filesystem::path& path, const std::string& known);
 
 }  // namespace weft

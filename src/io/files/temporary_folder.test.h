@@ -1,4 +1,4 @@
-// A folder for the files of one test, removed with it.
+// A folder for the files of one test, deleted after it.
 #pragma once
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// A file that is read from its beginning to its end at once.
+// Reads a whole file at once.
 #pragma once
 
 #include <weft/result.h>
@@ -8,10 +8,10 @@
 
 namespace weft {
 
-/// What keeps a path from being opened as a file, or an empty string.
+/// Why the path cannot be opened as a file, or an empty string.
 std::string problem_of_path(const std::filesystem::path& path);
 
-/// Fails, naming the file, where it cannot be opened or read, or is empty.
+/// Fails, naming the file, if it cannot be opened or read, or is empty.
 Result<std::string> read_whole_file(const std::filesystem::path& path);
 
 }  // namespace weft

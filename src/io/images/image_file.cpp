@@ -12,7 +12,8 @@
 #include <string>
 #include <utility>
 
-// stb is private to this file. Radiance files are read by radiance.cpp: on one cut short, stb_image 2.27 never returns.
+// stb is private to this file. radiance.cpp reads Radiance files, because stb_image 2.27 loops forever on truncated
+// ones.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_NO_STDIO
@@ -43,8 +44,8 @@ struct Free {
 };
 using Pixels = std::unique_ptr<unsigned char, Free>;
 
-/// Bytes as stb_image takes them. Of most formats cut short it makes a picture; here it shows when it wants more than
-/// there is.
+/// Input callbacks for stb_image. It decodes truncated files of most formats without an error, so this class records
+/// when it requests more bytes than there are.
 class Source {
   public:
     explicit Source(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -57,7 +58,7 @@ class Source {
     bool cut_off() const { return cut_off_; }
 
   private:
-    // stb_image fills a buffer of this size ahead of what it needs; all else it asks for it needs.
+    // stb_image fills a buffer of this size ahead of its needs; bytes in requests of other sizes are always needed.
     static constexpr std::size_t ahead = sizeof(stbi__context::buffer_start);
 
     static int read(void* user, char* to, int size) {
@@ -81,7 +82,7 @@ class Source {
     bool cut_off_ = false;
 };
 
-/// stb_image's, which may hold bytes of the file.
+/// The reason that stb_image gives, which may contain bytes of the file.
 std::string reason() {
     const char* text = stbi_failure_reason();
     std::string printable = text ? text : "unknown";
@@ -132,22 +133,23 @@ std::vector<std::uint8_t> without_alpha(const Image8& image) {
 
 std::string problem_of_size(std::uint64_t width, std::uint64_t height, const PictureLimits& limits) {
     const std::string size = "is " + std::to_string(width) + " by " + std::to_string(height) + " pixels";
-    if (width == 0 || height == 0) return size + ", which is none";
+    if (width == 0 || height == 0) return size + "; it must have at least one";
     if (width > limits.side || height > limits.side)
-        return size + ", at most " + std::to_string(limits.side) + " a side are read";
-    if (width * height > limits.pixels) return size + ", at most " + std::to_string(limits.pixels) + " in all are read";
+        return size + "; at most " + std::to_string(limits.side) + " per side are read";
+    if (width * height > limits.pixels)
+        return size + "; at most " + std::to_string(limits.pixels) + " in total are read";
     return {};
 }
 
 Result<Image8> decode_image(std::span<const std::byte> bytes, std::string_view name, const PictureLimits& limits) {
     const auto error = [&](std::string what) { return Error{std::string(name), std::move(what)}; };
     if (bytes.empty()) return error("is empty");
-    if (starts_with(bytes, "#?")) return error("is a Radiance picture of light, not PNG, JPEG, TGA or BMP");
+    if (starts_with(bytes, "#?")) return error("is a Radiance image (.hdr), not PNG, JPEG, TGA or BMP");
     std::string problem;
     if (starts_with(bytes, jpeg_signature) || starts_with(bytes, "\xff\xff")) problem = problem_of_jpeg(bytes);
     if (!problem.empty()) return error("is damaged: " + problem);
     int width = 0, height = 0, channels = 0;
-    // The header stands in front, however much is behind it.
+    // The header is at the front, so it is found even if the size is clamped to INT_MAX.
     const int size = static_cast<int>(std::min<std::size_t>(bytes.size(), INT_MAX));
     if (!stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), size, &width, &height, &channels)) {
         return error(has_known_signature(bytes) ? "is damaged: its header cannot be read (" + reason() + ')'
@@ -158,7 +160,7 @@ Result<Image8> decode_image(std::span<const std::byte> bytes, std::string_view n
     if (!problem.empty()) return error(std::move(problem));
     Source source(bytes);
     const Pixels pixels = source.decode(width, height);
-    if (source.cut_off()) return error("ends before the picture does");
+    if (source.cut_off()) return error("is cut short: it ends inside the image data");
     if (!pixels) return error("is damaged: " + reason());
     Image8 image{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}};
     image.rgba.assign(pixels.get(), pixels.get() + std::size_t{image.width} * image.height * 4);
@@ -175,11 +177,11 @@ Result<ImageF> read_hdr(const std::filesystem::path& path) {
 
 Result<std::vector<std::byte>> png_bytes(const Image8& image) {
     if (std::string problem = problem_of_size(image.width, image.height, {}); !problem.empty()) {
-        return Error{"", "a picture cannot be written as PNG: it " + problem};
+        return Error{"", "an image cannot be written as PNG: it " + problem};
     }
     const std::size_t row = std::size_t{image.width} * 4;
     if (image.rgba.size() != row * image.height) {
-        return Error{"", "a picture cannot be written as PNG: it has " + std::to_string(image.rgba.size()) +
+        return Error{"", "an image cannot be written as PNG: it has " + std::to_string(image.rgba.size()) +
                              " bytes instead of " + std::to_string(row * image.height)};
     }
     const std::vector<std::uint8_t> colors = is_opaque(image) ? without_alpha(image) : std::vector<std::uint8_t>{};
@@ -187,7 +189,7 @@ Result<std::vector<std::byte>> png_bytes(const Image8& image) {
     int size = 0;
     const Pixels bytes(stbi_write_png_to_mem(colors.empty() ? image.rgba.data() : colors.data(), width * channels,
                                              width, static_cast<int>(image.height), channels, &size));
-    if (!bytes || size <= 0) return Error::of_machine("", "a picture cannot be written as PNG: not enough memory");
+    if (!bytes || size <= 0) return Error::of_machine("", "an image cannot be written as PNG: not enough memory");
     const auto* first = reinterpret_cast<const std::byte*>(bytes.get());
     return std::vector<std::byte>(first, first + size);
 }

@@ -68,7 +68,7 @@ std::string problem(const std::string& bytes) {
     return image ? "none" : image.error().message();
 }
 
-/// A file that the fuzzer starts from, without the byte in front that is the fuzzer's own.
+/// An input file of the fuzzer, without its first byte, which only the fuzzer uses.
 std::string seed(const std::string& name) {
     std::ifstream file(WEFT_SOURCE_DIR "/tests/fuzz/seeds/image/" + name, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {}).substr(1);
@@ -120,8 +120,8 @@ TEST(ImageFile, EveryCutIsFound) {
     const std::string png = png_of(colorful(20, 20));
     for (const std::string& file : {png, bmp, tga, seed("jpeg"), seed("jpeg_progressive"), seed("tga_runs")}) {
         ASSERT_EQ(problem(file), "none");
-        // stb_image does not read the PNG's last chunk: 12 bytes without a picture in them.
-        // A row of a BMP ends with bytes that are none. A TGA may have a footer.
+        // stb_image does not read the PNG's last chunk: 12 bytes without image data. A row of a BMP ends with padding.
+        // A TGA may have a footer.
         const std::size_t unused = file == png ? 12 : file == bmp ? 2 : file == seed("tga_runs") ? 26 : 0;
         const std::size_t needed = file.size() - unused;
         for (std::size_t size = 1; size < needed; ++size) {
@@ -129,18 +129,18 @@ TEST(ImageFile, EveryCutIsFound) {
                 << size << " of " << file.size();
         }
     }
-    EXPECT_EQ(problem(png.substr(0, png.size() / 2)), "it: ends before the picture does");
-    EXPECT_EQ(problem(tga.substr(0, 20)), "it: ends before the picture does");
+    EXPECT_EQ(problem(png.substr(0, png.size() / 2)), "it: is cut short: it ends inside the image data");
+    EXPECT_EQ(problem(tga.substr(0, 20)), "it: is cut short: it ends inside the image data");
 }
 
 TEST(ImageFile, WhatIsNoPictureIsRefused) {
     EXPECT_EQ(problem("{\"weft\": 1}"), "it: is not PNG, JPEG, TGA or BMP");
     EXPECT_EQ(problem(std::string(1000, '\xee')), "it: is not PNG, JPEG, TGA or BMP");
     EXPECT_THAT(problem("\xff\xd8\xff\xe0 and nothing that follows"), StartsWith("it: is damaged"));
-    EXPECT_THAT(problem(hdr_of("-Y 1 +X 1", "abcd")), HasSubstr("is a Radiance picture"));
+    EXPECT_THAT(problem(hdr_of("-Y 1 +X 1", "abcd")), HasSubstr("is a Radiance image"));
     std::string png = png_of(colorful(20, 20));
     png[60] = static_cast<char>(png[60] + 1);
-    png.replace(41, 2, "\x07\x07");  // the head of the packed data
+    png.replace(41, 2, "\x07\x07");  // the header of the compressed data
     EXPECT_THAT(problem(png), StartsWith("it: is damaged"));
 }
 
@@ -157,13 +157,13 @@ TEST(ImageFile, CodeTablesOfAJpegHaveRoomForTheirCodes) {
 }
 
 TEST(ImageFile, TheHeaderAloneTellsWhatIsTooLarge) {
-    EXPECT_EQ(problem(png_header(16385, 2)), "it: is 16385 by 2 pixels, at most 16384 a side are read");
-    EXPECT_EQ(problem(png_header(3, 4000000)), "it: is 3 by 4000000 pixels, at most 16384 a side are read");
-    EXPECT_EQ(problem(png_header(16384, 16384)), "it: is 16384 by 16384 pixels, at most 134217728 in all are read");
+    EXPECT_EQ(problem(png_header(16385, 2)), "it: is 16385 by 2 pixels; at most 16384 per side are read");
+    EXPECT_EQ(problem(png_header(3, 4000000)), "it: is 3 by 4000000 pixels; at most 16384 per side are read");
+    EXPECT_EQ(problem(png_header(16384, 16384)), "it: is 16384 by 16384 pixels; at most 134217728 in total are read");
     EXPECT_THAT(problem(png_header(0, 5)), StartsWith("it: is damaged"));
     EXPECT_THAT(problem(png_header(0x7fffffff, 0x7fffffff)), StartsWith("it: is "));
     const auto limited = decode_image(bytes_of(png_of(colorful(5, 4))), "it", {.side = 4});
-    EXPECT_EQ(limited.error().what, "is 5 by 4 pixels, at most 4 a side are read");
+    EXPECT_EQ(limited.error().what, "is 5 by 4 pixels; at most 4 per side are read");
 }
 
 TEST(ImageFile, OnlyWholePicturesAreWritten) {
@@ -206,19 +206,19 @@ TEST(HdrFile, RefusesWhatItCannotRead) {
     const std::string whole = hdr_of("-Y 2 +X 8", packed + packed);
     EXPECT_EQ(hdr_problem(whole), "none");
     for (std::size_t size = 2; size < whole.size(); ++size) {
-        EXPECT_EQ(hdr_problem(whole.substr(0, size)), "it: ends before the picture does") << size;
+        EXPECT_EQ(hdr_problem(whole.substr(0, size)), "it: is cut short: it ends inside the image data") << size;
     }
-    EXPECT_EQ(hdr_problem(png_of(colorful(2, 2))), "it: is not a Radiance picture (.hdr)");
+    EXPECT_EQ(hdr_problem(png_of(colorful(2, 2))), "it: is not a Radiance image (.hdr)");
     EXPECT_EQ(hdr_problem("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd"),
               "it: is not of the format 32-bit_rle_rgbe");
     for (const char* size : {"+Y 1 +X 1", "-Y 1", "-Y 1 +X 1 ", "-Y -1 +X 1", "-Y 99999999999 +X 1", "hello"}) {
-        EXPECT_THAT(hdr_problem(hdr_of(size, "abcd")), StartsWith("it: must say its size")) << size;
+        EXPECT_THAT(hdr_problem(hdr_of(size, "abcd")), StartsWith("it: must give its size")) << size;
     }
-    EXPECT_THAT(hdr_problem(hdr_of("-Y 0 +X 1", "abcd")), HasSubstr("which is none"));
-    EXPECT_THAT(hdr_problem(hdr_of("-Y 1 +X 16385", "abcd")), HasSubstr("at most 16384 a side"));
-    EXPECT_THAT(hdr_problem(hdr_of("-Y 16384 +X 16384", "abcd")), HasSubstr("in all are read"));
-    // Memory is taken for what is there, not for what a header says.
-    EXPECT_EQ(hdr_problem(hdr_of("-Y 8192 +X 8192", "abcd")), "it: ends before the picture does");
+    EXPECT_THAT(hdr_problem(hdr_of("-Y 0 +X 1", "abcd")), HasSubstr("it must have at least one"));
+    EXPECT_THAT(hdr_problem(hdr_of("-Y 1 +X 16385", "abcd")), HasSubstr("at most 16384 per side"));
+    EXPECT_THAT(hdr_problem(hdr_of("-Y 16384 +X 16384", "abcd")), HasSubstr("in total are read"));
+    // Memory is allocated for existing data, not for the size in the header.
+    EXPECT_EQ(hdr_problem(hdr_of("-Y 8192 +X 8192", "abcd")), "it: is cut short: it ends inside the image data");
     for (const auto& row :
          {text_of({2, 2, 0, 8, 137, 1, 0, 0, 0, 0, 0, 0}), text_of({2, 2, 0, 8, 0, 1, 0, 0, 0, 0, 0, 0}),
           text_of({2, 2, 0, 9, 136, 1, 0, 0, 0, 0, 0, 0}), text_of({1, 1, 1, 8, 0, 0, 0, 0})}) {

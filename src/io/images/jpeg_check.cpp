@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint8_t start_of_image = 0xd8, end_of_image = 0xd9, code_tables = 0xc4, start_of_scan = 0xda;
 constexpr std::uint8_t first_restart = 0xd0, last_restart = 0xd7;
 
-// A table of codes: its number, how many codes there are of each length, a value for each of them (T.81, B.2.4.2).
+// A code table: its number, how many codes of each length there are, and a value for each code (T.81, B.2.4.2).
 constexpr std::size_t code_lengths = 16, most_codes = 256;
 
 using Bytes = std::span<const std::byte>;
@@ -30,7 +30,7 @@ std::string problem_of_codes(Bytes segment) {
     return {};
 }
 
-/// The place behind the codes of a scan: of a marker that is neither a stuffed zero nor a restart.
+/// The position after the codes of a scan: the first marker that is neither a stuffed zero nor a restart.
 std::size_t end_of_scan(Bytes bytes, std::size_t place) {
     for (; place + 1 < bytes.size(); ++place) {
         if (at(bytes, place) != 0xff) continue;
@@ -48,7 +48,7 @@ std::string problem_of_jpeg(Bytes bytes) {
         return "it does not start as a JPEG";
     std::size_t place = 2;
     while (place < bytes.size()) {
-        if (at(bytes, place) != 0xff) return "something stands between its segments";
+        if (at(bytes, place) != 0xff) return "it has bytes between its segments";
         while (place < bytes.size() && at(bytes, place) == 0xff) ++place;
         if (place == bytes.size()) break;
         const std::uint8_t marker = at(bytes, place++);
@@ -65,7 +65,7 @@ std::string problem_of_jpeg(Bytes bytes) {
         place += length;
         if (marker == start_of_scan) place = end_of_scan(bytes, place);
     }
-    return "it ends before the picture does";
+    return "it ends inside the image data";
 }
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Films, with programs in ffmpeg's place that fail in every way, and with ffmpeg itself where it is installed.
+// Tests of videos, with programs in place of ffmpeg that fail in every way, and with ffmpeg itself if it is installed.
 
 #include "io/exports/film_fixtures.test.h"
 #include "io/images/pictures.test.h"
@@ -30,7 +30,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// While it lives, the shell script is what PATH has as ffmpeg. It is tried out before the film, and passes.
+/// While it exists, PATH has this shell script as ffmpeg. It succeeds in the trial run before the video.
 class FakeFfmpeg {
   public:
     explicit FakeFfmpeg(const std::string& script) : before_(std::getenv("PATH")) {
@@ -56,13 +56,13 @@ std::size_t open_descriptors() {
     return count;
 }
 
-/// Twenty pictures, so much that no socket holds them. Whatever happens, no file, process or descriptor is left.
+/// Writes twenty images, more data than a socket holds. In any case no file, process or descriptor must remain.
 Error failure(const std::string& script) {
     const TestFolder folder;
     write_text(folder / "film.mp4", "earlier");
     const FakeFfmpeg fake(script);
     const std::size_t descriptors = open_descriptors();
-    const Result<Done> done =
+    const Result<void> done =
         write_pictures(folder / "film.mp4", std::vector<Image8>(20, pattern_picture(320, 180, 0)));
     EXPECT_FALSE(done.ok()) << script;
     EXPECT_EQ(read_text(folder / "film.mp4"), "earlier") << script;
@@ -82,7 +82,7 @@ TEST(Film, WithoutFfmpegSaysWhatToInstallBeforeAnythingRuns) {
     const std::string before = std::getenv("PATH");
     ::setenv("PATH", folder.path().c_str(), 1);
     const auto made = make_picture_writer(folder / "film.mp4");
-    const Result<Done> begun = (*made)->begin({.width = 8, .height = 8});
+    const Result<void> begun = (*made)->begin({.width = 8, .height = 8});
     ::setenv("PATH", before.c_str(), 1);
     ASSERT_FALSE(begun.ok());
     EXPECT_THAT(begun.error().what, AllOf(HasSubstr("install ffmpeg"), HasSubstr("Debian: ffmpeg")));
@@ -101,16 +101,16 @@ TEST(Film, TheLastThatFfmpegSaysIsInTheError) {
 }
 
 TEST(Film, FfmpegThatReadsNothingOrEndsAtOnceIsAnError) {
-    EXPECT_THAT(failure("exit 0").what, HasSubstr("before it had everything"));
+    EXPECT_THAT(failure("exit 0").what, HasSubstr("before it had read all of its input"));
     EXPECT_THAT(failure("exec <&-; sleep 0.2; exit 7").what, HasSubstr("status 7"));
-    EXPECT_THAT(failure("cat >/dev/null; exit 0").what, HasSubstr("has not written the whole film"));
+    EXPECT_THAT(failure("cat >/dev/null; exit 0").what, HasSubstr("has not written the complete video"));
     EXPECT_THAT(failure("cat >/dev/null; echo lost >&2; printf '\\0\\0\\0\\011moov' >&3").what,
-                HasSubstr("film: lost"));
+                HasSubstr("video: lost"));
 }
 
 TEST(Film, FfmpegThatHangsUpAndStaysIsEnded) {
     EXPECT_THAT(failure("echo bye >&2; exec <&-; exec sleep 1000").what,
-                AllOf(HasSubstr("reads no more"), HasSubstr("bye")));
+                AllOf(HasSubstr("stopped reading its input"), HasSubstr("bye")));
 }
 
 TEST(Film, FfmpegThatTalksMuchDoesNotStopTheFilm) {
@@ -118,7 +118,7 @@ TEST(Film, FfmpegThatTalksMuchDoesNotStopTheFilm) {
     // More than a pipe holds, before it reads.
     const FakeFfmpeg fake("head -c 300000 /dev/zero | tr '\\0' x >&2; cat >/dev/null; printf '\\0\\0\\0\\010moov' >&3");
     const std::vector<Image8> pictures(20, pattern_picture(320, 180, 0));
-    const Result<Done> done = write_pictures(folder / "film.mp4", pictures);
+    const Result<void> done = write_pictures(folder / "film.mp4", pictures);
     ASSERT_TRUE(done.ok()) << done.error().message();
     using namespace std::string_literals;
     EXPECT_EQ(read_text(folder / "film.mp4"), "\0\0\0\x08moov"s);
@@ -132,7 +132,7 @@ TEST(Film, FfmpegThatCannotDoItIsFoundOutBeforehand) {
     const std::string before = std::getenv("PATH");
     ::setenv("PATH", (folder.path().string() + ":" + before).c_str(), 1);
     const auto made = make_picture_writer(folder / "film.mp4");
-    const Result<Done> begun = (*made)->begin({.width = 320, .height = 180});
+    const Result<void> begun = (*made)->begin({.width = 320, .height = 180});
     ::setenv("PATH", before.c_str(), 1);
     ASSERT_FALSE(begun.ok());
     EXPECT_THAT(begun.error().what, HasSubstr("Unknown encoder"));
@@ -185,7 +185,7 @@ TEST_F(RealFilm, HasEveryPictureItsSizeRateAndColors) {
     std::vector<Image8> pictures(7, plain_picture(64, 36, 200, 40, 90));
     pictures.back() = plain_picture(64, 36, 20, 220, 60);
     const std::string film = (folder_ / "film.mp4").string();
-    const Result<Done> done = write_pictures(film, pictures, 25);
+    const Result<void> done = write_pictures(film, pictures, 25);
     ASSERT_TRUE(done.ok()) << done.error().message();
     const std::string streams = said("ffprobe -v error -count_frames -show_streams '" + film + "'");
     for (const char* line : {"codec_name=h264", "width=64", "height=36", "pix_fmt=yuv420p", "nb_read_frames=7",
@@ -217,7 +217,7 @@ TEST_F(RealFilm, TakesNamesThatLookLikeSomethingElse) {
     EXPECT_GT(std::filesystem::file_size(folder_ / "-y http:%20.d/-a b'\"$x.mp4"), 100u);
 }
 
-#if !defined(__SANITIZE_THREAD__)  // which writes a file of its own, and dies of the limit
+#if !defined(__SANITIZE_THREAD__)  // TSan writes its own file and is killed by the limit
 TEST_F(RealFilm, AFullDiskIsToldAndLeavesNothing) {
     rlimit before{};
     ::getrlimit(RLIMIT_FSIZE, &before);
@@ -227,7 +227,7 @@ TEST_F(RealFilm, AFullDiskIsToldAndLeavesNothing) {
         ::setrlimit(RLIMIT_FSIZE, &small);
         std::vector<Image8> pictures;
         for (int i = 0; i < 10; ++i) pictures.push_back(pattern_picture(128, 128, i));
-        const Result<Done> done = write_pictures(folder_ / "film.mp4", pictures);
+        const Result<void> done = write_pictures(folder_ / "film.mp4", pictures);
         ::setrlimit(RLIMIT_FSIZE, &before);
         ASSERT_FALSE(done.ok());
         EXPECT_THAT(done.error().what, HasSubstr("File too large"));

@@ -1,4 +1,4 @@
-// What a format must offer to stand in pictures.def, and what the formats share.
+// What a format in pictures.def must implement, and helpers that the formats share.
 #pragma once
 
 #include "io/files/atomic_file.h"
@@ -9,16 +9,16 @@
 
 namespace weft {
 
-/// A format of one picture. The caller has checked the picture and commits the file.
-using ImageWriter = Result<Done> (*)(const Image8& picture, AtomicFile& file);
+/// Writes one image to `file`. The caller has checked the image and commits the file.
+using ImageWriter = Result<void> (*)(const Image8& picture, AtomicFile& file);
 
-/// A format that holds all pictures.
+/// Makes a writer that puts all images into one file.
 using PictureFilmMaker = std::unique_ptr<PictureWriter> (*)(const std::filesystem::path& path);
 
-/// Makes the folder of `path`, and fails where the file cannot be written.
-Result<Done> prepare_place(const std::filesystem::path& path);
+/// Makes the folder of `path`, and fails if the file cannot be written.
+Result<void> prepare_place(const std::filesystem::path& path);
 
-/// Whether the picture is as large as was announced and has all its pixels.
-Result<Done> check_picture(const Image8& picture, const PictureInfo& info, const std::filesystem::path& path);
+/// Fails if the image has another size than announced or too few pixels.
+Result<void> check_picture(const Image8& picture, const PictureInfo& info, const std::filesystem::path& path);
 
 }  // namespace weft

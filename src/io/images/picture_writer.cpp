@@ -13,7 +13,7 @@
 namespace weft {
 namespace fs = std::filesystem;
 
-#define WEFT_PICTURE(name, ending, what) Result<Done> write_##name(const Image8& picture, AtomicFile& file);
+#define WEFT_PICTURE(name, ending, what) Result<void> write_##name(const Image8& picture, AtomicFile& file);
 #define WEFT_FILM(name, ending, what) std::unique_ptr<PictureWriter> make_##name(const fs::path& path);
 #include "io/images/pictures.def"
 #undef WEFT_PICTURE
@@ -42,28 +42,28 @@ constexpr std::array<Makers, formats.size()> makers = {{
 #undef WEFT_FILM
 }};
 
-Result<Done> write_one(ImageWriter writer, const Image8& picture, const fs::path& path) {
+Result<void> write_one(ImageWriter writer, const Image8& picture, const fs::path& path) {
     return write_atomically(path, [&](AtomicFile& file) { return writer(picture, file); });
 }
 
-/// Holds on to the newest picture, because only finish knows that it was the last.
+/// Keeps the newest image and writes it in finish(), because the last image is not known earlier.
 class LastPicture : public PictureWriter {
   public:
     LastPicture(ImageWriter writer, fs::path path) : writer_(writer), path_(std::move(path)) {}
 
-    Result<Done> begin(const PictureInfo& info) override {
+    Result<void> begin(const PictureInfo& info) override {
         info_ = info;
         return prepare_place(path_);
     }
-    Result<Done> write(const Image8& picture) override {
+    Result<void> write(const Image8& picture) override {
         last_ = picture;
         return check_picture(picture, info_, path_);
     }
-    Result<Done> finish() override {
-        if (!last_) return Error{path_.string(), "there is no picture to write"};
+    Result<void> finish() override {
+        if (!last_) return Error{path_.string(), "there is no image to write"};
         return write_one(writer_, *last_, path_);
     }
-    bool last_alone() const override { return true; }
+    bool keeps_last_only() const override { return true; }
 
   private:
     ImageWriter writer_;
@@ -77,17 +77,17 @@ class PictureSequence : public PictureWriter {
     PictureSequence(ImageWriter writer, const fs::path& path, FilePattern pattern)
         : writer_(writer), folder_(folder_of(path)), pattern_(std::move(pattern)) {}
 
-    Result<Done> begin(const PictureInfo& info) override {
+    Result<void> begin(const PictureInfo& info) override {
         info_ = info;
         return prepare_place(next());
     }
-    Result<Done> write(const Image8& picture) override {
-        if (Result<Done> checked = check_picture(picture, info_, next()); !checked) return checked;
-        if (Result<Done> written = write_one(writer_, picture, next()); !written) return written;
+    Result<void> write(const Image8& picture) override {
+        if (Result<void> checked = check_picture(picture, info_, next()); !checked) return checked;
+        if (Result<void> written = write_one(writer_, picture, next()); !written) return written;
         ++number_;
-        return Done{};
+        return {};
     }
-    Result<Done> finish() override { return Done{}; }
+    Result<void> finish() override { return {}; }
 
   private:
     fs::path next() const { return folder_ / pattern_.name(number_); }
@@ -105,33 +105,35 @@ std::span<const PictureFormat> picture_formats() {
     return formats;
 }
 
-Result<Done> prepare_place(const fs::path& path) {
-    if (Result<Done> made = make_folder_of(path); !made) return made;
+Result<void> prepare_place(const fs::path& path) {
+    if (Result<void> made = make_folder_of(path); !made) return made;
     return check_writable(path);
 }
 
-Result<Done> check_picture(const Image8& picture, const PictureInfo& info, const fs::path& path) {
+Result<void> check_picture(const Image8& picture, const PictureInfo& info, const fs::path& path) {
     const bool whole = picture.rgba.size() == std::size_t{picture.width} * picture.height * 4;
-    if (picture.width == info.width && picture.height == info.height && !picture.rgba.empty() && whole) return Done{};
+    if (picture.width == info.width && picture.height == info.height && !picture.rgba.empty() && whole) return {};
     const auto size = [](std::uint32_t width, std::uint32_t height) {
         return std::to_string(width) + "x" + std::to_string(height);
     };
-    return Error{path.string(), "a picture of " + size(picture.width, picture.height) + " with " +
-                                    std::to_string(picture.rgba.size()) + " bytes among those of " +
+    return Error{path.string(), "the image has " + size(picture.width, picture.height) + " pixels and " +
+                                    std::to_string(picture.rgba.size()) + " bytes, but its announced size is " +
                                     size(info.width, info.height)};
 }
 
 Result<std::unique_ptr<PictureWriter>> make_picture_writer(const fs::path& path) {
     const std::string ending = ending_of(path);
     const auto format = std::ranges::find(formats, ending, &PictureFormat::ending);
-    if (format == formats.end()) return unknown_ending(path, "pictures are written as " + list_endings(formats));
+    if (format == formats.end()) return unknown_ending(path, "images are written as " + list_endings(formats));
     const Makers& maker = makers[static_cast<std::size_t>(format - formats.begin())];
 
     std::unique_ptr<PictureWriter> writer;
     if (has_pattern(path)) {
         std::optional<FilePattern> pattern = parse_pattern(path.filename().string());
         if (!pattern) return Error{path.string(), pattern_rule};
-        if (!maker.picture) return Error{path.string(), "a " + ending + " holds all pictures in one file"};
+        if (!maker.picture)
+            return Error{path.string(),
+                         "a " + ending + " holds all images in one file, so its name must not contain a '%'"};
         writer = std::make_unique<PictureSequence>(maker.picture, path, *std::move(pattern));
     } else if (maker.film) {
         writer = maker.film(path);

@@ -1,4 +1,4 @@
-// Pictures onto the disk: one interface for every format, chosen by a file name's ending.
+// Writes images to files: one interface for all formats, which are chosen by the ending of the file name.
 #pragma once
 
 #include "base/image.h"
@@ -15,33 +15,33 @@ namespace weft {
 
 struct PictureInfo {
     std::uint32_t width = 0, height = 0;
-    double frame_rate = 60;           ///< pictures a second of a film
-    std::uint64_t picture_count = 0;  ///< that will be written
-    bool transparent = false;         ///< alpha counts
+    double frame_rate = 60;           ///< images per second of a video
+    std::uint64_t picture_count = 0;  ///< images that will be written
+    bool transparent = false;         ///< keep the alpha channel
 };
 
-/// begin, then write once per picture, then finish. Nothing appears under the final name before finish (a sequence:
-/// before its picture is whole); a writer destroyed early leaves nothing behind, a sequence its whole pictures. After
-/// an error a writer is only good for being destroyed.
+/// Call begin(), then write() once per image, then finish(). A file gets its final name only in finish(), the files of
+/// a sequence as soon as their image is complete. A writer destroyed before finish() leaves nothing behind, except the
+/// complete files of a sequence. After an error a writer can only be destroyed.
 class PictureWriter {
   public:
     virtual ~PictureWriter() = default;
-    /// Before anything that takes long. Makes the folder. Fails where the format cannot hold what is announced, where
-    /// the file cannot be written, and where what the format needs is not installed.
-    virtual Result<Done> begin(const PictureInfo& info) = 0;
-    /// As large as was announced.
-    virtual Result<Done> write(const Image8& picture) = 0;
-    virtual Result<Done> finish() = 0;
-    /// Of the pictures it keeps the last alone; nobody need make the others.
-    virtual bool last_alone() const { return false; }
+    /// Called before long operations. Makes the folder. Fails if the format cannot hold the announced images, if the
+    /// file cannot be written, or if a program that the format needs is not installed.
+    virtual Result<void> begin(const PictureInfo& info) = 0;
+    /// The image must have the announced size.
+    virtual Result<void> write(const Image8& picture) = 0;
+    virtual Result<void> finish() = 0;
+    /// Whether only the last image is kept, so that the caller need not render the others.
+    virtual bool keeps_last_only() const { return false; }
 };
 
-/// By the ending of `path`: `.png` (the last picture), `.mp4` (film), or a sequence, numbered from 0, where the file
-/// name holds one `%d` or `%0Nd` (`pictures/%04d.png`). Fails on an unknown ending.
+/// The ending of `path` selects the format: `.png` (the last image) or `.mp4` (video). A `%d` or `%0Nd` in the file
+/// name selects a sequence, numbered from 0 (`pictures/%04d.png`). Fails on an unknown ending.
 Result<std::unique_ptr<PictureWriter>> make_picture_writer(const std::filesystem::path& path);
 
 struct PictureFormat {
-    std::string_view ending;  ///< with the dot
+    std::string_view ending;  ///< including the dot
     std::string_view what;
 };
 std::span<const PictureFormat> picture_formats();

@@ -42,7 +42,7 @@ TEST(PictureWriter, APngIsTheLastPicture) {
     const TestFolder folder;
     const auto made = make_picture_writer(folder / "new/a.png");
     ASSERT_TRUE(made.ok() && (*made)->begin({.width = 20, .height = 10}).ok());
-    EXPECT_TRUE((*made)->last_alone());
+    EXPECT_TRUE((*made)->keeps_last_only());
     ASSERT_TRUE((*made)->write(pattern_picture(20, 10, 1)).ok());
     EXPECT_FALSE(std::filesystem::exists(folder / "new/a.png"));
     ASSERT_TRUE((*made)->write(pattern_picture(20, 10, 2)).ok());
@@ -57,7 +57,7 @@ TEST(PictureWriter, ASequenceIsAPngEach) {
     const TestFolder folder;
     const auto made = make_picture_writer(folder / "%03d.png");
     ASSERT_TRUE(made.ok() && (*made)->begin({.width = 8, .height = 8}).ok());
-    EXPECT_FALSE((*made)->last_alone());
+    EXPECT_FALSE((*made)->keeps_last_only());
     EXPECT_THAT(folder.names(), IsEmpty());
     for (int i = 0; i < 3; ++i) ASSERT_TRUE((*made)->write(pattern_picture(8, 8, i)).ok());
     EXPECT_THAT(folder.names(), ElementsAre("000.png", "001.png", "002.png"));
@@ -65,7 +65,7 @@ TEST(PictureWriter, ASequenceIsAPngEach) {
     EXPECT_EQ(read_text(folder / "001.png"), read_text(folder / "alone.png"));
 }
 
-// The header says what is in it: width, height, and 2 for red, green, blue or 6 with alpha.
+// The header has width, height, and the color type: 2 for red, green, blue or 6 with alpha.
 TEST(PictureWriter, APngHasItsSizeAndAlphaWhereThereIsAny) {
     const TestFolder folder;
     Image8 picture = pattern_picture(300, 2, 0);
@@ -92,7 +92,7 @@ TEST(PictureWriter, DestroyedEarlyLeavesWhatWasThere) {
     EXPECT_THAT(folder.names(), ElementsAre("a.png"));
     const auto none = make_picture_writer(folder / "b.png");
     ASSERT_TRUE(none.ok() && (*none)->begin({.width = 8, .height = 8}).ok());
-    EXPECT_THAT((*none)->finish().error().what, HasSubstr("no picture"));
+    EXPECT_THAT((*none)->finish().error().what, HasSubstr("no image"));
     EXPECT_THAT(folder.names(), ElementsAre("a.png"));
 }
 
@@ -124,7 +124,7 @@ TEST(PictureWriter, APlaceThatCannotBeWrittenIsKnownBeforehand) {
     EXPECT_THAT(begun("/dev/full/a.png").error().what, HasSubstr("folder cannot be made"));
 }
 
-#if !defined(__SANITIZE_THREAD__)  // which writes a file of its own, and dies of the limit
+#if !defined(__SANITIZE_THREAD__)  // TSan writes its own file and is killed by the limit
 TEST(PictureWriter, AFullDiskIsToldAndLeavesNothing) {
     const TestFolder folder;
     rlimit before{};
@@ -133,7 +133,7 @@ TEST(PictureWriter, AFullDiskIsToldAndLeavesNothing) {
     const rlimit small{512, before.rlim_max};
     for (const char* name : {"a.png", "%d.png"}) {
         ::setrlimit(RLIMIT_FSIZE, &small);
-        const Result<Done> done = write_pictures(folder / name, {pattern_picture(64, 64, 0)});
+        const Result<void> done = write_pictures(folder / name, {pattern_picture(64, 64, 0)});
         ::setrlimit(RLIMIT_FSIZE, &before);
         ASSERT_FALSE(done.ok()) << name;
         EXPECT_THAT(done.error().what, HasSubstr("File too large"));

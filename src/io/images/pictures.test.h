@@ -1,4 +1,4 @@
-// Small pictures for the tests of the formats.
+// Small images for the tests of the formats.
 #pragma once
 
 #include "io/images/picture_writer.h"
@@ -8,7 +8,7 @@
 
 namespace weft::test {
 
-/// Opaque, with other pixels for every number, and none that compress well.
+/// Opaque, with different pixels for every number, and hardly compressible.
 inline Image8 pattern_picture(std::uint32_t width, std::uint32_t height, int number) {
     Image8 picture{width, height, {}};
     std::uint32_t random = 12345 + static_cast<std::uint32_t>(number);
@@ -27,8 +27,8 @@ inline Image8 plain_picture(std::uint32_t width, std::uint32_t height, std::uint
     return picture;
 }
 
-/// begin, all of them, finish.
-inline Result<Done> write_pictures(const std::filesystem::path& path, const std::vector<Image8>& pictures,
+/// Calls begin(), writes all images, calls finish().
+inline Result<void> write_pictures(const std::filesystem::path& path, const std::vector<Image8>& pictures,
                                    double frame_rate = 30) {
     auto writer = make_picture_writer(path);
     if (!writer) return writer.errors();

@@ -1,5 +1,5 @@
-// Radiance pictures: four bytes a pixel, three mantissas and the exponent that they share (Ward 1991, "Real Pixels"),
-// packed in runs. The format: radsite.lbl.gov/radiance/refer/filefmts.pdf.
+// Radiance images: four bytes per pixel, three mantissas and a shared exponent (Ward 1991, "Real Pixels"), run-length
+// encoded. The format: radsite.lbl.gov/radiance/refer/filefmts.pdf.
 #include "io/images/image_file.h"
 
 #include <array>
@@ -18,11 +18,11 @@ using Pixel = std::array<std::uint8_t, 4>;
 // Scanlines of these lengths may be packed channel by channel.
 constexpr std::uint32_t shortest_packed = 8, longest_packed = 0x7fff;
 
-class Bytes {
+class ByteReader {
   public:
-    explicit Bytes(std::span<const std::byte> bytes) : rest_(bytes) {}
+    explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-    /// 0 after the end, which `cut_off` tells.
+    /// The next byte; 0 after the end, and then cut_off() is true.
     std::uint8_t next() {
         if (rest_.empty()) {
             cut_off_ = true;
@@ -59,7 +59,7 @@ struct Size {
     std::uint32_t width = 0, height = 0;
 };
 
-/// Of `-Y 512 +X 1024`: rows from the top, each from the left.
+/// The size from a line such as `-Y 512 +X 1024`: rows from the top, each from the left. Nothing for other orders.
 std::optional<Size> size_in(std::string_view line) {
     const auto number = [&](std::string_view before) -> std::optional<std::uint32_t> {
         if (!line.starts_with(before)) return {};
@@ -75,8 +75,8 @@ std::optional<Size> size_in(std::string_view line) {
     return Size{*width, *height};
 }
 
-/// Each channel for itself: a count above 128 repeats one byte, others are followed by so many bytes.
-bool unpack_channels(Bytes& in, std::span<Pixel> row) {
+/// Unpacks each channel separately: a count above 128 repeats one byte, a lower one is followed by that many bytes.
+bool unpack_channels(ByteReader& in, std::span<Pixel> row) {
     for (std::size_t channel = 0; channel < 4; ++channel) {
         for (std::size_t x = 0; x < row.size();) {
             const std::uint8_t code = in.next();
@@ -89,8 +89,8 @@ bool unpack_channels(Bytes& in, std::span<Pixel> row) {
     return true;
 }
 
-/// Pixel by pixel; one of 1, 1, 1 repeats that before it, one after the other for higher digits of the count.
-bool unpack_pixels(Bytes& in, Pixel first, std::span<Pixel> row) {
+/// Unpacks whole pixels: a pixel of 1, 1, 1 repeats the one before it; consecutive ones add higher digits of the count.
+bool unpack_pixels(ByteReader& in, Pixel first, std::span<Pixel> row) {
     unsigned shift = 0;
     Pixel pixel = first;
     for (std::size_t x = 0; x < row.size(); pixel = in.pixel()) {
@@ -108,7 +108,7 @@ bool unpack_pixels(Bytes& in, Pixel first, std::span<Pixel> row) {
     return true;
 }
 
-bool unpack_row(Bytes& in, std::span<Pixel> row) {
+bool unpack_row(ByteReader& in, std::span<Pixel> row) {
     const Pixel first = in.pixel();
     if (row.size() < shortest_packed || row.size() > longest_packed || first[0] != 2 || first[1] != 2 ||
         first[2] >= 128) {
@@ -118,11 +118,11 @@ bool unpack_row(Bytes& in, std::span<Pixel> row) {
 }
 
 struct Header {
-    bool known = true;  ///< format
+    bool known = true;  ///< whether the format is supported
     std::string size;
 };
 
-Header read_header(Bytes& in) {
+Header read_header(ByteReader& in) {
     Header header;
     for (std::string line = in.line(); !line.empty() && !in.cut_off(); line = in.line()) {
         if (line.starts_with("FORMAT=")) header.known = line == "FORMAT=32-bit_rle_rgbe";
@@ -135,21 +135,21 @@ Header read_header(Bytes& in) {
 
 Result<ImageF> decode_hdr(std::span<const std::byte> bytes, std::string_view name, const PictureLimits& limits) {
     const auto error = [&](std::string what) { return Error{std::string(name), std::move(what)}; };
-    const std::string cut_off = "ends before the picture does";
+    const std::string cut_off = "is cut short: it ends inside the image data";
     if (bytes.empty()) return error("is empty");
     if (bytes.size() < 2 || bytes[0] != std::byte{'#'} || bytes[1] != std::byte{'?'}) {
-        return error("is not a Radiance picture (.hdr)");
+        return error("is not a Radiance image (.hdr)");
     }
-    Bytes in(bytes);
+    ByteReader in(bytes);
     const Header header = read_header(in);
     if (in.cut_off()) return error(cut_off);
     if (!header.known) return error("is not of the format 32-bit_rle_rgbe");
     const std::optional<Size> size = size_in(header.size);
-    if (!size) return error("must say its size as `-Y height +X width` behind its header");
+    if (!size) return error("must give its size as `-Y height +X width` after its header");
     if (std::string problem = problem_of_size(size->width, size->height, limits); !problem.empty()) {
         return error(std::move(problem));
     }
-    // A row takes four bytes or more: what is too short by far takes no memory.
+    // A row takes at least four bytes: a file that is much too short fails here, before memory is allocated.
     if (in.left() / 4 < size->height) return error(cut_off);
 
     ImageF image{size->width, size->height, std::vector<float>(std::size_t{size->width} * size->height * 4)};

@@ -12,10 +12,10 @@
 namespace weft {
 namespace {
 
-/// What of a file says how its nodes hang together: the models, and which lies under which. Number 0 is the root.
+/// The node hierarchy of a file: its models, and which model is below which. Number 0 is the root.
 struct Models {
     std::set<std::uint64_t> numbers;
-    std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> below;  ///< also of what is no model
+    std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> below;  ///< includes objects that are not models
 };
 
 std::string problem_of_models(const Models& models) {
@@ -30,9 +30,9 @@ std::string problem_of_models(const Models& models) {
 
 const std::string too_deep = "has blocks nested more than " + std::to_string(deepest_nesting) + " deep";
 
-// Text: `Key: value, "value", … {` and the same within braces. A semicolon makes the rest of the line a comment.
+// Text format: `Key: value, "value", … {`, nested by braces. A semicolon begins a comment.
 
-// As many as a connection has; lists of coordinates are long.
+// A connection has three values; lists of coordinates are long.
 constexpr std::size_t most_values = 3;
 
 /// One `Key:` with its first values, without quotes.
@@ -86,30 +86,30 @@ std::string problem_of_text(std::string_view text) {
     return problem_of_models(models);
 }
 
-// Binary: records, each with where it ends, the number and the size of its properties, its name, and within it others,
-// of which the last is empty. Blender Foundation, "FBX binary file format specification", 2013.
+// Binary format: records with their end, the number and the size of their properties, a name, and nested records, the
+// last of which is empty. Blender Foundation, "FBX binary file format specification", 2013.
 
 class BinaryWalk {
   public:
     explicit BinaryWalk(std::string_view bytes) : bytes_(bytes), wide_(number(version_at, 4) >= 7500) {}
 
     std::string problem() {
-        std::vector<std::size_t> ends{bytes_.size()};  // of the records that lie around
+        std::vector<std::size_t> ends{bytes_.size()};  // of the enclosing records
         for (std::size_t at = header_size; !ends.empty();) {
-            if (at >= ends.back()) {  // behind the last within lies the empty one
+            if (at >= ends.back()) {  // skips the empty record after the last nested one
                 at = ends.back() + (ends.size() > 1 ? empty_size() : 0);
                 ends.pop_back();
                 continue;
             }
             const std::size_t end = number(at, word());
-            if (end == 0 && ends.size() == 1) break;  // what follows is no record
-            if (end == 0) {                           // Assimp looks for one right behind that zero
+            if (end == 0 && ends.size() == 1) break;  // the records end here
+            if (end == 0) {                           // Assimp reads the next record right after that zero
                 at += word();
                 continue;
             }
             const std::size_t name_size = number(at + 3 * word(), 1), properties = at + 3 * word() + 1 + name_size;
             const std::size_t size = number(at + 2 * word(), word());
-            // Here Assimp gives up.
+            // Assimp stops here.
             if (end <= at || end > ends.back() || properties > end || size > end - properties) break;
             note(bytes_.substr(properties - name_size, name_size), bytes_.substr(properties, size));
             at = properties + size;
@@ -134,7 +134,7 @@ class BinaryWalk {
         return value;
     }
 
-    /// Numbers are "L" and eight bytes; a string is "S", its length in four, and itself.
+    /// Numbers are "L" and eight bytes; a string is "S", its length in four bytes, and its bytes.
     void note(std::string_view name, std::string_view properties) {
         const auto at = static_cast<std::size_t>(properties.data() - bytes_.data());
         if (name == "Model" && properties.starts_with('L')) models_.numbers.insert(number(at + 1, 8));

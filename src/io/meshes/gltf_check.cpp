@@ -19,7 +19,7 @@ bool is_binary(std::string_view content) {
     return content.starts_with("glTF") && content.size() >= text_begin;
 }
 
-/// As the file says it.
+/// The size that the file states.
 std::size_t text_size(std::string_view content) {
     std::size_t size = 0;
     for (std::size_t b = 4; b-- > 0;) size = size << 8 | static_cast<unsigned char>(content[12 + b]);
@@ -86,7 +86,7 @@ std::size_t deepest_bracket(std::string_view text) {
     return deepest;
 }
 
-/// By number, or by name as glTF 1 has it.
+/// By number, or by name as in glTF 1.
 const json* element(const json& all, const json& which) {
     if (all.is_array() && which.is_number_unsigned() && which < all.size()) return &all[which.get<std::size_t>()];
     if (!all.is_object() || !which.is_string()) return nullptr;
@@ -106,7 +106,7 @@ std::vector<const json*> elements(const json& all, const json& owner, const char
 }  // namespace
 
 std::string problem_of_gltf(std::string_view content) {
-    if (is_binary(content) && text_size(content) > content.size() - text_begin)  // which Assimp would make room for
+    if (is_binary(content) && text_size(content) > content.size() - text_begin)  // Assimp would allocate that
         return "is cut short: its text ends at byte " + std::to_string(text_begin + text_size(content)) + " of " +
                std::to_string(content.size());
     const std::string_view text = json_text(content);
@@ -127,10 +127,10 @@ std::string problem_of_gltf(std::string_view content) {
 std::optional<std::uint64_t> gltf_triangle_count(std::string_view content) {
     try {
         const json document = json::parse(json_text(content));
-        // glTF 1 keeps its meshes by name instead of in a list, and Assimp leaves its indices as they are.
+        // glTF 1 stores its meshes by name, not in a list; Assimp does not change its indices.
         if (!document.contains("meshes") || !document.at("meshes").is_array()) return std::nullopt;
         return count_triangles(document);
-    } catch (const std::exception&) {  // Assimp names the problem
+    } catch (const std::exception&) {  // Assimp reports the problem
         return std::nullopt;
     }
 }

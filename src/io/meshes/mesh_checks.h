@@ -1,7 +1,6 @@
-// What Assimp 5.2 does not check. On a PLY file cut short it reads past its buffer or never returns, and on a face
-// without corners it aborts; in PLY, 3DS and glTF it bends or drops faces that use vertices that do not exist; of an
-// STL file cut short it takes what is there. On glTF and FBX files whose parts lie in each other very deep, or in
-// themselves, it runs out of stack or never returns.
+// Checks that Assimp 5.2 lacks. A truncated PLY file makes it read past its buffer or loop forever, and a face without
+// corners makes it abort. In PLY, 3DS and glTF it changes or drops faces that use missing vertices. It accepts
+// truncated STL files. glTF and FBX files with deep or cyclic nesting overflow its stack or make it loop forever.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +10,21 @@
 
 namespace weft {
 
-/// The first problem with a PLY file: its header, its length, and the vertex numbers in its faces. Empty if none.
+/// The first problem with a PLY file: its header, its length, or the vertex numbers of its faces. Empty if none.
 std::string problem_of_ply(std::string_view content);
 
-/// The first face of a 3DS file that uses a vertex that does not exist. Empty if none; a broken chunk structure is left
-/// to Assimp.
+/// The first face of a 3DS file that uses a missing vertex. Empty if none; Assimp checks the chunk structure.
 std::string problem_of_3ds(std::string_view content);
 
-/// Whether a text STL file ends before its `endsolid`. Empty if not; binary files are checked by Assimp.
+/// Reports a text STL file that ends before its `endsolid`. Empty if it is complete; Assimp checks binary files.
 std::string problem_of_stl(std::string_view content);
 
-/// Parts of a glTF or FBX file, text or binary, that lie in each other too deep to be read. Empty if none; what is
-/// wrong otherwise is left to Assimp.
+/// Reports parts of a glTF or FBX file, text or binary, that are nested too deep to be read. Empty if there are none;
+/// other problems are left to Assimp.
 std::string problem_of_gltf(std::string_view content);
 std::string problem_of_fbx(std::string_view content);
 
-/// How many triangles the scene of a glTF 2 file (text or binary) describes. Nothing if that cannot be told.
+/// The number of triangles in the scene of a glTF 2 file (text or binary). Nothing if it cannot be determined.
 std::optional<std::uint64_t> gltf_triangle_count(std::string_view content);
 
 }  // namespace weft

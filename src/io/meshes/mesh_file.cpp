@@ -21,10 +21,10 @@
 namespace weft {
 namespace {
 
-constexpr std::array<std::string_view, 7> formats{".obj", ".ply", ".gltf", ".glb", ".fbx", ".stl", ".3ds"};
+constexpr std::array<std::string_view, 7> endings{".obj", ".ply", ".gltf", ".glb", ".fbx", ".stl", ".3ds"};
 
-// Normals are not made up where a file has none, and vertices are joined here instead of by Assimp, which would also
-// join those that lie within 1e-5 of each other: whole panels of a small garment.
+// Normals are not generated where a file has none. Vertices are joined here, not by Assimp, which would also join those
+// within 1e-5 of each other: whole panels of a small garment.
 constexpr unsigned import_steps = aiProcess_Triangulate;
 
 std::string lower_case_ending(const std::filesystem::path& path) {
@@ -37,15 +37,15 @@ std::string first_line(const std::string& text) {
     return text.substr(0, text.find_first_of("\r\n"));
 }
 
-/// Empty if the ending of a file is one that is read.
+/// Empty if files with that ending are supported.
 std::string problem_of_ending(const std::filesystem::path& path) {
-    if (std::ranges::find(formats, lower_case_ending(path)) != formats.end()) return {};
-    std::string what = "has an ending that is none of";
-    for (std::string_view format : formats) what.append(" ").append(format);
+    if (std::ranges::find(endings, lower_case_ending(path)) != endings.end()) return {};
+    std::string what = "has an unknown ending; known are";
+    for (std::string_view format : endings) what.append(" ").append(format);
     return what;
 }
 
-/// Every attribute that any part of the file has, one entry per vertex; parts without it get a neutral one.
+/// All attributes that any part of the file has, one entry per vertex; parts without an attribute get a neutral value.
 struct Parts {
     TriangleMesh mesh;
     bool has_uvs = false;
@@ -78,7 +78,7 @@ void append_vertices(const aiMesh& part, const aiMatrix4x4& transform, Parts& pa
 /// Returns the problem, or an empty string.
 std::string append_part(const aiMesh& part, const aiMatrix4x4& transform, Parts& parts) {
     const auto is_triangle = [](const aiFace& face) { return face.mNumIndices == 3; };
-    if (std::none_of(part.mFaces, part.mFaces + part.mNumFaces, is_triangle)) return {};  // points and lines alone
+    if (std::none_of(part.mFaces, part.mFaces + part.mNumFaces, is_triangle)) return {};  // only points and lines
     const auto first = static_cast<std::uint32_t>(parts.mesh.positions.size());
     append_vertices(part, transform, parts);
     const bool mirrored = transform.Determinant() < 0;
@@ -117,7 +117,7 @@ std::string append_scene(const aiScene& scene, const aiMatrix4x4& to_file, Parts
     return {};
 }
 
-/// Drops the attributes that the file does not have, and normals that are not one unit vector per vertex in use.
+/// Drops attributes that the file does not have, and normals unless there is one unit vector per vertex in use.
 TriangleMesh without_missing_attributes(Parts parts) {
     TriangleMesh& mesh = parts.mesh;
     if (!parts.has_uvs) mesh.uvs.clear();
@@ -129,7 +129,7 @@ TriangleMesh without_missing_attributes(Parts parts) {
         });
     if (!usable) {
         mesh.normals.clear();
-    } else {  // vertices without a triangle may have none
+    } else {  // vertices without a triangle may have no normal
         for (std::uint32_t v = 0; v < mesh.normals.size(); ++v) {
             if (!is_unit(v)) mesh.normals[v] = {0, 1, 0};
         }
@@ -173,12 +173,12 @@ Result<TriangleMesh> collect(const aiScene* scene, const Assimp::Importer& impor
     return mesh;
 }
 
-/// The corners that Assimp made of an OBJ file, put back in the order of its `v` lines, with the lines' own values and
-/// those that no face uses.
+/// Restores the order of the `v` lines of an OBJ file from Assimp's corners, with the positions and colors of the
+/// lines, and adds vertices that no face uses.
 Result<TriangleMesh> load_obj(std::string content, const std::string& file) {
     Result<ObjSource> source = read_obj_source(content, file);
     if (!source) return source.errors();
-    std::string().swap(content);  // of a large file Assimp makes many copies
+    std::string().swap(content);  // frees it, because Assimp makes many copies of a large file
 
     Assimp::Importer importer;
     const aiScene* scene =
@@ -196,13 +196,13 @@ Result<TriangleMesh> load_obj(std::string content, const std::string& file) {
     return in_source_order(*corners, lines, source->positions, source->colors);
 }
 
-/// From the axes that Assimp gives a file to the file's own: it turns 3DS files, whose z points up, upright. Which axis
-/// is up is for the scene to say, for this format as for all others.
+/// The transform from Assimp's axes back to those of the file: Assimp turns 3DS files, whose z axis points up. The
+/// scene decides which axis is up, for this format as for all others.
 aiMatrix4x4 to_axes_of_file(std::string_view ending) {
     return ending == ".3ds" ? aiMatrix4x4(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1) : aiMatrix4x4();
 }
 
-/// Assimp opens the file once more, because a glTF file names others beside it.
+/// Assimp opens the file again, because a glTF file refers to other files beside it.
 Result<TriangleMesh> load_other(const std::filesystem::path& path, std::string_view content) {
     const std::string file = path.string();
     const std::string ending = lower_case_ending(path);
@@ -225,7 +225,7 @@ Result<TriangleMesh> load_other(const std::filesystem::path& path, std::string_v
                                    " triangles use vertices that do not exist"};
         }
     }
-    // STL gives every triangle the normal that its corners imply anyway; kept, they would split every vertex.
+    // STL stores one normal per triangle, which its corners imply; kept normals would split every vertex.
     if (ending == ".stl") mesh->normals.clear();
     return joined(*mesh);
 }
@@ -250,7 +250,7 @@ Result<TriangleMesh> load_mesh(const std::filesystem::path& path) {
 }
 
 std::span<const std::string_view> mesh_formats() {
-    return formats;
+    return endings;
 }
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Reading meshes that are in order; mesh_file_errors.test.cpp has those that are not.
+// Tests of reading valid meshes; mesh_file_errors.test.cpp tests invalid ones.
 #include "io/meshes/mesh_file.h"
 
 #include <weft/bounds.h>

@@ -15,7 +15,7 @@ namespace {
 
 class MeshFileErrors : public testing::Test {
   protected:
-    /// What is wrong with a file of that content; checks what holds for every error.
+    /// The problem with a file of that content; also checks what all errors have in common.
     std::string problem(const std::string& name, std::string_view content) {
         const std::filesystem::path path = folder_.write(name, content);
         testing::internal::CaptureStderr();
@@ -36,8 +36,8 @@ TEST_F(MeshFileErrors, WhatIsNoFile) {
     EXPECT_EQ(load_mesh(folder_.path()).error().what, "is a folder, not a file");
     EXPECT_EQ(load_mesh("/dev/null").error().what, "is not a regular file");
     EXPECT_EQ(problem("a.obj", ""), "is empty");
-    EXPECT_EQ(problem("a.usd", "x"), "has an ending that is none of .obj .ply .gltf .glb .fbx .stl .3ds");
-    EXPECT_EQ(problem("mesh", "x"), "has an ending that is none of .obj .ply .gltf .glb .fbx .stl .3ds");
+    EXPECT_EQ(problem("a.usd", "x"), "has an unknown ending; known are .obj .ply .gltf .glb .fbx .stl .3ds");
+    EXPECT_EQ(problem("mesh", "x"), "has an unknown ending; known are .obj .ply .gltf .glb .fbx .stl .3ds");
 }
 
 TEST_F(MeshFileErrors, AFileThatMayNotBeRead) {
@@ -101,7 +101,8 @@ TEST_F(MeshFileErrors, PlyThatAssimpWouldCrashOn) {
     EXPECT_EQ(problem("a.ply", huge), "has more values than properties at vertex 5");
 }
 
-// Each of these made Assimp see another file than the check before it, and abort the program or go out of bounds.
+// Each of these made Assimp read the file differently from the check before it, and abort or access memory out of
+// bounds.
 TEST_F(MeshFileErrors, PlyThatCanBeReadInTwoWays) {
     const std::string whole = fixtures::ply_ascii();
     ASSERT_EQ(problem("a.ply", whole), "none");
@@ -145,7 +146,7 @@ TEST_F(MeshFileErrors, OtherFormatsWithIndicesOutOfRange) {
     EXPECT_EQ(problem("a.fbx", fixtures::fbx_ascii("0,1,30,-4")), "has no triangles");
 }
 
-// Assimp follows each of these until the stack is full, or for longer than anyone waits.
+// Assimp follows each of these until the stack overflows, or for a very long time.
 TEST_F(MeshFileErrors, PartsWithinPartsWithoutEnd) {
     const auto repeated = [](std::string_view text, int times) {
         std::string all;
@@ -161,11 +162,11 @@ TEST_F(MeshFileErrors, PartsWithinPartsWithoutEnd) {
               "has blocks nested more than 200 deep");
 
     const std::string head = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"meshes":[],"nodes":[)";
-    const std::string circle = "has nodes that lie under themselves, or under many others at once";
+    const std::string circle = "has nodes that are their own descendants or have many parents";
     std::string chain, twice;
     for (int i = 1; i <= 100000; ++i) chain += "{\"children\":[" + std::to_string(i) + "]},";
     for (int i = 1; i <= 60; ++i) twice += "{\"children\":[" + std::to_string(i) + ',' + std::to_string(i) + "]},";
-    EXPECT_EQ(problem("a.gltf", head + chain + "{}]}"), "has nodes that lie more than 1000 deep");
+    EXPECT_EQ(problem("a.gltf", head + chain + "{}]}"), "has nodes nested more than 1000 deep");
     EXPECT_EQ(problem("a.gltf", head + twice + "{}]}"), circle);
     EXPECT_EQ(problem("a.gltf", head + R"({"children":[1]},{"children":[0]}]})"), circle);
 
@@ -176,7 +177,7 @@ TEST_F(MeshFileErrors, PartsWithinPartsWithoutEnd) {
     EXPECT_EQ(problem("a.fbx", fixtures::fbx_binary({{1, 0}, {2, 1}, {3, 2}})), "none");
     EXPECT_EQ(problem("a.fbx", fixtures::fbx_binary({{1, 0}, {2, 1}, {1, 2}, {3, 2}})), circle);
     std::string deep = fixtures::fbx_binary({}).substr(0, 27);
-    for (std::size_t level = 0; level < 100000; ++level) {  // each ends where the one around it does, less its zeros
+    for (std::size_t level = 0; level < 100000; ++level) {  // each ends where its parent ends, minus the parent's zeros
         fixtures::append(deep, static_cast<std::uint32_t>(27 + 100000 * 27 - level * 13));
         deep.append(8, '\0').append("\1A");
     }

@@ -1,4 +1,4 @@
-// Small files in every format that load_mesh reads, made in memory.
+// Small files in every format that load_mesh() reads, made in memory.
 #pragma once
 
 #include <bit>
@@ -74,12 +74,12 @@ inline std::string base64(std::string_view bytes) {
 struct Gltf {
     std::vector<std::uint16_t> indices;
     int instances = 1;        ///< each 10 further along x
-    bool mirrored = false;    ///< scale -1 along x instead of the turn and the doubling
-    std::size_t claimed = 0;  ///< the number of indices that the accessor claims; 0: the true one
+    bool mirrored = false;    ///< scale -1 along x, without rotation and doubling
+    std::size_t claimed = 0;  ///< the number of indices that the accessor states; 0: the true one
     float first_x = 0;
 };
 
-/// Five vertices: the unit square's, and one above that no test puts in a face.
+/// Five vertices: the unit square's, and one above it that no test uses in a face.
 inline std::string gltf(const Gltf& options) {
     std::string buffer;
     for (float x : {options.first_x, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f, 0.f, 0.f, 3.f})
@@ -116,7 +116,7 @@ inline std::string fbx_ascii(std::string_view polygon) {
            "Connections:  {\n\tC: \"OO\",2000,0\n\tC: \"OO\",1000,2000\n}\n";
 }
 
-/// Of a binary FBX file of version 7.4; properties as they stand there.
+/// A node of a binary FBX file of version 7.4; its properties in binary form.
 struct FbxRecord {
     std::string name, properties;
     std::uint32_t count = 0;  ///< of the properties
@@ -156,7 +156,7 @@ std::string fbx_array(char type, const std::vector<T>& values) {
     return out;
 }
 
-/// Two models, 1 and 2, and a triangle, 3, which hang together as the pairs say: below, above. 0 is the root.
+/// Two models, 1 and 2, and a triangle, 3, connected by the pairs: child, parent. 0 is the root.
 inline std::string fbx_binary(const std::vector<std::pair<int, int>>& connections) {
     const auto integer = [](const char* name, std::int32_t value) {
         std::string property = "I";

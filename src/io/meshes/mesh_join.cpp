@@ -10,12 +10,12 @@ namespace {
 
 using Key = std::array<std::uint32_t, 13>;
 
-/// Open addressing: a hash node per corner would cost more than reading the file.
+/// Open addressing: allocating a hash node per corner would cost more than reading the file.
 class KeyTable {
   public:
     explicit KeyTable(std::size_t count) : slots_(std::bit_ceil(2 * count + 1), none) { keys_.reserve(count); }
 
-    /// The number of this key; numbers count up from 0 in the order of first sight.
+    /// The number of this key; numbers count up from 0 in the order of first appearance.
     std::uint32_t number_of(const Key& key) {
         const std::size_t mask = slots_.size() - 1;
         std::size_t slot = hash(key) & mask;
@@ -41,7 +41,7 @@ class KeyTable {
     std::vector<Key> keys_;
 };
 
-// The sum turns -0 into 0: equal values must have equal bits.
+// Adding 0 turns -0 into 0, so that equal values have equal bits.
 std::uint32_t bits(float value) {
     return std::bit_cast<std::uint32_t>(value + 0.0f);
 }
@@ -55,7 +55,7 @@ Key key_of(const TriangleMesh& mesh, std::uint32_t vertex, std::uint32_t source)
             bits(n.y), bits(n.z), bits(c.x), bits(c.y), bits(c.z),  bits(c.w)};
 }
 
-/// Vertices of `mesh` taken in `order`; those equal to an earlier one with the same entry of `source` are left out.
+/// Takes the vertices of `mesh` in `order` and drops those that equal an earlier one with the same `source`.
 TriangleMesh joined(const TriangleMesh& mesh, std::span<const std::uint32_t> order,
                     std::span<const std::uint32_t> source) {
     TriangleMesh result;
@@ -77,7 +77,7 @@ TriangleMesh joined(const TriangleMesh& mesh, std::span<const std::uint32_t> ord
     return result;
 }
 
-/// Vertices sorted by their point; vertices of one point stay in order.
+/// Vertices sorted by their source point; vertices of one point keep their order.
 std::vector<std::uint32_t> counting_sort(std::span<const std::uint32_t> source, std::size_t point_count) {
     std::vector<std::uint32_t> next(point_count + 1, 0);
     for (std::uint32_t point : source) ++next[point + 1];

@@ -1,4 +1,4 @@
-// From the loose corners that importers produce to a mesh whose triangles share vertices.
+// Joins the separate corners that importers produce into a mesh whose triangles share vertices.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -8,12 +8,12 @@
 
 namespace weft {
 
-/// Joins vertices that are the same in every attribute, bit for bit. Each keeps the place of its first appearance.
+/// Joins vertices that are bitwise equal in every attribute. Each keeps the place of its first appearance.
 TriangleMesh joined(const TriangleMesh& mesh);
 
-/// Puts vertices in the order of the source points that they stand for (`source[i]` for vertex i), with the positions
-/// and colors of those points (`colors` may be empty), adds the points that no vertex stands for, and joins the
-/// vertices of one point that are the same. Points are never joined with each other.
+/// Orders vertices by their source points (`source[i]` for vertex i), sets the positions and colors of those points
+/// (`colors` may be empty), adds the points that no vertex has as its source, and joins equal vertices of the same
+/// point. Different points are never joined.
 TriangleMesh in_source_order(const TriangleMesh& mesh, std::span<const std::uint32_t> source,
                              std::span<const Vec3> positions, std::span<const Vec4> colors);
 

@@ -25,11 +25,11 @@ std::string header(const TriangleMesh& mesh) {
 }
 
 template <class Value>
-Result<Done> write(const Value& value, AtomicFile& file) {
+Result<void> write(const Value& value, AtomicFile& file) {
     return file.write(std::as_bytes(std::span(&value, 1)));
 }
 
-Result<Done> write_vertex(const TriangleMesh& mesh, std::size_t v, AtomicFile& file) {
+Result<void> write_vertex(const TriangleMesh& mesh, std::size_t v, AtomicFile& file) {
     if (auto done = write(mesh.positions[v], file); !done) return done;
     if (!mesh.normals.empty()) {
         if (auto done = write(mesh.normals[v], file); !done) return done;
@@ -37,12 +37,12 @@ Result<Done> write_vertex(const TriangleMesh& mesh, std::size_t v, AtomicFile& f
     if (!mesh.uvs.empty()) {
         if (auto done = write(mesh.uvs[v], file); !done) return done;
     }
-    return mesh.colors.empty() ? Result<Done>(Done{}) : write(mesh.colors[v], file);
+    return mesh.colors.empty() ? Result<void>() : write(mesh.colors[v], file);
 }
 
 }  // namespace
 
-Result<Done> write_mesh(const TriangleMesh& mesh, AtomicFile& file) {
+Result<void> write_mesh(const TriangleMesh& mesh, AtomicFile& file) {
     if (auto done = file.write(header(mesh)); !done) return done;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         if (auto done = write_vertex(mesh, v, file); !done) return done;
@@ -50,7 +50,7 @@ Result<Done> write_mesh(const TriangleMesh& mesh, AtomicFile& file) {
         if (auto done = write(std::uint8_t{3}, file); !done) return done;
         if (auto done = write(triangle, file); !done) return done;
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// A triangle mesh to a file that load_mesh() reads as the same mesh.
+// Writes a triangle mesh to a file that load_mesh() reads as the same mesh.
 #pragma once
 
 #include "io/files/atomic_file.h"
@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// Binary little-endian PLY with every array that the mesh has, to the bit. The exports' own `.ply` is for other
-/// programs: its normals are of unit length and its colors have eight bits. Does not commit.
-Result<Done> write_mesh(const TriangleMesh& mesh, AtomicFile& file);
+/// Binary little-endian PLY with all arrays of the mesh, bit for bit. In contrast, the `.ply` export is for other
+/// programs: its normals have unit length and its colors eight bits. Does not commit the file.
+Result<void> write_mesh(const TriangleMesh& mesh, AtomicFile& file);
 
 }  // namespace weft

@@ -1,5 +1,7 @@
 #include "io/meshes/obj_source.h"
 
+#include "io/meshes/words.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,30 +11,15 @@
 namespace weft {
 namespace {
 
-// Two channels carry a line's number, because a float holds integers exactly only up to 2^24.
+// A line number is stored in two channels, because a float holds integers exactly only up to 2^24.
 constexpr std::uint32_t tag_base = 1u << 20;
-
-bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-/// Cuts the next word off the front of `text`; empty at its end.
-std::string_view next_word(std::string_view& text) {
-    std::size_t begin = 0;
-    while (begin < text.size() && is_blank(text[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < text.size() && !is_blank(text[end])) ++end;
-    const std::string_view word = text.substr(begin, end - begin);
-    text.remove_prefix(end);
-    return word;
-}
 
 std::optional<float> to_float(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     const char* const end = word.data() + word.size();
     float value = 0;
     auto parsed = std::from_chars(word.data(), end, value);
-    if (parsed.ec == std::errc::result_out_of_range) {  // below float's range it is zero, beyond it infinite
+    if (parsed.ec == std::errc::result_out_of_range) {  // underflow gives zero, overflow infinity
         double wide = word.find_first_of("eE") + 1 == word.find('-', 1) ? 0 : HUGE_VAL;  // kept if beyond a double too
         parsed = std::from_chars(word.data(), end, wide);
         value = static_cast<float>(wide);
@@ -41,7 +28,7 @@ std::optional<float> to_float(std::string_view word) {
     return value;
 }
 
-/// Physical lines joined where one ends in a backslash, comments cut off.
+/// Reads lines: joins those that end in a backslash and removes comments.
 class ObjLines {
   public:
     explicit ObjLines(std::string_view text) : rest_(text) {}
@@ -60,7 +47,7 @@ class ObjLines {
     }
     std::size_t number() const { return number_; }
 
-    /// A path in a comment or a material may end in a backslash that continues nothing.
+    /// In comments and material names a backslash at the end may be part of a path and continues nothing.
     static bool is_geometry(std::string_view line) { return !line.empty() && (line[0] == 'v' || line[0] == 'f'); }
 
   private:
@@ -99,7 +86,7 @@ class ObjReader {
             if (keyword == "f" && !add_face(rest)) return error();
         }
         if (!faces_) return Error{file_, "has no triangles"};
-        // Faces may stand before the vertices that they use, so this is known only at the end.
+        // Faces may precede the vertices that they use, so their indices are checked at the end.
         for (std::size_t kind = 0; kind < 3; ++kind) {
             const Use& use = largest_[kind];
             if (use.index > counts_[kind]) {
@@ -177,7 +164,7 @@ class ObjReader {
         return true;
     }
 
-    /// Normals can be had from the triangles, so one that is no direction spoils no file: it becomes zero.
+    /// Normals can be computed from the triangles, so an invalid one becomes zero and does not reject the file.
     bool add_normal(std::string_view rest) {
         const std::optional<Numbers> numbers = read_numbers(rest);
         if (!numbers) return false;

@@ -1,4 +1,4 @@
-// What Assimp does not tell about an OBJ file: the numbers of its `v` lines.
+// Reads the `v` lines of an OBJ file, because Assimp does not report their numbers.
 #pragma once
 
 #include <weft/result.h>
@@ -13,17 +13,17 @@ namespace weft {
 
 struct ObjSource {
     std::vector<Vec3> positions;  ///< one per `v` line, in their order
-    std::vector<Vec4> colors;     ///< empty, or one per `v` line: white for those that give none
-    /// The geometry alone (`v`, `vt`, `vn` and `f` lines) in one spelling, because Assimp overlooks lines that are
-    /// indented and numbers that begin with a point, with every `v` line's color replaced by its number. Assimp passes
-    /// a vertex's color through untouched, so each of the corners that it emits names its `v` line.
+    std::vector<Vec4> colors;     ///< empty, or one per `v` line: white for lines without a color
+    /// Only the geometry (`v`, `vt`, `vn` and `f` lines), normalized because Assimp overlooks indented lines and
+    /// numbers that begin with a point. The color of every `v` line is replaced by the line's number. Assimp passes
+    /// vertex colors through unchanged, so each of its corners identifies its `v` line.
     std::string tagged;
 };
 
-/// Fails, naming file and line, on lines that are not finite numbers and on faces that use lines that do not exist.
+/// Fails, naming file and line, on values that are not finite numbers and on faces that use missing lines.
 Result<ObjSource> read_obj_source(std::string_view text, const std::string& file);
 
-/// The number of the `v` line that a color in ObjSource::tagged stands for.
+/// Decodes the number of the `v` line from a color in ObjSource::tagged.
 std::uint32_t obj_vertex_from_tag(float red, float green);
 
 }  // namespace weft

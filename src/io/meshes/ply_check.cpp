@@ -1,4 +1,5 @@
 #include "io/meshes/mesh_checks.h"
+#include "io/meshes/words.h"
 
 #include <algorithm>
 #include <array>
@@ -49,14 +50,6 @@ std::string_view next_line(std::string_view& rest) {
     return line;
 }
 
-std::string_view next_word(std::string_view& line) {
-    const std::size_t begin = std::min(line.find_first_not_of(" \t\r"), line.size());
-    line.remove_prefix(begin);
-    const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
-    line.remove_prefix(word.size());
-    return word;
-}
-
 template <class T>
 bool parse_whole(std::string_view word, T& value) {
     const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -71,7 +64,7 @@ bool is_number(std::string_view word) {
     return parsed.ec != std::errc::invalid_argument && parsed.ptr == word.data() + word.size();
 }
 
-/// Some programs end words at some of these and others do not.
+/// Programs differ in whether these characters separate words.
 bool has_control_character(std::string_view line) {
     return std::ranges::any_of(line, [](unsigned char c) { return (c < ' ' && c != '\t' && c != '\r') || c == 0x7f; });
 }
@@ -124,7 +117,7 @@ class PlyCheck {
                 elements_.push_back(std::move(element));
             } else if (keyword == "property") {
                 if (!read_property(line)) return bad_line(whole);
-            }  // comments, and lines that programs put in besides: Blender 2.4 among them
+            }  // comments, and extra lines that some programs write, such as Blender 2.4
         }
         return fail("is cut short in its header");
     }
@@ -166,7 +159,7 @@ class PlyCheck {
                     std::to_string(element.count));
     }
 
-    /// Assimp's triangulation aborts the program on such a face.
+    /// Assimp's triangulation aborts the program on a face without corners.
     bool no_corners(std::uint64_t face) { return fail("face " + std::to_string(face) + " has no corners"); }
 
     bool check_index(const Element& element, std::uint64_t face, std::int64_t index) {
@@ -190,7 +183,7 @@ class PlyCheck {
             for (const Property& property : element.properties) {
                 if (!walk_text(element, i, property, line)) return false;
             }
-            // Whatever follows, Assimp takes for the next of these.
+            // Assimp would read further values as the next element.
             if (!next_word(line).empty()) {
                 return fail("has more values than properties at " + element.name + " " + std::to_string(i));
             }

@@ -49,7 +49,7 @@ std::string problem_of_mesh(std::string_view body) {
 
 void visit(std::uint32_t kind, std::string_view body, std::string& problem) {
     if (!problem.empty()) return;
-    if (kind == object) body.remove_prefix(std::min(body.find('\0'), body.size() - 1) + 1);  // its name
+    if (kind == object) body.remove_prefix(std::min(body.find('\0'), body.size() - 1) + 1);  // skips its name
     if (kind == mesh) problem = problem_of_mesh(body);
     if (kind != main_chunk && kind != editor && kind != object) return;
     for_each_chunk(body, [&](std::uint32_t inner, std::string_view chunk) {

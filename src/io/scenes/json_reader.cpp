@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-// Stored by offset: the struct behind `base` is known by its table alone.
+// Stores by offset, because the type of the struct behind `base` is unknown here.
 template <class T>
 void store(const Parameter& parameter, void* base, std::size_t index, T value) {
     std::memcpy(static_cast<std::byte*>(base) + parameter.offset + index * sizeof(T), &value, sizeof(T));
@@ -102,7 +102,7 @@ void ObjectReader::objects(std::string_view key, const std::function<void(Object
     const std::string place = at(pointer_, key);
     for (std::size_t i = 0; i < all->size(); ++i) {
         ObjectReader inner((*all)[i], at(place, i), problems_);
-        // An entry of a wrong type is read as an empty one: the places of those after it must not shift.
+        // An entry of a wrong type is read as an empty one, so that the indices of later entries do not shift.
         read(inner);
         inner.finish();
     }
@@ -238,7 +238,9 @@ void ObjectReader::choice(const Parameter& p, const json& value, void* base) {
         const auto it = std::ranges::find(names, value.get_ref<const std::string&>());
         if (it != names.end()) return store(p, base, 0, static_cast<int>(it - names.begin()));
     }
-    problems_.add(at(pointer_, p.key), "must be " + alternatives(names) + ", got " + json_text(value));
+    problems_.add(at(pointer_, p.key),
+                  "must be " + alternatives(names) + ", got " + json_text(value) +
+                      (value.is_string() ? former_name(value.get_ref<const std::string&>(), names) : ""));
 }
 
 }  // namespace weft

@@ -16,14 +16,14 @@ std::string line_and_column(std::string_view text, std::size_t position) {
     const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::string_view in_line = before.substr(line_start);
-    // Bytes that continue a character do not count.
+    // Continuation bytes of UTF-8 do not count.
     const auto column =
         std::ranges::count_if(in_line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
     return "line " + std::to_string(line) + ", column " + std::to_string(std::max<std::ptrdiff_t>(column, 1));
 }
 
-// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing value - invalid
-// literal; last read: '…'; expected …", and we want what is between: the rest is said already or may hold any bytes.
+// Extracts the middle of "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
+// value - invalid literal; last read: '…'; expected …". The rest is reported already or may contain any bytes.
 std::string readable(std::string_view message) {
     if (const std::size_t end = message.find("] "); message.starts_with('[') && end != message.npos)
         message.remove_prefix(end + 2);
@@ -38,7 +38,7 @@ std::string readable(std::string_view message) {
     return text;
 }
 
-// Builds the values as nlohmann's own parser would and watches over depth, number and repeated keys.
+// Builds the values as nlohmann's own parser would, and also checks nesting depth, number of values and repeated keys.
 class Builder final : public nlohmann::json_sax<json> {
   public:
     Builder(std::string_view text, Problems& problems) : text_(text), problems_(problems) {}
@@ -60,13 +60,13 @@ class Builder final : public nlohmann::json_sax<json> {
 
     bool key(string_t& key) override {
         Level& level = levels_.back();
-        if (level.container->contains(key)) problems_.add(at(pointer(), key), "stands twice in the same object");
+        if (level.container->contains(key)) problems_.add(at(pointer(), key), "appears twice in the same object");
         level.key = std::move(key);
         return true;
     }
 
     bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
-        // A number too large is an error of range to the library; to a user it is one more error in the text.
+        // The library reports a number that is too large as a range error; here it is one more error in the text.
         problems_.add(line_and_column(text_, position), readable(error.what()));
         return false;
     }
@@ -74,7 +74,7 @@ class Builder final : public nlohmann::json_sax<json> {
   private:
     struct Level {
         json* container;
-        string_t key = {};  ///< of the value to come; unused in a list
+        string_t key = {};  ///< of the next value; unused in a list
     };
 
     std::string pointer() const {

@@ -27,9 +27,9 @@ std::string in_json(std::string_view text) {
 
 JsonNode JsonNode::number(float value) {
     JsonNode node(Kind::scalar);
-    // "-0" is a whole number to JSON, and those have no sign of zero.
+    // JSON readers take "-0" for an integer, which loses the sign.
     node.scalar_ = value == 0 && std::signbit(value) ? "-0.0" : number_text(value);
-    // The reader goes through double, which may round the other way where a float's digits end at half a step.
+    // The reader converts through double, which may round differently if the digits of a float end halfway.
     if (read_back(node.scalar_) != value) node.scalar_ = number_text(static_cast<double>(value));
     return node;
 }
@@ -58,11 +58,11 @@ std::optional<JsonNode> JsonNode::text(std::string_view value) {
 
 std::string JsonNode::pretty() const {
     std::string out;
-    append(out, 0, line_width);  // the outermost object always has lines of its own
+    append(out, 0, line_width);  // the outermost object always spans several lines
     return out + '\n';
 }
 
-// Of all in one line; past `limit` whatever is more than that.
+// The length of the whole value in one line; beyond `limit`, any number above it.
 std::size_t JsonNode::line_length(std::size_t limit) const {
     if (kind_ == Kind::scalar) return scalar_.size();
     std::size_t length = kind_ == Kind::object ? 4 : 2;
@@ -92,7 +92,7 @@ void JsonNode::append_line(std::string& out) const {
     out += kind_ == Kind::object ? " }" : "]";
 }
 
-// Indices of pins may be thousands.
+// Fills lines, because pins may have thousands of indices.
 void JsonNode::append_filled(std::string& out, std::size_t indent) const {
     std::size_t column = line_width;
     for (const JsonNode& child : children_) {
@@ -109,7 +109,7 @@ void JsonNode::append_filled(std::string& out, std::size_t indent) const {
     }
 }
 
-// `used`: what stands in the line before it.
+// `used`: characters already in the line.
 void JsonNode::append(std::string& out, std::size_t indent, std::size_t used) const {
     if (kind_ == Kind::scalar || used + line_length(line_width) <= line_width) return append_line(out);
     const std::size_t inner = indent + indentation;

@@ -1,4 +1,4 @@
-// JSON values to text that a person can read and edit.
+// Writes JSON values as text that people can read and edit.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace weft {
 
-/// A value to be written: an object that keeps the order of its keys, a list, or the finished text of anything else.
+/// A value to write: an object that keeps the order of its keys, a list, or the finished text of any other value.
 class JsonNode {
   public:
     static JsonNode object() { return JsonNode(Kind::object); }
     static JsonNode list() { return JsonNode(Kind::list); }
-    /// In the fewest digits that the reader turns into the same bits. Finite.
+    /// The fewest digits that the reader converts to the same bits. `value` must be finite.
     static JsonNode number(float value);
     static JsonNode number(std::uint32_t value);
     static JsonNode flag(bool value);
-    /// Nothing if the bytes are no UTF-8, which JSON demands.
+    /// Nothing if the bytes are not UTF-8, which JSON requires.
     static std::optional<JsonNode> text(std::string_view value);
 
     void add(std::string_view key, JsonNode value) {
@@ -30,7 +30,7 @@ class JsonNode {
 
     bool empty() const { return children_.empty(); }
 
-    /// What fits into a line stands in one line; longer lists of numbers fill lines. Ends in a newline.
+    /// Puts a value on one line if it fits; longer lists of numbers fill lines. Ends in a newline.
     std::string pretty() const;
 
   private:

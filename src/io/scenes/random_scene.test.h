@@ -1,8 +1,8 @@
-// Scenes drawn at random over every key that a scene has. Small, and sound by the checks.
+// Random scenes that use every key. They are small and valid.
 #pragma once
 
 #include "scene/check.h"
-#include "scene/looks.h"
+#include "scene/materials.h"
 #include "scene/scene_keys.h"
 
 #include <algorithm>
@@ -24,9 +24,9 @@ class RandomScene {
         fill(solver_keys, &scene.solver);
         scene.solver.substeps = 1 + below(3);
         scene.solver.iterations = 1 + below(2);
-        if (scene.solver.method == Method::pbd) scene.solver.projection = Projection::automatic;  // it has no lines
+        if (scene.solver.method == Method::pbd) scene.solver.projection = Projection::automatic;  // PBD has no lines
         if (maybe()) draw(scene.air.emplace());
-        for (std::uint32_t i = below(3); i > 0; --i) draw(scene.colliders.emplace_back());
+        for (std::uint32_t i = below(3); i > 0; --i) draw(static_cast<ColliderDesc&>(scene.colliders.emplace_back()));
         for (std::uint32_t i = 1 + below(3); i > 0; --i) draw(scene.cloths.emplace_back());
         name(scene.cloths, "sheet"), name(scene.colliders, "body");
         name_unnamed(scene);
@@ -45,11 +45,12 @@ class RandomScene {
         fill(sun_parameters, &scene.light.sun);
         fill(sky_parameters, &scene.light.sky);
         fill(environment_parameters, &scene.light.environment);
-        draw_looks(scene);
+        for (SceneCloth& cloth : scene.cloths) draw(cloth.material, default_material(cloth));
+        for (SceneCollider& collider : scene.colliders) draw(collider.material, default_material(collider));
         return scene;
     }
 
-    // Not <random>: its distributions give other numbers with other libraries.
+    // <random> is not used, because its distributions give different numbers with different libraries.
     std::uint32_t below(std::uint32_t limit) {
         state_ = state_ * 6364136223846793005u + 1442695040888963407u;
         return static_cast<std::uint32_t>(state_ >> 33) % limit;
@@ -175,7 +176,7 @@ class RandomScene {
         fill(cloth_keys, &cloth);
         cloth.mesh = mesh(below(4) == 0);
         const bool of_a_file = std::holds_alternative<MeshFileDesc>(cloth.mesh);
-        if (below(3) == 0) cloth.drawn = mesh(maybe());
+        if (below(3) == 0) cloth.render_mesh = mesh(maybe());
         fill(transform_keys, &cloth.transform);
         const auto presets = fabric_presets();
         const FabricPreset& preset = presets[below(static_cast<std::uint32_t>(presets.size()))];
@@ -226,24 +227,18 @@ class RandomScene {
                           .rotation_degrees = collider.transform.rotation_degrees});
     }
 
-    // Some are called by something, each by something else.
+    // Some get a name, each a different one.
     template <class Named>
     void name(std::vector<Named>& all, const std::string& word) {
         for (std::size_t i = 0; i < all.size(); ++i) all[i].name = maybe() ? "" : word + " \"" + std::to_string(9 - i);
     }
 
-    void draw_looks(SceneDesc& scene) {
-        const auto add = [&](const std::string& name, const MaterialPreset& own) {
-            if (maybe()) return;
-            const auto presets = material_presets();
-            const MaterialPreset& preset = maybe() ? own : presets[below(static_cast<std::uint32_t>(presets.size()))];
-            SceneLook look{.object = name, .preset = std::string(preset.name), .material = preset.material};
-            if (maybe()) fill(material_parameters, &look.material);
-            scene.looks.push_back(look);
-        };
-        for (const SceneCloth& cloth : scene.cloths) add(cloth.name, default_material(cloth));
-        for (const ColliderDesc& collider : scene.colliders) add(collider.name, default_material(collider));
-        std::ranges::sort(scene.looks, {}, &SceneLook::object);  // as the reader comes upon them
+    void draw(std::optional<SceneMaterial>& material, const MaterialPreset& own) {
+        if (maybe()) return;
+        const auto presets = material_presets();
+        const MaterialPreset& preset = maybe() ? own : presets[below(static_cast<std::uint32_t>(presets.size()))];
+        material = {.preset = std::string(preset.name), .values = preset.material};
+        if (maybe()) fill(material_parameters, &material->values);
     }
 
     std::uint64_t state_;

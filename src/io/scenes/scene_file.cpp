@@ -4,6 +4,7 @@
 #include "io/scenes/json_text.h"
 #include "io/scenes/scene_look.h"
 #include "scene/check.h"
+#include "scene/materials.h"
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
 
@@ -111,10 +112,11 @@ void read_pin(ObjectReader& pin, PinDesc& result) {
 void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.values(cloth_keys, &cloth);
     o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
-    o.object("drawn", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.drawn.emplace()); });
+    o.object("render_mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.render_mesh.emplace()); });
     o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
     read_fabric(o, cloth);
     o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
+    read_material(o, default_material(cloth), cloth.material);
 }
 
 void read_motion(ObjectReader& o, ColliderDesc& collider) {
@@ -128,7 +130,7 @@ void read_motion(ObjectReader& o, ColliderDesc& collider) {
     o.object("motion", [&](ObjectReader& motion) {
         motion.know(motion_keys);
         motion.objects("keys", [&](ObjectReader& key) {
-            // What a key does not say is as the transform has it.
+            // Values that a key does not give are those of the transform.
             PoseKey& pose = collider.motion.emplace_back();
             pose.position = collider.transform.position;
             pose.rotation_degrees = collider.transform.rotation_degrees;
@@ -144,8 +146,8 @@ void read_shape(ObjectReader& collider, std::string_view kind, std::span<const P
     collider.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
 }
 
-void read_collider(ObjectReader& o, ColliderDesc& collider) {
-    o.values(collider_keys, &collider);
+void read_collider(ObjectReader& o, SceneCollider& collider) {
+    o.values(collider_keys, static_cast<ColliderDesc*>(&collider));
     const std::string_view kind = o.one_of(shape_keys);
 #define WEFT_SHAPE(name, Name) \
     if (kind == #name) read_shape(o, kind, name##_parameters, collider.shape.emplace<Name##Desc>());
@@ -153,6 +155,7 @@ void read_collider(ObjectReader& o, ColliderDesc& collider) {
 #undef WEFT_SHAPE
     o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
     read_motion(o, collider);
+    read_material(o, default_material(collider), collider.material);
 }
 
 void read_stitch_end(ObjectReader& o, StitchEnd& end) {
@@ -191,7 +194,7 @@ Result<SceneDesc> parse_scene(std::string_view text, std::string_view name) {
     if (!value) return std::move(problems).take(name);
 
     SceneDesc scene = read_scene(*value, problems);
-    // What could not be read still has its default; what the checks say about that would only puzzle.
+    // Values that could not be read have their defaults; check errors about those would be misleading.
     Problems of_values(&problems);
     check_scene(scene, of_values);
     problems.append(std::move(of_values));
@@ -209,7 +212,7 @@ Result<SceneDesc> load_scene(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) return Error{name, "cannot be opened: " + std::generic_category().message(errno)};
 
-    // Not by the size of the file: a pipe has none.
+    // Reads in pieces without asking for the size of the file, because a pipe has none.
     std::string text;
     constexpr std::size_t piece = std::size_t{1} << 16;
     while (file && text.size() <= max_json_bytes) {

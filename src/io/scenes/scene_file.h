@@ -1,4 +1,4 @@
-// Scene files: JSON with comments, as docs/scene.md describes them.
+// Reads scene files: JSON with comments, as docs/scene.md describes them.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -10,11 +10,11 @@
 
 namespace weft {
 
-/// Reads and checks a scene. Fails with every problem that the file has, each with its place: `scenes/flag.json:
-/// /cloths/0/fabric/density`. Names of mesh files stay as written; whether they exist is not asked here.
+/// Reads and checks a scene. Fails with all problems of the file, each with its place: `scenes/flag.json:
+/// /cloths/0/fabric/density`. Names of mesh files stay as written; their existence is not checked here.
 Result<SceneDesc> load_scene(const std::filesystem::path& path);
 
-/// The same for a text; `name` is what errors call it.
+/// The same for a text; `name` is its name in error messages.
 Result<SceneDesc> parse_scene(std::string_view text, std::string_view name);
 
 }  // namespace weft

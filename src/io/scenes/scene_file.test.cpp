@@ -1,4 +1,4 @@
-#include "io/scenes/scene_file.h"
+#include "io/scenes/read_scene.test.h"
 
 #include "io/scenes/json_text.h"
 #include "scene/nearest_name.h"
@@ -40,13 +40,6 @@ constexpr std::string_view full_scene = R"({
         { "sphere": { "radius": 0.1 }, "transform": { "position": [0, 1, 0], "rotation": [0, 90, 0] },
           "friction": [0.9, 0.8] } ]
 })";
-
-std::vector<std::string> errors_of(std::string_view text) {
-    std::vector<std::string> messages;
-    if (const Result<SceneDesc> scene = parse_scene(text, "s.json"); !scene)
-        for (const Error& error : scene.errors()) messages.push_back(error.message());
-    return messages;
-}
 
 /// A scene whose first cloth has `keys`.
 std::string cloth(const std::string& keys) {
@@ -145,16 +138,16 @@ TEST(SceneFile, PresetsCanBeOverridden) {
     EXPECT_EQ(fabric(R"("rib-knit")").stretch.shear, 41);
     EXPECT_EQ(fabric(R"({"preset": "rib-knit", "density": 1})").stretch.shear, 41);
     EXPECT_EQ(fabric(R"({"density": 1})").stretch.shear, 40);
-    // Compression goes along with stretch unless it is given.
+    // Compression equals stretch unless it is given.
     EXPECT_THAT(fabric(R"({"stretch": [10, 20]})").stretch.compression, ElementsAre(10.0f, 20.0f));
     EXPECT_THAT(fabric(R"({"stretch": [10, 20], "compression": 5})").stretch.compression, ElementsAre(5.0f, 5.0f));
     EXPECT_THAT(fabric(R"({"preset": "silk"})").stretch.compression, ElementsAre(2000.0f, 2000.0f));
     EXPECT_TRUE(std::isnan(fabric(R"({"rest_angle": "mesh"})").bend.rest_angle));
-    EXPECT_EQ(fabric(R"({"hinges": "source"})").bend.hinges, HingeChoice::source);
-    EXPECT_EQ(fabric(R"("silk")").bend.hinges, HingeChoice::all);
+    EXPECT_EQ(fabric(R"({"bend_edges": "no-diagonals"})").bend.edges, BendEdges::no_diagonals);
+    EXPECT_EQ(fabric(R"("silk")").bend.edges, BendEdges::all);
     EXPECT_EQ(fabric(R"({"bend_model": "plate"})").bend.model, BendModel::plate);
     EXPECT_EQ(fabric(R"({"bend_model": "distance"})").bend.model, BendModel::distance);
-    EXPECT_EQ(fabric(R"("silk")").bend.model, BendModel::hinges);
+    EXPECT_EQ(fabric(R"("silk")").bend.model, BendModel::dihedral);
 }
 
 TEST(SceneFile, ReadsSpheresAndBoxes) {
@@ -176,17 +169,17 @@ TEST(SceneFile, ReadsSpheresAndBoxes) {
 
 TEST(SceneFile, ReadsADrawnMeshBesideTheSimulatedOne) {
     const Result<SceneDesc> result = parse_scene(R"({"weft": 1, "cloths": [
-        {"mesh": {"grid": {"resolution": [8, 8]}}, "drawn": {"file": "fine.obj", "scale": 0.1, "up": "z"}},
-        {"drawn": {"grid": {"resolution": [200, 200]}}}, {}]})",
+        {"mesh": {"grid": {"resolution": [8, 8]}}, "render_mesh": {"file": "fine.obj", "scale": 0.1, "up": "z"}},
+        {"render_mesh": {"grid": {"resolution": [200, 200]}}}, {}]})",
                                                  "s.json");
     ASSERT_TRUE(result) << result.error().message();
     EXPECT_THAT(std::get<GridDesc>(result->cloths[0].mesh).resolution, ElementsAre(8u, 8u));
-    const auto& fine = std::get<MeshFileDesc>(result->cloths[0].drawn.value());
+    const auto& fine = std::get<MeshFileDesc>(result->cloths[0].render_mesh.value());
     EXPECT_EQ(fine.file, "fine.obj");
     EXPECT_EQ(fine.scale, 0.1f);
     EXPECT_EQ(fine.up, UpAxis::z);
-    EXPECT_THAT(std::get<GridDesc>(result->cloths[1].drawn.value()).resolution, ElementsAre(200u, 200u));
-    EXPECT_FALSE(result->cloths[2].drawn);
+    EXPECT_THAT(std::get<GridDesc>(result->cloths[1].render_mesh.value()).resolution, ElementsAre(200u, 200u));
+    EXPECT_FALSE(result->cloths[2].render_mesh);
 }
 
 struct Bad {
@@ -221,9 +214,9 @@ TEST(SceneFile, NamesWrongValues) {
          {"s.json: /cloths/0/mesh/box/size/1: must be > 0 m, got -1",
           "s.json: /cloths/0/mesh/box/resolution/2: must be ≥ 2, got 1"}},
         {cloth(R"("mesh": {"file": ""})"), {"s.json: /cloths/0/mesh/file: must name a file"}},
-        {cloth(R"("drawn": {"file": ""})"), {"s.json: /cloths/0/drawn/file: must name a file"}},
-        {cloth(R"("drawn": {"grid": {"size": [0, 1]}})"),
-         {"s.json: /cloths/0/drawn/grid/size/0: must be > 0 m, got 0"}},
+        {cloth(R"("render_mesh": {"file": ""})"), {"s.json: /cloths/0/render_mesh/file: must name a file"}},
+        {cloth(R"("render_mesh": {"grid": {"size": [0, 1]}})"),
+         {"s.json: /cloths/0/render_mesh/grid/size/0: must be > 0 m, got 0"}},
         {cloth(R"("pins": [{"vertices": [1, -1]}])"), {"s.json: /cloths/0/pins/0/vertices/1: must be ≥ 0, got -1"}},
         {cloth(R"("pins": [{"vertices": [4096]}])"),
          {"s.json: /cloths/0/pins/0/vertices/0: must be less than 4096, the number of particles, got 4096"}},
@@ -289,12 +282,17 @@ TEST(SceneFile, NamesUnknownKeysAndChoices) {
     expect_each({
         {cloth(R"("fabric": {"densty": 1})"),
          {"s.json: /cloths/0/fabric/densty: unknown key \"densty\"; did you mean \"density\"?"}},
+        {cloth(R"("drawn": {"grid": {}})"),
+         {"s.json: /cloths/0/drawn: unknown key \"drawn\"; this is called \"render_mesh\" now"}},
+        {cloth(R"("fabric": {"bend_model": "hinges"})"),
+         {"s.json: /cloths/0/fabric/bend_model: must be \"dihedral\", \"plate\" or \"distance\", got \"hinges\"; this "
+          "is "
+          "called \"dihedral\" now"}},
         {scene(R"("clots": [])"), {"s.json: /clots: unknown key \"clots\"; did you mean \"cloths\"?"}},
         {scene(R"("a/b\n": 1)"),
          {"s.json: /a~1b\\u000a: unknown key \"a/b\\u000a\"; known are \"weft\", \"name\", "
-          "\"gravity\", \"frame_rate\", \"solver\", \"air\", \"cloths\", \"colliders\", \"stitches\", \"camera\", "
-          "\"light\" and "
-          "\"look\""}},
+          "\"gravity\", \"frame_rate\", \"solver\", \"air\", \"cloths\", \"colliders\", \"stitches\", \"camera\" "
+          "and \"light\""}},
         {scene(R"("colliders": [{"plane": {}, "transform": {"scale": 2}}])"),
          {"s.json: /colliders/0/transform/scale: unknown key \"scale\"; known are \"position\" and \"rotation\""}},
         {scene(R"("solver": {"method": "pdb"})"), {"s.json: /solver/method: must be \"xpbd\" or \"pbd\", got \"pdb\""}},
@@ -325,8 +323,8 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
          {"s.json: /cloths/0/mesh: must have one of \"grid\", \"sphere\", \"box\" or \"file\""}},
         {cloth(R"("mesh": {"grid": {}, "file": "a.obj"})"),
          {"s.json: /cloths/0/mesh: must have one of \"grid\", \"sphere\", \"box\" or \"file\", got 2"}},
-        {cloth(R"("drawn": {"sphere": {}, "box": {}})"),
-         {"s.json: /cloths/0/drawn: must have one of \"grid\", \"sphere\", \"box\" or \"file\", got 2"}},
+        {cloth(R"("render_mesh": {"sphere": {}, "box": {}})"),
+         {"s.json: /cloths/0/render_mesh: must have one of \"grid\", \"sphere\", \"box\" or \"file\", got 2"}},
         {cloth(R"("mesh": {"grid": {}, "scale": 2})"),
          {"s.json: /cloths/0/mesh/scale: belongs to \"file\", which is absent"}},
         {cloth(R"("pins": [{}])"), {"s.json: /cloths/0/pins/0: must have one of \"vertices\", \"box\" or \"color\""}},
@@ -412,7 +410,7 @@ TEST(SceneFile, ReportsAllAtOnce) {
                             "s.json: /colliders/0/sphere/radius: must be > 0 m, got -1"));
 }
 
-// A value that could not be read has its default; nothing is said about that.
+// A value that could not be read has its default, which is not reported.
 TEST(SceneFile, ReportsNoConsequences) {
     expect_each({
         {cloth(R"("mesh": {"grid": {"resolution": [100, "x"]}}, "pins": [{"vertices": [5000]}])"),
@@ -428,11 +426,11 @@ TEST(SceneFile, ReportsNoConsequences) {
 
 TEST(SceneFile, NamesKeysThatStandTwice) {
     expect_each({
-        {R"({"weft": 1, "weft": 1, "cloths": [{}]})", {"s.json: /weft: stands twice in the same object"}},
+        {R"({"weft": 1, "weft": 1, "cloths": [{}]})", {"s.json: /weft: appears twice in the same object"}},
         {cloth(R"("fabric": {"shear": 1, "density": 1, "shear": 2})"),
-         {"s.json: /cloths/0/fabric/shear: stands twice in the same object"}},
+         {"s.json: /cloths/0/fabric/shear: appears twice in the same object"}},
         {R"({"weft": 1, "cloths": [{}, {"mesh": {"grid": {}}, "mesh": {"grid": {}}}]})",
-         {"s.json: /cloths/1/mesh: stands twice in the same object"}},
+         {"s.json: /cloths/1/mesh: appears twice in the same object"}},
     });
 }
 

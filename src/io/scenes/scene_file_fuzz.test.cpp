@@ -1,4 +1,4 @@
-// Scenes damaged at random: whatever the text, there is a scene that passes its checks or there are errors.
+// Randomly damaged scenes: any text must give either a scene that passes its checks or errors.
 #include "io/scenes/scene_file.h"
 #include "scene/check.h"
 
@@ -18,17 +18,17 @@ constexpr std::string_view seed_scene = R"({
     "cloths": [
         { "name": "sheet", "mesh": { "grid": { "size": [2, 3], "resolution": [5, 9], "diagonal": "cross" } },
           "transform": { "position": [1, 2, 3], "rotation": [90, 0, -45], "scale": 2 },
-          "fabric": { "preset": "denim", "density": 0.5, "stretch": [100, 200], "rest_angle": "mesh" },
+          "material": "velvet", "fabric": { "preset": "denim", "density": 0.5, "stretch": [100, 200], "rest_angle": "mesh" },
           "pins": [ { "vertices": [0, 4] }, { "box": { "min": [-1, -2, -3], "max": [1, 2, 3] } } ] },
-        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "hinges": "source", "bend_model": "plate" },
-          "drawn": { "box": { "size": [1, 1, 1], "resolution": [3, 4, 5] } } },
+        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "bend_edges": "no-diagonals", "bend_model": "plate" },
+          "render_mesh": { "box": { "size": [1, 1, 1], "resolution": [3, 4, 5] } },
+          "material": { "preset": "silk", "weft_color": [1, 0, 0], "uv_tiling": [2, 3], "color_map": "a.png" } },
         { "mesh": { "file": "bunny.obj", "up": "z" }, "fabric": "silk", "pins": [ { "color": [1, 0, 0.5] } ] } ],
-    "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7 }, { "sphere": { "radius": 0.1 } } ],
+    "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7,
+                     "material": { "color": [0.5, 0.5, 0.5], "roughness": 0.4, "weave": "twill" } }, { "sphere": { "radius": 0.1 } } ],
     "camera": { "position": [1, 2, 3], "target": [0, 1, 0], "fov": 30 },
-    "light": { "sun": { "azimuth": 10, "color": [1, 1, 0.5] }, "sky": { "strength": 0.5, "zenith": [0, 0, 1] },
-               "environment": { "file": "hall.hdr", "rotation": 90, "visible": false }, "exposure": -1, "occlusion": 0.5 },
-    "look": { "sheet": "velvet", "collider 0": { "color": [0.5, 0.5, 0.5], "roughness": 0.4, "weave": "twill" },
-              "cloth 1": { "material": "silk", "weft_color": [1, 0, 0], "map_repeat": [2, 3], "color_map": "a.png" } }
+    "light": { "sun": { "azimuth": 10, "color": [1, 1, 0.5] }, "sky": { "intensity": 0.5, "zenith": [0, 0, 1] },
+               "environment": { "file": "hall.hdr", "rotation": 90, "visible": false }, "exposure": -1, "ambient_occlusion": 0.5 }
 })";
 
 constexpr std::array<std::string_view, 24> pieces = {
@@ -36,11 +36,11 @@ constexpr std::array<std::string_view, 24> pieces = {
     "0.5", "64", "\"xx\"", "[1, 2]", "{}", "[]", "//", "/*", "\\u0000", "\xff",  "99999999999", "\"weft\"",
 };
 
-// Not <random>: its distributions give other numbers with other libraries.
+// <random> is not used, because its distributions give different numbers with different libraries.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::size_t below(std::size_t limit) {  // PCG's multiplier and output of the high bits
+    std::size_t below(std::size_t limit) {  // PCG's multiplier; the high bits are the output
         state_ = state_ * 6364136223846793005u + 1442695040888963407u;
         return static_cast<std::size_t>(state_ >> 33) % limit;
     }
@@ -92,10 +92,10 @@ TEST(SceneFileFuzz, DamagedScenesLoadOrSayWhatIsWrong) {
             ASSERT_EQ(error.message().find('\n'), std::string::npos) << text;
         }
     }
-    EXPECT_GT(loaded, 100);  // the damage is small enough to get past the parser
+    EXPECT_GT(loaded, 100);  // enough damage passes the parser
 }
 
-// Every value replaced by every other kind of value, so that each is met where no one expects it.
+// Replaces every value by a value of every other type.
 TEST(SceneFileFuzz, EveryValueMayBeOfAnyType) {
     int rejected = 0;
     for (std::size_t place = seed_scene.find(": "); place != seed_scene.npos; place = seed_scene.find(": ", place + 1))
@@ -103,7 +103,7 @@ TEST(SceneFileFuzz, EveryValueMayBeOfAnyType) {
              {"null", "true", "-1", "0.5", "1e38", "\"x\"", "[]", "[[]]", "{}", "[{}]"}) {
             std::string text(seed_scene.substr(0, place + 2));
             text += piece;
-            // The rest of the object stays: a `_` that is unknown takes the value that stood here.
+            // The rest of the object stays: the unknown key `_` gets the replaced value.
             text += ", \"_\": ";
             text += seed_scene.substr(place + 2);
             const Result<SceneDesc> scene = parse_scene(text, "fuzz");

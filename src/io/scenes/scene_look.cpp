@@ -1,6 +1,6 @@
 #include "io/scenes/scene_look.h"
 
-#include "scene/looks.h"
+#include "scene/materials.h"
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
 
@@ -19,10 +19,9 @@ void read_light(ObjectReader& o, Lighting& light) {
     o.object("environment", [&](ObjectReader& e) { e.values(environment_parameters, &light.environment); });
 }
 
-void use_material(const std::string& name, const std::string& place, SceneLook& look, Problems& problems) {
+void use_material(const std::string& name, const std::string& place, SceneMaterial& material, Problems& problems) {
     if (const MaterialPreset* preset = find_material(name)) {
-        look.preset = name;
-        look.material = preset->material;
+        material = {.preset = name, .values = preset->material};
         return;
     }
     std::vector<std::string_view> names;
@@ -30,48 +29,33 @@ void use_material(const std::string& name, const std::string& place, SceneLook& 
     problems.add(place, "unknown material " + in_quotes(name) + suggestion(name, names));
 }
 
-void read_look_object(ObjectReader& o, SceneLook& look) {
-    LookHead head;
-    o.values(look_keys, &head);
-    if (const json* material = o.find("material"); material && material->is_string())
-        use_material(head.material, at(o.pointer(), "material"), look, o.problems());
-    o.values(material_parameters, &look.material);
-    follow_color(look.material, o.find("color") != nullptr, o.find("weft_color") != nullptr);
-}
-
-void read_looks(ObjectReader& o, SceneDesc& scene) {
-    const json* found = o.find("look");
-    if (!found) return;
-    const std::string pointer = at(o.pointer(), "look");
-    if (!found->is_object()) return o.problems().add(pointer, "must be an object, got " + json_text(*found));
-
-    const auto defaults = default_materials(scene);
-    for (const auto& [name, value] : found->items()) {
-        SceneLook& look = scene.looks.emplace_back();
-        look.object = name;
-        if (const auto preset = defaults.find(name); preset != defaults.end()) {
-            look.preset = preset->second->name;
-            look.material = preset->second->material;
-        }
-        const std::string place = at(pointer, name);
-        if (value.is_string()) {
-            use_material(value.get<std::string>(), place, look, o.problems());
-        } else if (value.is_object()) {
-            ObjectReader keys(value, place, o.problems());
-            read_look_object(keys, look);
-            keys.finish();
-        } else {
-            o.problems().add(place, "must be the name of a material or an object, got " + json_text(value));
-        }
-    }
+void read_material_object(ObjectReader& o, SceneMaterial& material) {
+    MaterialHead head;
+    o.values(material_keys, &head);
+    if (const json* preset = o.find("preset"); preset && preset->is_string())
+        use_material(head.preset, at(o.pointer(), "preset"), material, o.problems());
+    o.values(material_parameters, &material.values);
+    follow_color(material.values, o.find("color") != nullptr, o.find("weft_color") != nullptr);
 }
 
 }  // namespace
 
+void read_material(ObjectReader& o, const MaterialPreset& otherwise, std::optional<SceneMaterial>& material) {
+    const json* found = o.find("material");
+    if (!found) return;
+    material = {.preset = std::string(otherwise.name), .values = otherwise.material};
+    const std::string place = at(o.pointer(), "material");
+    if (found->is_string())
+        use_material(found->get<std::string>(), place, *material, o.problems());
+    else if (found->is_object())
+        o.object("material", [&](ObjectReader& keys) { read_material_object(keys, *material); });
+    else
+        o.problems().add(place, "must be the name of a material or an object, got " + json_text(*found));
+}
+
 void read_pictures(ObjectReader& o, SceneDesc& scene) {
     o.object("camera", [&](ObjectReader& camera) { camera.values(camera_parameters, &scene.camera.emplace()); });
     o.object("light", [&](ObjectReader& light) { read_light(light, scene.light); });
-    read_looks(o, scene);
 }
 
 }  // namespace weft

@@ -20,15 +20,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// An object that must hold exactly one of these keys. The tables do not say so; scene_schema.test.cpp holds this list
-/// to what the reader says.
+/// An object that must have exactly one of these keys. The tables do not contain this rule; scene_schema.test.cpp
+/// compares this list with the reader.
 struct Kinds {
     std::string_view place;
     std::vector<std::string_view> keys;
 };
 const Kinds kinds[] = {
     {"/cloths/*/mesh", {"grid", "sphere", "box", "file"}},
-    {"/cloths/*/drawn", {"grid", "sphere", "box", "file"}},
+    {"/cloths/*/render_mesh", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/pins/*", {"vertices", "box", "color"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
     {"/stitches/*/a", {"vertices", "points"}},
@@ -47,10 +47,12 @@ bool same_keys(const SceneTable* a, const SceneTable* b) {
     return a->keys.data() == b->keys.data() && a->keys.size() == b->keys.size();
 }
 
-/// The place whose tables describe what is under `key` of the object at `place`. Objects with the same tables have the
-/// same below them, and that is listed once. Empty if there is none.
+/// The place whose tables describe the value under `key` of the object at `place`. Objects with the same tables share
+/// the places below them, which are listed once. Empty if there is none.
 std::string place_below(const std::string& place, const std::string& key) {
     if (!tables_at(place + key).empty()) return place + key;
+    // The reader has one function for both.
+    if (place + key == "/colliders/*/material") return "/cloths/*/material";
     const auto here = tables_at(place);
     for (const SceneTable& table : scene_tables()) {
         const std::string other(table.place);
@@ -61,7 +63,7 @@ std::string place_below(const std::string& place, const std::string& key) {
     return {};
 }
 
-/// As a person would write it: 0.14f as 0.14, and whole numbers without a point.
+/// The shortest decimal form: 0.14f as 0.14, and integers without a point.
 template <class Number>
 Json number_json(Number number) {
     return Json::parse(number_text(number));
@@ -71,7 +73,7 @@ Json limit_json(double limit) {
     return number_json(limit);
 }
 
-/// null if there is none to tell.
+/// null if there is no default to show.
 Json default_json(const Parameter& p, const void* defaults) {
     if (defaults == nullptr || p.required) return nullptr;
     switch (p.kind) {
@@ -127,10 +129,10 @@ Json material_names() {
     return names;
 }
 
-/// What may stand in place of an object: a word for it. null if nothing.
+/// The schema of a string that may replace an object. null if there is none.
 Json word_for(std::string_view place) {
     if (place == "/cloths/*/fabric") return {{"enum", fabric_names()}};
-    if (place == "/look/*") return {{"enum", material_names()}};
+    if (place == "/cloths/*/material") return {{"enum", material_names()}};
     if (place == "/colliders/*/motion") return {{"const", "static"}};
     return nullptr;
 }
@@ -161,17 +163,13 @@ Json type_json(const Parameter& p, const std::string& place) {
             return {{"enum", choice_names(p)}};
         case ParameterKind::text:
             if (place + key == "/cloths/*/fabric/preset") return {{"enum", fabric_names()}};
-            if (place + key == "/look/*/material") return {{"enum", material_names()}};
+            if (place + key == "/cloths/*/material/preset") return {{"enum", material_names()}};
             return {{"type", "string"}};
-        case ParameterKind::object: {
-            // An object whose keys are names.
-            if (const std::string each = place + key + "/*"; !tables_at(each).empty())
-                return {{"type", "object"}, {"additionalProperties", object_or_word(each)}};
+        case ParameterKind::object:
             return object_or_word(place_below(place, key));
-        }
         case ParameterKind::list: {
             const std::string below = place_below(place, key + "/*");
-            // The only lists without keys of their own are lists of vertices.
+            // Only lists of vertices have no keys of their own.
             Json items = {{"type", "integer"}, {"minimum", 0}};
             Json schema = {{"type", "array"}, {"items", below.empty() ? items : object_schema(below)}};
             if (p.required || below.empty()) schema["minItems"] = 1;
@@ -189,7 +187,8 @@ Json key_schema(const Parameter& p, const SceneTable& table, const std::string& 
     return schema;
 }
 
-/// Keys that mean something only beside one of the `keys` of an object: those that share its table with no other kind.
+/// Requires, for keys that are valid only with one of the `keys` of an object, that key: they share a table with it and
+/// with no other of the `keys`.
 void add_companions(const SceneTable& table, const std::vector<std::string_view>& keys, Json& schema) {
     const auto is_kind = [&](const Parameter& p) { return std::ranges::find(keys, p.key) != keys.end(); };
     if (!is_kind(table.keys.front()) || std::ranges::count_if(table.keys, is_kind) != 1) return;

@@ -1,4 +1,4 @@
-// The scene file as a JSON Schema, for editors that complete and check while one types.
+// The scene file format as a JSON Schema, for editors with completion and checks.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 namespace weft {
 
 /// JSON Schema, draft 2020-12, made from the tables of scene_keys.h and fabric.h: every key with its type, range, unit,
-/// default and meaning. What it refuses, the scene reader refuses too; the reader knows more, as that names differ.
+/// default and description. The scene reader rejects everything that the schema rejects, and more, such as equal names.
 std::string scene_schema();
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// The schema in docs/ is what the tables say, and takes the scenes that the reader takes.
+// The schema in docs/ must match the tables and accept the scenes that the reader accepts.
 #include "io/scenes/scene_schema.h"
 
 #include "io/scenes/scene_file.h"
@@ -36,18 +36,18 @@ bool is_type(const Json& value, const std::string& type) {
     return false;
 }
 
-/// The keywords that scene_schema uses, and a failure for any other: it would be a check that is not made.
+/// Checks the keywords that scene_schema() uses, and fails on any other keyword, which would go unchecked.
 class Validator {
   public:
     bool valid(const Json& schema, const Json& value) const {
         for (const auto& [keyword, argument] : schema.items()) {
-            if (!holds(keyword, argument, schema, value)) return false;
+            if (!targets(keyword, argument, schema, value)) return false;
         }
         return true;
     }
 
   private:
-    bool holds(const std::string& keyword, const Json& argument, const Json& schema, const Json& value) const {
+    bool targets(const std::string& keyword, const Json& argument, const Json& schema, const Json& value) const {
         static const std::set<std::string> notes = {"$schema", "title", "description", "default"};
         if (notes.contains(keyword)) return true;
         if (keyword == "type") return is_type(value, argument);
@@ -63,11 +63,11 @@ class Validator {
         if (keyword == "items") {
             return !value.is_array() || std::ranges::all_of(value, [&](const Json& v) { return valid(argument, v); });
         }
-        return holds_of_object(keyword, argument, schema, value);
+        return targets_of_object(keyword, argument, schema, value);
     }
 
-    bool holds_of_object(const std::string& keyword, const Json& argument, const Json& schema,
-                         const Json& value) const {
+    bool targets_of_object(const std::string& keyword, const Json& argument, const Json& schema,
+                           const Json& value) const {
         static const std::set<std::string> known = {"properties", "additionalProperties", "required",
                                                     "dependentRequired"};
         EXPECT_TRUE(known.contains(keyword)) << "unknown keyword " << keyword;
@@ -137,14 +137,15 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
              with_collider(
                  R"("sphere": { "radius": 1e-9 }, "friction": [1, 1], "transform": { "position": [1, 2, 3] })"),
              with_collider(R"("sphere": {}, "name": "ball")"),
-             with_pictures(R"("camera": {}, "light": {}, "look": {})"),
+             with_pictures(R"("camera": {}, "light": {})"),
              with_pictures(R"("camera": { "position": [1, 2, 3], "target": [0, 0, 0], "fov": 30 })"),
              with_pictures(
-                 R"("light": { "sun": { "azimuth": -360, "color": [1, 0, 0.5] }, "sky": { "strength": 0 } })"),
+                 R"("light": { "sun": { "azimuth": -360, "color": [1, 0, 0.5] }, "sky": { "intensity": 0 } })"),
              with_pictures(R"("light": { "environment": { "file": "a.hdr", "visible": false }, "exposure": -2 })"),
-             with_pictures(R"("look": { "cloth 0": "velvet" })"),
-             with_pictures(R"("look": { "cloth 0": { "material": "silk", "color": [0, 0, 0], "roughness": 0.5 } })"),
-             with_pictures(R"("look": { "cloth 0": { "weave": "knit", "map_repeat": [2, 3], "color_map": "a.png" } })"),
+             with_cloth(R"("material": "velvet")"),
+             with_collider(R"("sphere": {}, "material": { "color": [0, 0, 0] })"),
+             with_cloth(R"("material": { "preset": "silk", "color": [0, 0, 0], "roughness": 0.5 })"),
+             with_cloth(R"("material": { "weave": "knit", "uv_tiling": [2, 3], "color_map": "a.png" })"),
          }) {
         const auto read = parse_scene(scene, "a");
         EXPECT_TRUE(read.ok()) << scene << (read ? "" : read.error().message());
@@ -191,26 +192,26 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_pictures(R"("light": { "sun": "bright" })"),
              with_pictures(R"("light": { "sky": { "zenith": [0, 0, 2] } })"),
              with_pictures(R"("light": { "environment": { "visible": 1 } })"),
-             with_pictures(R"("look": "velvet")"),
-             with_pictures(R"("look": { "cloth 0": "velvt" })"),
-             with_pictures(R"("look": { "cloth 0": { "material": "velvt" } })"),
-             with_pictures(R"("look": { "cloth 0": { "colr": [0, 0, 0] } })"),
-             with_pictures(R"("look": { "cloth 0": { "coverage": 0 } })"),
-             with_pictures(R"("look": { "cloth 0": 3 })"),
+             with_pictures(R"("look": { "cloth 0": "velvet" })"),
+             with_cloth(R"("material": "velvt")"),
+             with_collider(R"("sphere": {}, "material": "velvt")"),
+             with_cloth(R"("material": { "preset": "velvt" })"),
+             with_cloth(R"("material": { "colr": [0, 0, 0] })"),
+             with_cloth(R"("material": { "coverage": 0 })"),
+             with_cloth(R"("material": 3)"),
          }) {
         EXPECT_FALSE(parse_scene(scene, "a").ok()) << scene;
         EXPECT_FALSE(valid(scene)) << scene;
     }
 }
 
-/// The schema of what is under a place: "/cloths/*/mesh".
+/// The schema at a place such as "/cloths/*/mesh".
 Json schema_at(const std::string& place) {
     Json schema = Json::parse(scene_schema());
     std::istringstream keys(place.substr(std::min<std::size_t>(place.size(), 1)));
     for (std::string key; std::getline(keys, key, '/');) {
         if (schema.contains("anyOf")) schema = Json(schema["anyOf"].back());
-        const char* of_all = schema.contains("items") ? "items" : "additionalProperties";
-        schema = key == "*" ? Json(schema.at(of_all)) : Json(schema.at("properties").at(key));
+        schema = key == "*" ? Json(schema.at("items")) : Json(schema.at("properties").at(key));
     }
     return schema.contains("anyOf") ? Json(schema["anyOf"].back()) : schema;
 }
@@ -234,8 +235,8 @@ TEST(SceneSchema, HasEveryKeyWithItsMeaningUnitAndDefault) {
     EXPECT_EQ(schema_at("/cloths/*/fabric/density").at("default").dump(), "0.14");
     EXPECT_EQ(schema_at("/cloths/*/fabric/preset").at("default"), "cotton");
     EXPECT_EQ(schema_at("/cloths/*/fabric/preset").at("enum").size(), fabric_presets().size());
-    EXPECT_EQ(schema_at("/look/*/material").at("enum").size(), material_presets().size());
-    EXPECT_EQ(schema_at("/light/sun/strength").at("default").get<float>(), Sun().strength);
+    EXPECT_EQ(schema_at("/cloths/*/material/preset").at("enum").size(), material_presets().size());
+    EXPECT_EQ(schema_at("/light/sun/intensity").at("default").get<float>(), Sun().intensity);
     EXPECT_EQ(schema_at("/gravity").at("default").dump(), "[0,-9.81,0]");
 }
 

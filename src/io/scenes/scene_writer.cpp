@@ -3,7 +3,7 @@
 #include "io/scenes/json_text.h"
 #include "io/scenes/json_writer.h"
 #include "scene/check.h"
-#include "scene/looks.h"
+#include "scene/materials.h"
 #include "scene/scene_keys.h"
 #include "scene/values.h"
 
@@ -17,7 +17,7 @@
 namespace weft {
 namespace {
 
-/// What an object holds under a key that is an object or a list; nothing where it has nothing to say.
+/// The value under a key that is an object or a list; nothing if there is nothing to write.
 using Child = std::optional<JsonNode>;
 
 class SceneWriter {
@@ -27,7 +27,7 @@ class SceneWriter {
 
   private:
     using Children = std::function<Child(std::string_view key, const std::string& place)>;
-    /// A key that takes the value of another one, its leader, where the file says the leader alone.
+    /// A key that takes the value of another key, its leader, if the file gives only the leader.
     struct Following {
         std::string_view leader, follower;
     };
@@ -45,19 +45,19 @@ class SceneWriter {
     JsonNode air(const AirDesc& air, const std::string& place);
     JsonNode mesh(const MeshDesc& mesh, const std::string& place);
     Child fabric(const SceneCloth& cloth, const std::string& place);
+    Child material(const std::optional<SceneMaterial>& material, const MaterialPreset& otherwise,
+                   const std::string& place);
     JsonNode pin(const PinDesc& pin, const std::string& place);
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
     Child motion(const ColliderDesc& collider, const std::string& place);
-    JsonNode collider(const ColliderDesc& collider, std::size_t index, const std::string& place);
+    JsonNode collider(const SceneCollider& collider, std::size_t index, const std::string& place);
     JsonNode stitches(const StitchDesc& stitches, std::size_t index, const std::string& place);
     JsonNode light(const Lighting& light, const std::string& place);
-    JsonNode look(const SceneLook& look, const MaterialPreset* otherwise, const std::string& place);
-    JsonNode looks(const SceneDesc& scene, const std::string& place);
 
     Problems problems_;
 };
 
-// Two values of one struct, of the same kind and count.
+// Whether two members of one struct, of the same type and count, have the same value.
 bool same_value_as(const Parameter& leader, const Parameter& follower, const void* base) {
     return same_value(leader, base, static_cast<const std::byte*>(base) + (follower.offset - leader.offset));
 }
@@ -107,10 +107,10 @@ JsonNode SceneWriter::value(const Parameter& p, const void* base, const std::str
     return JsonNode::object();
 }
 
-// `children` writes what is under the keys of objects and lists, in the order of the table too.
+// `children` writes the values of objects and lists; keys are written in the order of the table.
 void SceneWriter::values(JsonNode& to, std::span<const Parameter> table, const void* base, const void* defaults,
                          const std::string& place, const Children& children, Following following) {
-    const Parameter* leader = nullptr;  // if it has been written
+    const Parameter* leader = nullptr;  // set once it has been written
     for (const Parameter& p : table) {
         const std::string where = at(place, p.key);
         const bool follows = leader && p.key == following.follower;
@@ -181,9 +181,24 @@ Child SceneWriter::fabric(const SceneCloth& cloth, const std::string& place) {
     const bool named = !node.empty();
     for (const FabricTable& table : fabric_tables())
         values(node, table.parameters, in(cloth.fabric, table), in(preset.fabric, table), place, {},
-               {.leader = "stretch", .follower = "compression"});  // as follow_stretch() has it
+               {.leader = "stretch", .follower = "compression"});  // see follow_stretch()
     if (named && cloth.fabric == preset.fabric) return text(head.preset, place);
     return unless_empty(std::move(node));
+}
+
+// `otherwise`: the material of an object without `material`.
+Child SceneWriter::material(const std::optional<SceneMaterial>& desc, const MaterialPreset& otherwise,
+                            const std::string& place) {
+    if (!desc) return {};
+    const MaterialPreset* preset = find_material(desc->preset);
+    const Material defaults = preset ? preset->material : Material();
+    JsonNode node = JsonNode::object();
+    if (preset && preset != &otherwise) node.add("preset", text(desc->preset, at(place, "preset")));
+    const bool named = !node.empty();
+    values(node, material_parameters, &desc->values, &defaults, place, {},
+           {.leader = "color", .follower = "weft_color"});  // see follow_color()
+    const bool as_named = node.empty() || (named && desc->values == defaults);
+    return preset && as_named ? text(desc->preset, place) : node;
 }
 
 JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
@@ -194,7 +209,7 @@ JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
     } else if (const auto* box = std::get_if<BoxPins>(&desc.select)) {
         node.add("box", object(box_keys, box->box, Bounds(), at(place, "box")));
     } else if (const auto* color = std::get_if<ColorPins>(&desc.select)) {
-        // The color says which kind of pin it is, also where it is the default.
+        // The color is written even if it is the default, because it marks the pin as one by color.
         node.add("color", value(color_pin_keys[0], color, at(place, "color")));
         const ColorPins none_said;
         values(node, std::span(color_pin_keys).subspan(1), color, &none_said, place);
@@ -213,9 +228,10 @@ JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std
     defaults.name = "cloth " + std::to_string(index);
     return object(cloth_keys, desc, defaults, place, [&](std::string_view key, const std::string& where) -> Child {
         if (key == "mesh") return desc.mesh == defaults.mesh ? Child() : mesh(desc.mesh, where);
-        if (key == "drawn") return desc.drawn ? Child(mesh(*desc.drawn, where)) : Child();
+        if (key == "render_mesh") return desc.render_mesh ? Child(mesh(*desc.render_mesh, where)) : Child();
         if (key == "transform") return unless_empty(object(transform_keys, desc.transform, defaults.transform, where));
         if (key == "fabric") return fabric(desc, where);
+        if (key == "material") return material(desc.material, default_material(desc), where);
         assert(key == "pins");
         return unless_empty(
             list(desc.pins, where, [&](const PinDesc& one, const std::string& below) { return pin(one, below); }));
@@ -224,7 +240,7 @@ JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std
 
 Child SceneWriter::motion(const ColliderDesc& collider, const std::string& place) {
     if (collider.motion.empty()) return {};
-    // What a key does not say is as the transform has it.
+    // Values that a key does not give are those of the transform.
     const PoseKey defaults{
         .time = 0, .position = collider.transform.position, .rotation_degrees = collider.transform.rotation_degrees};
     JsonNode node = JsonNode::object();
@@ -234,20 +250,23 @@ Child SceneWriter::motion(const ColliderDesc& collider, const std::string& place
     return node;
 }
 
-JsonNode SceneWriter::collider(const ColliderDesc& desc, std::size_t index, const std::string& place) {
+JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, const std::string& place) {
     ColliderDesc defaults;
     defaults.name = "collider " + std::to_string(index);
-    return object(collider_keys, desc, defaults, place, [&](std::string_view key, const std::string& where) -> Child {
-        if (key == "transform") return unless_empty(object(pose_keys, desc.transform, defaults.transform, where));
-        if (key == "motion") return motion(desc, where);
+    return object(collider_keys, static_cast<const ColliderDesc&>(desc), defaults, place,
+                  [&](std::string_view key, const std::string& where) -> Child {
+                      if (key == "transform")
+                          return unless_empty(object(pose_keys, desc.transform, defaults.transform, where));
+                      if (key == "motion") return motion(desc, where);
+                      if (key == "material") return material(desc.material, default_material(desc), where);
 #define WEFT_SHAPE(name, Name)                                                  \
     if (const auto* shape = std::get_if<Name##Desc>(&desc.shape); key == #name) \
         return shape ? Child(object(name##_parameters, *shape, Name##Desc(), where)) : Child();
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
-        assert(false);
-        return {};
-    });
+                      assert(false);
+                      return {};
+                  });
 }
 
 JsonNode SceneWriter::stitches(const StitchDesc& desc, std::size_t index, const std::string& place) {
@@ -280,30 +299,6 @@ JsonNode SceneWriter::light(const Lighting& desc, const std::string& place) {
         });
 }
 
-// `otherwise`: the material that the thing has without a look.
-JsonNode SceneWriter::look(const SceneLook& desc, const MaterialPreset* otherwise, const std::string& place) {
-    const MaterialPreset* preset = find_material(desc.preset);
-    const Material defaults = preset ? preset->material : Material();
-    JsonNode node = JsonNode::object();
-    if (preset && preset != otherwise) node.add("material", text(desc.preset, at(place, "material")));
-    const bool named = !node.empty();
-    values(node, material_parameters, &desc.material, &defaults, place, {},
-           {.leader = "color", .follower = "weft_color"});  // as follow_color() has it
-    const bool as_named = node.empty() || (named && desc.material == defaults);
-    return preset && as_named ? text(desc.preset, place) : node;
-}
-
-JsonNode SceneWriter::looks(const SceneDesc& scene, const std::string& place) {
-    const auto materials = default_materials(scene);
-    JsonNode node = JsonNode::object();
-    for (const SceneLook& one : scene.looks) {
-        const auto otherwise = materials.find(one.object);
-        node.add(one.object,
-                 look(one, otherwise == materials.end() ? nullptr : otherwise->second, at(place, one.object)));
-    }
-    return node;
-}
-
 JsonNode SceneWriter::scene(const SceneDesc& desc) {
     const SceneHead head;
     const SceneDesc defaults;
@@ -317,7 +312,7 @@ JsonNode SceneWriter::scene(const SceneDesc& desc) {
             return list(desc.cloths, where,
                         [&](const SceneCloth& one, const std::string& below) { return cloth(one, index++, below); });
         if (key == "colliders")
-            return unless_empty(list(desc.colliders, where, [&](const ColliderDesc& one, const std::string& below) {
+            return unless_empty(list(desc.colliders, where, [&](const SceneCollider& one, const std::string& below) {
                 return collider(one, index++, below);
             }));
         if (key == "stitches")
@@ -326,9 +321,8 @@ JsonNode SceneWriter::scene(const SceneDesc& desc) {
             }));
         if (key == "camera")
             return desc.camera ? Child(object(camera_parameters, *desc.camera, Camera(), where)) : Child();
-        if (key == "light") return unless_empty(light(desc.light, where));
-        assert(key == "look");
-        return unless_empty(looks(desc, where));
+        assert(key == "light");
+        return unless_empty(light(desc.light, where));
     });
     return node;
 }

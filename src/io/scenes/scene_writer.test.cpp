@@ -1,9 +1,9 @@
-// A scene that is written and read again is the same scene.
+// A scene that is written and read again must be the same scene.
 #include "io/scenes/scene_writer.h"
 
 #include "io/scenes/json_writer.h"
 #include "io/scenes/random_scene.test.h"
-#include "io/scenes/scene_file.h"
+#include "io/scenes/read_scene.test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,12 +19,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-SceneDesc read(const std::string& text) {
-    auto scene = parse_scene(text, "text");
-    EXPECT_TRUE(scene.ok()) << scene.error().message() << '\n' << text;
-    return scene ? std::move(*scene) : SceneDesc();
-}
-
 std::string written(const SceneDesc& scene) {
     auto text = write_scene(scene);
     EXPECT_TRUE(text.ok()) << text.error().message();
@@ -39,7 +33,7 @@ void expect_round_trip(const SceneDesc& scene) {
     const std::string text = written(scene);
     const SceneDesc again = read(text);
     EXPECT_TRUE(again == scene) << text;
-    // And to the bit: == takes -0 for 0.
+    // Bitwise, because == treats -0 as 0.
     EXPECT_EQ(written(again), text);
 }
 
@@ -66,7 +60,7 @@ TEST(SceneWriter, AnySceneComesBack) {
     }
 }
 
-// Random scenes hold every key, so one that is never written is a key that the writer does not know.
+// Random scenes have every key, so a key that is never written is one that the writer does not support.
 TEST(SceneWriter, NoKeyIsForgotten) {
     std::set<std::string> written_keys;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -91,22 +85,29 @@ TEST(SceneWriter, SaysOnlyWhatDiffersFromDefaults) {
     EXPECT_EQ(rewritten(R"({ // a comment
         "gravity": [0, -9.81, 0], "frame_rate": 60.0, "name": "n", "weft": 1,
         "solver": {"iterations": 1, "substeps": 5},
-        "colliders": [{"friction": [0.2, 0.2], "name": "collider 0", "plane": {"offset": 0}}, {"sphere": {}, "name": "ball"}],
+        "colliders": [{"friction": [0.2, 0.2], "name": "collider 0", "plane": {"offset": 0}}, {"sphere": {}, "name": "ball", "material": {"preset": "matte"}}],
         "cloths": [
-            {"fabric": {"preset": "denim"}, "pins": [{"threshold": 0.5, "color": [0, 0, 0]}], "mesh": {"file": "a.obj"}},
-            {"fabric": {"stretch": 100}, "mesh": {"grid": {"resolution": [64, 64]}}, "name": "b"}],
-        "look": {"cloth 0": {"color": [1, 0, 0]}, "b": "cotton"}
+            {"fabric": {"preset": "denim"}, "pins": [{"threshold": 0.5, "color": [0, 0, 0]}], "mesh": {"file": "a.obj"},
+             "material": {"color": [1, 0, 0]}},
+            {"fabric": {"stretch": 100}, "mesh": {"grid": {"resolution": [64, 64]}}, "name": "b", "material": "silk"}]
     })"),
               R"({
     "weft": 1,
     "name": "n",
     "solver": { "substeps": 5 },
     "cloths": [
-        { "mesh": { "file": "a.obj" }, "fabric": "denim", "pins": [{ "color": [0, 0, 0] }] },
-        { "name": "b", "fabric": { "stretch": 100 } }
+        {
+            "mesh": { "file": "a.obj" },
+            "fabric": "denim",
+            "pins": [{ "color": [0, 0, 0] }],
+            "material": { "color": [1, 0, 0] }
+        },
+        { "name": "b", "fabric": { "stretch": 100 }, "material": "silk" }
     ],
-    "colliders": [{ "plane": {}, "friction": 0.2 }, { "name": "ball", "sphere": {} }],
-    "look": { "b": "cotton", "cloth 0": { "color": [1, 0, 0] } }
+    "colliders": [
+        { "plane": {}, "friction": 0.2 },
+        { "name": "ball", "sphere": {}, "material": "matte" }
+    ]
 }
 )");
 }
@@ -117,7 +118,7 @@ TEST(SceneWriter, KeepsACompressionThatIsNotTheStretch) {
                                        {"fabric": {"preset": "denim", "compression": 7}}]})");
     EXPECT_THAT(written(scene), HasSubstr(R"({ "preset": "denim", "stretch": 7, "compression": [411, 2028] })"));
     expect_round_trip(scene);
-    // In the order of the reference, though what stands there depends on two keys.
+    // In the order of the reference, even though the values depend on two keys.
     EXPECT_THAT(written(read(R"({"weft": 1, "cloths": [{"fabric": {"stretch": 7, "compression": 8, "shear": 9}}]})")),
                 HasSubstr(R"({ "stretch": 7, "compression": 8, "shear": 9 })"));
 }
@@ -142,15 +143,16 @@ TEST(SceneWriter, RefusesWhatAFileCannotSay) {
     SceneDesc scene;
     scene.cloths.resize(2);
     scene.cloths[0].mesh = TriangleMesh{};
-    scene.cloths[1].drawn = TriangleMesh{};
+    scene.cloths[1].render_mesh = TriangleMesh{};
     scene.cloths[1].name = "\xff";
     const auto text = write_scene(scene);
     ASSERT_FALSE(text.ok());
     std::vector<std::string> messages;
     for (const Error& error : text.errors()) messages.push_back(error.message());
-    EXPECT_THAT(messages, ElementsAre("/cloths/0/mesh: is a mesh in memory, for which a scene file must name a file",
-                                      "/cloths/1/name: must be UTF-8 to be written to a file",
-                                      "/cloths/1/drawn: is a mesh in memory, for which a scene file must name a file"));
+    EXPECT_THAT(messages,
+                ElementsAre("/cloths/0/mesh: is a mesh in memory, for which a scene file must name a file",
+                            "/cloths/1/name: must be UTF-8 to be written to a file",
+                            "/cloths/1/render_mesh: is a mesh in memory, for which a scene file must name a file"));
 }
 
 TEST(SceneWriter, NumbersKeepTheirBits) {

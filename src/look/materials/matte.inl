@@ -1,3 +1,3 @@
-// For colliders: a gray in the middle, so that cloth of any color stands off it; chosen, nothing measured.
+// For colliders: a mid gray that contrasts with cloth of any color. The values are chosen, not measured.
 {"matte", "plain and matte, for what is no cloth",
- {.color = {0.55f, 0.55f, 0.56f}, .weft_color = {0.55f, 0.55f, 0.56f}, .roughness_matte = 0.3f, .roughness = {0.7f, 0.7f}}},
+ {.color = {0.55f, 0.55f, 0.56f}, .weft_color = {0.55f, 0.55f, 0.56f}, .diffuse_roughness = 0.3f, .roughness = {0.7f, 0.7f}}},

@@ -23,7 +23,7 @@ class Cells {
         }
     }
 
-    /// u, v >= 0, in squares.
+    /// u, v >= 0, in units of squares.
     Nearest near(float u, float v) const {
         const auto i = static_cast<std::uint32_t>(u), j = static_cast<std::uint32_t>(v);
         const float fu = u - static_cast<float>(i), fv = v - static_cast<float>(j);
@@ -60,11 +60,11 @@ Heights grain(std::uint32_t side) {
     Heights out(side, large);
     const Cells grains(large, 41), pebbles(small, 43);
     const float step = out.step(), finer = static_cast<float>(small) / static_cast<float>(large);
-    // Straight creases are bent a little: where u is shifted by something of v and the other way round.
+    // Bends straight creases a little: offsets u by a function of v, and v by a function of u.
     std::vector<float> bent_u(side), bent_v(side);
     for (std::uint32_t s = 0; s < side; ++s) {
         const float at = (static_cast<float>(s) + 0.5f) * step;
-        bent_u[s] = 0.12f * drift(45, 0, 2 * at, 2 * large) + large;  // + large: not below 0
+        bent_u[s] = 0.12f * drift(45, 0, 2 * at, 2 * large) + large;  // + large keeps it above 0
         bent_v[s] = 0.12f * drift(45, 1, 2 * at, 2 * large) + large;
     }
     for (std::uint32_t y = 0; y < side; ++y) {

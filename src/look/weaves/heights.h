@@ -1,4 +1,4 @@
-// What a weave is made of before it is a Relief: heights on a square grid.
+// Heights on a square grid, from which a Relief is made.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,10 @@
 
 namespace weft::weaves {
 
-/// Lengths are spacings of threads. Sample (x, y) stands at u = (x + ½) step, v = (y + ½) step; all of it repeats.
+/// Lengths are in thread spacings. Sample (x, y) is at u = (x + ½) step, v = (y + ½) step; the grid repeats.
 struct Heights {
     std::uint32_t side = 0;      ///< samples
-    std::uint32_t spacings = 0;  ///< threads a side
+    std::uint32_t spacings = 0;  ///< threads per side
     std::vector<float> height, warp;
 
     Heights(std::uint32_t samples, std::uint32_t threads)
@@ -21,15 +21,15 @@ struct Heights {
     float step() const { return static_cast<float>(spacings) / static_cast<float>(side); }
 };
 
-/// Two systems of threads that cross.
+/// Two sets of threads that cross.
 Heights plain(std::uint32_t side);
-/// Warp over three, under one, a step aside in each row.
+/// Warp over three, under one, shifted by one in each row.
 Heights twill(std::uint32_t side);
-/// Warp over seven, under one, three steps aside.
+/// Warp over seven, under one, shifted by three.
 Heights satin(std::uint32_t side);
-/// Wales along u, the face of jersey.
+/// Wales along u: the face of jersey.
 Heights knit(std::uint32_t side);
-/// Two wales of face stand above two of back.
+/// Two wales of face, raised above two wales of back.
 Heights rib(std::uint32_t side);
 /// Cushions with creases between them.
 Heights grain(std::uint32_t side);

@@ -7,19 +7,19 @@
 namespace weft::weaves {
 namespace {
 
-// A stitch is wider than it is long: five courses take the room of four wales.
+// A stitch is wider than it is long: five courses are as long as four wales are wide.
 constexpr std::uint32_t wales = 8, courses = 10;
 constexpr float pitch = static_cast<float>(wales) / static_cast<float>(courses);
 
-/// A piece of yarn that shows: an ellipse seen from above, one end lower than the other.
+/// A visible piece of yarn: an ellipse seen from above, one end lower than the other.
 struct Limb {
-    float u, v;                          ///< its middle, from that of the stitch
+    float u, v;                          ///< center, relative to that of the stitch
     float along_u, along_v;              ///< unit vector
     float per_half_long, per_half_wide;  ///< 1 / spacings
-    float crown, rise;                   ///< height of the middle, and of the far end above the middle
+    float crown, rise;                   ///< height of the center, and of the far end above the center
 };
 
-/// No two are drawn alike.
+/// Random variation, different for each stitch.
 struct Stitch {
     float per_thick, shift, lift;
 };
@@ -42,17 +42,17 @@ float height_of(const Limb& limb, float u, float v, const Stitch& stitch) {
     return limb.crown * (1 - q * q - 0.6f * s * s) + limb.rise * s + stitch.lift;
 }
 
-// The legs of the V lean outward and up. Their upper ends go under the next V, whose lower ends lie on them.
+// The legs of the V lean outward and up. Their upper ends go under the next V, whose lower ends lie on top.
 constexpr float lean_u = 0.894f, lean_v = 0.448f;
 constexpr Limb face[] = {{0, -0.25f, lean_u, -lean_v, 1 / 0.58f, 1 / 0.27f, 0.3f, -0.15f},
                          {0, 0.25f, lean_u, lean_v, 1 / 0.58f, 1 / 0.27f, 0.3f, -0.15f}};
-// On the back the bows between the legs show, upward and downward in turns.
+// On the back the arcs between the legs are visible, alternately upward and downward.
 constexpr Limb back[] = {{0, 0, 0, 1, 1 / 0.52f, 1 / 0.3f, 0.26f, 0},
                          {0.5f * pitch, -0.5f, 0, 1, 1 / 0.46f, 1 / 0.27f, 0.22f, 0},
                          {0.5f * pitch, 0.5f, 0, 1, 1 / 0.46f, 1 / 0.27f, 0.22f, 0}};
 constexpr float floor_height = -0.3f;
 
-/// `drawn`: those of one wale.
+/// `drawn`: the stitches of one wale.
 float highest(std::span<const Limb> limbs, std::span<const Stitch> drawn, float u, float v) {
     const auto course = static_cast<std::uint32_t>(u / pitch);
     float top = floor_height;
@@ -64,7 +64,7 @@ float highest(std::span<const Limb> limbs, std::span<const Stitch> drawn, float 
     return top;
 }
 
-/// `is_back`: whether a wale shows its back; `raise`: how high it stands at v.
+/// `is_back`: whether a wale shows its back; `raise`: its height at v.
 template <class IsBack, class Raise>
 Heights knitted(std::uint32_t side, const IsBack& is_back, const Raise& raise) {
     Heights out(side, wales);
@@ -96,7 +96,7 @@ Heights knit(std::uint32_t side) {
 }
 
 Heights rib(std::uint32_t side) {
-    // Wales 0 and 1 of four show their face; the wave is highest between them.
+    // Wales 0 and 1 of four show their face; the height is largest between them.
     return knitted(
         side, [](std::uint32_t wale) { return wale % 4 >= 2; }, [](float v) { return 0.2f * wave((v + 3) * 0.25f); });
 }

@@ -8,22 +8,22 @@ namespace {
 
 constexpr std::uint32_t threads = 8;
 
-/// Lengths in spacings.
+/// Lengths are in thread spacings.
 struct Yarn {
     float half_width = 0.48f;
-    float crown = 0.22f;   ///< how far the middle of a thread stands above its edges
-    float crimp = 0.2f;    ///< how far a thread goes up and down from the middle plane
-    float wander = 0.03f;  ///< sideways
-    float uneven = 0.06f;  ///< of the width, as a share
-    float twist = 0.006f;  ///< height of the strands that run around it
+    float crown = 0.22f;   ///< height of the middle of a thread above its edges
+    float crimp = 0.2f;    ///< amplitude of a thread around the middle plane
+    float wander = 0.03f;  ///< amplitude sideways
+    float uneven = 0.06f;  ///< relative variation of the width
+    float twist = 0.006f;  ///< height of the strands wound around it
 };
 
-/// Where a thread is at each sample along it.
+/// Position and width of a thread at one sample along it.
 struct Place {
     float aside, height, per_width;
 };
 
-/// All threads of one direction. `over(thread, crossing)`: whether it is on top there.
+/// All threads of one direction. `over(thread, crossing)`: whether the thread is on top at that crossing.
 class Threads {
   public:
     template <class Over>
@@ -34,7 +34,7 @@ class Threads {
             const float width = yarn.half_width * (1 + yarn.uneven * swing(seed, thread, 101));
             for (std::uint32_t s = 0; s < side; ++s) {
                 const float at = (static_cast<float>(s) + 0.5f) * step;
-                // Level at the middle of every crossing, halfway up or down between two.
+                // Zero slope at the middle of each crossing; the midpoint between two crossings is halfway in height.
                 const auto from = static_cast<std::uint32_t>(at + 0.5f) + threads - 1;
                 const float here = over(thread, from % threads) ? 1 : -1,
                             next = over(thread, (from + 1) % threads) ? 1 : -1;
@@ -48,7 +48,7 @@ class Threads {
         }
     }
 
-    /// The highest of the two threads next to `across`, at sample `s` along them.
+    /// The larger height of the two threads nearest to `across`, at sample `s` along them.
     float top(std::uint32_t s, float along, float across) const {
         const auto own = static_cast<std::uint32_t>(across);
         const float off = across - static_cast<float>(own) - 0.5f;
@@ -99,13 +99,13 @@ Heights plain(std::uint32_t side) {
 }
 
 Heights twill(std::uint32_t side) {
-    // The thick, hard-twisted yarn of denim. Its ridges run up to the right when the warp stands upright (Z).
+    // The thick, hard-twisted yarn of denim. Its ridges run up to the right when the warp is upright (Z twill).
     const Yarn yarn{.crown = 0.28f, .crimp = 0.2f, .wander = 0.035f, .uneven = 0.1f, .twist = 0.008f};
     return woven(side, yarn, yarn, [](std::uint32_t i, std::uint32_t j) { return (i + j) % 4 != 0; });
 }
 
 Heights satin(std::uint32_t side) {
-    // Filaments without twist, packed until they lie flat beside one another.
+    // Filaments without twist, packed so densely that they lie flat.
     const Yarn yarn{.half_width = 0.52f, .crown = 0.16f, .crimp = 0.14f, .wander = 0.02f, .uneven = 0.04f, .twist = 0};
     return woven(side, yarn, yarn, [](std::uint32_t i, std::uint32_t j) { return (i + 3 * j) % 8 != 0; });
 }

@@ -1,8 +1,8 @@
-// Adhesion: an attachment to a point that a collider carries along.
+// Adhesion: an attachment to a point that moves with a collider.
 
 struct AdhesionRow { WEFT_ROW_adhesion(WEFT_ROW_MEMBER) };
 
-// `gap`: distance between the surfaces of cloth and collider where the frame begins, m.
+// `gap`: distance between the surfaces of cloth and collider at the start of the frame, m.
 WEFT_FN mask adheres(real gap, real range, real w) { return w > real(0) && gap < range; }
 
 WEFT_FN void project_adhesion(inout_(vec3) x, real w, inout_(real) lambda, AdhesionRow row, Step step)

@@ -30,7 +30,7 @@ TEST(Air, pushes_a_triangle_as_the_law_says) {
         const double pressure = reference::dot(v, v) * area * std::abs(c);
         const vec3 force = along * (-fabric.drag * pressure) + lift * (fabric.lift * pressure);
         EXPECT_LT(norm(change(v, n, mass, fabric, h) * (mass / h) - force), 1e-5 * norm(force) + 1e-9) << i;
-        // Which side is called front does not matter.
+        // The orientation of the normal does not matter.
         EXPECT_LT(norm(change(v, -n, mass, fabric, h) - change(v, n, mass, fabric, h)), 1e-18);
     }
 }

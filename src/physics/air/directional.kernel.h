@@ -1,6 +1,4 @@
-// The same wind everywhere.
-//   n0       velocity [m/s]
-//   n1, n2   unit vectors across it
+// The same wind everywhere. n0 is its velocity [m/s]; n1 and n2 are unit vectors perpendicular to it.
 
 WEFT_FN Flow flow_directional(vec3 p, WindNumbers n)
 {

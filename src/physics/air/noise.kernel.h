@@ -3,7 +3,7 @@
 // "Efficient computational noise in GLSL"). Every number here stays below 2^24, so each step is exact in single
 // precision, and all lanes, compilers and GPUs agree on every corner.
 
-// x mod 289 for whole x >= 0 below 2^22. Half a step off, so that an inexact product cannot change the floor.
+// x mod 289 for integers x >= 0 below 2^22. Adds 0.5 so that an inexact product cannot change the floor.
 WEFT_FN real mod_289(real x) { return x - floor((x + real(0.5)) * real(1.0 / 289.0)) * real(289); }
 
 WEFT_FN real permute_289(real x) { return mod_289((x * real(34) + real(1)) * x); }
@@ -12,8 +12,8 @@ WEFT_FN real fade(real t) { return t * t * t * (t * (t * real(6) - real(15)) + r
 
 WEFT_FN real mix_linear(real a, real b, real t) { return a + (b - a) * t; }
 
-// The corner's gradient, one of the twelve from the middle of a cube to its edges (four of them twice), times the way
-// from the corner.
+// The corner's gradient times the offset `d` from the corner. The gradient is one of the twelve from the center of a
+// cube to its edges; four of them occur twice.
 WEFT_FN real corner_gradient(real hash, vec3 d)
 {
     real g = hash - floor((hash + real(0.5)) * real(0.0625)) * real(16);   // 0 … 15
@@ -26,8 +26,8 @@ WEFT_FN real corner_gradient(real hash, vec3 d)
     return select(odd, -u, u) + select(second, -v, v);
 }
 
-// In -1 … 1, smooth, of mean 0; period 289 along each axis. Inputs whose size is beyond 2^22 come out as some number
-// in that range.
+// Smooth, in -1 … 1, mean 0; period 289 along each axis. Inputs of magnitude above 2^22 give an arbitrary value in that
+// range.
 WEFT_FN real perlin(vec3 p)
 {
     vec3 cell = vec3(floor(p.x), floor(p.y), floor(p.z));
@@ -35,7 +35,7 @@ WEFT_FN real perlin(vec3 p)
     real x0 = cell.x - floor((cell.x + real(0.5)) * real(1.0 / 289.0)) * real(289);
     real y0 = cell.y - floor((cell.y + real(0.5)) * real(1.0 / 289.0)) * real(289);
     real z0 = cell.z - floor((cell.z + real(0.5)) * real(1.0 / 289.0)) * real(289);
-    // Far out floats are coarser than the lattice.
+    // Far from the origin floats are coarser than the lattice, so clamp.
     x0 = min(max(x0, real(0)), real(288));
     y0 = min(max(y0, real(0)), real(288));
     z0 = min(max(z0, real(0)), real(288));

@@ -1,35 +1,34 @@
-// What makes a wind alive: gusts and turbulence (air.md has the law). Where it blows from is each kind's own affair
-// (winds.def).
+// Gusts and turbulence of a wind (law: air.md). The mean flow is defined by each kind of wind (winds.def).
 
-// Up to three vectors whose meaning the kind's kernel file states.
+// Up to three vectors; the kernel file of each kind documents their meaning.
 struct WindNumbers {
     vec3 n0, n1, n2;
 };
 
-// The wind at a point as its kind has it, without gusts and turbulence.
+// The wind at a point, without gusts and turbulence.
 struct Flow {
     vec3 velocity;   // m/s
-    real q1, q2;     // m    two coordinates across it
+    real q1, q2;     // m    two coordinates perpendicular to it
 };
 
 struct WindLife {
     real gust;             // amplitude, of the velocity
     real gust_turns;       // frequency times time, modulo 16
-    real gust_per_meter;   // 1/m   inverse distance over which gusts fall out of step
-    real scattered;        // 1: every triangle has a phase and a frequency of its own; 0: phases vary smoothly
+    real gust_per_meter;   // 1/m   inverse distance over which the phase of gusts varies
+    real scattered;        // 1: every triangle has its own phase and frequency; 0: phases vary smoothly
     real turbulence;       // strength, of the velocity
     real noise_per_meter;  // 1/m   inverse size of an eddy
     real noise_time;       // time over period, modulo 289
     vec3 noise_offset;     // from the seed, whole numbers
 };
 
-// `number` tells triangles apart: a whole number from 0, below 2^24.
+// `number` identifies the triangle: an integer from 0, below 2^24.
 WEFT_FN vec3 live_wind(Flow flow, real number, WindLife life)
 {
     vec3 at = vec3(flow.q1 * life.gust_per_meter, flow.q2 * life.gust_per_meter, real(0.5));
     real smooth_phase = perlin(at + vec3(life.noise_offset.z, life.noise_offset.x, life.noise_offset.y));
 
-    // Frequencies are 8 … 23 sixteenths of the given one, so that 16 turns of it are whole turns of each.
+    // Frequencies are 8 … 23 sixteenths of the given one, so that 16 turns of it are a whole number of turns of each.
     real first = permute_289(mod_289(number - floor(number * real(1.0 / 65536.0)) * real(65536) + life.noise_offset.x));
     real second = permute_289(mod_289(first + life.noise_offset.y));
     real rate = real(0.5) + real(0.0625) * (first - floor((first + real(0.5)) * real(0.0625)) * real(16));

@@ -55,7 +55,7 @@ TEST(Wind, swells_with_its_period) {
     const Flow flow{vec3(1, 0, 0), 0.3, -0.4};
     for (const double scattered : {0.0, 1.0}) {
         for (double number = 0; number < 40; ++number) {
-            WindLife a = lively(0.37), b = lively(16.37);  // where the turns are counted anew
+            WindLife a = lively(0.37), b = lively(16.37);  // where the turns wrap around
             a.scattered = b.scattered = scattered;
             EXPECT_LT(norm(reference::live_wind(flow, number, a) - reference::live_wind(flow, number, b)), 1e-9);
         }

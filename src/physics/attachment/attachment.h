@@ -1,4 +1,4 @@
-// Springs that tie particles to anchors.
+// Springs between particles and anchors.
 #pragma once
 
 #include "physics/constraint.h"
@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// A row for each. The anchor of number i is point `first_anchor` + i.
+/// One constraint per attachment. Anchor i is point `first_anchor` + i.
 RowList attachment_rows(std::span<const Attachment> attachments, std::uint32_t first_anchor);
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// Attachment: C = |x - anchor|. Only the particle moves; the anchor is carried by what it belongs to.
+// Attachment: C = |x - anchor|. Only the particle moves; the anchor's motion is prescribed.
 
 struct AttachmentRow { WEFT_ROW_attachment(WEFT_ROW_MEMBER) };
 

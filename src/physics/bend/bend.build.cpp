@@ -8,22 +8,14 @@ namespace weft {
 
 RowList build_bend(const RestShape& rest, const BendMaterial& material) {
     RowList rows = make_rows(ConstraintKind::bend);
-    if (material.model != BendModel::hinges) return rows;
-    const BendLaw law(material);
+    if (material.model != BendModel::dihedral) return rows;
     rows.geometry_count = 2;
-    for (const Hinge& hinge : rest.topology.hinges) {
-        if (!bends(rest.topology, hinge, material.hinges)) continue;
-        const HingeShape shape = shape_of(rest, hinge);
-        const float stiffness = law.stiffness(shape.across);
-        if (!(stiffness > 0)) {
-            rows.left_out.push_back(shape.across);
-            continue;
-        }
+    for_each_stiff_hinge(rest, material, rows, [&](const Hinge& hinge, const HingeShape& shape, float stiffness) {
         rows.add({hinge.a, hinge.b, hinge.c, hinge.d},
                  {angle_at_rest(rest.topology, hinge, material),
                   BendLaw::compliance(stiffness, shape.area, shape.edge_squared)},
                  {shape.across, shape.area});
-    }
+    });
     return rows;
 }
 
@@ -31,7 +23,7 @@ bool change_bend(const RowsToChange& rows, const BendMaterial& material) {
     const BendLaw law(material);
     for (const float across : rows.left_out)
         if (law.stiffness(across) > 0) return false;
-    // Lengths of edges are read from places all over the cloth, the rest is not, and runs on lanes.
+    // Edge lengths are gathered from all over the cloth in a separate loop, so that the main loop vectorizes.
     constexpr std::uint32_t some = 512;
     std::array<float, some> edge_squared;
     int without = 0;

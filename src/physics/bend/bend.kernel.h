@@ -12,7 +12,7 @@ struct Hinge {
     real theta;
     vec3 n1, n2;         // m2   normals of the triangles, twice their area long
     real inv_len;        // 1/m  of the edge
-    real tc, td;         //      where the wing tips stand along the edge: 0 at a, 1 at b
+    real tc, td;         //      positions of the wing tips along the edge: 0 at a, 1 at b
     real h11, h22, h12;  // m2   heights of the triangles over the edge, squared, and their scalar product
     mask able;           // neither triangle nor the edge has collapsed
 };
@@ -33,8 +33,8 @@ WEFT_FN Hinge measure_hinge(vec3 a, vec3 b, vec3 c, vec3 d)
     real n22 = dot(h.n2, h.n2);
     real n12 = dot(h.n1, h.n2);
     h.able = e2 > real(1e-20) && n11 > real(1e-30) && n22 > real(1e-30);
-    // atan2 of sine and cosine, both times |n1||n2|: no normalization, and sharp at 0 and at +-pi alike. The sine is
-    // that of n1 x n2 = -(n1.ad) e.
+    // atan2 of sine and cosine, both times |n1||n2|: needs no normalization and is accurate at 0 and at +-pi. The sine
+    // is that of n1 x n2 = -(n1.ad) e.
     h.theta = angle_of(dot(h.n1, ad) * len, n12);
     h.inv_len = len * inv_e2;
     h.tc = dot(ac, e) * inv_e2;
@@ -51,7 +51,8 @@ struct HingeAngle {
     mask able;
 };
 
-// A wing tip turns about the edge at the lever of its height; the ends of the edge take what balances force and torque.
+// A wing tip rotates about the edge with its height as lever arm. The gradients at the ends of the edge balance force
+// and torque.
 WEFT_FN HingeAngle hinge_angle(vec3 a, vec3 b, vec3 c, vec3 d)
 {
     Hinge h = measure_hinge(a, b, c, d);
@@ -70,7 +71,7 @@ WEFT_FN real hinge_weight(HingeAngle h, real wa, real wb, real wc, real wd)
     return wa * dot(h.ga, h.ga) + wb * dot(h.gb, h.gb) + wc * dot(h.gc, h.gc) + wd * dot(h.gd, h.gd);
 }
 
-// An angle brought back to (-pi, pi]: a rest angle near a full fold is close to the fold from the other side.
+// Wraps an angle to (-pi, pi]. A rest angle near a full fold is close to a full fold to the other side.
 WEFT_FN real wrap_angle(real angle)
 {
     real two_pi = real(6.283185307179586);
@@ -78,8 +79,8 @@ WEFT_FN real wrap_angle(real angle)
     return select(angle > pi, angle - two_pi, select(angle < -pi, angle + two_pi, angle));
 }
 
-// The gradients of hinge_angle, all of them times h11 h22: that leaves one division, and all that it needs is there
-// before the angle is. Processors wait for that chain of operations, not for their number.
+// Uses the gradients of hinge_angle, all times h11 h22. That leaves one division, which does not depend on the angle.
+// The longest chain of dependent operations limits the speed, not their number.
 WEFT_FN void project_bend(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, inout_(vec3) d,
                           real wa, real wb, real wc, real wd,
                           inout_(real) lambda, BendRow row, Step step)
@@ -87,7 +88,7 @@ WEFT_FN void project_bend(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, inout_
     Hinge h = measure_hinge(a, b, c, d);
     real uc = h.tc - real(1);
     real ud = h.td - real(1);
-    // hinge_weight, times h11 h22. It overflows far beyond the size of any cloth.
+    // hinge_weight times h11 h22. It overflows only far beyond the size of any cloth.
     real cross_term = h.h12 + h.h12;
     real w = wc * h.h22 + wd * h.h11
            + wa * (uc * (uc * h.h22 + ud * cross_term) + ud * ud * h.h11)
@@ -110,8 +111,8 @@ WEFT_FN void project_bend(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, inout_
     d = d + g2 * wd;
 }
 
-// Viscosity beside the spring: against the rate at which the angle changes, implicit. `viscous` is the retardation
-// time times the time step, s2.
+// Viscosity parallel to the spring: an implicit impulse against the rate of change of the angle. `viscous` is the
+// retardation time times the time step, s2.
 WEFT_FN void damp_bend(inout_(vec3) va, inout_(vec3) vb, inout_(vec3) vc, inout_(vec3) vd,
                        vec3 a, vec3 b, vec3 c, vec3 d, real wa, real wb, real wc, real wd,
                        BendRow row, real viscous)

@@ -196,8 +196,8 @@ TEST(Bend, damping_takes_turning_and_leaves_rigid_motion) {
 }
 
 TEST(BendRows, a_flat_strip_bent_to_a_cylinder_has_the_energy_of_its_stiffness) {
-    // Bent along the warp to radius R, energy per area is B/(2R²): the rows must add up to it on a grid whose
-    // diagonals carry none of it (they do in part, hence uniform diagonals and a fine grid).
+    // Bent along the warp to radius R, energy per area is B/(2R²): the constraints must add up to it on a grid whose
+    // diagonals carry none of it (they carry a part, hence uniform diagonals and a fine grid).
     const float warp = 2e-5f, weft = 5e-5f;
     const TriangleMesh mesh = make_grid({1, 1}, {41, 41}, GridDiagonal::uniform);
     const auto topology = build_topology(mesh);
@@ -237,33 +237,33 @@ TEST(BendRows, rest_angle_is_the_mesh_s_or_the_given_one) {
     EXPECT_EQ(right_angles, 1);
 }
 
-std::uint32_t row_count(const TriangleMesh& mesh, HingeChoice hinges) {
+std::uint32_t row_count(const TriangleMesh& mesh, BendEdges edges) {
     const auto topology = build_topology(mesh);
-    return build_bend(make_rest_shape(mesh, *topology), {.bend = {1, 1, 1}, .hinges = hinges}).size();
+    return build_bend(make_rest_shape(mesh, *topology), {.bend = {1, 1, 1}, .edges = edges}).size();
 }
 
 TEST(BendRows, of_the_source_are_all_but_the_diagonals_of_the_cells) {
     const std::uint32_t nx = 7, nz = 5, cells = (nx - 1) * (nz - 1);
     for (const auto diagonal : {GridDiagonal::uniform, GridDiagonal::alternating}) {
         TriangleMesh mesh = make_grid({2, 1}, {nx, nz}, diagonal);  // cells that are no squares
-        EXPECT_EQ(row_count(mesh, HingeChoice::source) + cells, row_count(mesh, HingeChoice::all));
+        EXPECT_EQ(row_count(mesh, BendEdges::no_diagonals) + cells, row_count(mesh, BendEdges::all));
         const std::uint32_t lines = (nx - 2) * (nz - 1) + (nz - 2) * (nx - 1);
-        EXPECT_EQ(row_count(mesh, HingeChoice::source), lines);
+        EXPECT_EQ(row_count(mesh, BendEdges::no_diagonals), lines);
 
         const Mat3 turn = rotation_from_degrees({35, 70, 15});
         for (Vec3& p : mesh.positions) p = turn * p;
-        EXPECT_EQ(row_count(mesh, HingeChoice::source), lines) << "wherever the sheet lies";
+        EXPECT_EQ(row_count(mesh, BendEdges::no_diagonals), lines) << "wherever the sheet lies";
     }
-    // The squares of a cross grid stand on their corners: the sides of the cells cut them.
+    // The squares of a cross grid are rotated by 45°: the sides of the cells cut them.
     const TriangleMesh cross = make_grid({6, 4}, {nx, nz}, GridDiagonal::cross);
-    EXPECT_EQ(row_count(cross, HingeChoice::source), 4 * cells);
+    EXPECT_EQ(row_count(cross, BendEdges::no_diagonals), 4 * cells);
 }
 
 TEST(BendRows, of_the_source_keep_what_is_no_rectangle_and_what_is_folded) {
     const auto of_a_cell = [](auto&& change) {
         TriangleMesh mesh = make_grid({1, 1}, {2, 2}, GridDiagonal::uniform);
         for (std::size_t v = 0; v < 4; ++v) change(mesh.positions[v], v);
-        return row_count(mesh, HingeChoice::source);
+        return row_count(mesh, BendEdges::no_diagonals);
     };
     EXPECT_EQ(of_a_cell([](Vec3&, std::size_t) {}), 0u);
     const auto sheared_by = [](float slope) { return [=](Vec3& p, std::size_t) { p.x += slope * p.z; }; };

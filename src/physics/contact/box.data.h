@@ -1,4 +1,4 @@
-// Box around the collider's origin. What a scene says of it; box.kernel.h has the maths.
+// Box around the collider's origin. Scene keys; the math is in box.kernel.h.
 #pragma once
 
 #include "physics/contact/shape.h"
@@ -9,7 +9,7 @@ inline constexpr std::string_view box_what = "a box around the collider's origin
 
 inline constexpr Parameter box_parameters[] = {
     {.key = "half_extents", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(BoxDesc, half_extents),
-     .min = 0, .max = far_away, .min_excluded = true, .unit = "m", .what = "half its size along its x, y and z"},
+     .min = 0, .max = far_away, .min_excluded = true, .unit = "m", .what = "half of its size along x, y and z"},
 };
 
 inline std::array<float, 4> shape_numbers(const BoxDesc& box) {

@@ -7,8 +7,8 @@ WEFT_FN real distance_box(vec3 p, ShapeNumbers s, out_(vec3) normal)
                      select(p.z < real(0), real(-1), real(1)));
     vec3 q = vec3(abs(p.x) - s.n0, abs(p.y) - s.n1, abs(p.z) - s.n2);
 
-    // Outside, the nearest point may lie on a face, an edge or a corner: what sticks out beyond the extents points away
-    // from it. Inside, the nearest face is the way out.
+    // Outside, the nearest point lies on a face, an edge or a corner, and the excess over the extents points away from
+    // it. Inside, the normal is that of the nearest face.
     vec3 beyond = vec3(max(q.x, real(0)), max(q.y, real(0)), max(q.z, real(0)));
     real len2 = dot(beyond, beyond);
     mask outside = len2 > real(0);

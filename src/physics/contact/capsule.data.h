@@ -1,4 +1,4 @@
-// Capsule along the collider's y axis. What a scene says of it; capsule.kernel.h has the maths.
+// Capsule along the collider's y axis. Scene keys; the math is in capsule.kernel.h.
 #pragma once
 
 #include "physics/contact/shape.h"
@@ -9,9 +9,9 @@ inline constexpr std::string_view capsule_what = "a segment of the collider's y 
 
 inline constexpr Parameter capsule_parameters[] = {
     {.key = "radius", .offset = offsetof(CapsuleDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
-     .unit = "m", .what = "of its round ends and its side"},
+     .unit = "m", .what = "radius of its ends and its side"},
     {.key = "half_height", .offset = offsetof(CapsuleDesc, half_height), .min = 0, .max = far_away, .unit = "m",
-     .what = "half the length between the centers of its ends, along its y"},
+     .what = "half the distance between the centers of its ends, along y"},
 };
 
 inline std::array<float, 4> shape_numbers(const CapsuleDesc& capsule) {

@@ -1,4 +1,4 @@
-// Contact: a particle keeps half a thickness away from a collider and rubs on it (contact.md has the law).
+// Contact: keeps a particle half a thickness away from a collider, with friction (law: contact.md).
 #ifndef WEFT_CONTACT_DATA_H
 #define WEFT_CONTACT_DATA_H
 
@@ -14,9 +14,9 @@ struct ContactMaterial {
 
 inline constexpr Parameter contact_parameters[] = {
     {.key = "thickness", .count = 1, .offset = offsetof(ContactMaterial, thickness), .min = 0, .max = 1, .unit = "m",
-     .what = "thickness of the cloth: its middle surface stays half of it away from a collider"},
+     .what = "thickness of the cloth; its middle surface stays half of that away from colliders"},
     {.key = "friction", .count = 2, .offset = offsetof(ContactMaterial, friction), .min = 0, .max = 100,
-     .what = "static and kinetic friction; a pair's is the geometric mean of its two sides"},
+     .what = "static and kinetic friction coefficient; a contact has the geometric mean of both sides"},
 };
 
 }  // namespace weft

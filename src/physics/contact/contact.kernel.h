@@ -1,17 +1,17 @@
-// Contact of a particle with a collider: (x - q).n >= thickness/2, hard, with positional Coulomb friction.
-// The shapes give distance and normal; what follows is the same for all of them.
+// Contact of a particle with a collider: (x - q).n >= thickness/2, hard, with positional Coulomb friction. The shapes
+// supply distance and normal; the code below is the same for all of them.
 
 struct ShapeNumbers {
     real n0, n1, n2, n3;
 };
 
-// A collider over one substep: where it is at the end, where it was at the start.
+// A collider's poses at the end and at the start of a substep.
 struct ContactBody {
     vec3 rx, ry, rz, position;          // columns of the rotation
     vec3 rx0, ry0, rz0, position0;
     real static_friction, kinetic_friction;   // of the pair
     real half_thickness;                      // m
-    real depenetration;                       // m    at most this much of an old overlap is undone in a substep
+    real depenetration;                       // m    largest part of an old overlap that a substep removes
 };
 
 WEFT_FN vec3 rotate(vec3 rx, vec3 ry, vec3 rz, vec3 v) { return rx * v.x + ry * v.y + rz * v.z; }
@@ -23,14 +23,14 @@ WEFT_FN vec3 to_body_at_start(ContactBody body, vec3 x)
     return unrotate(body.rx0, body.ry0, body.rz0, x - body.position0);
 }
 
-// How far the body moved its own point `local` during the substep. Exactly 0 for a body at rest.
+// Displacement of the body's point `local` during the substep. Exactly 0 for a body at rest.
 WEFT_FN vec3 carried_by(ContactBody body, vec3 local)
 {
     return (rotate(body.rx, body.ry, body.rz, local) + body.position)
          - (rotate(body.rx0, body.ry0, body.rz0, local) + body.position0);
 }
 
-// What a contact has done to a particle since the substep began.
+// Displacement of a particle by a contact since the start of the substep.
 struct ContactSum {
     vec3 friction;  // m    tangential displacement
     real push;      // m    along the normal
@@ -43,14 +43,14 @@ struct ContactSum {
 WEFT_FN void project_contact(inout_(vec3) x, vec3 start, real w, inout_(ContactSum) sum,
                              real gap, real gap_start, vec3 normal, vec3 carried, ContactBody body)
 {
-    // New overlap is undone at once. Overlap that was there at the start leaves at a limited speed, so that a cloth
-    // placed inside a body is not shot out of it.
+    // New overlap is removed at once. Overlap from before the substep is removed at a limited speed, so that a cloth
+    // placed inside a body is not ejected.
     real goal = min(real(0), gap_start + body.depenetration);
     real dn = select(w > real(0), max(goal - gap, real(0)), real(0));
     x = x + normal * dn;
     sum.push = sum.push + dn;
 
-    // Friction as one displacement per substep, kept within Coulomb's disc while iterations refine it.
+    // Friction is one displacement per substep; every iteration refines it and clamps it to Coulomb's disc.
     vec3 moved = x - start - carried;
     vec3 slip = moved - normal * dot(moved, normal);
     vec3 wanted = sum.friction - slip;

@@ -76,7 +76,7 @@ TEST(Contact, old_overlap_leaves_slowly_and_never_deepens) {
 
 TEST(Contact, sticks_within_the_static_cone_and_slides_by_the_kinetic_one_beyond) {
     const ContactBody body = body_at(vec3(0.0), vec3(0.0), 0.5, 0.3);
-    // Pushed out by 0.1: up to 0.05 of slip is held.
+    // Pushed out by 0.1: static friction holds up to 0.05 of slip.
     EXPECT_NEAR(on_ground({0, 0, 0}, {0.049, -0.1, 0}, body).x, 0, 1e-15);
     const vec3 slid = on_ground({0, 0, 0}, {0.06, -0.1, 0.08}, body);
     EXPECT_NEAR(norm(vec3(slid.x, 0, slid.z)), 0.1 - 0.3 * 0.1, 1e-15);
@@ -91,7 +91,7 @@ TEST(Contact, iterations_share_one_cone) {
     ContactSum sum = fresh();
     for (int i = 0; i < 10; ++i) reference::project_contact(x, start, 1, sum, x.y, 0, {0, 1, 0}, vec3(0.0), body);
     EXPECT_NEAR(x.x, 1 - 0.3 * 0.1, 1e-12) << "not ten times the friction";
-    // A later iteration that pushes the particle back finds the friction gone that it no longer needs.
+    // If a later iteration pushes the particle back, the friction that is no longer needed is removed.
     x.x -= 0.99;
     reference::project_contact(x, start, 1, sum, x.y, 0, {0, 1, 0}, vec3(0.0), body);
     EXPECT_NEAR(x.x, 0, 1e-12);

@@ -1,4 +1,4 @@
-// What a shape's *.data.h is written with.
+// Common declarations for the *.data.h files of the shapes.
 #pragma once
 
 #include "base/parameter.h"
@@ -11,12 +11,12 @@
 
 namespace weft {
 
-/// What is wrong with a value though it lies within its range; nothing if `what` is empty.
+/// A problem with a value that lies within its range; none if `what` is empty.
 struct ShapeProblem {
     std::string_view key = {}, what = {};
 };
 
-/// For shapes whose ranges say all there is to say; another has an overload in its *.data.h.
+/// Default for shapes that need no checks besides the ranges. Other shapes overload it in their *.data.h.
 template <class Desc>
 constexpr ShapeProblem shape_problem(const Desc&) {
     return {};

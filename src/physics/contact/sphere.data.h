@@ -1,4 +1,4 @@
-// Sphere around the collider's origin. What a scene says of it; sphere.kernel.h has the maths.
+// Sphere around the collider's origin. Scene keys; the math is in sphere.kernel.h.
 #pragma once
 
 #include "physics/contact/shape.h"
@@ -9,7 +9,7 @@ inline constexpr std::string_view sphere_what = "a ball around the collider's or
 
 inline constexpr Parameter sphere_parameters[] = {
     {.key = "radius", .offset = offsetof(SphereDesc, radius), .min = 0, .max = far_away, .min_excluded = true,
-     .unit = "m", .what = "how far it reaches from the collider's origin"},
+     .unit = "m", .what = "radius"},
 };
 
 inline std::array<float, 4> shape_numbers(const SphereDesc& sphere) {

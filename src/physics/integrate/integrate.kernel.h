@@ -1,14 +1,14 @@
-// Moving particles: the substep's start and end (integrate.md has the scheme).
+// Integration of particles at the start and end of a substep (scheme: integrate.md).
 
 struct Step {
     real h;       // s    length of the substep
     real inv_h;   // 1/s
     real inv_h2;  // 1/s2
-    real tension; // N/m  in the cloth, for one-sided limits: they give way to it
-    real allowed; //      and are this many times as long
+    real tension; // N/m  in the cloth; lengthens one-sided limits
+    real allowed; //      factor on their length
 };
 
-// A particle's velocity with the part that float drops when gravity's small increment meets a large velocity.
+// A particle's velocity and the compensation for what rounding drops when a small increment meets a large velocity.
 struct Motion {
     vec3 v;         // m/s
     vec3 v_dropped; // m/s
@@ -22,7 +22,7 @@ WEFT_FN vec3 cap_speed(vec3 v, real max_speed)
     return select(too_fast(v, max_speed), v * (max_speed * inversesqrt(max(dot(v, v), real(1e-30)))), v);
 }
 
-// Where a particle would go without constraints. A weight of 0 stays. Returns where the cap acted.
+// Moves a particle as if there were no constraints; one of inverse mass 0 stays. Returns where the speed cap acted.
 WEFT_FN mask predict(inout_(vec3) x, inout_(Motion) m, real w, vec3 acceleration, real max_speed, Step step)
 {
     mask moves = w > real(0);
@@ -35,15 +35,15 @@ WEFT_FN mask predict(inout_(vec3) x, inout_(Motion) m, real w, vec3 acceleration
     return capped;
 }
 
-// The velocity that carried the particle from `start` to `x`. The prediction is computed once more rather than stored:
-// the same operations on the same numbers, so the same bits. Returns where the cap acted.
+// Computes the velocity from the motion from `start` to `x`. Recomputes the prediction instead of storing it: the same
+// operations on the same numbers give the same bits. Returns where the speed cap acted.
 WEFT_FN mask update_velocity(inout_(Motion) m, vec3 x, vec3 start, real w, real max_speed, Step step)
 {
     vec3 t = m.v * step.h + m.x_dropped;
     vec3 predicted = start + t;
     mask moves = w > real(0);
     m.x_dropped = select(moves, t - (predicted - start), vec3(real(0)));
-    // What is held has the velocity of the hand that moves it, and none when that stands.
+    // A kinematic particle has the velocity of its prescribed motion.
     vec3 v = select(moves, m.v + (x - predicted) * step.inv_h, (x - start) * step.inv_h);
     m.v = cap_speed(v, max_speed);
     return too_fast(v, max_speed);

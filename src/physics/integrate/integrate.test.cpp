@@ -20,8 +20,8 @@ struct Falling {
 
 class FreeFall : public testing::TestWithParam<int> {};
 
-// Ten meters from the origin a substep's motion is far below the spacing of floats; without the carried remainders
-// the fall would be percents slow, or never start.
+// Ten meters from the origin a substep's motion is far below the spacing of floats; without compensation the fall would
+// be several percent too slow, or never start.
 TEST_P(FreeFall, loses_nothing_to_rounding) {
     const int substeps = GetParam();
     const float h = static_cast<float>(1.0 / 60 / substeps);
@@ -38,7 +38,7 @@ TEST_P(FreeFall, loses_nothing_to_rounding) {
     // x₀ + ½ g t (t + h), the exact sum of the scheme.
     const double fallen = static_cast<double>(body.x.y) + body.m.x_dropped.y - 10;
     EXPECT_NEAR(fallen / (0.5 * g * t * (t + h)), 1, 1e-5);
-    // And the speed at which it is seen to move is the speed it has.
+    // The speed of its motion equals its velocity.
     const double seen = (static_cast<double>(body.x.y) + body.m.x_dropped.y - last) / (60.0 * h);
     EXPECT_NEAR(seen / (expected_velocity - g * 29.5 * h), 1, 1e-5);
 }
@@ -70,7 +70,7 @@ TEST(Integrate, speed_is_capped_and_says_so) {
     EXPECT_LE(std::sqrt(scalar::dot(m.v, m.v)), 2.5001f);
 }
 
-// Velocity from positions with its remainders is Verlet's x' = 2x - x_before + h² a; both forms walk the same path.
+// Velocity from positions with compensation is Verlet's x' = 2x - x_before + h² a; both forms give the same path.
 TEST(Integrate, agrees_with_verlet) {
     const double h = 1e-3, g = -9.81;
     reference::vec3 x(0, 1, 0), start(0.0);

@@ -12,15 +12,11 @@ namespace {
 using reference::vec3;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-vec3 exact(Vec3 p) {
-    return {p.x, p.y, p.z};
-}
-
-/// The three angles of a triangle, each opposite the corner of the same number.
+/// The three neighbors of a triangle, each across the edge opposite the corner of the same index.
 struct Around {
-    std::array<std::uint32_t, 3> wing = {none, none, none};  ///< the particle across the edge, if there is one
-    /// -1 where the neighbor is wound the other way and this triangle, not the neighbor, is taken as turned over: an
-    /// angle given by number then opens to the other side.
+    std::array<std::uint32_t, 3> wing = {none, none, none};  ///< the particle across the edge, or `none`
+    /// -1 if the two are wound inconsistently and this triangle, not the neighbor, is treated as flipped. A rest angle
+    /// in degrees then opens to the other side.
     std::array<double, 3> side = {1, 1, 1};
 };
 
@@ -41,14 +37,14 @@ std::vector<Around> find_wings(const Topology& topology) {
     return around;
 }
 
-/// M, where half of θᵀ M θ is the bending energy of a triangle with the angles θ across its three edges.
+/// M, where ½ θᵀ M θ is the bending energy of a triangle with the angles θ across its three edges.
 Matrix stiffness_of(const RestShape& rest, std::uint32_t triangle, const BendMaterial& material) {
     const Triangle& corners = rest.topology.triangles[triangle];
     std::array<vec3, 3> x;
-    for (int i = 0; i < 3; ++i) x[i] = exact(rest.topology.rest_positions[corners[i]]);
+    for (int i = 0; i < 3; ++i) x[i] = reference::to_double(rest.topology.rest_positions[corners[i]]);
     const vec3 normal = reference::cross(x[1] - x[0], x[2] - x[0]);
     const double area = 0.5 * std::sqrt(reference::dot(normal, normal));
-    const vec3 warp = exact(rest.warp[triangle]);
+    const vec3 warp = reference::to_double(rest.warp[triangle]);
     const vec3 weft = reference::cross(normal, warp) * (0.5 / area);
 
     // Curvature along warp and weft and their twist, per angle: θ ℓ/(2A) n⊗n.
@@ -56,7 +52,7 @@ Matrix stiffness_of(const RestShape& rest, std::uint32_t triangle, const BendMat
     for (int i = 0; i < 3; ++i) {
         const vec3 edge = x[(i + 2) % 3] - x[(i + 1) % 3];
         const double along_warp = reference::dot(edge, warp), along_weft = reference::dot(edge, weft);
-        // n is the edge turned by 90°, and what its length is too much is divided by.
+        // n is the edge turned by 90°; `scale` also divides by its length, to normalize it.
         const double scale = 1 / (2 * area * std::sqrt(reference::dot(edge, edge)));
         curvature[0][i] = along_weft * along_weft * scale;
         curvature[1][i] = along_warp * along_warp * scale;
@@ -73,7 +69,7 @@ Matrix stiffness_of(const RestShape& rest, std::uint32_t triangle, const BendMat
     return m;
 }
 
-/// L with L Lᵀ = M, a column of zeros where M has nothing to add.
+/// L with L Lᵀ = M. A column is zero if its pivot is 0 up to rounding.
 Matrix root_of(Matrix m) {
     Matrix l{};
     for (int k = 0; k < 3; ++k) {
@@ -90,13 +86,13 @@ Matrix root_of(Matrix m) {
     return l;
 }
 
-/// On the border nothing holds the sheet's slope: the angle across an edge without a neighbor is whatever takes the
-/// least energy.
+/// The slope of the sheet is free at its border: eliminates the angle across an edge without a neighbor by setting it
+/// to the value of least energy.
 void set_free(Matrix& m, int edge) {
     const Matrix all = m;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            // A pivot that is nothing but rounding has nothing to give.
+            // Skip pivots that are only rounding errors.
             if (all[edge][edge] > 1e-12 * (all[i][i] + all[j][j]))
                 m[i][j] -= all[i][edge] * all[edge][j] / all[edge][edge];
         }
@@ -104,7 +100,7 @@ void set_free(Matrix& m, int edge) {
     for (int i = 0; i < 3; ++i) m[i][edge] = m[edge][i] = 0;
 }
 
-/// A row for those of the angles that are `in`.
+/// Adds a constraint for the angles selected by `in`.
 void add_row(RowList& rows, const RestShape& rest, std::uint32_t triangle, const Around& around,
              const std::array<bool, 3>& in, const BendMaterial& material) {
     Matrix m = stiffness_of(rest, triangle, material);
@@ -118,7 +114,8 @@ void add_row(RowList& rows, const RestShape& rest, std::uint32_t triangle, const
     if (!(l[0][0] + l[1][1] + l[2][2] > 0)) return;
     const Triangle& p = rest.topology.triangles[triangle];
     const auto& x = rest.topology.rest_positions;
-    // Across a missing edge stands one of its ends: a triangle without area, which has no angle.
+    // For an edge without a neighbor, the wing is one of the edge's ends: the resulting triangle has no area and no
+    // angle.
     std::array<std::uint32_t, 3> wing = {p[1], p[2], p[0]};
     std::array<float, 3> angle{};
     for (int i = 0; i < 3; ++i) {
@@ -127,7 +124,9 @@ void add_row(RowList& rows, const RestShape& rest, std::uint32_t triangle, const
         wing[i] = around.wing[i];
         angle[i] = static_cast<float>(
             std::isnan(material.rest_angle)
-                ? reference::hinge_angle(exact(x[from]), exact(x[to]), exact(x[p[i]]), exact(x[wing[i]])).theta
+                ? reference::hinge_angle(reference::to_double(x[from]), reference::to_double(x[to]),
+                                         reference::to_double(x[p[i]]), reference::to_double(x[wing[i]]))
+                      .theta
                 : around.side[i] * material.rest_angle * std::numbers::pi / 180);
     }
     const auto f = [](double v) { return static_cast<float>(v); };
@@ -145,8 +144,8 @@ RowList build_plate(const RestShape& rest, const PlateMaterial& material) {
     for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
         std::array<bool, 3> left{};
         for (int i = 0; i < 3; ++i) left[i] = around[t].wing[i] != none;
-        // A row moves each wing once. Around a vertex of three triangles two wings are the same particle, and each
-        // gets a row of its own.
+        // A constraint may name a wing only once. Around a vertex with three triangles two wings are the same particle;
+        // they go into separate constraints.
         while (left[0] || left[1] || left[2]) {
             std::array<bool, 3> in{};
             for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Plate: turns a triangle's three neighbors toward their rest angles, all at once. C = transposed L (theta - rest).
+// Plate: rotates a triangle's three neighbors toward their rest angles together. C = transposed L (theta - rest).
 //
 //     dc---a---db       triangle (a, b, c); d* lies across the edge opposite *
 //       \ / \ /         theta > 0 where d* rises toward the side that the normal of (a, b, c) points to
@@ -8,15 +8,15 @@
 
 struct PlateRow { WEFT_ROW_plate(WEFT_ROW_MEMBER) };
 
-// The angle across the edge from p to q, between the triangle (p, q, o) and the one beyond, (q, p, d). All zero where a
-// triangle or the edge has collapsed, and where no particle can move.
+// The angle across the edge from p to q, between the triangle (p, q, o) and its neighbor (q, p, d). All members are
+// zero if a triangle or the edge has collapsed, or if no particle can move.
 struct PlateAngle {
-    real theta;           // rad, less the angle at ease
+    real theta;           // rad, minus the rest angle
     vec3 go, gp, gq, gd;  // gradient of theta, 1/m
     real weight;          // sum of weight times gradient squared, 1/(kg m2)
 };
 
-// n is the normal of (p, q, o), as long as twice the area.
+// n is the normal of (p, q, o); its length is twice the area.
 WEFT_FN PlateAngle plate_angle(vec3 n, vec3 o, vec3 p, vec3 q, vec3 d, real rest,
                                real wo, real wp, real wq, real wd)
 {
@@ -28,7 +28,8 @@ WEFT_FN PlateAngle plate_angle(vec3 n, vec3 o, vec3 p, vec3 q, vec3 d, real rest
     real n_2 = dot(n, n);
     real m_2 = dot(m, m);
 
-    // A tip turns about the edge at a lever |n|/|e|; the ends of the edge take what balances force and torque.
+    // A tip rotates about the edge with lever arm |n|/|e|; the gradients at the ends of the edge balance force and
+    // torque.
     vec3 turn_o = n * (real(1) / max(n_2, real(1e-30)));
     vec3 turn_d = m * (real(1) / max(m_2, real(1e-30)));
     real inv_len = real(1) / max(len, real(1e-10));
@@ -42,7 +43,7 @@ WEFT_FN PlateAngle plate_angle(vec3 n, vec3 o, vec3 p, vec3 q, vec3 d, real rest
     mask able = len > real(1e-10) && n_2 > real(1e-30) && m_2 > real(1e-30) && w > real(0);
 
     PlateAngle h;
-    // Sine and cosine, both times |n| |m|; as sharp at 0 and at +-pi as between.
+    // Sine and cosine, both times |n| |m|; equally accurate for all angles.
     h.theta = select(able, wrap_angle(angle_of(dot(n, pd) * len, dot(n, m)) - rest), real(0));
     h.go = select(able, go, vec3(real(0)));
     h.gp = select(able, gp, vec3(real(0)));
@@ -66,8 +67,8 @@ WEFT_FN PlateAngles plate_angles(vec3 da, vec3 db, vec3 dc, vec3 a, vec3 b, vec3
     return t;
 }
 
-// Solves (1 + k S) x = r, where S is transposed L times W times L and W what the three angles weigh, each on each:
-// the sum of a particle's weight times grad_i times grad_j.
+// Solves (1 + k S) x = r, where S is transposed L times W times L. W couples the three angles: W_ij is the sum over the
+// particles of weight times grad_i times grad_j.
 WEFT_FN vec3 plate_solve(PlateAngles t, real wa, real wb, real wc, PlateRow row, real k, vec3 r)
 {
     real w_ab = wa * dot(t.a.go, t.b.gq) + wb * dot(t.a.gp, t.b.go) + wc * dot(t.a.gq, t.b.gp);
@@ -88,7 +89,7 @@ WEFT_FN vec3 plate_solve(PlateAngles t, real wa, real wb, real wc, PlateRow row,
     real s_bc = row.l_cc * v_cb;
     real s_cc = row.l_cc * v_cc;
 
-    // Elimination. S has no negative eigenvalue, so no pivot is below 1 but by rounding.
+    // Elimination. S has no negative eigenvalue, so only rounding can make a pivot smaller than 1.
     real one = real(1);
     real inv_a = one / max(one + s_aa, one);
     real f_ab = s_ab * inv_a;
@@ -103,17 +104,17 @@ WEFT_FN vec3 plate_solve(PlateAngles t, real wa, real wb, real wc, PlateRow row,
     x.z = y_c * inv_c;
     x.y = y_b * inv_b - f_bc * x.z;
     x.x = r.x * inv_a - f_ab * x.y - f_ac * x.z;
-    // Beyond, squares leave the range of a float: the row waits.
+    // For larger values squares exceed the range of a float: skip the constraint.
     return select(s_aa + s_bb + s_cc < real(1e30), x, vec3(real(0)));
 }
 
-// L x: from the row's three numbers to moments of the three angles, or to anything that goes with them.
+// L x: from the constraint's three components to moments of the three angles.
 WEFT_FN vec3 plate_moments(PlateRow row, vec3 x)
 {
     return vec3(row.l_aa * x.x, row.l_ba * x.x + row.l_bb * x.y, row.l_ca * x.x + row.l_cb * x.y + row.l_cc * x.z);
 }
 
-// Transposed L x: from the three angles to the row's three numbers.
+// Transposed L x: from the three angles to the constraint's three components.
 WEFT_FN vec3 plate_strains(PlateRow row, vec3 x)
 {
     return vec3(row.l_aa * x.x + row.l_ba * x.y + row.l_ca * x.z, row.l_bb * x.y + row.l_cb * x.z, row.l_cc * x.z);
@@ -129,7 +130,7 @@ WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
     real h2 = step.h * step.h;
     vec3 lambda = vec3(lambda_a, lambda_b, lambda_c);
     vec3 strain = plate_strains(row, vec3(t.a.theta, t.b.theta, t.c.theta));
-    // The compliance is 1/h2, times which everything is.
+    // The scaled compliance is 1/h2; all terms are multiplied by h2.
     vec3 dl = plate_solve(t, wa, wb, wc, row, h2, -(strain * h2 + lambda));
     lambda_a = lambda_a + dl.x;
     lambda_b = lambda_b + dl.y;
@@ -143,8 +144,8 @@ WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
     c = c + (t.a.gq * m.x + t.b.gp * m.y + t.c.go * m.z) * wc;
 }
 
-// Viscosity beside the spring: against the rates at which the angles change, implicit. `viscous` is the retardation
-// time times the time step, s2.
+// Viscosity parallel to the spring: an implicit impulse against the rates of change of the angles. `viscous` is the
+// retardation time times the time step, s2.
 WEFT_FN void damp_plate(inout_(vec3) vda, inout_(vec3) vdb, inout_(vec3) vdc,
                         inout_(vec3) va, inout_(vec3) vb, inout_(vec3) vc,
                         vec3 da, vec3 db, vec3 dc, vec3 a, vec3 b, vec3 c,

@@ -12,7 +12,7 @@ using namespace testing_kernels;
 using reference::PlateRow;
 using std::numbers::pi;
 
-// In the order of a row.
+// In the order of a constraint's particles.
 struct Patch {
     vec3 p[6];  // da, db, dc, a, b, c
     double w[6] = {1, 1, 1, 1, 1, 1};
@@ -31,7 +31,7 @@ struct Patch {
     }
 };
 
-// Gradients of the three angles, by particle in the order of a row.
+// Gradients of the three angles, in the order of a constraint's particles.
 std::array<std::array<vec3, 6>, 3> gradients(const reference::PlateAngles& t) {
     const vec3 zero(0.0);
     return {{{t.a.gd, zero, zero, t.a.go, t.a.gp, t.a.gq},
@@ -115,7 +115,7 @@ TEST(Plate, solves_its_three_numbers_at_once) {
         const vec3 r = random.vector(1);
         const double k = random.number(0, 10);
         const vec3 x = reference::plate_solve(t, patch.w[3], patch.w[4], patch.w[5], row, k, r);
-        // Transposed L W L x, by way of what every particle would do.
+        // Transposed L W L x, summed particle by particle.
         const vec3 m = reference::plate_moments(row, x);
         const double moment[3] = {m.x, m.y, m.z};
         const auto g = gradients(t);
@@ -166,7 +166,7 @@ TEST(Plate, a_missing_neighbor_stands_at_an_end_of_its_edge_and_does_nothing) {
     EXPECT_EQ(norm(patch.p[2] - before.p[2]), 0);
     EXPECT_EQ(patch.lambda[2], 0);
     EXPECT_GT(norm(patch.p[3] - before.p[3]), 1e-6);
-    // A wing that has collapsed onto the edge later on leaves the other two at work.
+    // If a wing later collapses onto the edge, the other two still act.
     Patch collapsed = before;
     collapsed.project(flat_and_stiff, 0.5);
     EXPECT_GT(norm(collapsed.p[3] - before.p[3]), 1e-6);
@@ -251,7 +251,7 @@ PlateRow row_at(const RowList& rows, std::uint32_t r) {
     return {f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8]};
 }
 
-// Particles that stand in a row more than once.
+// Particles that a constraint names more than once.
 int repeats(const RowList& rows, std::uint32_t r) {
     const auto first = rows.particles.begin() + 6 * std::ptrdiff_t{r};
     std::vector<std::uint32_t> sorted(first, first + 6);
@@ -300,9 +300,9 @@ TEST(PlateRows, come_from_the_model_that_is_asked_for) {
     const TriangleMesh mesh = make_grid({1, 1}, {5, 4}, GridDiagonal::alternating);
     const auto topology = build_topology(mesh);
     const RestShape rest = make_rest_shape(mesh, *topology);
-    for (const BendModel model : {BendModel::hinges, BendModel::plate}) {
+    for (const BendModel model : {BendModel::dihedral, BendModel::plate}) {
         const BendMaterial material{.model = model};
-        EXPECT_EQ(build_bend(rest, material).size() > 0, model == BendModel::hinges);
+        EXPECT_EQ(build_bend(rest, material).size() > 0, model == BendModel::dihedral);
         EXPECT_EQ(build_plate(rest, material).size(), model == BendModel::plate ? topology->triangles.size() : 0u);
         EXPECT_EQ(build_plate(rest, {.bend = {0, 0, 0}, .model = model}).size(), 0u) << "limp";
     }

@@ -1,4 +1,4 @@
-// Stitch: two points on cloth, of two cloths or of one, kept a gap apart. Read by C++ and by GLSL (stitch.md has the law).
+// Stitch: keeps two points on cloth, of two cloths or of one, at a given gap. Read by C++ and by GLSL (law: stitch.md).
 #ifndef WEFT_STITCH_DATA_H
 #define WEFT_STITCH_DATA_H
 

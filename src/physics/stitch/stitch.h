@@ -1,4 +1,4 @@
-// Stitches: which particles a pair of points on cloth moves, and by what shares.
+// Stitches: the particles that a pair of points on cloth moves, and their shares.
 #pragma once
 
 #include "physics/constraint.h"
@@ -14,8 +14,8 @@ struct StitchPoint {
     std::array<float, 3> shares{1, 0, 0};
 };
 
-/// Adds a stitch to a list of them. Particles without a share are left out; one that both points share is moved by the
-/// difference. Adds nothing, and says false, where no particle is left: the two are one point.
+/// Adds a stitch to the list. Leaves out particles with share 0; a particle of both points gets the difference of its
+/// shares. If no particle is left, the two points are the same: adds nothing and returns false.
 bool add_stitch(RowList& rows, const StitchPoint& a, const StitchPoint& b, float gap, float compliance);
 
 }  // namespace weft

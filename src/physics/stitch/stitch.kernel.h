@@ -2,7 +2,8 @@
 
 struct StitchRow { WEFT_ROW_stitch(WEFT_ROW_MEMBER) };
 
-// From the second point to the first. Shares sum to 0, so differences from one particle do: less is rounded away.
+// The vector from the second point to the first. Shares sum to 0, so it can be computed from differences to one
+// particle, which reduces rounding errors.
 WEFT_FN vec3 across_stitch(vec3 x0, vec3 x1, vec3 x2, vec3 x3, vec3 x4, vec3 x5, StitchRow row)
 {
     return (x1 - x0) * row.c1 + (x2 - x0) * row.c2 + (x3 - x0) * row.c3 + (x4 - x0) * row.c4 + (x5 - x0) * row.c5;

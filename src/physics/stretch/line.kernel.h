@@ -1,29 +1,31 @@
-// Rows of stretch that follow one another along a line, solved together. (line.md)
+// Solves the consecutive stretch constraints of a line together (line.md).
 //
-// Row k of a line holds its points k and k + 1. Neighboring rows share a point and nothing else, so the system of one
-// Newton step is tridiagonal: elimination runs along the line, substitution comes back.
+// Constraint k of a line connects its points k and k + 1. Neighboring constraints share only one point, so the system
+// of one Newton step is tridiagonal: elimination runs forward along the line, substitution runs backward.
 
-// What elimination leaves of a row.
+// Result of the elimination for one constraint.
 struct LineRow {
     vec3 n;          // from the second point to the first, unit; 0 if there is no direction
-    real g;          // delta lambda where the next row's is 0
-    real factor;     // minus its change with the next row's
+    real g;          // delta lambda if that of the next constraint is 0
+    real factor;     // minus its derivative by the next one's
     real limit;      // of |delta lambda|
-    // Only for the next row:
+    // Only for the next constraint:
     real inverse;    // of the pivot
-    real couples;    // 1; 0 for a row that does not depend on its neighbors
+    real couples;    // 1; 0 for a constraint that does not depend on its neighbors
 };
 
-// A line that is taut between two pins has no exact solution, and nearly none when it is almost straight. This much of
-// the weights on the diagonal keeps pivots away from 0; it takes as little from the longest waves only.
+// A line that is taut between two pins has no exact solution, and an almost straight one is ill-conditioned. Adding
+// this fraction of the weights to the diagonal keeps pivots away from 0. It affects only the longest waves, and those
+// little.
 #define WEFT_LINE_REGULARIZATION 1e-4
 
-// A row gives at least as the part of its length does that it is out by, up to this. A line pulled longer than its rows
-// then settles to a bounded tension, the same in each, and rows near to one another still share out how they differ.
+// A constraint's compliance is at least its relative length error, clamped to this, times its weight. A line pulled
+// longer than its rest length then converges to a bounded tension, equal in all its constraints, and neighboring
+// constraints still balance their differences.
 #define WEFT_LINE_GIVE 0.1
 
-// A tension moves the points of a kinked line sideways, and more than to the straight line if it is large for the time
-// step: the line would swing about. Up to this part of the rest length per weight it does not.
+// Tension moves the points of a kinked line sideways. If it is large for the time step, it moves them beyond the
+// straight line and the line oscillates. A change of lambda of up to this part of the rest length per weight does not.
 #define WEFT_LINE_PULL 0.5
 
 WEFT_FN LineRow line_start()
@@ -38,7 +40,7 @@ WEFT_FN LineRow line_start()
     return none;
 }
 
-// What a row brings to its line's system, for itself.
+// The terms of a constraint in its line's system, without the coupling.
 struct LineTerms {
     vec3 n;          // as LineRow has it
     real rhs;
@@ -61,16 +63,16 @@ WEFT_FN LineTerms line_terms(vec3 a, vec3 b, real wa, real wb, real lambda, Stre
     t.diagonal = select(stiff, w + w * real(WEFT_LINE_REGULARIZATION) + max(state.alpha, w * excess), real(1));
     t.couples = select(stiff, real(1), real(0));
     t.n = state.d * select(able, real(1) / state.len, real(0));
-    // Never less than the row alone would take.
-    real alone = abs(rhs) / select(stiff, w + state.alpha, real(1));
-    t.limit = max(alone, row.rest * real(WEFT_LINE_PULL) / max(max(wa, wb), real(1e-30)));
+    // Never less than the change of an independent projection.
+    real own = abs(rhs) / select(stiff, w + state.alpha, real(1));
+    t.limit = max(own, row.rest * real(WEFT_LINE_PULL) / max(max(wa, wb), real(1e-30)));
     return t;
 }
 
-// How a row and the one before it depend on one another, by the point that they share.
+// Coupling of a constraint and the previous one through their shared point.
 WEFT_FN real line_coupling(vec3 n_before, vec3 n, real wa) { return -wa * dot(n_before, n); }
 
-// Completes the `factor` of the row before.
+// Also completes the `factor` of the previous constraint.
 WEFT_FN LineRow eliminate_line(inout_(LineRow) before, real coupling, LineTerms t)
 {
     before.factor = before.couples * coupling * before.inverse;
@@ -85,7 +87,7 @@ WEFT_FN LineRow eliminate_line(inout_(LineRow) before, real coupling, LineTerms 
     return now;
 }
 
-// Both; a is the point that the row shares with the one before.
+// Both; a is the point shared with the previous constraint.
 WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real wa, real wb, real lambda,
                                   StretchRow row, Step step)
 {
@@ -93,7 +95,7 @@ WEFT_FN LineRow eliminate_stretch(inout_(LineRow) before, vec3 a, vec3 b, real w
     return eliminate_line(before, line_coupling(before.n, t.n, wa), t);
 }
 
-// Delta lambda of a row from that of the next one.
+// Delta lambda of a constraint from that of the next one.
 WEFT_FN real substitute_stretch(LineRow now, real next)
 {
     real change = now.g - now.factor * next;

@@ -9,7 +9,7 @@ using namespace testing_kernels;
 using reference::LineRow;
 using reference::StretchRow;
 
-// A line of points, solved as the backends do it.
+// A line of points, solved as in the backends.
 struct Line {
     std::vector<vec3> x;
     std::vector<double> w;
@@ -39,7 +39,7 @@ struct Line {
     double stretched(std::size_t k) const { return norm(x[k] - x[k + 1]) - rows[k].rest; }
 };
 
-// Within a tenth of its rest shape, so that no row pulls so hard that it is held back.
+// Within a tenth of its rest shape, so that no pull reaches its limit.
 Line random_line(Random& random, std::size_t count, double compliance) {
     Line line;
     vec3 at(0, 0, 0);
@@ -85,7 +85,7 @@ TEST(StretchLine, keeps_momentum) {
     Random random(2);
     for (int round = 0; round < 50; ++round) {
         Line line = random_line(random, 30, 0);
-        for (vec3& x : line.x) x = x + random.vector(0.4);  // far off, so that rows are held back
+        for (vec3& x : line.x) x = x + random.vector(0.4);  // far off, so that pulls reach their limit
         const Line before = line;
         line.solve(0.01);
         vec3 linear(0, 0, 0), angular(0, 0, 0);
@@ -111,7 +111,7 @@ TEST(StretchLine, of_one_row_is_that_row) {
     }
 }
 
-// A hundred rows hang from a pin and have fallen by a step: the error is everywhere, its cause at one end.
+// A hundred constraints hang from a pin and have fallen for one step: the error is everywhere, its cause at one end.
 TEST(StretchLine, brings_a_long_line_to_its_lengths_at_once) {
     constexpr std::size_t count = 100;
     Line line, sweep;
@@ -160,7 +160,7 @@ TEST(StretchLine, goes_around_rows_without_stiffness) {
     }
 }
 
-// Taut between two pins and too long or too short: there is no solution, and the line must not fly about for it.
+// Taut between two pins and too long or too short: there is no solution, but the line must stay stable.
 TEST(StretchLine, stays_calm_between_pins_that_are_too_far_apart) {
     for (const double strain : {0.02, 0.5, -0.1}) {
         Line line;

@@ -10,10 +10,9 @@ struct Moduli {
     float warp, weft;
 };
 
-// The springs along warp and weft carry a uniaxial load together with the diagonals. Solving
-//     k₁ + K_s k₂/(k₂ + K_s) = K_warp   and its mirror
-// leaves to the springs what the diagonals do not carry. A fabric whose shear stiffness nearly equals a tensile one has
-// no such split; its springs keep a twentieth.
+// The springs along warp and weft carry a uniaxial load together with the diagonals. Solving k₁ + K_s k₂/(k₂ + K_s) =
+// K_warp   and its mirror gives the springs what the diagonals do not carry. If the shear stiffness nearly equals a
+// tensile one, there is no such split; the springs then keep a twentieth.
 Moduli without_shear(Moduli k, float shear) {
     Moduli spring = k;
     const auto carried = [shear](float other) { return other + shear > 0 ? shear * other / (other + shear) : 0.0f; };
@@ -28,7 +27,7 @@ Moduli without_shear(Moduli k, float shear) {
 
 StretchLaw::Side StretchLaw::side_of(const float (&moduli)[2], float shear) {
     const Moduli k = without_shear({moduli[0], moduli[1]}, shear);
-    // A millionth is what rounding leaves of warp and weft in a diagonal of a fabric without shear stiffness.
+    // In a fabric without shear stiffness, rounding leaves up to a millionth of warp and weft in a diagonal.
     return {k.warp, k.weft, 1e-6f * std::max({k.warp, k.weft, shear})};
 }
 

@@ -1,9 +1,9 @@
-// Stretch: the distance along an edge. Read by C++ and by GLSL (stretch.md has the law).
+// Stretch: the distance along an edge. Read by C++ and by GLSL (law: stretch.md).
 #ifndef WEFT_STRETCH_DATA_H
 #define WEFT_STRETCH_DATA_H
 
-// The numbers of one row.
-//   rest         m    length at which the edge is at ease
+// The numbers of one constraint.
+//   rest         m    length at which the edge is at rest
 //   compliance   m/N  inverse stiffness while the edge is longer than that
 //   compression  m/N  inverse stiffness while it is shorter
 #define WEFT_ROW_stretch(FIELD) FIELD(rest) FIELD(compliance) FIELD(compression)
@@ -24,13 +24,13 @@ struct StretchMaterial {
 
 inline constexpr Parameter stretch_parameters[] = {
     {.key = "stretch", .count = 2, .offset = offsetof(StretchMaterial, stretch), .min = 0, .max = 1e9, .unit = "N/m",
-     .what = "tensile stiffness along warp and weft; 0 leaves that direction free"},
+     .what = "tensile stiffness along warp and weft; 0: none"},
     {.key = "compression", .count = 2, .offset = offsetof(StretchMaterial, compression), .min = 0, .max = 1e9,
-     .unit = "N/m", .what = "stiffness against shortening along warp and weft"},
+     .unit = "N/m", .what = "compressive stiffness along warp and weft"},
     {.key = "shear", .count = 1, .offset = offsetof(StretchMaterial, shear), .min = 0, .max = 1e9, .unit = "N/m",
      .what = "shear stiffness"},
     {.key = "inextensible", .kind = ParameterKind::flag, .offset = offsetof(StretchMaterial, inextensible),
-     .what = "every edge keeps its length, whatever the stiffnesses say"},
+     .what = "keep the length of every edge, whatever the stiffnesses"},
 };
 
 }  // namespace weft

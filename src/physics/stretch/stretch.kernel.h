@@ -2,14 +2,14 @@
 
 struct StretchRow { WEFT_ROW_stretch(WEFT_ROW_MEMBER) };
 
-// A row as its points stand.
+// A constraint at the current positions of its points.
 struct StretchState {
     vec3 d;               // from the second point to the first
     real len2;
     real len;
     real c;
     real alpha;
-    mask slack;           // no stiffness on this side: any lambda left over unwinds
+    mask slack;           // no stiffness on this side: any remaining lambda is undone
 };
 
 WEFT_FN StretchState measure_stretch(vec3 a, vec3 b, StretchRow row, Step step)
@@ -40,8 +40,8 @@ WEFT_FN void project_stretch(inout_(vec3) a, inout_(vec3) b, real wa, real wb,
     b = b - now.d * (wb * s);
 }
 
-// Viscosity beside the spring: an impulse along the edge against the rate at which its length changes, implicit, so
-// that it stops that change at most. `viscous` is the retardation time times the time step, s2.
+// Viscosity parallel to the spring: an implicit impulse along the edge against the rate of change of its length, which
+// can at most stop that change. `viscous` is the retardation time times the time step, s2.
 WEFT_FN void damp_stretch(inout_(vec3) va, inout_(vec3) vb, vec3 a, vec3 b, real wa, real wb,
                           StretchRow row, real viscous)
 {

@@ -72,7 +72,7 @@ TEST(Stretch, without_stiffness_against_compression_is_a_string) {
     double lambda = 0;
     reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0, -1}, make_step(0.01));
     EXPECT_EQ(b.x - a.x, 0.5);
-    // What an earlier iteration pulled too far goes back.
+    // A later iteration corrects what an earlier one pulled too far.
     lambda = -0.05;
     reference::project_stretch(a, b, 1, 1, lambda, StretchRow{1, 0, -1}, make_step(0.01));
     EXPECT_NEAR(b.x - a.x, 0.6, 1e-12);
@@ -127,9 +127,9 @@ RowList grid_rows(const StretchMaterial& material, GridDiagonal diagonal = GridD
 
 TEST(StretchRows, a_sheet_is_as_stiff_as_its_fabric) {
     // Pulled along the warp, an alternating square grid stretches by the same ratio everywhere and narrows by one
-    // other. With the diagonals' springs k_d = 4 K_s A/ℓ² = 2 K_s the energy per area is
-    //   ½ k₁ ε² + ½ k₂ ν² + ½ K_s (ε + ν)²,   so at rest across ν = -K_s ε/(k₂ + K_s).
-    // The stiffness that remains, k₁ + K_s k₂/(k₂ + K_s), must be K_warp. The rows give k₁, k₂ and K_s back.
+    // other. With the diagonals' springs k_d = 4 K_s A/ℓ² = 2 K_s the energy per area is ½ k₁ ε² + ½ k₂ ν² + ½ K_s (ε +
+    // ν)²,   so at rest across ν = -K_s ε/(k₂ + K_s). The stiffness that remains, k₁ + K_s k₂/(k₂ + K_s), must be
+    // K_warp. k₁, k₂ and K_s follow from the constraints.
     const StretchMaterial material{.stretch = {3000, 1200}, .compression = {3000, 1200}, .shear = 250};
     const RowList rows = grid_rows(material);
     const double cell = 0.25;

@@ -1,4 +1,4 @@
-// What a fabric makes of an edge.
+// Stiffness of edges in a fabric.
 #pragma once
 
 #include "physics/rest_shape.h"
@@ -6,12 +6,12 @@
 
 namespace weft {
 
-/// How stiff edges of a material are. Without branches on the edge, so loops over many edges run on lanes.
+/// Stiffness of a material's edges. Has no branches on the edge, so loops over edges vectorize.
 class StretchLaw {
   public:
     explicit StretchLaw(const StretchMaterial& material);
 
-    /// m/N; a negative one says "no stiffness" to the kernel, which has no infinity.
+    /// m/N; negative for no stiffness, because kernels have no infinity.
     struct Compliances {
         float stretched, compressed;
         bool none() const { return stretched < 0 && compressed < 0; }
@@ -25,7 +25,7 @@ class StretchLaw {
   private:
     struct Side {
         float warp, weft;  ///< N/m
-        float least;       ///< N/m: what rounding may leave of no stiffness
+        float least;       ///< N/m: stiffness up to this is rounding error
     };
     static Side side_of(const float (&moduli)[2], float shear);
     float compliance(const Side& side, float cos2, float strip) const {

@@ -3,7 +3,7 @@
 // Twice the area times the unit normal.
 WEFT_FN vec3 face_normal(vec3 a, vec3 b, vec3 c) { return cross(b - a, c - a); }
 
-// A particle whose faces cancel, vanish or leave the range of a float gets +y rather than NaN.
+// Returns +y instead of NaN if the faces of a particle cancel, vanish or exceed the range of a float.
 WEFT_FN vec3 unit_normal(vec3 sum)
 {
     real len2 = dot(sum, sum);

@@ -1,13 +1,12 @@
-// Tangents: the direction in which u grows, for normal maps (tangents.md has the law).
+// Tangents: the direction of increasing u, for normal maps (law: tangents.md).
 
 struct TangentFrame {
-    vec3 tangent;    // in which u grows
-    vec3 bitangent;  // in which v grows
+    vec3 tangent;    // direction of increasing u
+    vec3 bitangent;  // direction of increasing v
 };
 
-// Of a triangle with the corners a, b, c, from the UVs of b and c less those of a: the solution of
-//     b - a = du1 tangent + dv1 bitangent,   c - a = du2 tangent + dv2 bitangent.
-// UVs without an area give nothing.
+// Of a triangle with the corners a, b, c, from the UVs of b and c less those of a: the solution of b - a = du1 tangent
+// + dv1 bitangent,   c - a = du2 tangent + dv2 bitangent. The result is zero if the UVs have no area.
 WEFT_FN TangentFrame face_tangents(vec3 a, vec3 b, vec3 c, real du1, real dv1, real du2, real dv2)
 {
     vec3 e1 = b - a;
@@ -22,8 +21,8 @@ WEFT_FN TangentFrame face_tangents(vec3 a, vec3 b, vec3 c, real du1, real dv1, r
     return frame;
 }
 
-// Some unit vector across a unit normal: the x or y axis, less what of it lies along the normal. Written out, as not
-// every compiler of shaders keeps the sign of a difference from 0.
+// A unit vector perpendicular to a unit normal: the x or y axis minus its component along the normal. Written out,
+// because not every shader compiler keeps the sign of a difference from 0.
 WEFT_FN vec3 any_across(vec3 n)
 {
     vec3 of_x = vec3(real(1) - n.x * n.x, -(n.y * n.x), -(n.z * n.x));
@@ -32,13 +31,13 @@ WEFT_FN vec3 any_across(vec3 n)
     return t * inversesqrt(max(dot(t, t), real(1e-30)));
 }
 
-// From the sum over the triangles at a vertex: laid into the plane of its normal, unit. `handedness` is 1 or -1:
-// bitangent = handedness * cross(normal, tangent).
+// The sum over the triangles at a vertex, projected onto the plane of its normal and normalized. `handedness` is 1 or
+// -1: bitangent = handedness * cross(normal, tangent).
 WEFT_FN vec3 unit_tangent(TangentFrame sum, vec3 n, out_(real) handedness)
 {
     vec3 t = sum.tangent - n * dot(n, sum.tangent);
     real len2 = dot(t, t);
-    // What the projection leaves of a tangent along the normal is rounding, not a direction.
+    // If the tangent is parallel to the normal, its projection is only rounding error.
     mask able = len2 > real(1e-30) && len2 > real(1e-10) * dot(sum.tangent, sum.tangent);
     t = select(able, t * inversesqrt(max(len2, real(1e-30))), any_across(n));
     handedness = select(dot(cross(n, t), sum.bitangent) < real(0), real(-1), real(1));

@@ -18,15 +18,15 @@ double dot_exact(Vec3 a, Vec3 b) {
     return static_cast<double>(a.x) * b.x + static_cast<double>(a.y) * b.y + static_cast<double>(a.z) * b.z;
 }
 
-// The arrival at c of a straight front that reached a at da and b at db: unfold the triangle, place the source at its
-// distances from a and b on the far side, and measure from there. Valid only if the straight way to c runs through the
+// The distance at c of a straight front with distance da at a and db at b: unfolds the triangle, places the source on
+// the far side at its distances from a and b, and measures from there. Valid only if the straight line to c crosses the
 // edge ab.
 double through_triangle(Vec3 a, Vec3 b, Vec3 c, double da, double db) {
     const double ab = std::sqrt(dot_exact(b - a, b - a));
     if (!(ab > 0) || !(da < infinity) || !(db < infinity)) return infinity;
     const double sx = (da * da - db * db + ab * ab) / (2 * ab);
     const double sy2 = da * da - sx * sx;
-    if (sy2 < 0) return infinity;  // no such point: the front came along the edge
+    if (sy2 < 0) return infinity;  // no such point: the front moves along the edge
     const double sy = -std::sqrt(sy2);
     const double cx = dot_exact(c - a, b - a) / ab;
     const double cy2 = dot_exact(c - a, c - a) - cx * cx;
@@ -37,26 +37,26 @@ double through_triangle(Vec3 a, Vec3 b, Vec3 c, double da, double db) {
     return std::sqrt((cx - sx) * (cx - sx) + (cy - sy) * (cy - sy));
 }
 
-// A triangle as a particle sees it that it stands at.
+// A triangle, as stored for one of its corners.
 struct Sector {
-    std::array<std::uint32_t, 2> others;  // corners, in the order in which the triangle has them from here on
-    std::array<float, 2> side;            // m, from here to them
+    std::array<std::uint32_t, 2> others;  // the next two corners in the triangle's order
+    std::array<float, 2> side;            // m, from this corner to them
     float twice_area;                     // m²
 
-    /// No front that was here at d and at others[from] at d_from is at the third corner before. By way of a point X of
-    /// the side between the two, |SC| = |SX| + |XC|, with |SX| >= |SA| - |XA|, |SX| >= |SB| - |XB| and |XC| no less
-    /// than the height.
+    /// Lower bound for the distance at the third corner of a front with distance d here and d_from at others[from].
+    /// Through a point X of the side between the two, |SC| = |SX| + |XC|, with |SX| >= |SA| - |XA|, |SX| >= |SB| - |XB|
+    /// and |XC| no less than the height.
     double earliest_from(std::size_t from, double d, double d_from) const {
-        constexpr double rounding = 1e-6;  // more than that of the floats
+        constexpr double rounding = 1e-6;  // more than the rounding of floats
         const float ab = side[from], height = twice_area / ab;
         return (d + d_from - ab) / 2 + height - rounding * (d + d_from + ab + height);
     }
-    /// Nor at others[to] before, along the side.
+    /// Lower bound for the distance at others[to], along the side.
     double earliest_along(std::size_t to, double d) const { return d + side[to] * (1 - 1e-6); }
 };
 
-// The sectors of each particle, its triangles ascending: side by side, as a front comes by in an order that no cache
-// likes, and asked for when the particle is seen from afar.
+// The sectors of each particle, its triangles ascending. They are stored contiguously, because fronts visit particles
+// in a cache-unfriendly order, and prefetched when a front first reaches a neighbor.
 class Sectors {
   public:
     explicit Sectors(const Topology& topology)
@@ -86,7 +86,7 @@ class Sectors {
     std::vector<Sector> sectors_;
 };
 
-// Every way that is known has a number, most · particle + i; it is final once it has come out of the queue.
+// Computes ways_to_places(). A known geodesic has the index most · particle + i; it is final once it leaves the queue.
 class March {
   public:
     March(const Topology& topology, std::uint32_t most)
@@ -116,7 +116,7 @@ class March {
     }
     bool is_final(const Way& way) const { return final_[static_cast<std::size_t>(&way - ways_.ways.data())]; }
 
-    /// What is known of the way from there to a place, or null.
+    /// The known geodesic from the particle to the place, or null.
     const Way* find(std::uint32_t particle, std::uint32_t place) {
         for (const Way& way : ways_from(particle)) {
             if (way.place == place) return &way;
@@ -124,8 +124,8 @@ class March {
         return nullptr;
     }
 
-    /// Takes what is nearer than what is known. A final way may still become shorter, where a front comes round an
-    /// obtuse triangle; nothing goes on from it once more.
+    /// Stores a distance that is shorter than the known one. A final distance may still become shorter, if a front
+    /// arrives around an obtuse triangle; it is not propagated again.
     void offer(std::uint32_t particle, const Way& offered) {
         Way* taken = nullptr;
         for (Way& way : ways_from(particle)) {
@@ -133,7 +133,7 @@ class March {
                 taken = &way;
                 break;
             }
-            // If there is no room, in place of the farthest.
+            // If there is no room, replaces the farthest that is not final.
             if (!is_final(way) && (!taken || taken->distance < way.distance)) taken = &way;
         }
         if (!taken || (taken->place != none && !(offered.distance < taken->distance))) return;
@@ -141,7 +141,7 @@ class March {
         if (!is_final(*taken)) queue_.put(static_cast<std::uint32_t>(taken - ways_.ways.data()), offered.distance);
     }
 
-    /// The front has come to p: what that means for the two other corners of a triangle there.
+    /// Propagates a front from p to the two other corners of a triangle.
     void pass(const Sector& sector, std::uint32_t p, const Way& front) {
         const Way* known[2] = {find(sector.others[0], front.place), find(sector.others[1], front.place)};
         const bool final[2] = {known[0] && is_final(*known[0]), known[1] && is_final(*known[1])};
@@ -155,7 +155,7 @@ class March {
                 offer(q, {d, front.place, front.source});
                 continue;
             }
-            // Fronts from different sources do not make one front.
+            // Distances from different sources cannot be combined.
             const double dq = known[i]->distance;
             if (known[i]->source != front.source) continue;
             if (known[1 - i] && sector.earliest_from(i, front.distance, dq) > known[1 - i]->distance) continue;

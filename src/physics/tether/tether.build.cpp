@@ -1,7 +1,7 @@
 #include "physics/constraint.h"
 #include "physics/rest_frames.h"
 #include "physics/tether/geodesic.h"
-#include "physics/tether/held_places.h"
+#include "physics/tether/pinned_places.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 namespace weft {
 namespace {
 
-// Tethers per particle, each to another place where the cloth is held. More of them cost time and change little: what
-// holds is the nearest few.
+// Tethers per particle, each to a different pinned place. More cost time and change little, because the nearest few
+// carry the load.
 constexpr std::size_t max_tethers = 4;
-// So many ways are followed for them: the last of them may be a little too long (geodesic.h).
+// Geodesics computed per particle. More than the tethers, because the last ones may be slightly too long (geodesic.h).
 constexpr std::size_t max_ways = max_tethers + 2;
 
 struct Tether {
@@ -24,7 +24,7 @@ struct Tether {
     }
 };
 
-// Where the cloth is flat, the way runs as the straight line does.
+// In flat cloth the geodesic follows the straight line.
 Limit limit_between(const RestShape& rest, std::uint32_t a, std::uint32_t b, double way) {
     const auto& x = rest.topology.rest_positions;
     const StraightLine line = straight_line(rest.frames[a], rest.frames[b], x[b] - x[a]);
@@ -37,26 +37,26 @@ Limit limit_between(const RestShape& rest, std::uint32_t a, std::uint32_t b, dou
 
 RowList build_tether(const RestShape& rest, const TetherMaterial& material) {
     RowList rows = make_rows(ConstraintKind::tether);
-    if (material.use != Tethers::on || rest.held.empty()) return rows;
+    if (material.use != Tethers::on || rest.pinned.empty()) return rows;
 
-    const auto places = held_places(rest);
+    const auto places = pinned_places(rest);
     if (places.empty()) return rows;
     const auto most = static_cast<std::uint32_t>(std::min(places.size(), max_ways));
     const WaysToPlaces ways = ways_to_places(rest.topology, places, most);
     const double slack = 1 + static_cast<double>(material.slack);
-    // Rank by rank, so that the rows of a color run through the particles in order.
+    // Sorted by rank, so that the constraints of a color access the particles in order.
     std::array<RowList, max_tethers> ranks;
     std::vector<Tether> tethers;
     for (std::uint32_t p = 0; p < rest.topology.particle_count; ++p) {
-        if (rest.held[p]) continue;
+        if (rest.pinned[p]) continue;
         tethers.clear();
         for (const Way& way : ways[p]) tethers.push_back({way.distance, way.source});
         std::sort(tethers.begin(), tethers.end());
         for (std::size_t rank = 0; rank < std::min(tethers.size(), max_tethers); ++rank) {
             const auto [distance, anchor] = tethers[rank];
             const Limit limit = limit_between(rest, anchor, p, distance * slack);
-            if (!std::isfinite(limit.length + limit.give)) continue;  // no stiffness at all
-            ranks[rank].add({p, anchor}, {static_cast<float>(limit.length), static_cast<float>(limit.give)});
+            if (!std::isfinite(limit.length + limit.compliance)) continue;  // no stiffness at all
+            ranks[rank].add({p, anchor}, {static_cast<float>(limit.length), static_cast<float>(limit.compliance)});
         }
     }
     for (const RowList& rank : ranks) {

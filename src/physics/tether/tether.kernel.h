@@ -1,4 +1,4 @@
-// Tether: C = |x - anchor| - (radius + give tension) allowed, at most 0. Only the particle moves; the anchor is held by something stronger.
+// Tether: C = |x - anchor| - (radius + compliance tension) allowed <= 0. Only the particle moves; the anchor is pinned.
 // One-sided, so not damped.
 
 struct TetherRow { WEFT_ROW_tether(WEFT_ROW_MEMBER) };
@@ -8,7 +8,7 @@ WEFT_FN void project_tether(inout_(vec3) x, inout_(vec3) anchor, real w, real an
 {
     vec3 d = x - anchor;
     real len2 = dot(d, d);
-    real radius = (row.radius + row.give * step.tension) * step.allowed;
+    real radius = (row.radius + row.compliance * step.tension) * step.allowed;
     mask taut = len2 > radius * radius && w > real(0);
     real len = sqrt(max(len2, real(1e-30)));
     real c = select(taut, len - radius, real(0));

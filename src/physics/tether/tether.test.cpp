@@ -121,21 +121,21 @@ TEST(TetherRows, lead_to_every_place_where_the_cloth_is_held) {
     const auto topology = build_topology(mesh, {.reorder = false});
     RestShape rest = make_rest_shape(mesh, *topology);
     EXPECT_EQ(build_tether(rest, {.use = Tethers::on}).size(), 0u) << "held nowhere";
-    rest.held.assign(topology->particle_count, 0);
-    rest.held[0] = rest.held[1] = rest.held[8] = 1;  // two neighbors, and another corner
+    rest.pinned.assign(topology->particle_count, 0);
+    rest.pinned[0] = rest.pinned[1] = rest.pinned[8] = 1;  // two neighbors, and another corner
     EXPECT_EQ(build_tether(rest, {.use = Tethers::off}).size(), 0u);
     const RowList rows = build_tether(rest, {.use = Tethers::on, .slack = 0.1f});
     ASSERT_EQ(rows.size(), 2 * (81u - 3));
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
         const std::uint32_t p = rows.particles[2 * r], anchor = rows.particles[2 * r + 1];
-        EXPECT_TRUE(rest.held[anchor] && !rest.held[p]);
+        EXPECT_TRUE(rest.pinned[anchor] && !rest.pinned[p]);
         const float straight = length(topology->rest_positions[p] - topology->rest_positions[anchor]);
         EXPECT_NEAR(rows.fields[2 * r], 1.1f * straight, 0.02f * straight) << p << " to " << anchor;
     }
 }
 
-// Two halves of a sheet that hang together at one end: what is near through the air is far over the cloth, and the way
-// runs along both threads.
+// Two halves of a sheet that are connected at one end: points at a small distance have a large geodesic distance, and
+// the geodesic runs along both threads.
 TEST(TetherRows, around_a_slit_give_way_as_the_way_does) {
     TriangleMesh mesh = make_grid({1, 1}, {17, 17}, GridDiagonal::alternating);
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
@@ -155,17 +155,17 @@ TEST(TetherRows, around_a_slit_give_way_as_the_way_does) {
     };
     const std::uint32_t anchor = particle_at(-0.5f, -0.125f), across = particle_at(-0.5f, 0.125f),
                         beside = particle_at(-0.5f, -0.5f);
-    rest.held.assign(topology->particle_count, 0);
-    rest.held[anchor] = 1;
+    rest.pinned.assign(topology->particle_count, 0);
+    rest.pinned[anchor] = 1;
     const RowList rows = build_tether(rest, {.use = Tethers::on});
     for (std::uint32_t r = 0; r < rows.size(); ++r) {
-        const double radius = rows.fields[2 * r], give = rows.fields[2 * r + 1];
+        const double radius = rows.fields[2 * r], compliance = rows.fields[2 * r + 1];
         if (rows.particles[2 * r] == beside) {
-            EXPECT_NEAR(give / radius, 1e-3, 2e-4) << "along a thread";
+            EXPECT_NEAR(compliance / radius, 1e-3, 2e-4) << "along a thread";
         }
         if (rows.particles[2 * r] != across) continue;
         EXPECT_GT(radius, 1.5) << "there and back";
-        EXPECT_GT(give / radius, 0.02) << "not that of the thread that leads straight across";
+        EXPECT_GT(compliance / radius, 0.02) << "not that of the thread that leads straight across";
     }
 }
 

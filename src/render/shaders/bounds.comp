@@ -1,5 +1,5 @@
 #version 460
-// Where the vertices of an object are: least and greatest, as whole numbers in the order of the floats.
+// Bounding box of an object's vertices: minimum and maximum as integers that have the order of the floats.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require

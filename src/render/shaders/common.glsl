@@ -1,4 +1,4 @@
-// Every shader that draws begins with this.
+// Common start of all drawing shaders.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
@@ -6,8 +6,8 @@
 #include "render/shading/tone.h"
 #define frame push.frame.data
 
-// Reads a vector from a buffer as one. Lavapipe (Mesa 22.3) reads the first component where a shader asks for the last
-// alone.
+// Reads a whole vector from a buffer. Works around Lavapipe (Mesa 22.3), which reads the first component if a shader
+// reads only the last one.
 vec4 whole(vec4 v) { return v; }
 
 vec3 around_at(vec3 n) {  // irradiance / pi
@@ -18,17 +18,17 @@ vec3 around_at(vec3 n) {  // irradiance / pi
     return max(light, vec3(0.0));
 }
 
-// Interleaved gradient noise (Jimenez 2014): 0…1, even over any 3 by 3 pixels. Differs from sample to sample.
+// Interleaved gradient noise (Jimenez 2014): 0…1, evenly distributed over any 3 by 3 pixels. Differs between samples.
 float pixel_noise(vec2 pixel, float number) {
     pixel += 5.588238 * number;
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
-// Where an equirectangular picture, its middle toward -z, shows a direction.
+// Texture coordinates of a direction in an equirectangular image with the middle toward -z.
 vec2 environment_place(vec3 d) {
     return vec2(atan(d.x, -d.z) / (2.0 * pi) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / pi);
 }
-vec3 picture_direction(vec3 d) {  // as the environment is turned
+vec3 picture_direction(vec3 d) {  // in the rotated environment
     return vec3(whole(frame.environment).y * d.x - whole(frame.environment).z * d.z, d.y,
                 whole(frame.environment).z * d.x + whole(frame.environment).y * d.z);
 }

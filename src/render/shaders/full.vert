@@ -1,5 +1,5 @@
 #version 460
-// One triangle over all of the picture, as far away as can be.
+// One triangle that covers the whole image, at the far plane.
 layout(location = 0) out vec2 place;
 
 void main() {

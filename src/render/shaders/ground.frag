@@ -15,7 +15,7 @@ void main() {
     Place place = find_place(normal, tangent, uv, rest, gl_FrontFacing, gl_FragCoord.xy);
     float fading = smoothstep(whole(frame.background).z, whole(frame.background).w, length(position - frame.target.xyz));
     float occlusion = occlusion_at(gl_FragCoord.xy, position);
-    // Where it is there by its shadows alone: the share of light that they take.
+    // For a ground that shows only its shadows: the share of light that they remove.
     float sun = dot(frame.sun_color.rgb, vec3(1.0)) / pi * max(0.0, dot(place.normal, frame.sun.xyz));
     float around = dot(around_at(place.normal), vec3(1.0));
     vec3 behind = whole(frame.background).y > 0.5

@@ -1,6 +1,6 @@
 #version 460
-// A square of a plane around what the camera looks at, as large as grounds reach before they have faded. The object's
-// transform holds two directions along it, its normal, and a point of it.
+// A square of the ground plane around the camera's target, up to where the ground has faded. The object's transform
+// holds two directions along the plane, its normal, and a point of it.
 #include "render/shaders/common.glsl"
 #define object push.object.data
 

@@ -1,5 +1,5 @@
 #version 460
-// A line as a strip that is as wide as it says in pixels, and half a pixel more on each side where it fades.
+// A line as a strip of its width in pixels, plus half a pixel on each side for a soft edge.
 #include "render/shaders/common.glsl"
 
 layout(location = 0) out vec4 color;
@@ -12,7 +12,7 @@ void main() {
     const vec2 corners[6] = vec2[](vec2(0, -1), vec2(1, -1), vec2(1, 1), vec2(0, -1), vec2(1, 1), vec2(0, 1));
     vec2 corner = corners[gl_VertexIndex % 6];
     vec4 a = frame.to_clip * vec4(line.from.xyz, 1.0), b = frame.to_clip * vec4(line.to.xyz, 1.0);
-    // Cut off what is behind the eye.
+    // Clip at the near plane.
     float near = whole(frame.eye).w;
     if (a.w < near && b.w < near) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
@@ -29,6 +29,6 @@ void main() {
     vec4 p = corner.x < 0.5 ? a : b;
     vec2 offset = vec2(-along.y, along.x) * across + along * (corner.x - 0.5);
     p.xy += offset * 2.0 * frame.size.zw * p.w;
-    p.z -= push.numbers.x * p.w;  // a little nearer than the surface that it lies on
+    p.z -= push.numbers.x * p.w;  // slightly in front of the surface that it lies on
     gl_Position = p;
 }

@@ -12,10 +12,10 @@ layout(location = 5) in float scalar;
 layout(location = 0) out vec4 color;
 #include "render/shaders/surface.glsl"
 
-// 0: both sides at once, by which side is seen; 1: all that is drawn are fronts; 2: all are backs.
+// 0: both sides, by gl_FrontFacing; 1: only front sides are drawn; 2: only back sides.
 layout(constant_id = 0) const uint sides = 0u;
 
-// As colors of the scale, shaded a little so that the shape is seen. Neither light nor exposure changes them.
+// Color of the scale, slightly shaded to show the shape. Independent of light and exposure.
 vec3 scalar_color(Place place) {
     float t = clamp((scalar - whole(object.scale).z) * whole(object.scale).w, 0.0, 1.0);
     float shade = 0.72 + 0.28 * dot(place.normal, place.to_eye);
@@ -26,7 +26,7 @@ void main() {
     bool front = sides == 0u ? gl_FrontFacing : sides == 1u;
     Place place = find_place(normal, tangent, uv, rest, front, gl_FragCoord.xy);
     if ((object.flags & object_has_scalars) != 0u) {
-        color = vec4(scalar_color(place), 2.0);  // an alpha by which resolve.frag leaves it as it is
+        color = vec4(scalar_color(place), 2.0);  // alpha 2: resolve.frag does not tone-map it
     } else {
         color = vec4(light_of(place), 1.0);
     }

@@ -1,4 +1,4 @@
-// Vertices read from buffers, by number.
+// Reads vertices from buffers by index.
 #define object push.object.data
 
 vec3 to_world(vec3 p) {

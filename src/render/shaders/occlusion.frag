@@ -1,6 +1,6 @@
 #version 460
-// How much of the light around reaches each place: horizons in the depth picture along some directions (Bavoil and
-// others 2008; weighted by the cosine as Jimenez and others 2016). At half the size; gives the depth too.
+// Ambient occlusion from horizons in the depth image along a few directions (Bavoil and others 2008; weighted by the
+// cosine as in Jimenez and others 2016). At half the resolution; also writes the depth.
 #include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
@@ -9,7 +9,8 @@ layout(set = 0, binding = 0) uniform sampler2D depths;
 
 const int directions = 3, steps = 5;
 
-// What hides light beyond the radius, and folds behind folds, are not seen by it: as dark as they look.
+// Exponent that darkens the result. It compensates for occluders beyond the radius and folds behind folds, which the
+// depth image does not show.
 const float contrast = 1.8;
 
 vec3 view_position(ivec2 pixel) {
@@ -18,7 +19,7 @@ vec3 view_position(ivec2 pixel) {
     return (frame.to_view * vec4(p.xyz / p.w, 1.0)).xyz;
 }
 
-// The side of a fold on which the next pixel is nearer in depth, so that edges have the normals of their own side.
+// Difference to the neighbor with the nearer depth, so that normals at an edge do not mix both sides.
 vec3 slope(ivec2 pixel, ivec2 step, vec3 here) {
     ivec2 most = textureSize(depths, 0) - 1;
     vec3 after = view_position(min(pixel + step, most)) - here, before = here - view_position(max(pixel - step, ivec2(0)));
@@ -33,7 +34,7 @@ void main() {
     vec3 to_eye = normalize(-here);
     if (dot(normal, to_eye) < 0.0) normal = -normal;
     float radius = whole(frame.light).z;
-    // Pixels that the radius covers here.
+    // The radius in pixels at this depth.
     float scale = radius / -here.z * 0.5 * whole(frame.size).y * length(vec3(whole(frame.to_clip[0]).y, whole(frame.to_clip[1]).y, whole(frame.to_clip[2]).y));
     scale = min(scale, 0.35 * whole(frame.size).y);
     float noise = pixel_noise(gl_FragCoord.xy, whole(frame.light).w);
@@ -54,7 +55,7 @@ void main() {
                 float near2 = distance2 / (radius * radius), fading = clamp(1.0 - near2 * near2, 0.0, 1.0);
                 highest = max(highest, above * fading);
             }
-            hidden += highest * highest;  // of the cosine-weighted half circle below that horizon
+            hidden += highest * highest;  // share of the cosine-weighted half circle below the horizon
         }
     }
     left = nothing ? vec2(1.0, 1e4) : vec2(pow(clamp(1.0 - hidden / float(2 * directions), 0.0, 1.0), contrast), -here.z);

@@ -1,5 +1,5 @@
 #version 460
-// Takes the noise out, over four by four pixels of about the same depth.
+// Removes the noise by a mean over four by four pixels of similar depth.
 #include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;

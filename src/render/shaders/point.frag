@@ -8,6 +8,6 @@ layout(location = 0) out vec4 result;
 
 void main() {
     float inside = clamp(radius + 0.5 - length(place), 0.0, 1.0);
-    float rim = clamp(radius - 0.8 - length(place), 0.0, 1.0);  // dark, so that it is seen on any color
+    float rim = clamp(radius - 0.8 - length(place), 0.0, 1.0);  // dark rim, visible on any color
     result = vec4(srgb_decoded(color.rgb) * mix(0.15, 1.0, rim), color.a * inside);
 }

@@ -1,11 +1,11 @@
 #version 460
-// Onto the target, with a noise of half a step against bands.
+// Writes to the target, with dithering of half a step against banding.
 #include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
 layout(location = 0) out vec4 color;
 layout(set = 0, binding = 0) uniform sampler2D display;
-layout(constant_id = 0) const uint encode = 0u;    // 1: the target does not do it by itself
+layout(constant_id = 0) const uint encode = 0u;    // 1: the target does not encode sRGB by itself
 layout(constant_id = 1) const uint straight = 0u;  // 1: colors are not multiplied by alpha
 
 void main() {

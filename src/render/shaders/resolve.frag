@@ -1,6 +1,6 @@
 #version 460
-// Samples of a pixel become one color: sheer cloth over the rest, tones pressed into what a screen shows, and only then
-// the mean, so that an edge to a very bright place stays smooth.
+// Resolves the samples of a pixel to one color: composites sheer cloth over the rest, tone-maps each sample, and then
+// takes the mean, so that edges to very bright areas stay smooth.
 #include "render/shaders/common.glsl"
 
 layout(location = 0) in vec2 place;
@@ -22,7 +22,7 @@ void main() {
     vec4 all = vec4(0.0);
     for (int i = 0; i < int(samples); ++i) {
         vec4 one = texelFetch(lit, pixel, i);
-        bool as_it_is = one.a > 1.5;  // colors of a scale are no light (lit.frag)
+        bool as_it_is = one.a > 1.5;  // a color of a scale (lit.frag)
         vec3 shown = as_it_is ? one.rgb : tone_map(one.rgb);
         float alpha = min(one.a, 1.0);
 #ifdef WEFT_SHEER
@@ -36,5 +36,5 @@ void main() {
 #endif
         all += vec4(shown, alpha);
     }
-    color = all * push.numbers.x / float(samples);  // a share of all passes over this picture
+    color = all * push.numbers.x / float(samples);  // numbers.x: weight of this pass among all passes of the image
 }

@@ -1,5 +1,5 @@
 #version 460
-// Of a sheer cloth, as many points cast a shadow as its threads cover.
+// Shadow of sheer cloth: keeps a random share of the texels that equals the coverage of its threads.
 #include "render/shaders/common.glsl"
 #define object push.object.data
 

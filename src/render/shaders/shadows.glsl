@@ -1,4 +1,5 @@
-// Sun's light that reaches a point: 0…1. Penumbras as wide as blockers are far (Fernando 2005).
+// Share of sunlight that reaches a point, 0…1. The penumbra widens with the distance of the blockers (PCSS, Fernando
+// 2005).
 layout(set = 0, binding = 0) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = 1) uniform sampler2D shadow_depths;
 
@@ -14,13 +15,13 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
     vec4 scale = frame.shadow.data.scale;
     vec3 sun = frame.sun.xyz;
     float facing = dot(normal, sun);
-    // Off the surface toward the light, farther where it grazes: one texel covers a slope there.
+    // Normal offset against self-shadowing. It is larger at grazing light, where one texel covers a range of depths.
     vec3 side = facing < 0.0 ? -normal : normal;
     float grazing = sqrt(max(0.0, 1.0 - facing * facing));
     vec3 lifted = position + side * (scale.x * (0.7 + 1.3 * grazing));
     vec3 p = (frame.shadow.data.to_shadow * vec4(lifted, 1.0)).xyz;
     bool outside = any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0)));
-    float beyond = max(0.0, p.z - 1.0) * scale.y;  // m: farther from all that casts shadows
+    float beyond = max(0.0, p.z - 1.0) * scale.y;  // m: distance behind the range of the shadow map
     p = clamp(p, vec3(0.0), vec3(1.0));
 
     float across = 1.0 / (scale.x * scale.z);
@@ -34,7 +35,7 @@ float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
     for (int i = 0; i < blocker_taps; ++i) {
         vec2 offset = disc(i, blocker_taps, turn) * most;
         float depth = textureLod(shadow_depths, p.xy + offset * across, 0.0).r;
-        // Within the cone of light alone: what is nearer to the surface must be nearer to the tap.
+        // Only blockers within the cone of light count, so the required depth grows with the distance of the tap.
         if (depth < p.z - margin - length(offset) * depth_per_meter * 0.6) {
             blockers += 1.0;
             depths += depth;

@@ -1,6 +1,6 @@
 #version 460
-// Cloth that one sees through, in any order: weighted sums of color, and optical depth (McGuire and Bavoil 2013; sums
-// of logarithms in place of products, so that both pictures blend alike).
+// Order-independent transparency for sheer cloth: weighted sums of color, and optical depth (McGuire and Bavoil 2013).
+// Optical depth is a sum of logarithms instead of a product, so that both images use the same blending.
 #include "render/shaders/common.glsl"
 #define object push.object.data
 

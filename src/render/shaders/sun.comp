@@ -1,6 +1,6 @@
 #version 460
-// The shadow map's place: around all that casts shadows, seen from the sun. Its size grows in steps and its middle goes
-// by whole texels, so that shadows of what moves don't crawl.
+// Places the shadow map around all shadow casters, seen from the sun. Its size changes in steps and its middle moves by
+// whole texels, so that shadows of moving objects do not flicker.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
@@ -37,7 +37,7 @@ void main() {
     float texel = across / push.texels;
     vec2 at = round(vec2(dot(middle, x), dot(middle, y)) / texel) * texel;
     float from = dot(middle, z) + extent.z + 4.0 * texel, range = 2.0 * extent.z + 8.0 * texel;
-    // Receivers may lie far behind all of them: what is deeper than the map has the depth of its end.
+    // Receivers may be far behind the casters. A depth beyond the map is clamped to its end.
     mat4 to = mat4(1.0);
     to[0] = vec4(x.x / across, y.x / across, -z.x / range, 0.0);
     to[1] = vec4(x.y / across, y.y / across, -z.y / range, 0.0);

@@ -1,7 +1,7 @@
-// The light that a place of a surface sends to the eye.
+// The light that a point of a surface sends to the eye.
 #include "render/shaders/shadows.glsl"
-layout(set = 0, binding = 2) uniform sampler2D occlusion_map;    // what is left of the light around, and the depth
-layout(set = 0, binding = 3) uniform sampler2D environment_map;  // as rough materials mirror it, rougher by level
+layout(set = 0, binding = 2) uniform sampler2D occlusion_map;    // ambient visibility, and the depth
+layout(set = 0, binding = 3) uniform sampler2D environment_map;  // prefiltered; roughness grows with the level
 layout(set = 0, binding = 4) uniform sampler2D background_map;
 layout(set = 1, binding = 0) uniform sampler2D color_map;
 layout(set = 1, binding = 1) uniform sampler2D relief_map;
@@ -25,10 +25,10 @@ vec4 albedos(float cosine) {
     return mix(material.table[below], material.table[below + 1], clamp(at - float(below), 0.0, 1.0));
 }
 
-// As much as threads cover, more where one looks along the cloth.
+// Coverage of the threads. It is larger at grazing view directions.
 float coverage_at(float cosine) { return 1.0 - pow(1.0 - whole(material.velvet).z, 1.0 / max(cosine, 0.15)); }
 
-// At half the size, of pixels that are as far away.
+// Samples the occlusion at half resolution, from pixels of similar depth.
 float occlusion_at(vec2 pixel, vec3 position) {
     float depth = dot(position - frame.eye.xyz, -vec3(whole(frame.to_view[0]).z, whole(frame.to_view[1]).z, whole(frame.to_view[2]).z));
     vec2 at = pixel * 0.5 - 0.5;
@@ -46,17 +46,30 @@ float occlusion_at(vec2 pixel, vec3 position) {
     return whole(frame.light).y > 0.0 ? mix(1.0, sum / weights, whole(frame.light).y) : 1.0;
 }
 
-// The frame of threads: from the tangents, or from how the rest shape lies on the picture.
-void find_threads(vec3 smooth_normal, vec4 tangent, inout vec2 uv, vec3 rest, out vec3 u, out vec3 v) {
+// Screen-space derivatives, taken before any branch: after one, software drivers leave the values of pixels outside of
+// the triangle undefined, and derivatives along its edges are wrong.
+struct Derivatives {
+    vec3 position_x, position_y, rest_x, rest_y;
+    vec2 uv_x, uv_y;
+};
+
+vec2 along_axis(vec3 v, vec3 facing) {
+    return facing.y >= facing.x && facing.y >= facing.z ? v.xz : facing.x >= facing.z ? v.zy : v.xy;
+}
+
+// The thread directions: from the tangents, or from derivatives of UVs or rest positions.
+void find_threads(vec3 smooth_normal, vec4 tangent, inout vec2 uv, vec3 rest, inout Derivatives d, out vec3 u, out vec3 v) {
     float sign_v = tangent.w < 0.0 ? -1.0 : 1.0;
     vec3 along = tangent.xyz;
     if ((object.flags & object_has_tangents) == 0u) {
-        if ((object.flags & object_has_uvs) == 0u) {  // laid on the side that faces most of it
-            vec3 facing = abs(cross(dFdx(rest), dFdy(rest)));
-            uv = facing.y >= facing.x && facing.y >= facing.z ? rest.xz : facing.x >= facing.z ? rest.zy : rest.xy;
+        if ((object.flags & object_has_uvs) == 0u) {  // projected along the dominant axis
+            vec3 facing = abs(cross(d.rest_x, d.rest_y));
+            uv = along_axis(rest, facing);
+            d.uv_x = along_axis(d.rest_x, facing);
+            d.uv_y = along_axis(d.rest_y, facing);
         }
-        vec3 px = dFdx(position), py = dFdy(position);
-        vec2 ux = dFdx(uv), uy = dFdy(uv);
+        vec3 px = d.position_x, py = d.position_y;
+        vec2 ux = d.uv_x, uy = d.uv_y;
         float area = ux.x * uy.y - uy.x * ux.y;
         along = (px * uy.y - py * ux.y) * sign(area);
         vec3 other = (py * ux.x - px * uy.x) * sign(area);
@@ -73,23 +86,25 @@ void find_threads(vec3 smooth_normal, vec4 tangent, inout vec2 uv, vec3 rest, ou
 }
 
 Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2 pixel) {
+    Derivatives d = Derivatives(dFdx(position), dFdy(position), dFdx(rest), dFdy(rest), dFdx(uv), dFdy(uv));
     Place place;
     place.position = position;
     place.pixel = pixel;
     place.back = !front;
     place.to_eye = normalize(frame.eye.xyz - position);
     float size = dot(normal, normal);
-    vec3 outward = size > 1e-12 ? normal * inversesqrt(size) : normalize(cross(dFdx(position), dFdy(position)));
-    find_threads(outward, tangent, uv, rest, place.u, place.v);
+    vec3 outward = size > 1e-12 ? normal * inversesqrt(size) : normalize(cross(d.position_x, d.position_y));
+    find_threads(outward, tangent, uv, rest, d, place.u, place.v);
 
-    vec2 tiles = uv * (whole(material.tile).z > 0.5 ? vec2(1.0) : object.scale.xy) * material.tile.xy;
+    vec2 per_uv = (whole(material.tile).z > 0.5 ? vec2(1.0) : object.scale.xy) * material.tile.xy;
+    vec2 tiles = uv * per_uv;
     float relief = whole(material.roughness).z;
-    vec2 across = dFdx(tiles) * vec2(textureSize(relief_map, 0)), down = dFdy(tiles) * vec2(textureSize(relief_map, 0));
+    vec2 texels = per_uv * vec2(textureSize(relief_map, 0)), across = d.uv_x * texels, down = d.uv_y * texels;
     float level = 0.5 * log2(max(dot(across, across), dot(down, down)) + 1e-12);
     vec4 first = textureLod(relief_map, tiles, level);
     vec3 squares = textureLod(relief_squares, tiles, level).xyz * relief * relief;
     vec2 slope = first.xy * relief;
-    // The eye cannot look at the far side of a thread: slopes that turn away from it are pressed flat.
+    // The far side of a thread is not visible, so normals that face away from the eye are turned back.
     place.normal = normalize(outward - slope.x * place.u - slope.y * place.v);
     if (!front) place.normal = -place.normal;
     float toward = dot(place.normal, place.to_eye);
@@ -100,14 +115,17 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
 
     float warp = whole(material.velvet).w > 0.5 && !front ? 1.0 - first.w : first.w;
     vec3 color = mix(material.weft_color.rgb, material.color.rgb, warp);
-    if (whole(material.map).z > 0.5) color *= texture(color_map, vec2(uv.x, -uv.y) * material.map.xy).rgb;  // rows from the top
-    vec2 lost = max(squares.xy - slope * slope, vec2(0.0));  // by filtering: roughness that is left (LEAN)
+    if (whole(material.map).z > 0.5) {
+        vec2 to_map = vec2(1.0, -1.0) * material.map.xy;  // v points up, rows of an image down
+        color *= textureGrad(color_map, uv * to_map, d.uv_x * to_map, d.uv_y * to_map).rgb;
+    }
+    vec2 lost = max(squares.xy - slope * slope, vec2(0.0));  // variance lost by filtering, adds roughness (LEAN)
     vec2 alpha = material.roughness.xy;
     Fiber fiber;
     fiber.color = color;
     fiber.sheen_color = material.sheen.rgb;
     fiber.sheen_alpha = whole(material.sheen).w;
-    fiber.roughness_matte = whole(material.color).w;
+    fiber.diffuse_roughness = whole(material.color).w;
     fiber.specular = whole(material.weft_color).w;
     fiber.alpha_warp = min(sqrt(alpha * alpha + 2.0 * lost), vec2(1.0));
     fiber.alpha_weft = min(sqrt(alpha.yx * alpha.yx + 2.0 * lost), vec2(1.0));
@@ -130,8 +148,8 @@ vec3 sunlight(Place place, vec4 to_viewer) {
         Fiber fiber = place.fiber;
         vec3 l = vec3(dot(sun, place.u), dot(sun, place.v), nl);
         vec3 v = vec3(dot(place.to_eye, place.u), dot(place.to_eye, place.v), dot(place.to_eye, place.normal));
-        Lobes lobes = layered(fiber, lobes_alone(fiber, l, v), to_viewer.xy, albedos(nl).xy);
-        // Threads hide one another's depths: where they are deep, less reaches between them.
+        Lobes lobes = layered(fiber, lobes_before_layering(fiber, l, v), to_viewer.xy, albedos(nl).xy);
+        // Threads shadow the gaps between them: deep places get less light.
         vec3 back = lobes.matte * fiber.color * (1.0 - through) * place.cavity + lobes.sheen + vec3(lobes.gloss * place.cavity);
         vec3 sent = nl > 0.0 ? back * nl : fiber.color * (through * -nl / pi);
         light = sun_reaching(place.position, place.normal, place.pixel) * frame.sun_color.rgb * sent;
@@ -142,7 +160,7 @@ vec3 sunlight(Place place, vec4 to_viewer) {
 vec3 light_around(Place place, vec4 to_viewer, float occlusion) {
     Fiber fiber = place.fiber;
     float open = occlusion * place.cavity, through = whole(material.roughness).w;
-    // What folds reflect into one another keeps bright cloth from going gray in them (Jimenez and others 2016).
+    // Light reflected between folds keeps bright cloth from turning gray there (Jimenez and others 2016).
     vec3 a = 2.0404 * fiber.color - 0.3324, b = -4.7951 * fiber.color + 0.6417, c = 2.7552 * fiber.color + 0.6903;
     vec3 bright = max(vec3(open), ((open * a + b) * open + c) * open);
     bool velvet = fiber.velvet > 0.0;
@@ -152,7 +170,7 @@ vec3 light_around(Place place, vec4 to_viewer, float occlusion) {
     vec3 mirrored = reflect(-place.to_eye, place.normal);
     vec3 wide = normalize(mirrored + place.normal);
     vec3 sheen = (velvet ? hairs * to_viewer.x + to_viewer.y : fiber.sheen_color * to_viewer.y) * mirrored_around(wide, 1.0);
-    // Anisotropic lobes see more of what lies across the smooth direction (as Filament bends the reflection).
+    // Anisotropic lobes: bends the reflection across the smooth direction, as Filament does.
     vec2 alpha = mix(fiber.alpha_weft, fiber.alpha_warp, fiber.warp);
     float stretched = (alpha.y - alpha.x) / max(alpha.x + alpha.y, 1e-3);
     vec3 axis = stretched >= 0.0 ? place.v : place.u;

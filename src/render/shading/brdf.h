@@ -1,6 +1,6 @@
-// How cloth reflects light: one text for the GPU and for the CPU, which integrates it. Directions are unit vectors away
-// from the surface; n is turned toward the viewer. "Albedo" of a lobe is the share of light from everywhere that it
-// sends to the viewer.
+// The BRDF of cloth, shared by the GPU and by the CPU, which integrates it. Directions are unit vectors away from the
+// surface; n is turned toward the viewer. The "albedo" of a lobe is the share of light from everywhere that it sends to
+// the viewer.
 #ifndef WEFT_SHADING_BRDF_H
 #define WEFT_SHADING_BRDF_H
 
@@ -10,24 +10,24 @@ WEFT_SHADING_BEGIN
 
 const float pi = 3.14159265f;
 
-// How often the angle between normal and viewer is tabulated.
+// Number of entries for the angle between normal and viewer.
 const uint table_size = 32u;
 
-/// What the threads of one place are made of.
+/// Material of the threads at one point.
 struct Fiber {
     vec3 color;
     vec3 sheen_color;
     float sheen_alpha;
-    float roughness_matte;
+    float diffuse_roughness;
     float specular;
-    vec2 alpha_warp;  ///< of the highlight of threads along u: squared roughness along u and along v
-    vec2 alpha_weft;  ///< of those along v, likewise
+    vec2 alpha_warp;  ///< highlight of threads along u: squared roughness along u and along v
+    vec2 alpha_weft;  ///< likewise for threads along v
     float warp;       ///< share of threads along u
     float velvet;
     float velvet_alpha;
 };
 
-/// Light of a direction in the frame of the surface: x along u, y along v, z along the normal.
+/// Reflection of light from a direction, in the surface frame: x along u, y along v, z along the normal.
 struct Lobes {
     vec3 matte;  ///< per unit of color
     vec3 sheen;  ///< with its color
@@ -45,9 +45,9 @@ WEFT_SHADE float fresnel(float f0, float cosine) {
 }
 
 // --- Velvet: The Order: 1886 (Neubelt and Pettineo 2013) after Ashikhmin and Premoze 2007. No geometry term; the
-// denominator is the smooth one, which does not blow up at the rim.
+// smooth denominator stays finite at the rim.
 
-/// D(m), a Gaussian in the cotangent on top of a constant: fibers that stand up, and some that lie any way.
+/// D(m), a Gaussian in the cotangent plus a constant: upright fibers, and some with random directions.
 WEFT_SHADE float velvet_distribution(float nm, float amplitude, float alpha) {
     float cos2 = nm * nm, sin2 = max(1.0f - cos2, 1e-4f), alpha2 = alpha * alpha;
     float standing = exp(-cos2 / (alpha2 * sin2)) / (sin2 * sin2);
@@ -58,7 +58,7 @@ WEFT_SHADE float smooth_denominator(float nl, float nv) {
     return 4.0f * (nl + nv - nl * nv);
 }
 
-/// F0 of the hairs: they may be dyed.
+/// F0 of the hairs, which may be colored.
 WEFT_SHADE vec3 velvet_mirrored(Fiber fiber) {
     return fiber.specular * fiber.sheen_color;
 }
@@ -102,7 +102,7 @@ WEFT_SHADE float ggx(vec3 l, vec3 v, vec3 h, vec2 alpha) {
     return distribution * 0.5f / max(masked, 1e-5f);
 }
 
-// --- The matte part: Oren and Nayar 1994 as Fujii simplified it, without its dark ring. 1/pi where sigma is 0.
+// --- Matte: Oren and Nayar 1994 as simplified by Fujii, without its dark ring. 1/pi if sigma is 0.
 
 WEFT_SHADE float rough_matte(float nl, float nv, float lv, float sigma) {
     float a = 1.0f / (pi + (pi / 2.0f - 2.0f / 3.0f) * sigma);
@@ -111,8 +111,8 @@ WEFT_SHADE float rough_matte(float nl, float nv, float lv, float sigma) {
     return a * (1.0f + sigma * s / t);
 }
 
-/// Lobes one by one, each as if it were alone.
-WEFT_SHADE Lobes lobes_alone(Fiber fiber, vec3 l, vec3 v) {
+/// The lobes, each as if it were the only one.
+WEFT_SHADE Lobes lobes_before_layering(Fiber fiber, vec3 l, vec3 v) {
     Lobes lobes;
     float nl = clamp(l.z, 1e-3f, 1.0f), nv = clamp(v.z, 1e-3f, 1.0f);
     vec3 h = normalize(l + v);
@@ -129,15 +129,15 @@ WEFT_SHADE Lobes lobes_alone(Fiber fiber, vec3 l, vec3 v) {
     vec3 from = vec3(l.x, l.y, nl), to = vec3(v.x, v.y, nv);
     lobes.gloss = mirrored * (fiber.warp * ggx(from, to, h, fiber.alpha_warp) +
                               (1.0f - fiber.warp) * ggx(from, to, h, fiber.alpha_weft));
-    lobes.matte = vec3(rough_matte(nl, nv, dot(l, v), fiber.roughness_matte));
+    lobes.matte = vec3(rough_matte(nl, nv, dot(l, v), fiber.diffuse_roughness));
     lobes.sheen = fiber.sheen_color *
                   (charlie_distribution(nh, fiber.sheen_alpha) * charlie_visibility(nl, nv, fiber.sheen_alpha));
     return lobes;
 }
 
-/// What is left for the lobes below: each layer lets through what it does not send back, toward viewer or light,
-/// whichever is less, so that no surface gains energy and both ways are alike. `to_viewer`, `to_light`: albedos of
-/// gloss and of sheen of color 1, in these directions.
+/// Scales the lobes below each layer. A layer passes 1 - albedo, with the larger of its albedos toward viewer and
+/// light, so that energy is conserved and the BRDF is reciprocal. `to_viewer`, `to_light`: albedos of gloss and of
+/// sheen of color 1, in these directions.
 WEFT_SHADE Lobes layered(Fiber fiber, Lobes lobes, vec2 to_viewer, vec2 to_light) {
     if (fiber.velvet > 0.0f) return lobes;
     float most = max(fiber.sheen_color.x, max(fiber.sheen_color.y, fiber.sheen_color.z));

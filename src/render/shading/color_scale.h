@@ -1,4 +1,4 @@
-// Values as colors. One text for C++ and GLSL: the legend shows what the shader draws.
+// Color scales. Shared by C++ and GLSL, so that the legend matches what the shader draws.
 #ifndef WEFT_COLOR_SCALE_H
 #define WEFT_COLOR_SCALE_H
 
@@ -10,7 +10,7 @@
 WEFT_SHADING_BEGIN
 
 // The cool-warm map of Moreland, "Diverging Color Maps for Scientific Visualization" (2009): even steps in Msh, the
-// same lightness on both sides. Cubics in the distance from the middle, within 0.03 of it. `s` in -1…1.
+// same lightness on both sides. Approximated within 0.03 by cubics in the distance from the middle. `s` in -1…1.
 WEFT_SHADE vec3 color_of_balance(float s) {
     vec3 middle = vec3(0.8654f, 0.8654f, 0.8654f);
     float d = s < 0.0f ? -s : s;
@@ -21,8 +21,8 @@ WEFT_SHADE vec3 color_of_balance(float s) {
     return middle + d * (s < 0.0f ? cold : warm);
 }
 
-// Viridis by Smith and van der Walt (CC0): lightness rises evenly with the value. A polynomial within 0.016 of it.
-// `t` in 0…1.
+// Viridis by Smith and van der Walt (CC0): lightness rises evenly with the value. Approximated within 0.016 by a
+// polynomial. `t` in 0…1.
 WEFT_SHADE vec3 color_of_amount(float t) {
     vec3 high = vec3(5.1906f, 11.6437f, 58.6809f) +
                 t * (vec3(4.9187f, -11.4636f, -68.1625f) + t * vec3(-5.2909f, 3.8791f, 27.5786f));
@@ -30,7 +30,7 @@ WEFT_SHADE vec3 color_of_amount(float t) {
     return vec3(0.2667f, 0.0039f, 0.3294f) + t * (vec3(0.2342f, 1.4198f, 1.4252f) + t * low);
 }
 
-// sRGB, 0…1, of a value `t` from the scale's lower end, 0, to its upper, 1; beyond them the color of the end.
+// Color in sRGB, 0…1. `t`: 0 at the lower end of the scale, 1 at the upper end; clamped.
 WEFT_SHADE vec3 color_scale(float t, int kind) {
     t = t < 1.0f ? (t > 0.0f ? t : 0.0f) : 1.0f;
     vec3 color = kind == WEFT_SCALE_AMOUNT ? color_of_amount(t) : color_of_balance(t * 2.0f - 1.0f);

@@ -1,4 +1,4 @@
-// What shaders read of a frame, in buffers: the same layout (std430) in C++ and GLSL.
+// Data of a frame in buffers, with the same layout (std430) in C++ and GLSL.
 #ifndef WEFT_SHADING_FRAME_H
 #define WEFT_SHADING_FRAME_H
 
@@ -23,20 +23,20 @@ layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer Vec
 layout(buffer_reference, std430, buffer_reference_align = 4) readonly buffer Floats { float at[]; };
 #endif
 
-/// Where the sun's shadows fall: made on the device, from where everything is.
+/// Placement of the sun's shadow map, computed on the device from the objects' bounds.
 struct LightData {
     mat4 to_shadow;  ///< from the world to the shadow map: 0…1 across, depth in z
-    vec4 scale;      ///< m a texel; m of depth from 0 to 1; texels across; 0
+    vec4 scale;      ///< m per texel; m of depth from 0 to 1; texels across; 0
 };
 
 struct MaterialData {
-    vec4 color;       ///< and roughness_matte
-    vec4 weft_color;  ///< and specular
+    vec4 color;       ///< w: diffuse_roughness
+    vec4 weft_color;  ///< w: specular
     vec4 sheen;       ///< color and alpha
     vec4 roughness;   ///< along threads and across, relief, transmission
-    vec4 velvet;      ///< k_amp, alpha, coverage, whether threads cross (the back shows the other ones)
-    vec4 tile;        ///< tiles per meter along u and v, or per unit of u and v; 1 where it is the latter; 0
-    vec4 map;         ///< repeats of the color map; 1 where there is one; whether light passes (sheer)
+    vec4 velvet;      ///< k_amp, alpha, coverage, whether threads cross (the back then shows the other threads)
+    vec4 tile;        ///< tiles per m along u and v, or per unit of u and v; z: 1 if per unit; 0
+    vec4 map;         ///< repeats of the color map; z: 1 if there is one; w: whether light passes (sheer)
     vec4 table[table_size];  ///< albedos by the cosine to the viewer (albedo.h)
 };
 
@@ -49,15 +49,15 @@ struct FrameData {
     mat4 to_clip;
     mat4 from_clip;
     mat4 to_view;
-    vec4 eye;          ///< and distance of the near plane
-    vec4 target;       ///< and distance of the eye from it
-    vec4 sun;          ///< direction toward it; tangent of half its width
-    vec4 sun_color;    ///< irradiance on a surface that faces it; 1 where there is one
-    vec4 around[9];    ///< irradiance from around, divided by pi: spherical harmonics
-    vec4 size;         ///< pixels across and down, and 1 over these
-    vec4 light;        ///< exposure, strength of occlusion, its radius in m, number of the sample
-    vec4 environment;  ///< strength, cosine and sine of the rotation, highest level
-    vec4 background;   ///< 1: transparent; 1: the environment is one; fading of grounds: begin and end, m from the target
+    vec4 eye;          ///< w: distance of the near plane
+    vec4 target;       ///< w: distance to the eye
+    vec4 sun;          ///< direction toward the sun; w: tangent of half its angular diameter
+    vec4 sun_color;    ///< irradiance on a surface that faces the sun; w: 1 if there is a sun
+    vec4 around[9];    ///< irradiance of the environment over pi, in spherical harmonics
+    vec4 size;         ///< width and height in pixels, and 1 over these
+    vec4 light;        ///< exposure, intensity of occlusion, its radius in m, number of the sample
+    vec4 environment;  ///< intensity, cosine and sine of the rotation, highest level
+    vec4 background;   ///< 1: transparent; 1: environment image; fading of grounds: begin and end, m from the target
     vec4 sky[3];       ///< background colors: zenith, horizon, ground
     LightRef shadow;
     Vec4s unused;
@@ -73,17 +73,17 @@ struct ObjectData {
     MaterialRef material;
     uint flags, scale_kind;
     vec4 transform[4];  ///< columns
-    vec4 scale;         ///< m a unit of u and of v; least of the scalars, 1 over their range
+    vec4 scale;         ///< m per unit of u and of v; minimum of the scalars, 1 over their range
 };
 
 struct LineData {
-    vec4 from;  ///< and width in pixels
+    vec4 from;  ///< w: width in pixels
     vec4 to;
     vec4 color;
 };
 
 struct PointData {
-    vec4 position;  ///< and size in pixels
+    vec4 position;  ///< w: size in pixels
     vec4 color;
 };
 
@@ -107,7 +107,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Fl
 #ifndef WEFT_OWN_PUSH
 layout(push_constant, std430) uniform Push {
     FrameRef frame;
-    ObjectRef object;  ///< or what else is drawn, by address
+    ObjectRef object;  ///< or the address of lines, points or flat vertices
     vec4 numbers;
 } push;
 #endif

@@ -1,4 +1,4 @@
-// What lets one text be C++ and GLSL: vectors come from glm, which writes as GLSL does.
+// Macros for code that is both C++ and GLSL. C++ gets its vectors from glm, which has the syntax of GLSL.
 #ifndef WEFT_SHADING_GLSL_H
 #define WEFT_SHADING_GLSL_H
 

@@ -1,4 +1,4 @@
-// From light to what a screen can show.
+// Tone mapping and sRGB encoding.
 #ifndef WEFT_SHADING_TONE_H
 #define WEFT_SHADING_TONE_H
 
@@ -6,8 +6,8 @@
 
 WEFT_SHADING_BEGIN
 
-/// Khronos PBR Neutral tone mapper (2024): colors of surfaces come through as they are, only what is brighter than
-/// white paper is pressed together, and loses color toward white.
+/// Khronos PBR Neutral tone mapper (2024): keeps colors of surfaces, and compresses only values brighter than white
+/// paper, which it also desaturates toward white.
 WEFT_SHADE vec3 tone_map(vec3 color) {
     const float begin = 0.8f - 0.04f, desaturation = 0.15f;
     float least = min(color.x, min(color.y, color.z));

@@ -9,7 +9,7 @@ bool finite4(const Vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-// " between particles 3, 4": the row of the batch that moved this one.
+// " between particles 3, 4": the constraint of the batch that moved `particle`.
 std::string row_at(const ClothModel& model, const Pass& pass, std::uint32_t particle) {
     const ConstraintTable& table = model.table(pass.constraint);
     const Batch& batch = table.batches[pass.batch];
@@ -35,7 +35,7 @@ std::uint32_t first_non_finite(std::span<const Vec4> positions, std::span<const 
     return none;
 }
 
-std::string name_input(const StepInput& input, std::span<const Pose> mover_poses, std::span<const Vec4> positions,
+std::string name_input(const StepInput& input, std::span<const Pose> motion_poses, std::span<const Vec4> positions,
                        std::span<const Vec4> velocities) {
     if (!finite(input.gravity)) return "gravity is not finite";
     if (!std::isfinite(input.air_density)) return "the density of the air is not finite";
@@ -50,7 +50,7 @@ std::string name_input(const StepInput& input, std::span<const Pose> mover_poses
             return "the pose of collider '" + input.colliders[i % input.colliders.size()].name + "' is not finite";
         }
     }
-    for (const Pose& pose : mover_poses) {
+    for (const Pose& pose : motion_poses) {
         if (!finite(pose.position)) return "the motion of a pin is not finite";
     }
     const std::uint32_t p = first_non_finite(positions, velocities);

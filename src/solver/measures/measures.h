@@ -1,4 +1,4 @@
-// Figures of cloths as they are: sums and maxima, which a backend finds where the cloths lie.
+// Measures of the current state of cloths: sums and maxima, which a backend computes where it stores the cloths.
 #pragma once
 
 #include "solver/measures/residual.h"
@@ -12,31 +12,30 @@ struct MeanMax {
     double mean = 0, max = 0;
 };
 
-/// |ℓ/ℓ₀ - 1| over edges: `stretch` those along warp or weft, `shear` the others.
+/// |ℓ/ℓ₀ - 1| over edges: `stretch` for edges along warp or weft, `shear` for the others.
 struct Strain {
     MeanMax stretch, shear;
 };
 
-/// Of one cloth or of several; 0 of what there is none of.
+/// Measures of one or several cloths. A value with nothing to measure is 0.
 struct ClothMeasures {
     Strain strain;
     Residual residual;          ///< of the last substep
     double kinetic_energy = 0;  ///< J: ½ m v² over all particles that move
     double max_speed = 0;       ///< m/s: the fastest particle
-    /// No NaN and no infinity in positions or velocities. Where there is one, the figures that it is part of are none
-    /// either.
+    /// No position or velocity is NaN or infinite. If one is, the values computed from it are not finite either.
     bool finite = true;
 };
 
-/// In double: of two float positions.
+/// Distance of two float positions, computed in double.
 double distance(Vec3 a, Vec3 b);
 
-/// The larger one; a NaN counts as larger than all.
+/// The larger value; NaN counts as the largest.
 inline double larger(double a, double b) {
     return b > a || b != b ? b : a;
 }
 
-/// A mean and a maximum in the making.
+/// Accumulates a mean and a maximum.
 class Tally {
   public:
     void add(double value) { add(value, 1, value); }
@@ -52,14 +51,14 @@ class Tally {
     double sum_ = 0, count_ = 0, max_ = 0;
 };
 
-/// Measures in the making, one cloth after another.
+/// Accumulates measures, cloth by cloth.
 struct MeasureSums {
     Tally stretch, shear, residual;
     double kinetic_energy = 0;  ///< J
     double max_speed2 = 0;      ///< m²/s²
     bool finite = true;
 
-    /// Positions, inverse masses and velocities of a cloth on the host: everything but the residual.
+    /// Adds a cloth whose arrays are on the host. Adds everything but the residual.
     void add(const ClothModel& model, std::span<const Vec4> positions, std::span<const Vec4> velocities);
     void add_residual(const ClothModel& model, const Residual& of_cloth);
     void add(const MeasureSums& other);

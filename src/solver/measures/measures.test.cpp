@@ -13,7 +13,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
 
-// Two by two particles, 1 m apart, with one diagonal; the first is held.
+// Two by two particles, 1 m apart, with one diagonal; the first is pinned.
 std::shared_ptr<const ClothModel> square() {
     ClothModelDesc desc{.name = "square", .mesh = make_grid({1, 1}, {2, 2}, GridDiagonal::uniform)};
     auto topology = build_topology(desc.mesh, {.reorder = false});
@@ -60,7 +60,7 @@ TEST(Measures, are_those_of_a_cloth_on_the_host) {
     EXPECT_TRUE(measured().finite);
 
     for (Vec4& p : positions) p.x *= 1.5f, p.z *= 1.5f;
-    velocities[0] = {0, 3, 4, 0};  // held: the hand has that speed, and no energy is in it
+    velocities[0] = {0, 3, 4, 0};  // pinned: counts for speed, but not for energy
     velocities[3] = {2, 0, 0, 0};
     const ClothMeasures stretched = measured();
     EXPECT_DOUBLE_EQ(stretched.strain.stretch.mean, 0.5);

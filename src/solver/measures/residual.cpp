@@ -19,7 +19,7 @@ Residual stretch_residual(const ClothModel& model, std::span<const Vec4> positio
         const double c = static_cast<double>(length(a - b)) - rest;
         const double compliance = table.fields[(c > 0 ? 1 : 2) * std::size_t{table.stride} + row];
         const double lambda = lambdas[row];
-        // No stiffness on this side: nothing was to be solved.
+        // A negative compliance means no stiffness on this side, so no error.
         const double left = compliance < 0 ? 0 : std::abs(c + (h2 > 0 ? compliance / h2 * lambda : 0)) / rest;
         residual.mean += left;
         residual.max = larger(residual.max, left);

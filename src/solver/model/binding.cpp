@@ -30,7 +30,7 @@ FollowFrame frame_at(const BoundVertex& vertex, std::span<const Vec4> positions,
                                 vertex.weights[1]);
 }
 
-// As surface/normals.md has them.
+// Normals as defined in surface/normals.md.
 std::vector<Vec3> area_weighted_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
     std::vector<Vec3> sums(positions.size());
     for (const auto& [a, b, c] : triangles) {
@@ -41,7 +41,7 @@ std::vector<Vec3> area_weighted_normals(std::span<const Vec3> positions, std::sp
     return sums;
 }
 
-// Smooth across seams: vertices in the same place share their normal. Zero where there is none.
+// Smooth across seams: vertices at the same position share their normal. Zero if the triangles define none.
 std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
     if (!mesh.normals.empty()) return mesh.normals;
     const Weld weld = weld_vertices(mesh.positions, 0);

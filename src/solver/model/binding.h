@@ -1,4 +1,4 @@
-// A drawn mesh that follows a coarser, simulated one.
+// Binding of a render mesh to the simulated mesh, which is usually coarser.
 #pragma once
 
 #include "base/shared_array.h"
@@ -13,30 +13,30 @@
 
 namespace weft {
 
-/// One vertex of the drawn mesh, held to a triangle of the simulated one. There stands a frame: its origin is the bound
-/// point on the curved triangle, its third axis the interpolated normal, its first axis the triangle's first side, laid
-/// into the plane of the other two.
+/// One vertex of the render mesh, bound to a triangle of the simulated mesh by a local frame. The origin of the frame
+/// is the bound point on the curved triangle. Its third axis is the interpolated normal. Its first axis is the first
+/// side of the triangle, projected to the plane perpendicular to the third.
 struct BoundVertex {
     std::array<std::uint32_t, 3> particles{};  ///< corners of the triangle
-    std::array<float, 2> weights{};            ///< barycentric, of the last two corners; the first has the rest
-    Vec3 offset;                               ///< m, in the frame: what the curved triangle lacks
+    std::array<float, 2> weights{};            ///< barycentric, of the last two corners; the first is 1 minus both
+    Vec3 offset;                               ///< m, in the frame: from the curved triangle to the vertex
     Vec3 normal;                               ///< unit, in the frame
 };
 
 struct Binding {
-    SharedArray<BoundVertex> vertices;  ///< one per vertex of the drawn mesh
-    float farthest = 0;                 ///< m: largest distance of a drawn vertex from the simulated surface at rest
+    SharedArray<BoundVertex> vertices;  ///< one per vertex of the render mesh
+    float farthest = 0;                 ///< m: largest distance of a vertex from the simulated surface at rest
 
     bool empty() const { return vertices.empty(); }
 };
 
-/// Binds every vertex to the triangle that is closest to it at rest. The drawn mesh keeps its own normals, if it has
-/// them, else those of its shape. Its positions must be finite.
+/// Binds every vertex of the render mesh to the closest triangle at rest. Normals are those of the render mesh, or are
+/// computed from its shape if it has none. Its positions must be finite.
 Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology);
 
-/// Where the drawn vertices are and what their unit normals are, for positions and unit normals of the particles. What
-/// `bind_mesh` saw comes out as it went in; a rigid motion of the particles moves all with it; and the surface is
-/// continuous wherever the particles go, as far as the drawn mesh lies on the curved one.
+/// Computes positions (m) and unit normals of the render vertices from those of the particles. At rest the result is
+/// the mesh that was bound. A rigid motion of the particles moves the mesh rigidly. The surface stays continuous for
+/// all positions of the particles if the render mesh lies on the curved triangles at rest.
 void follow(const Binding& binding, std::span<const Vec4> positions, std::span<const Vec4> normals,
             std::vector<Vec3>& drawn_positions, std::vector<Vec3>& drawn_normals);
 

@@ -15,7 +15,7 @@
 namespace weft {
 namespace {
 
-/// Particles somewhere, with the normals that a backend would give them.
+/// Particles at given positions, with the normals that a backend computes.
 struct Particles {
     std::vector<Vec4> positions, normals;
 
@@ -72,7 +72,7 @@ TEST(Binding, to_itself_changes_nothing) {
         const Drawn drawn(binding, Particles(*topology, in_place));
         EXPECT_LE(greatest_distance(drawn.positions, mesh.positions), 1e-7f);
         EXPECT_LE(greatest_distance(drawn.normals, mesh.normals), 0.02f) << "a mesh's own and those of its shape";
-        // Wherever the particles go, the vertices go along.
+        // Vertices follow arbitrary motions of the particles.
         Random random(1);
         const Particles moved(*topology, [&](Vec3 p) { return p + random.point(0.1f); });
         const Drawn after(binding, moved);
@@ -108,7 +108,7 @@ TEST(Binding, follows_a_rigid_motion) {
 }
 
 TEST(Binding, a_bent_grid_bends_what_is_drawn_smoothly) {
-    // 12 cells of 30° around a cylinder: between two particles the arc rises by R(1 - cos 15°) over its chord.
+    // 12 cells of 30° around a cylinder. The height of the arc above the chord of two particles is R(1 - cos 15°).
     const float radius = 1 / (2 * 3.14159265f), sagitta = radius * (1 - std::cos(0.2617994f));
     const auto bent = [&](Vec3 p) {
         return Vec3{radius * std::sin(p.x / radius), radius * std::cos(p.x / radius), p.z};
@@ -120,13 +120,13 @@ TEST(Binding, a_bent_grid_bends_what_is_drawn_smoothly) {
     for (std::uint32_t z = 0; z < 121; ++z)
         for (std::uint32_t x = 0; x + 1 < 121; ++x) {
             const std::size_t v = 121 * z + x;
-            // At the border a particle has the normal of one side alone.
+            // The normal of a border particle is computed from one side only.
             const bool inside = fine.positions[v].x > -0.4f && fine.positions[v].x < 0.4f;
             const Vec3 expected = bent(fine.positions[v]);
             EXPECT_LE(length(drawn.positions[v] - expected), inside ? 0.12f * sagitta : 0.6f * sagitta);
             const float step = length(drawn.positions[v + 1] - drawn.positions[v]);
             EXPECT_NEAR(step, 1 / 120.0f, 0.05f / 120) << "neither torn apart nor crowded";
-            // 3° a step, and no edge of 30° where two coarse triangles meet.
+            // 3° per step, with no edge of 30° between coarse triangles.
             if (inside) {
                 EXPECT_GE(dot(drawn.normals[v], drawn.normals[v + 1]), std::cos(0.0698f));
             }
@@ -134,7 +134,7 @@ TEST(Binding, a_bent_grid_bends_what_is_drawn_smoothly) {
 }
 
 TEST(Binding, is_continuous_across_the_sides_of_triangles) {
-    // Points a hair to either side of lines that many triangles' sides lie on, at several heights over them.
+    // Pairs of points on both sides of lines that contain many triangle edges, at several heights.
     constexpr float hair = 1e-4f;
     TriangleMesh pairs;
     for (const float height : {0.0f, 0.05f, -0.08f})
@@ -161,7 +161,7 @@ TEST(Binding, keeps_the_heights_of_details) {
     for (Vec3& p : bumps.positions) p.y = 0.01f * std::sin(40 * p.x) * std::sin(40 * p.z);
     const Binding binding = bind_mesh(bumps, *topology);
     EXPECT_NEAR(binding.farthest, 0.01f, 1e-4f);
-    // Twice as large and upside down: the cloth is stretched, the relief on it is not.
+    // Scaled by 2 and turned upside down: the cloth is stretched, but the heights of details are not.
     const Drawn drawn(binding, Particles(*topology, [](Vec3 p) { return Vec3{2 * p.x, 5, -2 * p.z}; }));
     for (std::size_t v = 0; v < bumps.positions.size(); ++v) {
         const Vec3 rest = bumps.positions[v];
@@ -204,7 +204,7 @@ TEST(Binding, stays_finite_when_the_cloth_collapses) {
 
 TEST(Binding, takes_drawn_meshes_that_are_a_mess) {
     const auto topology = build_topology(make_grid({1, 1}, {5, 5}, GridDiagonal::alternating));
-    // A triangle without an area, one twice, a vertex of none, and a seam, without normals of their own.
+    // A triangle without area, a duplicate triangle, an unused vertex and a seam, without normals.
     const TriangleMesh mess{
         .positions = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0, 0.1f}, {0, 0, 0}, {0.2f, 0.1f, 0}, {-3, 0, 9}},
         .uvs = {},
@@ -220,10 +220,11 @@ TEST(Binding, takes_drawn_meshes_that_are_a_mess) {
 
 TEST(ClothModel, is_simulated_on_one_mesh_and_drawn_as_another) {
     const TriangleMesh coarse = make_grid({1, 1}, {5, 5}, GridDiagonal::alternating);
-    TriangleMesh turned = coarse;  // its UVs tell warp from weft
+    TriangleMesh turned = coarse;  // its UVs swap warp and weft
     for (Vec2& uv : turned.uvs) uv = {uv.y, uv.x};
     const auto model_of = [](const TriangleMesh& mesh, std::optional<TriangleMesh> drawn) {
-        auto model = build_cloth_model({.name = "x", .mesh = mesh, .drawn = std::move(drawn)}, *build_topology(mesh));
+        auto model =
+            build_cloth_model({.name = "x", .mesh = mesh, .render_mesh = std::move(drawn)}, *build_topology(mesh));
         EXPECT_TRUE(model.ok());
         return *model;
     };
@@ -255,19 +256,19 @@ TEST(ClothModel, refuses_a_drawn_mesh_that_is_not_sound) {
     const auto error_with = [&](const std::function<void(TriangleMesh&)>& change) {
         TriangleMesh drawn = mesh;
         change(drawn);
-        const auto model = build_cloth_model({.name = "x", .mesh = mesh, .drawn = drawn}, *build_topology(mesh));
+        const auto model = build_cloth_model({.name = "x", .mesh = mesh, .render_mesh = drawn}, *build_topology(mesh));
         return model.ok() ? std::string() : model.error().message();
     };
     EXPECT_EQ(error_with([](TriangleMesh&) {}), "");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.positions[4].y = std::numeric_limits<float>::infinity(); }),
-              "drawn mesh: vertex 4: position must be within 1e6 m of the origin");
+              "render mesh: vertex 4: position must be within 1e6 m of the origin");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.positions[4].z = -3e38f; }),
-              "drawn mesh: vertex 4: position must be within 1e6 m of the origin");
+              "render mesh: vertex 4: position must be within 1e6 m of the origin");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.triangles[1][2] = 9; }),
-              "drawn mesh: triangle 1: indices must be < 9, the number of vertices");
-    EXPECT_EQ(error_with([](TriangleMesh& m) { m.triangles.clear(); }), "drawn mesh: must have at least one triangle");
+              "render mesh: triangle 1: indices must be < 9, the number of vertices");
+    EXPECT_EQ(error_with([](TriangleMesh& m) { m.triangles.clear(); }), "render mesh: must have at least one triangle");
     EXPECT_EQ(error_with([](TriangleMesh& m) { m.normals.pop_back(); }),
-              "drawn mesh: must have one normal per vertex or none");
+              "render mesh: must have one normal per vertex or none");
 }
 
 }  // namespace

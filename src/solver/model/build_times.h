@@ -1,4 +1,4 @@
-// How long the making of a cloth takes, part by part.
+// Build times of a cloth model, by part.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 namespace weft {
 
 enum class BuildPart : std::uint32_t {
-    topology,   ///< welding, sound triangles, edges, order, adjacency
-    rows,       ///< the numbers of every constraint's rows but those of tethers
-    tethers,    ///< their rows: ways over the cloth
-    coloring,   ///< of rows into batches
-    tables,     ///< rows laid out batch by batch
-    hierarchy,  ///< coarse levels, their rows and tables included
-    rest,       ///< masses, places, faces, binding of a drawn mesh
+    topology,   ///< welding, removal of degenerate triangles, edges, ordering, adjacency
+    rows,       ///< parameters of all constraints except tethers
+    tethers,    ///< tether constraints: geodesic distances
+    coloring,   ///< of constraints into batches
+    tables,     ///< constraints packed batch by batch
+    hierarchy,  ///< coarse levels with their constraints and tables
+    rest,       ///< masses, positions, faces, binding of a render mesh
 };
 inline constexpr std::uint32_t build_part_count = 7;
 
@@ -32,12 +32,12 @@ struct BuildTimes {
     double total() const { return std::accumulate(ms.begin(), ms.end(), 0.0); }
 };
 
-/// Adds up the time between calls.
+/// Adds up the times between calls.
 class BuildClock {
   public:
     explicit BuildClock(BuildTimes& times) : times_(times), since_(Clock::now()) {}
 
-    /// What has gone by since the last call was spent on this.
+    /// Adds the time since the last call to `part`.
     void spent_on(BuildPart part) {
         const Clock::time_point now = Clock::now();
         times_.ms[static_cast<std::uint32_t>(part)] += std::chrono::duration<double, std::milli>(now - since_).count();

@@ -1,4 +1,4 @@
-// Changes to single constraints, triangles and particles of a cloth that is built.
+// Changes to single constraints, triangles and particles of an existing cloth model.
 #pragma once
 
 #include "physics/constraint.h"
@@ -13,43 +13,44 @@
 
 namespace weft {
 
-/// Other corners for a triangle.
+/// New corners for a triangle.
 struct TriangleEdit {
     std::uint32_t triangle = 0;
     std::array<std::uint32_t, 3> corners{};  ///< particles
-    std::uint32_t alive = 1;                 ///< 0: it is gone, and so is its mass
+    std::uint32_t alive = 1;                 ///< 0: the triangle and its mass are removed
     friend bool operator==(const TriangleEdit&, const TriangleEdit&) = default;
 };
 
-/// Other ends and another stiffness for a constraint.
+/// New particles and a new stiffness for a constraint.
 struct RowEdit {
     ConstraintKind kind{};
-    std::uint32_t row = 0;  ///< of the model's table
-    /// As many as the kind has. Those of a row along a line must be the ones that it has: the rows before and after it
-    /// share them.
+    std::uint32_t row = 0;  ///< row of the model's table
+    /// As many as the kind has. A constraint on a line must keep its particles, because its neighbors on the line share
+    /// them.
     std::array<std::uint32_t, 6> particles{};
-    /// Times what it has; > 0, or 0: it is gone. Other than 0 and 1 for stretch and for bending over edges alone.
+    /// Factor on the current stiffness; 0 removes the constraint. Only stretch and dihedral bending allow values other
+    /// than 0 and 1, from 1e-6 to 1e6.
     float stiffness = 1;
     friend bool operator==(const RowEdit&, const RowEdit&) = default;
 };
 
-/// In the order in which they are applied.
+/// Edits of one cloth. They are applied in the order of the members.
 struct ClothEdit {
-    /// Particles of which copies are appended: the first copy has the number `particle_count`. It is where the original
-    /// is, moves as that does, and is not pinned.
+    /// Particles to copy. Copies are appended; the first has the number `particle_count`. A copy has the position and
+    /// velocity of the original and is not pinned.
     std::vector<std::uint32_t> appended = {};
     std::vector<TriangleEdit> triangles = {};
-    /// Constraints that are added: like `row`, but for ends and stiffness.
+    /// Constraints to add: copies of constraint `row` with these particles and this stiffness factor.
     std::vector<RowEdit> added = {};
     std::vector<RowEdit> rows = {};
     friend bool operator==(const ClothEdit&, const ClothEdit&) = default;
 };
 
-/// The model with these changes. Particles weigh what their triangles do; one that has no triangle any more keeps its
-/// mass. Where particles or triangles change, coarse levels go, and tethers stay unless `rows` ends them. Everything
-/// else is shared with `from`. Fails on numbers that the cloth has not, constraints of one batch that would share a
-/// particle, and where the model's reserve is used up; for particles and triangles also where the render mesh is not
-/// the simulated one, vertex by vertex.
+/// Returns the model with these changes. Particle masses are recomputed from the triangles; a particle without
+/// triangles keeps its mass. If particles or triangles change, coarse levels are removed; tethers stay unless `rows`
+/// removes them. All other data is shared with `from`. Fails on indices out of range, on constraints of one batch that
+/// would share a particle, and if the model's reserve is used up. Changes of particles and triangles also fail unless
+/// each vertex of the render mesh is one particle.
 Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit);
 
 }  // namespace weft

@@ -2,7 +2,7 @@
 
 #include "mesh/grouping.h"
 #include "physics/attachment/attachment.h"
-#include "physics/tether/held_places.h"
+#include "physics/tether/pinned_places.h"
 #include "scene/problems.h"
 #include "scene/scene_keys.h"
 #include "solver/model/lines.h"
@@ -16,7 +16,7 @@
 namespace weft {
 namespace {
 
-Result<Done> place_particles(ClothModel& model, const Topology& topology, const std::vector<std::uint32_t>& pinned,
+Result<void> place_particles(ClothModel& model, const Topology& topology, const std::vector<std::uint32_t>& pinned,
                              AlignedVector<Vec4>& start) {
     if (auto weighed = check_masses(model.mass); !weighed) return weighed;
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
@@ -31,10 +31,10 @@ Result<Done> place_particles(ClothModel& model, const Topology& topology, const 
         model.pinned_count += start[p].w > 0;
         start[p].w = 0;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> place_anchors(const ClothModel& model, const std::vector<Attachment>& attachments,
+Result<void> place_anchors(const ClothModel& model, const std::vector<Attachment>& attachments,
                            AlignedVector<Vec4>& start) {
     for (std::uint32_t i = 0; i < attachments.size(); ++i) {
         const auto& [particle, compliance, place] = attachments[i];
@@ -47,10 +47,10 @@ Result<Done> place_anchors(const ClothModel& model, const std::vector<Attachment
         if (!finite(place)) return Error{where, "place is not finite"};
         start[model.first_anchor() + i] = {place.x, place.y, place.z, 0};
     }
-    return Done{};
+    return {};
 }
 
-// Room for some springs that are added while the cloth moves, such as those of a mouse that pulls at it.
+// Room for springs that are added while the cloth moves, for example to drag it with the mouse.
 constexpr std::uint32_t spare_anchors = 8;
 
 void lay_out_faces(ClothModel& model, const RestShape& rest) {
@@ -70,7 +70,7 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     model.face_area = std::vector<float>(rest.area);
 }
 
-// Edges stand in the order of their lower end, and then of the upper one.
+// Finds edges by their ends. Topology sorts edges by lower end, then by upper end.
 class EdgeIndex {
   public:
     explicit EdgeIndex(const Topology& topology) : edges_(topology.edges), first_(topology.particle_count + 1) {
@@ -128,25 +128,26 @@ bool is_simulated_as_drawn(const TriangleMesh& mesh, const Topology& topology) {
 }
 
 // A simulated mesh was checked when its topology was built.
-Result<Done> check_drawn(const TriangleMesh& mesh) {
+Result<void> check_drawn(const TriangleMesh& mesh) {
     const std::size_t count = mesh.positions.size();
     for (std::size_t v = 0; v < count; ++v) {
-        // Farther out, a vertex that turns with its triangle can leave the range of a float.
+        // A vertex farther out could leave the range of a float when its triangle rotates.
         const Vec3 p = mesh.positions[v];
         const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (!finite(p) || farthest > far_away)
-            return Error{"drawn mesh", "vertex " + std::to_string(v) + ": position must be within 1e6 m of the origin"};
+            return Error{"render mesh",
+                         "vertex " + std::to_string(v) + ": position must be within 1e6 m of the origin"};
     }
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto [a, b, c] = mesh.triangles[t];
         if (std::max({a, b, c}) >= count)
-            return Error{"drawn mesh", "triangle " + std::to_string(t) + ": indices must be < " +
-                                           std::to_string(count) + ", the number of vertices"};
+            return Error{"render mesh", "triangle " + std::to_string(t) + ": indices must be < " +
+                                            std::to_string(count) + ", the number of vertices"};
     }
-    if (mesh.triangles.empty()) return Error{"drawn mesh", "must have at least one triangle"};
+    if (mesh.triangles.empty()) return Error{"render mesh", "must have at least one triangle"};
     if (!mesh.normals.empty() && mesh.normals.size() != count)
-        return Error{"drawn mesh", "must have one normal per vertex or none"};
-    return Done{};
+        return Error{"render mesh", "must have one normal per vertex or none"};
+    return {};
 }
 
 void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind, const RowList& rows, bool lines,
@@ -164,18 +165,19 @@ void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind,
     clock.spent_on(BuildPart::tables);
 }
 
-// Where a cloth hangs by many places, the nearest is near, and coarse levels do as well. What stretches under a load is
-// stiffened by tethers beyond what they allow for.
+// Decides on automatic tethers. If a cloth hangs by many places, one is always near, and coarse levels work as well.
+// Tethers would stiffen a cloth that stretches under load.
 void choose_tethers(ClothModel& model, const RestShape& rest) {
     constexpr std::size_t few = 16;
     TetherMaterial& tether = model.fabric.tether;
     if (tether.use != Tethers::automatic) return;
-    const bool pays = !model.hierarchy.empty() && model.fabric.stretch.inextensible && held_places(rest).size() <= few;
+    const bool pays =
+        !model.hierarchy.empty() && model.fabric.stretch.inextensible && pinned_places(rest).size() <= few;
     tether.use = pays ? Tethers::on : Tethers::off;
 }
 
-// Everything that material and pins decide.
-Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
+// Builds all parts of the model that depend on fabric and pins.
+Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology& topology, const Fabric& fabric,
                      const ClothPins& pins, const ColoringOptions& coloring, const ClothLayout& layout,
                      const ClothReserve& reserve) {
     const float density = fabric.body.density;
@@ -198,8 +200,8 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     model.start = std::move(start);
     rest.attachments = pins.attachments;
     rest.first_anchor = model.first_anchor();
-    rest.held.assign(model.particle_count, 0);
-    for (std::uint32_t p : pins.particles) rest.held[p] = 1;
+    rest.pinned.assign(model.particle_count, 0);
+    for (std::uint32_t p : pins.particles) rest.pinned[p] = 1;
     model.extent = extent_of(topology);
     rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.extent);
     clock.spent_on(BuildPart::rest);
@@ -214,8 +216,8 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);
-    // The same values for all three; which of them makes rows is one of the values.
-    model.fabric.plate = model.fabric.flexion = model.fabric.bend;
+    // All three bend models get the same values; `model` selects the one that creates constraints.
+    model.fabric.plate = model.fabric.distance_bend = model.fabric.bend;
     const auto add = [&](ConstraintKind kind, const RowList& rows) {
         const bool lines = layout.lines && kind == ConstraintKind::stretch;
         add_table(model, topology, kind, rows, lines, coloring, reserve.constraints, clock);
@@ -229,7 +231,7 @@ Result<Done> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 
     measure_edges(model, rest);
     clock.spent_on(BuildPart::rest);
-    return Done{};
+    return {};
 }
 
 }  // namespace
@@ -243,14 +245,14 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
         !done)
         return done.errors();
     BuildClock clock(model->build_times);
-    if (desc.drawn) {
-        if (auto sound = check_drawn(*desc.drawn); !sound) return sound.errors();
-        model->binding = bind_mesh(*desc.drawn, topology);
+    if (desc.render_mesh) {
+        if (auto sound = check_drawn(*desc.render_mesh); !sound) return sound.errors();
+        model->binding = bind_mesh(*desc.render_mesh, topology);
     } else {
         model->vertex_to_particle = std::move(topology.vertex_to_particle);
     }
-    if (desc.drawn) {
-        model->set_mesh(std::move(*desc.drawn));
+    if (desc.render_mesh) {
+        model->set_mesh(std::move(*desc.render_mesh));
     } else if (is_simulated_as_drawn(desc.mesh, topology)) {
         model->set_mesh_of_particles(std::move(desc.mesh.uvs), std::move(desc.mesh.colors));
     } else {

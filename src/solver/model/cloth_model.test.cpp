@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-// In an order that no cache likes, so that particles are numbered anew.
+// Shuffles the mesh, so that its particles are renumbered.
 TriangleMesh shuffled(const TriangleMesh& mesh) {
     std::mt19937 random(7);
     std::vector<std::uint32_t> place(mesh.positions.size());
@@ -69,14 +69,14 @@ TEST(ClothModel, draws_the_mesh_that_it_was_made_of) {
 
 TEST(ClothModel, draws_what_is_not_simulated_too) {
     TriangleMesh mesh = colored_sheet();
-    mesh.positions.push_back({5, 5, 5});  // of no triangle
+    mesh.positions.push_back({5, 5, 5});  // unused vertex
     mesh.uvs.push_back({});
     mesh.colors.push_back({});
-    mesh.triangles.push_back({0, 1, 1});  // without an area
+    mesh.triangles.push_back({0, 1, 1});  // without area
     mesh.triangles.push_back(mesh.triangles[0]);
     expect_drawn_as(model_of(mesh)->mesh(), mesh);
 
-    TriangleMesh seam = colored_sheet();  // a vertex twice
+    TriangleMesh seam = colored_sheet();  // duplicate vertex
     seam.positions.push_back(seam.positions[0]);
     seam.uvs.push_back({1, 1});
     seam.colors.push_back({});
@@ -97,7 +97,7 @@ TEST(ClothModel, draws_the_same_with_other_material) {
     expect_drawn_as((*changed)->mesh(), mesh);
 }
 
-// Every edge once, and along warp or weft where the grid has it so.
+// Expects every edge once, with the right direction.
 void expect_edges_of(const Topology& topology, const ClothModel& model) {
     std::multiset<EdgeEnds> expected[2], found[2];
     for (const Edge& edge : topology.edges) {

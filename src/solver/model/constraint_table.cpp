@@ -20,7 +20,7 @@ std::vector<Batch> lay_out(const Coloring& coloring) {
     return batches;
 }
 
-// An array with more columns; what is new is `fill`.
+// Widens each field of an array from `stride` to `wider` elements; new elements are `fill`.
 template <class T>
 AlignedVector<T> widened(const SharedArray<T>& from, std::uint32_t stride, std::uint32_t wider, T fill) {
     AlignedVector<T> to(stride == 0 ? 0 : from.size() / stride * wider, fill);
@@ -48,7 +48,7 @@ Coloring color_rows(ConstraintKind kind, const RowList& list, std::uint32_t part
                     const ColoringOptions& options) {
     const std::uint32_t moved = constraint_info(kind).moved;
     if (moved == list.arity) return color_rows(list.particles, moved, particle_count, options);
-    std::vector<std::uint32_t> written;  // what a row only reads, rows of one color may share
+    std::vector<std::uint32_t> written;  // constraints of one color may share particles that they only read
     written.reserve(std::size_t{moved} * list.size());
     for (std::uint32_t row = 0; row < list.size(); ++row) {
         const auto first = list.particles.begin() + static_cast<std::ptrdiff_t>(row) * list.arity;

@@ -7,7 +7,8 @@
 namespace weft {
 namespace {
 
-// Side by side, a triangle costs a fifth of what it costs alone; a list with more gaps than this gains nothing.
+// Lists of equal length cost a fifth per triangle. They gain nothing if they have more than this many elements per
+// triangle.
 constexpr std::size_t most_padding = 4;
 
 }  // namespace

@@ -10,50 +10,51 @@
 namespace weft {
 namespace {
 
-// A level with fewer nodes brings nothing that the one before has not done.
+// A level with fewer nodes does not improve on the level before.
 constexpr std::uint32_t least_nodes = 12;
 
-// Of the mean length of a level's rows. On a square grid the nodes of the next level are then every second one along
-// warp and weft: two rows apart, but not across one diagonal.
+// Smallest distance of two nodes, relative to the mean link length of the finer level. On a square grid the next level
+// then has every second node along warp and weft: two links apart along warp or weft, but not across one diagonal.
 constexpr double spacing = 1.6;
-// How far a node's influence goes, likewise: on a square grid to the middle of four.
+// Radius of a node's influence, relative to the same length: on a square grid up to the center of four nodes.
 constexpr double influence = 2.25;
 
-// Likewise, of a first level that leaves all nearer to the fine rows: four edges on a square grid.
+// Factor on both for the first level of FinestLevel::every_fourth: four edges on a square grid. Fine constraints handle
+// the shorter distances.
 constexpr double far = 2;
 
-// By how much the means of two nodes may be nearer to one another than the nodes at most, for a row to be as much
-// shorter. What carries the one lies beyond what carries the other, and no bending of the cloth brings them farther
-// apart. Of means that nearly coincide that is not so; nor of a pin, from which a pull draws all that lies to both
-// sides.
+// If the means of two nodes are nearer to each other than the nodes, their limit is shorter by the same ratio, but by
+// no less than this one. The limit can be shorter because bending the cloth does not move the means farther apart. This
+// does not hold for means that nearly coincide, nor for a pin, whose pull acts on the cloth on both sides of the line.
 constexpr double closest = 0.9;
 
 constexpr double unreached = LocalWays::unreached;
 
-// Per finer node, the nodes that it follows: up to four, the nearest first.
+// The parents of a finer node: up to four coarse nodes, nearest first.
 struct Parents {
-    std::array<std::uint32_t, Carry::parents> node;
-    std::array<double, Carry::parents> weight, distance;
+    std::array<std::uint32_t, Prolongation::parents> node;
+    std::array<double, Prolongation::parents> weight, distance;
     std::uint32_t count = 0;
 
-    /// Among equal ones those come first that were added first.
+    /// Parents of equal weight keep the order of insertion.
     void add(std::uint32_t new_node, double new_weight, double new_distance) {
         std::uint32_t at = count;
         while (at > 0 && weight[at - 1] < new_weight) --at;
-        if (at == Carry::parents) return;
-        count = std::min(count + 1, Carry::parents);
+        if (at == Prolongation::parents) return;
+        count = std::min(count + 1, Prolongation::parents);
         for (std::uint32_t i = count - 1; i > at; --i) {
             node[i] = node[i - 1], weight[i] = weight[i - 1], distance[i] = distance[i - 1];
         }
         node[at] = new_node, weight[at] = new_weight, distance[at] = new_distance;
     }
-    /// Four nodes are at least as near: whoever comes by now can do nothing for this one, nor for those behind it,
-    /// which the four reach in no longer a way. So a search may stop here, and searches around many nodes stay linear.
-    bool complete_within(double d) const { return count == Carry::parents && std::ranges::max(distance) <= d; }
+    /// Whether four parents are within distance `d`. A coarse node at distance `d` is then no parent of this node, nor
+    /// of the nodes behind it, because the four are at least as near to them. A search can stop here, which keeps the
+    /// cost of searches around many nodes linear.
+    bool complete_within(double d) const { return count == Prolongation::parents && std::ranges::max(distance) <= d; }
 };
 
-// Nodes that keep a distance from one another and leave no gap; pinned ones come first, as everything hangs on them.
-// Each leaves its mark on those around it.
+// Coarse nodes with a minimum distance from one another that cover the whole graph. Pinned nodes are chosen first,
+// because the cloth hangs by them. `chosen` are finer nodes.
 struct Selection {
     std::vector<std::uint32_t> chosen;
     std::vector<Parents> parents;  // of every node
@@ -95,10 +96,11 @@ Selection select_nodes(const LinkGraph& graph, double unit, const std::vector<st
 
 struct Neighbors {
     Adjacency of;               // every node, ascending
-    std::vector<double> limit;  // m, per node: by length no neighbor is farther than that
+    std::vector<double> limit;  // m, per node: largest distance to a neighbor along links
 };
 
-// Two nodes are neighbors if a node between them follows both, or if nodes that follow them most are linked.
+// Two coarse nodes are neighbors if a finer node has both as parents, or if two linked finer nodes have them as their
+// nearest parents.
 Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) {
     constexpr double clearly = 0.15;
     const auto count = static_cast<std::uint32_t>(selection.chosen.size());
@@ -116,11 +118,11 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
         double distance;
         std::uint32_t node;
     };
-    std::vector<Nearest> nearest(fine.size());  // whom it follows most
+    std::vector<Nearest> nearest(fine.size());  // nearest parent of each finer node
     for (std::uint32_t i = 0; i < fine.size(); ++i)
         nearest[i] = {selection.parents[i].distance[0], selection.parents[i].node[0]};
-    std::vector<std::uint32_t> seen(count, none);  // by which node last
-    std::vector<double> way(count);                // to that node, as far as it is known
+    std::vector<std::uint32_t> seen(count, none);  // the node that last added this one
+    std::vector<double> way(count);                // shortest known distance to that node
     for (std::uint32_t node = 0; node < count; ++node) {
         const auto add = [&](std::uint32_t other, double length) {
             if (other == node) return;
@@ -157,33 +159,34 @@ Neighbors neighbors_of_nodes(const LinkGraph& fine, const Selection& selection) 
     return result;
 }
 
-// Where the cloth is flat, a way need not have the corners that edges give it.
+// Replaces the length of a path along edges by the straight distance if the cloth is flat between its ends.
 void straighten(Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
     if (!follows(link.length, straight)) return;
     link.length = std::min(link.length, straight.length);
     if (!turns) {
-        link.reach = link.length;
+        link.limit = link.length;
         return;
     }
     const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
-    link.reach = std::min(link.reach, limit.length);
+    link.limit = std::min(link.limit, limit.length);
 }
 
-// Of a row between two nodes. Where the fabric turns, its link allows for elasticity already.
+// The limit of a constraint between two nodes. If threads turn, link.limit already includes elasticity.
 Limit limit_of(const Link& link, const StraightLine& straight, const Elasticity& elasticity, bool turns) {
-    if (!turns) return limit_any_way(elasticity, link.reach);
+    if (!turns) return limit_any_way(elasticity, link.limit);
     if (follows(link.length, straight)) {
         const Limit limit = limit_along(elasticity, straight.length, straight.along_warp, straight.along_weft);
-        return {link.reach, limit.give};
+        return {link.limit, limit.compliance};
     }
-    // What its way is longer by under the tension of `reach`, and no more than the softest way would be.
-    const double give = (link.reach - link.length) / elasticity.tension;
-    return {link.reach, std::min(give, limit_any_way(elasticity, link.length).give)};
+    // Compliance of the path: its elongation per tension, at most that of a path in the softest direction.
+    const double compliance = (link.limit - link.length) / elasticity.tension;
+    return {link.limit, std::min(compliance, limit_any_way(elasticity, link.length).compliance)};
 }
 
-// Neighbors that no way leads to within four spacings are none. Nor do ways lead through a hub, once it has let enough
-// searches pass: each of its thousands of neighbors would visit all the others. What is lost there is a row that helps,
-// or it is longer than it could be. `frames` and `place`: of the finer nodes.
+// Builds the graph of the coarse nodes. Neighbors without a path shorter than four spacings are dropped. A hub (a node
+// with very many links) is closed after a number of searches, because otherwise each of its thousands of neighbors
+// would visit all others. This loses some constraints, and makes some longer than necessary. `frames` and `place`
+// belong to the finer nodes.
 LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& selection,
                          std::span<const RestFrame> frames, std::span<const Vec3> place, const Elasticity& elasticity) {
     const Neighbors neighbors = neighbors_of_nodes(fine, selection);
@@ -211,14 +214,15 @@ LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& se
             const auto keep = [&](std::size_t i, double distance) { found[i].*Measure = distance; };
             ways.run<Measure>(selection.chosen[node], goals, std::min(farthest, 4 * spacing * unit), keep, is_closed);
         };
-        // What turns reaches at most as far as two sides of a square do along its diagonal.
-        measure.template operator()<&Link::reach>(fine.turns ? std::numbers::sqrt2 * (1 + elasticity.reserve()) * limit
+        // If threads turn, a limit is at most √2 times the length (two sides of a square stretched
+        // along its diagonal), plus elasticity.
+        measure.template operator()<&Link::limit>(fine.turns ? std::numbers::sqrt2 * (1 + elasticity.reserve()) * limit
                                                              : limit);
         if (fine.turns) measure.template operator()<&Link::length>(limit);
         for (const Link& link : found) {
-            if (!(link.reach < unreached)) continue;
+            if (!(link.limit < unreached)) continue;
             const std::uint32_t a = selection.chosen[node], b = selection.chosen[link.to];
-            Link& kept = graph.links.emplace_back(Link{link.to, std::min(link.length, link.reach), link.reach});
+            Link& kept = graph.links.emplace_back(Link{link.to, std::min(link.length, link.limit), link.limit});
             straighten(kept, straight_line(frames[a], frames[b], place[b] - place[a]), elasticity, fine.turns);
         }
         graph.offsets.push_back(static_cast<std::uint32_t>(graph.links.size()));
@@ -226,38 +230,39 @@ LinkGraph graph_of_nodes(const LinkGraph& fine, double unit, const Selection& se
     return graph;
 }
 
-// A link that says no more than two others together do. The search runs over the links of the end with fewer of them:
-// a hub's are then not gone through again for each of them.
+// Whether two other links together imply the limit of this one. The loop runs over the links of the end that has fewer,
+// so that the links of a hub are not visited once per neighbor.
 bool is_implied(const LinkGraph& graph, std::uint32_t from, const Link& link) {
     std::uint32_t few = from, many = link.to;
     if (graph[few].size() > graph[many].size()) std::swap(few, many);
     return std::ranges::any_of(graph[few], [&](const Link& first) {
         const Link* second = find_link(graph, many, first.to);
-        return second && first.reach + second->reach <= 1.001 * link.reach;
+        return second && first.limit + second->limit <= 1.001 * link.limit;
     });
 }
 
-// `count`: of the nodes that carry.
-Carry carry_to(std::span<const Parents> parents, std::span<const std::uint8_t> pinned, std::uint32_t count) {
-    Carry carry;
-    carry.stride = padded(static_cast<std::uint32_t>(parents.size()));
-    carry.weight.resize(std::size_t{Carry::parents} * carry.stride);
+// `count`: number of coarse nodes.
+Prolongation make_prolongation(std::span<const Parents> parents, std::span<const std::uint8_t> pinned,
+                               std::uint32_t count) {
+    Prolongation prolongation;
+    prolongation.stride = padded(static_cast<std::uint32_t>(parents.size()));
+    prolongation.weight.resize(std::size_t{Prolongation::parents} * prolongation.stride);
     const auto write = [&]<class Node>(AlignedVector<Node>& nodes) {
-        nodes.resize(carry.weight.size());
+        nodes.resize(prolongation.weight.size());
         for (std::uint32_t i = 0; i < parents.size(); ++i) {
             for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
-                const std::size_t at = std::size_t{k} * carry.stride + i;
+                const std::size_t at = std::size_t{k} * prolongation.stride + i;
                 nodes[at] = static_cast<Node>(parents[i].node[k]);
-                carry.weight[at] = static_cast<float>(parents[i].weight[k]);
+                prolongation.weight[at] = static_cast<float>(parents[i].weight[k]);
             }
         }
     };
     constexpr std::uint32_t most_narrow = std::uint32_t{1} << 16;
-    count <= most_narrow ? write(carry.narrow) : write(carry.wide);
-    return carry;
+    count <= most_narrow ? write(prolongation.narrow) : write(prolongation.wide);
+    return prolongation;
 }
 
-// A hub may carry thousands. The heaviest of them tell where it is well enough.
+// A hub may move thousands of finer nodes. The mean of the heaviest ones is accurate enough.
 constexpr std::size_t most_members = 256;
 
 struct Member {
@@ -265,38 +270,38 @@ struct Member {
     double weight;
 };
 
-// What a node takes its place from, weighted: of all that it carries; nothing where that weighs nothing.
-std::span<const Member> members_of(std::span<Member> carried) {
-    if (carried.size() > most_members) {
-        std::ranges::stable_sort(carried, std::ranges::greater{}, &Member::weight);
-        carried = carried.first(most_members);
-        std::ranges::sort(carried, {}, &Member::node);
+// The finer nodes whose mean is the position of a node, with normalized weights; empty if their weight is 0.
+std::span<const Member> members_of(std::span<Member> members) {
+    if (members.size() > most_members) {
+        std::ranges::stable_sort(members, std::ranges::greater{}, &Member::weight);
+        members = members.first(most_members);
+        std::ranges::sort(members, {}, &Member::node);
     }
     double sum = 0;
-    for (const Member& member : carried) sum += member.weight;
+    for (const Member& member : members) sum += member.weight;
     if (!(sum > 0)) return {};
-    for (Member& member : carried) member.weight /= sum;
-    return carried;
+    for (Member& member : members) member.weight /= sum;
+    return members;
 }
 
-// `mass`: of the finer nodes; pinned ones are carried by none.
+// `mass` belongs to the finer nodes. Pinned finer nodes belong to no mean.
 Restriction restriction_of(std::span<const Parents> parents, std::span<const std::uint32_t> chosen,
                            std::span<const double> mass, std::span<const std::uint8_t> pinned) {
     const auto count = static_cast<std::uint32_t>(chosen.size());
-    auto carried = group_items<Member>(count, [&](auto put) {
+    auto of_node = group_items<Member>(count, [&](auto put) {
         for (std::uint32_t i = 0; i < parents.size(); ++i) {
             for (std::uint32_t k = 0; k < parents[i].count && !pinned[i]; ++k) {
-                if (pinned[chosen[parents[i].node[k]]]) continue;  // its own place
+                if (pinned[chosen[parents[i].node[k]]]) continue;  // its position is its particle's
                 put(parents[i].node[k], {i, parents[i].weight[k] * mass[i]});
             }
         }
     });
-    std::vector<Member> itself(count);  // where a node carries nothing
+    std::vector<Member> itself(count);  // for nodes without other members
     std::vector<std::span<const Member>> lists(count);
     for (std::uint32_t node = 0; node < count; ++node) {
         itself[node] = {chosen[node], 1};
-        const std::uint32_t begin = carried.offsets[node], end = carried.offsets[node + 1];
-        lists[node] = members_of(std::span(carried.items).subspan(begin, end - begin));
+        const std::uint32_t begin = of_node.offsets[node], end = of_node.offsets[node + 1];
+        lists[node] = members_of(std::span(of_node.items).subspan(begin, end - begin));
         if (lists[node].empty()) lists[node] = std::span(itself).subspan(node, 1);
     }
     Restriction restriction;
@@ -322,7 +327,7 @@ Restriction restriction_of(std::span<const Parents> parents, std::span<const std
     return restriction;
 }
 
-// Where each node is at rest, by the finer ones that it carries.
+// Position of each node at rest: the mean of its members.
 std::vector<Vec3> means_of(const Restriction& restriction, std::span<const Vec3> finer, std::uint32_t count) {
     std::vector<Vec3> means(count);
     for (std::uint32_t node = 0; node < count; ++node) {
@@ -359,53 +364,59 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         const Selection selection = select_nodes(graph, unit, pinned);
         const auto count = static_cast<std::uint32_t>(selection.chosen.size());
         if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
-        CoarseLevel level{
-            .count = count, .particle = {}, .restriction = {}, .weight = {}, .reach = {}, .carry = {}, .ways = {}};
-        level.carry = carry_to(selection.parents, pinned, count);
+        CoarseLevel level{.count = count,
+                          .particle = {},
+                          .restriction = {},
+                          .weight = {},
+                          .limits = {},
+                          .prolongation = {},
+                          .ways = {}};
+        level.prolongation = make_prolongation(selection.parents, pinned, count);
         level.restriction = restriction_of(selection.parents, selection.chosen, mass, pinned);
         std::vector<Vec3> means = means_of(level.restriction, mean, count);
 
-        std::vector<double> carried(count);
+        std::vector<double> node_mass(count);
         for (std::uint32_t i = 0; i < graph.size(); ++i) {
             const Parents& parents = selection.parents[i];
-            for (std::uint32_t k = 0; k < parents.count; ++k) carried[parents.node[k]] += parents.weight[k] * mass[i];
+            for (std::uint32_t k = 0; k < parents.count; ++k) node_mass[parents.node[k]] += parents.weight[k] * mass[i];
         }
-        std::vector<std::uint8_t> held(count);
+        std::vector<std::uint8_t> pinned_node(count);
         std::vector<std::uint32_t> nodes(count);
         std::vector<Vec3> places(count);
         level.particle.resize(padded(count));
         level.weight.resize(padded(count));
         for (std::uint32_t node = 0; node < count; ++node) {
             places[node] = place[selection.chosen[node]];
-            held[node] = pinned[selection.chosen[node]];
+            pinned_node[node] = pinned[selection.chosen[node]];
             nodes[node] = level.particle[node] = particle[selection.chosen[node]];
-            level.weight[node] = held[node] || !(carried[node] > 0) ? 0 : static_cast<float>(1 / carried[node]);
+            level.weight[node] =
+                pinned_node[node] || !(node_mass[node] > 0) ? 0 : static_cast<float>(1 / node_mass[node]);
         }
         LinkGraph coarse = graph_of_nodes(graph, unit, selection, frames, place, rest.elasticity);
         std::vector<RestFrame> kept_frames;
         for (const std::uint32_t node : selection.chosen) kept_frames.push_back(frames[node]);
-        RowList rows = make_rows(ConstraintKind::reach);
+        RowList rows = make_rows(ConstraintKind::coarse_limit);
         for (std::uint32_t node = 0; node < count; ++node) {
             for (const Link& link : coarse[node]) {
                 if (link.to < node || is_implied(coarse, node, link)) continue;
-                // Means lie nearer to one another than their nodes or farther apart, near borders and on irregular
-                // meshes. What they are off by must not pull at the cloth at rest, nor take from it what it may stretch
-                // by.
+                // Near borders and on irregular meshes, means are nearer to each other than their nodes, or farther
+                // apart. The limit is scaled by the ratio, so that it neither pulls at the cloth at rest nor reduces
+                // the stretch that it allows.
                 const double apart = length(means[node] - means[link.to]);
                 const StraightLine line =
                     straight_line(kept_frames[node], kept_frames[link.to], places[link.to] - places[node]);
                 const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
-                const double least = held[node] || held[link.to] ? 1 : closest;
-                const double reach = link.length > 0 ? limit.length * std::max(least, apart / link.length) : apart;
-                rows.add({node, link.to}, {static_cast<float>(reach), static_cast<float>(limit.give)});
+                const double least = pinned_node[node] || pinned_node[link.to] ? 1 : closest;
+                const double allowed = link.length > 0 ? limit.length * std::max(least, apart / link.length) : apart;
+                rows.add({node, link.to}, {static_cast<float>(allowed), static_cast<float>(limit.compliance)});
             }
         }
-        level.reach = pack_rows(ConstraintKind::reach, rows, count);
+        level.limits = pack_rows(ConstraintKind::coarse_limit, rows, count);
         level.ways = coarse;
         levels.push_back(std::move(level));
         graph = std::move(coarse);
-        particle = std::move(nodes), pinned = std::move(held), mass = std::move(carried), place = std::move(places),
-        mean = std::move(means), frames = std::move(kept_frames);
+        particle = std::move(nodes), pinned = std::move(pinned_node), mass = std::move(node_mass),
+        place = std::move(places), mean = std::move(means), frames = std::move(kept_frames);
     }
 }
 

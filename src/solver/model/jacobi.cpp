@@ -9,7 +9,7 @@ std::uint32_t particle_of(const ConstraintTable& table, std::uint32_t row, std::
     return table.particles[std::size_t{slot} * table.stride + row];
 }
 
-/// f(table, row, slot) for every particle that a row moves.
+// Calls f(table, row, slot) for every particle that a constraint moves.
 template <class F>
 void for_each_moved(const ClothModel& model, F&& f) {
     for (const ConstraintTable& table : model.constraints) {
@@ -17,7 +17,7 @@ void for_each_moved(const ClothModel& model, F&& f) {
         for (std::uint32_t row = 0; row < table.stride; ++row) {
             if (!table.is_real(row)) continue;
             for (std::uint32_t slot = 0; slot < moved; ++slot) {
-                // Of a particle that a row names twice, the last one counts.
+                // If a constraint names a particle twice, the last slot counts.
                 bool again = false;
                 for (std::uint32_t later = slot + 1; later < moved; ++later) {
                     again = again || particle_of(table, row, later) == particle_of(table, row, slot);

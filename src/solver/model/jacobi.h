@@ -1,6 +1,6 @@
-// Averaged Jacobi: every row computes its corrections from the same positions; then each particle takes the mean of
-// what its rows want of it. Rows write to places of their own, and a particle sums its list in a fixed order, so the
-// result is the same for any number of threads, and nothing needs an atomic.
+// Averaged Jacobi: every constraint computes its corrections from the same positions, then each particle takes the mean
+// of its corrections. Each constraint writes to its own elements, and a particle sums its list in a fixed order. The
+// result is therefore the same for any number of threads, without atomics.
 #pragma once
 
 #include "solver/model/cloth_model.h"
@@ -12,16 +12,16 @@
 namespace weft {
 
 struct JacobiGather {
-    /// A row's correction of its particle `slot` is block first[kind] + slot · stride + row.
+    /// The correction of particle `slot` of a constraint is block first[kind] + slot · stride + row.
     std::array<std::uint32_t, constraint_kind_count> first{};
     std::uint32_t blocks = 0;
 
     std::vector<std::uint32_t> offsets;  ///< blocks of particle p: items[offsets[p] … offsets[p + 1])
     std::vector<std::uint32_t> items;
 
-    /// Per row with padding: 1 over the larger number of rows at its particles. Where stiffness is in N/m, a row as a
-    /// whole takes this part of its correction: all its particles the same part, so that lambda tells what it did, and
-    /// momentum is kept.
+    /// Per table row, padding included: 1 / n, where n is the largest number of constraints at one of its particles. If
+    /// stiffness is in N/m, all particles of a constraint take this fraction of the correction. Its lambda then matches
+    /// the applied correction, and momentum is conserved.
     std::array<AlignedVector<float>, constraint_kind_count> share;
 };
 

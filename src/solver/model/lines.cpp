@@ -20,11 +20,11 @@ constexpr std::array<float, 3> inert = {0, -1, -1};
 
 struct Lines {
     Paths paths;
-    std::vector<std::vector<std::uint32_t>> colors;  // paths, the longest first
-    std::vector<std::uint32_t> overflow;             // rows, ascending
+    std::vector<std::vector<std::uint32_t>> colors;  // paths, longest first
+    std::vector<std::uint32_t> overflow;             // constraints, ascending
 };
 
-// A flat view of the mesh, along its thinnest axis, in which lines have directions.
+// Directions of the lines, in a projection of the mesh along its thinnest axis.
 class Directions {
   public:
     Directions(const RowList& rows, const Paths& paths, std::span<const Vec3> positions)
@@ -38,7 +38,8 @@ class Directions {
         if (paths.size() > 0) reference_ = angle(longest);
     }
 
-    /// Parallel lines have the same: an eighth of the circle around that of the longest line is 0.
+    /// Index 0…3 of the direction, in steps of 45°; 0 is the direction of the longest line. Parallel lines have the
+    /// same index.
     std::uint32_t family(std::uint32_t path) const {
         const double eighths = (angle(path) - reference_) * 4 / std::numbers::pi;
         return static_cast<std::uint32_t>(static_cast<int>(std::floor(eighths + 0.5)) & 3);
@@ -63,9 +64,9 @@ class Directions {
     double reference_ = 0;
 };
 
-// Greedy. Parallel lines do not cross, so each direction has a color of its own: on a grid nearly all of its rows get
-// it, and threads keep to their places from color to color. What does not fit fills all colors there are, the longest
-// first: what is left over then are single rows, of which many fit into a block.
+// Greedy coloring of lines. Parallel lines do not cross, so each direction gets its own color. On a grid nearly all
+// constraints fit into these colors, and each thread works on the same region in every color. The remaining lines take
+// any color that is free, longest first, so that mostly single constraints remain, and many of them fit into a block.
 class LineColoring {
   public:
     LineColoring(const RowList& rows, Paths paths, std::uint32_t particle_count, const ColoringOptions& options)
@@ -125,15 +126,15 @@ class LineColoring {
     std::vector<std::uint32_t> particles_;
 };
 
-// Lines that may share a block: those of a class differ by an eighth at most.
+// Rounds up a length, so that lines of one class differ in length by at most an eighth and can share a block.
 std::uint32_t length_class(std::uint32_t length) {
     const auto steps = static_cast<std::uint32_t>(std::bit_width(length - 1));
     const std::uint32_t width = steps > 4 ? 1u << (steps - 4) : 1;
     return (length + width - 1) / width * width;
 }
 
-// A block takes lines of like length. Which of them, and in which order blocks come, is a matter of place: threads take
-// a stretch of blocks each, and the particles that one has moved are then mostly those that it has had before.
+// Sorts lines into blocks of similar length, and lines and blocks by position. Each thread takes a range of blocks, so
+// from color to color it works mostly on the same particles.
 void sort_by_place(const RowList& rows, Lines& lines) {
     const Paths& paths = lines.paths;
     const auto place = [&](std::uint32_t path) {
@@ -153,7 +154,7 @@ void sort_by_place(const RowList& rows, Lines& lines) {
             const auto some = std::span(color).subspan(i, std::min<std::size_t>(lane_padding, color.size() - i));
             blocks.push_back({place(some[some.size() / 2]), some});
         }
-        // The last one, which may be short of lines, stays the last.
+        // The last block may have fewer lines, so it stays last.
         if (blocks.size() > 1) std::ranges::stable_sort(blocks.begin(), blocks.end() - 1, {}, &Block::place);
         std::vector<std::uint32_t> sorted;
         for (const Block& block : blocks) sorted.insert(sorted.end(), block.paths.begin(), block.paths.end());
@@ -161,7 +162,7 @@ void sort_by_place(const RowList& rows, Lines& lines) {
     }
 }
 
-// Batches and blocks, and with them the length of the table.
+// Computes batches, blocks and the length of the table.
 void lay_out(const Lines& lines, ConstraintTable& table) {
     const auto block_of = [&](std::span<const std::uint32_t> paths) {
         const auto lanes = paths.first(std::min<std::size_t>(lane_padding, paths.size()));
@@ -209,7 +210,7 @@ class LineWriter {
         }
         write_padding(at, k, length, end);
     }
-    // From the line's last particle to itself: what is beyond the end stays with the lane, and so with one thread.
+    // Padding uses the line's last particle twice, so that it is accessed only by the lane, and thread, of the line.
     void write_padding(std::uint32_t at, std::uint32_t from, std::uint32_t length, std::uint32_t end) {
         for (std::uint32_t k = from; k < length; ++k) place(at + k * lane_padding, end, end, inert.data());
     }

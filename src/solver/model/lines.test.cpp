@@ -53,7 +53,7 @@ void expect_sound(const Packed& packed) {
                     }
                     if (!table.is_real(row)) {
                         EXPECT_LT(table.fields[table.stride + row], 0) << "padding without stiffness";
-                        EXPECT_EQ(slot(1, row), slot(0, row)) << "and with nobody else";
+                        EXPECT_EQ(slot(1, row), slot(0, row)) << "padding connects a particle to itself";
                         continue;
                     }
                     of_line.insert(slot(0, row)), of_line.insert(slot(1, row));

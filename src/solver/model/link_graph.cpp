@@ -8,7 +8,8 @@ namespace weft {
 
 namespace {
 
-// m: from c to d, straight across the edge once its two triangles lie in one plane; 0 if that line leaves them.
+// Distance from c to d in m, straight across the edge after its two triangles are unfolded into one plane; 0 if that
+// line leaves the triangles.
 double distance_across(const Topology& topology, const Hinge& hinge) {
     const auto from_a = [&](std::uint32_t p) {
         const Vec3 x = topology.rest_positions[p] - topology.rest_positions[hinge.a];
@@ -24,8 +25,8 @@ double distance_across(const Topology& topology, const Hinge& hinge) {
     return crossing >= 0 && crossing <= edge ? std::hypot(cx - dx, cy + dy) : 0;
 }
 
-// Ways along edges alone are longer than the surface is wide: by 41 % across the diagonals of squares. Those from
-// triangle to triangle make up for most of it.
+// Paths along edges are longer than geodesics: by 41 % across the diagonals of squares. Links from the tip of a
+// triangle to the tip of its neighbor remove most of this error.
 void add_hinges(const Topology& topology, LinkGraph& graph) {
     std::vector<std::uint32_t> offsets(graph.offsets.size());
     std::vector<double> across(topology.hinges.size());
@@ -66,7 +67,7 @@ LinkGraph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
     LinkGraph graph{.offsets = topology.particle_edges.offsets, .links = {}, .turns = turns};
     graph.links.resize(graph.offsets.back());
     std::vector<std::uint32_t> next(graph.offsets.begin(), graph.offsets.end() - 1);
-    // Sorted by (a, b), edges come to each particle with the other end ascending.
+    // Edges are sorted by (a, b), so the links of each particle are sorted by `to`.
     for (std::size_t e = 0; e < topology.edges.size(); ++e) {
         const Edge& edge = topology.edges[e];
         const double length_at_rest = length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
@@ -78,7 +79,7 @@ LinkGraph graph_of_edges(const RestShape& rest, const Fabric& fabric) {
         graph.links[next[edge.a]++] = {edge.b, length_at_rest, reach};
         graph.links[next[edge.b]++] = {edge.a, length_at_rest, reach};
     }
-    // What turns goes the way of its threads, which is that of the edges.
+    // If threads turn, limits follow the threads, which run along the edges.
     if (!turns) add_hinges(topology, graph);
     return graph;
 }

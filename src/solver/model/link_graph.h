@@ -1,4 +1,4 @@
-// What holds one level of a hierarchy together, and ways along it: the ground that coarse levels are built on.
+// The graph of one level of the hierarchy, and shortest-path searches in it. Coarse levels are built from it.
 #pragma once
 
 #include "physics/rest_shape.h"
@@ -15,18 +15,18 @@
 
 namespace weft {
 
-/// For the particles an edge, for a coarse level a row.
+/// A mesh edge on the finest graph, a constraint on a coarse level.
 struct Link {
     std::uint32_t to = 0;
     double length = 0;  ///< m, along the surface at rest
-    double reach = 0;   ///< m, at least `length`: where threads turn, as far as the two ends can come apart
+    double limit = 0;   ///< m, ≥ `length`: largest distance of the two ends; longer if shear lets threads turn
 };
 
-/// A link stands with both of its ends. One array for all of them, as a search reads little else.
+/// Each link is stored with both of its ends. All links are in one array, because a search reads little else.
 struct LinkGraph {
     std::vector<std::uint32_t> offsets = {0};  ///< links of node i: links[offsets[i] … offsets[i + 1])
-    std::vector<Link> links = {};              ///< those of a node ascending by `to`
-    bool turns = true;                         ///< whether reach and length differ anywhere
+    std::vector<Link> links = {};              ///< links of a node are sorted by `to`
+    bool turns = true;                         ///< whether `limit` and `length` differ on any link
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(offsets.size() - 1); }
     std::span<const Link> operator[](std::uint32_t node) const {
@@ -36,25 +36,25 @@ struct LinkGraph {
 
 LinkGraph graph_of_edges(const RestShape& rest, const Fabric& fabric);
 
-/// 0 if there is none.
+/// Mean length of the links, m; 0 if there are none.
 double mean_length(const LinkGraph& graph);
 
 /// The link from `node` to `to`, or null.
 const Link* find_link(const LinkGraph& graph, std::uint32_t node, std::uint32_t to);
 
-/// Shortest ways in the neighborhood of a node (Dijkstra 1959). Keeps its arrays from call to call, so that a search
-/// costs what it visits and not what there is.
+/// Shortest paths in the neighborhood of a node (Dijkstra 1959). Keeps its arrays between calls, so that the cost of a
+/// search depends on the visited nodes, not on the size of the graph.
 class LocalSearch {
   public:
     enum class Go {
         on,
-        back,  ///< not beyond this node
+        back,  ///< do not search beyond this node
     };
 
     explicit LocalSearch(const LinkGraph& graph) : graph_(graph), distance_(graph.size(), unseen) {}
 
-    /// visit(node, distance) -> Go, the nearest first, itself at 0 among them, none farther than `limit`. `Measure` is
-    /// &Link::length or &Link::reach.
+    /// Calls visit(node, distance) -> Go for all nodes within `limit`, nearest first, including `from` at distance 0.
+    /// `Measure` is &Link::length or &Link::limit.
     template <double Link::*Measure, class Visit>
     void run(std::uint32_t from, double limit, Visit&& visit) {
         inverse_width_ = limit > 0 ? buckets / limit : 0;
@@ -97,22 +97,23 @@ class LocalSearch {
     const LinkGraph& graph_;
     std::vector<double> distance_;
     std::vector<std::uint32_t> touched_;
-    // Nodes wait in buckets of distance. The nearest bucket that has any is a heap.
+    // Pending nodes are stored in buckets of distance. The nearest nonempty bucket is a heap.
     std::array<std::vector<Entry>, buckets> waiting_;
     std::size_t bucket_ = buckets;
     double inverse_width_ = 0;
 };
 
-/// The same where the goals are known and the order of visits is no matter: nodes wait in buckets of distance in place
-/// of a heap (Meyer, Sanders 2003, "Δ-stepping"), and a node that was taken too early is taken again. What a shortest
-/// way adds up to is the same.
+/// Shortest paths to given goals, in any order of visits. Pending nodes are stored in buckets of distance instead of a
+/// heap (Meyer, Sanders 2003, "Δ-stepping"); a node that was processed too early is processed again. The resulting
+/// distances are those of LocalSearch.
 class LocalWays {
   public:
     explicit LocalWays(const LinkGraph& graph) : graph_(graph), distance_(graph.size(), unreached) {}
 
     static constexpr double unreached = std::numeric_limits<double>::infinity();
 
-    /// found(i, distance) for every goal within `limit`. No way leads on from nodes, `from` excepted, that are closed.
+    /// Calls found(i, distance) for every goal i within `limit`. Paths do not continue through nodes for which `closed`
+    /// returns true, except `from`.
     template <double Link::*Measure, class Found, class Closed>
     void run(std::uint32_t from, std::span<const std::uint32_t> goals, double limit, Found&& found, Closed&& closed) {
         const double inverse_width = limit > 0 ? buckets / limit : 0;
@@ -129,7 +130,7 @@ class LocalWays {
         waiting_[count] = {0, from, none};
         waiting_[0].next = last[0] = count++;
         distance_[from] = 0;
-        std::size_t missing = goals.size();  // from the last one on, all others are known
+        std::size_t missing = goals.size();  // goals from this index on are known
         for (std::size_t bucket = 0; bucket < buckets && missing > 0; ++bucket) {
             for (std::uint32_t at = waiting_[bucket].next; at != none; at = waiting_[at].next) {
                 const double d = waiting_[at].distance;
@@ -163,7 +164,7 @@ class LocalWays {
   private:
     static constexpr std::size_t buckets = 16;
 
-    // One of a list: those of a bucket, in the order in which they came. The first ones are the buckets.
+    // Element of a linked list. Each bucket has one list, in order of insertion; the first elements are the list heads.
     struct Waiting {
         double distance = 0;
         std::uint32_t node = 0, next = none;

@@ -29,15 +29,15 @@ AlignedVector<float> lump_masses(std::span<const float> face_area, const Triangl
     return mass;
 }
 
-Result<Done> check_density(float density) {
-    if (density > 0 && std::isfinite(density)) return Done{};
+Result<void> check_density(float density) {
+    if (density > 0 && std::isfinite(density)) return {};
     return Error{"density", "must be > 0 kg/m², got " + number_text(density)};
 }
 
-Result<Done> check_masses(std::span<const float> mass) {
+Result<void> check_masses(std::span<const float> mass) {
     int without = 0;
     for (const float one : mass) without |= static_cast<int>(!has_inverse(one));
-    if (without == 0) return Done{};
+    if (without == 0) return {};
     std::size_t p = 0;
     while (has_inverse(mass[p])) ++p;
     return Error{"particle " + std::to_string(p),

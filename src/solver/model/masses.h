@@ -1,4 +1,4 @@
-// What particles weigh.
+// Particle masses.
 #pragma once
 
 #include "base/aligned.h"
@@ -10,13 +10,13 @@
 
 namespace weft {
 
-/// kg per particle: a third of the triangles at it. `face_area`: m², of the triangles, whose corners are particles.
+/// Mass of each particle in kg: a third of the mass of its triangles. `face_area`: m², per triangle. `density`: kg/m².
 AlignedVector<float> lump_masses(std::span<const float> face_area, const TriangleView& triangles,
                                  std::uint32_t particle_count, float density);
 
-/// Fails where a density is not > 0 and finite.
-Result<Done> check_density(float density);
-/// Fails where a mass has no inverse that is > 0 and finite.
-Result<Done> check_masses(std::span<const float> mass);
+/// Fails if the density is not > 0 and finite.
+Result<void> check_density(float density);
+/// Fails if the inverse of a mass is not > 0 and finite.
+Result<void> check_masses(std::span<const float> mass);
 
 }  // namespace weft

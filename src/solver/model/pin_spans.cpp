@@ -10,28 +10,28 @@ namespace {
 
 constexpr std::size_t most_pins = 8;
 constexpr double near = 0.25;
-// Ways along links have corners, which makes them up to this much longer than they need be.
+// Paths along links have corners and are longer than geodesics by up to this factor.
 constexpr double detour = 1.12;
-constexpr double unreached = std::numeric_limits<double>::infinity();
 
-// Goes from pin to pin, each as far as can be from those before.
+// Chooses pins one after another, each as far as possible from those chosen before.
 class SpanFinder {
   public:
     SpanFinder(const CoarseLevel& level, std::uint32_t pin_count, std::span<const Vec3> at_rest)
-        : level_(level), at_rest_(at_rest), search_(level.ways), nearest_(pin_count, unreached) {}
+        : level_(level), at_rest_(at_rest), search_(level.ways), nearest_(pin_count, LocalWays::unreached) {}
 
-    bool is_reached(std::uint32_t pin) const { return nearest_[pin] < unreached; }
+    bool is_reached(std::uint32_t pin) const { return nearest_[pin] < LocalWays::unreached; }
 
-    /// Of the connected piece of cloth that this pin belongs to.
+    /// Adds the spans of the connected piece of cloth that contains this pin.
     void add_piece_with(std::uint32_t pin) {
         std::vector<std::uint32_t> chosen;
         while (chosen.size() < most_pins) {
             add_spans(pin, chosen);
             chosen.push_back(pin);
-            // Pins of other pieces stay unreached; those of earlier ones have nothing to do with this one.
+            // Pins of other pieces are not reached from this pin and are skipped.
             double farthest = 0;
             for (std::uint32_t other = 0; other < nearest_.size(); ++other) {
-                if (distance_[other] < unreached && nearest_[other] > farthest) farthest = nearest_[other], pin = other;
+                if (distance_[other] < LocalWays::unreached && nearest_[other] > farthest)
+                    farthest = nearest_[other], pin = other;
             }
             if (farthest == 0) return;
         }
@@ -40,11 +40,11 @@ class SpanFinder {
 
   private:
     void add_spans(std::uint32_t pin, std::span<const std::uint32_t> chosen) {
-        distance_.assign(nearest_.size(), unreached);
+        distance_.assign(nearest_.size(), LocalWays::unreached);
         double farthest = 0;
-        search_.run<&Link::reach>(pin, std::numeric_limits<double>::max(), [&](std::uint32_t node, double d) {
+        search_.run<&Link::limit>(pin, std::numeric_limits<double>::max(), [&](std::uint32_t node, double d) {
             if (node < nearest_.size()) distance_[node] = d, nearest_[node] = std::min(nearest_[node], d);
-            farthest = d;  // the nearest come first
+            farthest = d;  // nodes are visited nearest first
             return LocalSearch::Go::on;
         });
         for (const std::uint32_t other : chosen) {
@@ -59,8 +59,8 @@ class SpanFinder {
     const CoarseLevel& level_;
     std::span<const Vec3> at_rest_;
     LocalSearch search_;
-    std::vector<double> nearest_;   // per pin, to the nearest chosen one
-    std::vector<double> distance_;  // per pin, to the last chosen one
+    std::vector<double> nearest_;   // m, per pin, to the nearest chosen pin
+    std::vector<double> distance_;  // m, per pin, to the last chosen pin
     std::vector<PinSpan> spans_;
 };
 
@@ -68,7 +68,7 @@ class SpanFinder {
 
 std::vector<PinSpan> find_pin_spans(std::span<const CoarseLevel> hierarchy, std::span<const Vec3> at_rest) {
     if (hierarchy.empty()) return {};
-    // The coarsest level that still tells pins apart; pins come first in it.
+    // The coarsest level that still has enough nodes to represent pins separately. Pinned nodes come first in it.
     constexpr std::uint32_t enough_nodes = 256;
     const auto first_coarse = std::ranges::find_if(hierarchy, [](const auto& one) { return one.count < enough_nodes; });
     const CoarseLevel& level = first_coarse == hierarchy.begin() ? *first_coarse : *(first_coarse - 1);

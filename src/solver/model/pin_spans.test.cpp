@@ -52,7 +52,7 @@ TEST(PinSpans, tell_how_far_pins_stretch_the_cloth) {
     EXPECT_NEAR(strain, 0.03, 1e-3);
 }
 
-// Around a tube it is farther than across.
+// On a tube, the distance over the cloth is longer than the straight one.
 TEST(PinSpans, follow_the_cloth_where_it_is_bent_at_rest) {
     constexpr std::uint32_t side = 33;
     TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);

@@ -1,4 +1,4 @@
-// Points and rows at random, ordinary and degenerate, on which backends are compared.
+// Random points and constraints, ordinary and degenerate, to compare backends.
 #pragma once
 
 #include "base/aligned.h"
@@ -20,11 +20,11 @@ namespace random_rows {
 
 inline constexpr std::uint32_t particle_count = 400;
 struct RandomState {
-    AlignedVector<Vec4> position, start, velocity, carry;
+    AlignedVector<Vec4> position, start, velocity, compensation;
     ConstraintTable table;
     AlignedVector<float> lambda;
 
-    // Those that name one particle twice among them, which no mesh makes.
+    // Unlike ConstraintTable::is_real(), includes constraints outside lines that name a particle twice.
     bool is_row(std::size_t r) const {
         return std::ranges::any_of(table.batches, [&](const Batch& batch) {
             if (batch.blocks > 0) return table.is_real(static_cast<std::uint32_t>(r));
@@ -45,32 +45,34 @@ class Numbers {
     std::mt19937 engine_;
 };
 
-// `nasty`: coincident points, zero weights, huge and tiny coordinates, negative and enormous compliances.
-inline RandomState random_points(unsigned seed, bool nasty) {
+// `degenerate`: coincident points, zero weights, huge and tiny coordinates, negative and enormous compliances.
+inline RandomState random_points(unsigned seed, bool degenerate) {
     Numbers random(seed);
     RandomState f;
     const std::uint32_t capacity = particle_capacity(particle_count);
-    for (auto* array : {&f.position, &f.start, &f.velocity, &f.carry}) array->assign(capacity, Vec4{});
-    const auto scale = [&] { return nasty && random.below(4) == 0 ? std::pow(10.0f, random.uniform(-20, 12)) : 1.0f; };
+    for (auto* array : {&f.position, &f.start, &f.velocity, &f.compensation}) array->assign(capacity, Vec4{});
+    const auto scale = [&] {
+        return degenerate && random.below(4) == 0 ? std::pow(10.0f, random.uniform(-20, 12)) : 1.0f;
+    };
     for (std::uint32_t p = 0; p < particle_count; ++p) {
         const float s = scale();
         f.position[p] = {random.uniform(-s, s), random.uniform(-s, s), random.uniform(-s, s), random.uniform(0, 50)};
         f.start[p] = {f.position[p].x + random.uniform(-0.01f, 0.01f), f.position[p].y, f.position[p].z, 1e-8f};
         f.velocity[p] = {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3), -1e-8f};
-        f.carry[p] = {1e-9f, -1e-9f, 1e-10f, 1e-9f};
+        f.compensation[p] = {1e-9f, -1e-9f, 1e-10f, 1e-9f};
         if (random.below(10) == 0) f.position[p].w = 0;
-        if (nasty && random.below(5) == 0 && p > 0) f.position[p] = f.position[p - 1];
+        if (degenerate && random.below(5) == 0 && p > 0) f.position[p] = f.position[p - 1];
     }
     return f;
 }
 
-inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool nasty) {
+inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool degenerate) {
     Numbers random(seed);
     RowList rows = make_rows(kind);
     for (int r = 0; r < 300; ++r) {
         std::vector<std::uint32_t> chosen;
         while (chosen.size() < rows.arity) {
-            // What a row only reads is an anchor, which no row of the kind moves.
+            // Particles that a constraint only reads are anchors, which no constraint of the kind moves.
             constexpr std::uint32_t anchors = 40;
             const bool moved = chosen.size() < constraint_info(kind).moved;
             const std::uint32_t p = moved ? anchors + random.below(particle_count - anchors) : random.below(anchors);
@@ -80,7 +82,7 @@ inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool na
         rows.particles.insert(rows.particles.end(), chosen.begin(), chosen.end());
         for (std::uint32_t k = 0; k < rows.field_count; ++k) {
             float value = random.uniform(0, k == 0 ? 1.0f : 1e-3f);
-            if (nasty && random.below(4) == 0)
+            if (degenerate && random.below(4) == 0)
                 value = random.below(2) ? -1.0f : std::pow(10.0f, random.uniform(-30, 30));
             rows.fields.push_back(value);
         }
@@ -89,7 +91,7 @@ inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool na
     f.lambda.assign(std::size_t{constraint_info(kind).lambdas} * f.table.stride, 0.25f);
 }
 
-// Particles in disorder: lines of every length and a ring, and across these links that make batches of their own.
+// Shuffled particles in a ring and in lines of all lengths, and cross links that need additional batches.
 struct Chains {
     RowList rows = make_rows(ConstraintKind::stretch);
     std::vector<Vec3> at_rest = std::vector<Vec3>(particle_count);
@@ -126,10 +128,10 @@ struct Chains {
     ConstraintTable pack() const { return pack_lines(rows, at_rest, particle_count); }
 };
 
-inline void add_lines(RandomState& f, unsigned seed, bool nasty) {
+inline void add_lines(RandomState& f, unsigned seed, bool degenerate) {
     Numbers random(seed);
     Chains chains(random);
-    const auto odd = [&] { return nasty && random.below(4) == 0; };
+    const auto odd = [&] { return degenerate && random.below(4) == 0; };
     const auto rest = [&] { return odd() ? std::pow(10.0f, random.uniform(-20, 12)) : random.uniform(0, 1); };
     const auto compliance = [&] {
         if (odd()) return std::pow(10.0f, random.uniform(-30, 30));

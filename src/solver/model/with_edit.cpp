@@ -11,14 +11,14 @@
 namespace weft {
 namespace {
 
-// Two edits never lead to the same number, whichever cloth and world they are of.
+// Every edit gets a new number, unique across cloths and worlds.
 std::atomic<std::uint64_t> versions = first_topology_version;
 
 std::string text(std::uint32_t number) {
     return std::to_string(number);
 }
 
-// A table whose arrays can be written.
+// A writable copy of a table.
 struct OpenTable {
     explicit OpenTable(const ConstraintTable& from)
         : table(from),
@@ -65,14 +65,14 @@ class Editor {
     }
 
   private:
-    Result<Done> check_particle(const std::string& where, std::uint32_t particle) const {
-        if (particle < model_->particle_count) return Done{};
+    Result<void> check_particle(const std::string& where, std::uint32_t particle) const {
+        if (particle < model_->particle_count) return {};
         return Error{where,
                      "there are only " + text(model_->particle_count) + " particles, got number " + text(particle)};
     }
 
-    Result<Done> append(const std::vector<std::uint32_t>& sources) {
-        if (sources.empty()) return Done{};
+    Result<void> append(const std::vector<std::uint32_t>& sources) {
+        if (sources.empty()) return {};
         if (sources.size() > model_->reserve)
             return Error{"cloth '" + model_->name + "'", "has room for " + text(model_->reserve) +
                                                              " more particles, got " + std::to_string(sources.size())};
@@ -90,11 +90,11 @@ class Editor {
         model_->append_vertices(sources);
         model_->particle_count += static_cast<std::uint32_t>(sources.size());
         model_->reserve -= static_cast<std::uint32_t>(sources.size());
-        return Done{};
+        return {};
     }
 
-    Result<Done> set_triangles(const std::vector<TriangleEdit>& edits) {
-        if (edits.empty()) return Done{};
+    Result<void> set_triangles(const std::vector<TriangleEdit>& edits) {
+        if (edits.empty()) return {};
         AlignedVector<std::uint32_t> faces(model_->faces.begin(), model_->faces.end());
         std::vector<float> area(model_->face_area.begin(), model_->face_area.end());
         for (const auto& [triangle, corners, alive] : edits) {
@@ -104,21 +104,21 @@ class Editor {
             for (const std::uint32_t corner : corners)
                 if (auto known = check_particle(where, corner); !known) return known;
             const auto [a, b, c] = model_->triangles()[triangle];
-            if (a == b) return Error{where, "is gone already"};
+            if (a == b) return Error{where, "has been removed already"};
             if (alive && (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]))
                 return Error{where, "must have three different corners"};
-            // A triangle that is gone has one corner three times: it has no area to draw or to catch air with.
+            // A removed triangle has the same corner three times: it has no area for drawing and air forces.
             for (std::uint32_t k = 0; k < 3; ++k)
                 faces[std::size_t{k} * model_->face_stride + triangle] = alive ? corners[k] : corners[0];
             if (!alive) area[triangle] = 0;
         }
         model_->faces = std::move(faces);
         model_->face_area = std::move(area);
-        return Done{};
+        return {};
     }
 
-    // What follows from triangles.
-    Result<Done> reshape() {
+    // Recomputes everything that depends on the triangles.
+    Result<void> reshape() {
         const ClothModel& model = *model_;
         auto around = group_items<std::uint32_t>(model.particle_count, [&](auto put) {
             for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
@@ -144,12 +144,12 @@ class Editor {
         model_->pin_spans = {};
         model_->reset_mesh();
         model_->topology_version = ++versions;
-        return Done{};
+        return {};
     }
 
-    Result<Done> change_table(ConstraintKind kind, const ClothEdit& edit) {
+    Result<void> change_table(ConstraintKind kind, const ClothEdit& edit) {
         const auto concerned = [&](const RowEdit& row) { return row.kind == kind; };
-        if (std::ranges::none_of(edit.rows, concerned) && std::ranges::none_of(edit.added, concerned)) return Done{};
+        if (std::ranges::none_of(edit.rows, concerned) && std::ranges::none_of(edit.added, concerned)) return {};
         OpenTable open(model_->table(kind));
         for (const RowEdit& row : edit.added) {
             if (row.kind != kind) continue;
@@ -164,7 +164,7 @@ class Editor {
         if (auto apart = check_batches(open, touched); !apart) return apart;
         if (auto done = compute_fields(open); !done) return done;
         model_->constraints[static_cast<std::uint32_t>(kind)] = std::move(open).close();
-        return Done{};
+        return {};
     }
 
     static std::string name_of(const RowEdit& row) {
@@ -177,18 +177,18 @@ class Editor {
                !(open.geometry[open.at(open.geometry_count() - 1, row)] < 0);
     }
 
-    Result<Done> check_row(const OpenTable& open, const RowEdit& row) const {
+    Result<void> check_row(const OpenTable& open, const RowEdit& row) const {
         const std::string where = name_of(row);
-        if (row.kind == ConstraintKind::attachment) return Error{where, "belongs to a pin: change the pins instead"};
+        if (row.kind == ConstraintKind::attachment) return Error{where, "belongs to a pin; change the pins instead"};
         if (row.row >= open.table.stride || !is_there(open, row.row))
-            return Error{where, "there is none of that number"};
+            return Error{where, "there is no constraint with this number"};
         if (row.stiffness != 0 && !(row.stiffness >= 1e-6f && row.stiffness <= 1e6f))
             return Error{where, "stiffness must be 0, or 1e-6 to 1e6 times what it is"};
         for (std::uint32_t slot = 1; slot < open.table.arity; ++slot)
             if (row.particles[slot] == row.particles[slot - 1]) return Error{where, "must have different ends"};
         const bool scales = row.kind == ConstraintKind::stretch || row.kind == ConstraintKind::bend;
         if (!scales && row.stiffness != 0 && row.stiffness != 1)
-            return Error{where, "can be there or not: its stiffness must be 0 or 1 times what it is"};
+            return Error{where, "has no stiffness to scale: use 0 to remove it, 1 to keep it"};
         for (std::uint32_t slot = 0; slot < open.table.arity; ++slot) {
             const bool unused = open.table.is_dummy(open.particles[open.at(slot, row.row)]) &&
                                 row.particles[slot] == open.particles[open.at(slot, row.row)];
@@ -197,32 +197,34 @@ class Editor {
             if (unused || anchor) continue;
             if (auto known = check_particle(where, row.particles[slot]); !known) return known;
         }
-        return Done{};
+        return {};
     }
 
     static bool lies_in_line(const ConstraintTable& table, std::uint32_t row) {
         return !table.blocks.empty() && row < table.blocks.back().end() && row >= table.blocks.front().begin;
     }
 
-    Result<Done> set_row(OpenTable& open, const RowEdit& row) const {
+    Result<void> set_row(OpenTable& open, const RowEdit& row) const {
         if (auto sound = check_row(open, row); !sound) return sound;
         const bool in_line = lies_in_line(open.table, row.row);
         for (std::uint32_t slot = 0; slot < open.table.arity; ++slot) {
             std::uint32_t& particle = open.particles[open.at(slot, row.row)];
             if (in_line && particle != row.particles[slot])
-                return Error{name_of(row), "lies along a line: its ends cannot change. End it, and add another one"};
-            // One that is gone is padding.
+                return Error{name_of(row),
+                             "is part of a line, so its ends cannot change; remove it and add another one"};
+            // A removed constraint becomes padding.
             particle =
                 row.stiffness > 0 || in_line ? row.particles[slot] : dummy(open.table.first_dummy, slot, row.row);
         }
         scale(open, row.row, row.stiffness, in_line);
         if (row.stiffness == 0) --open.table.rows;
-        return Done{};
+        return {};
     }
 
     static void scale(OpenTable& open, std::uint32_t row, float stiffness, bool in_line) {
         if (stiffness > 0) {
-            // The area at an edge: it stiffens a strip of cloth, and softens a hinge.
+            // Scales the area at the edge: stretch stiffness is proportional to it, bending stiffness inversely
+            // proportional.
             const std::uint32_t last = open.geometry_count() - 1;
             if (stiffness != 1)
                 open.geometry[open.at(last, row)] *=
@@ -230,13 +232,13 @@ class Editor {
             return;
         }
         for (std::uint32_t k = 0; k < open.geometry_count(); ++k) open.geometry[open.at(k, row)] = no_area;
-        // Along a line a negative compliance, without stiffness, parts those before from those after.
+        // On a line, a negative compliance means no stiffness and separates the constraints before and after it.
         for (std::uint32_t k = in_line ? 1 : 0; k < open.table.field_count; ++k)
             open.fields[open.at(k, row)] = in_line ? -1.0f : 0.0f;
     }
 
-    // Constraints of a batch are projected side by side: none may share a particle that one of them moves.
-    Result<Done> check_batches(const OpenTable& open, const std::vector<std::uint32_t>& touched) const {
+    // Constraints of a batch are projected in parallel, so no two may share a particle that one of them moves.
+    Result<void> check_batches(const OpenTable& open, const std::vector<std::uint32_t>& touched) const {
         const std::uint32_t moved = constraint_info(open.table.kind).moved;
         std::vector<std::uint32_t> taken(model_->capacity(), none);
         for (const Batch& batch : open.table.batches) {
@@ -254,14 +256,14 @@ class Editor {
                 }
             }
         }
-        return Done{};
+        return {};
     }
 
-    // Into the reserve, whose constraints are projected one after another.
-    Result<Done> add_row(OpenTable& open, const RowEdit& row) {
+    // Adds to the reserve, whose constraints are projected one after another.
+    Result<void> add_row(OpenTable& open, const RowEdit& row) {
         if (auto sound = check_row(open, row); !sound) return sound;
         ConstraintTable& table = open.table;
-        if (!(row.stiffness > 0)) return Error{name_of(row), "is added: its stiffness must be > 0 times what that is"};
+        if (!(row.stiffness > 0)) return Error{name_of(row), "is added, so its stiffness must be > 0"};
         if (table.spare_used == table.spare_rows)
             return Error{name_of(row), "there is room for " + text(table.spare_rows) + " more constraints of its kind"};
         const std::uint32_t at = table.first_spare + table.spare_used++;
@@ -280,11 +282,11 @@ class Editor {
             edges->axial_rows[at] = edges->axial_rows[row.row];
             model_->edges = std::move(edges);
         }
-        return Done{};
+        return {};
     }
 
-    // As with_fabric() would, so that both come to the same bits in either order.
-    Result<Done> compute_fields(OpenTable& open) const {
+    // Computes fields like with_fabric(), so that edits and fabric changes give the same bits in either order.
+    Result<void> compute_fields(OpenTable& open) const {
         const RowsToChange rows{.stride = open.table.stride,
                                 .particles = open.particles.data(),
                                 .geometry = open.geometry.data(),
@@ -294,7 +296,7 @@ class Editor {
         if (open.table.kind == ConstraintKind::stretch) (void)change_stretch(rows, model_->fabric.stretch);
         if (open.table.kind == ConstraintKind::bend) (void)change_bend(rows, model_->fabric.bend);
         const auto unsound = std::ranges::find_if_not(open.fields, [](float field) { return std::isfinite(field); });
-        if (unsound == open.fields.end()) return Done{};
+        if (unsound == open.fields.end()) return {};
         const auto row = static_cast<std::size_t>(unsound - open.fields.begin()) % open.table.stride;
         return Error{std::string(constraint_info(open.table.kind).name) + " constraint " + std::to_string(row),
                      "would have no finite compliance: its ends coincide at rest, or its stiffness is out of range"};

@@ -1,4 +1,4 @@
-// Another fabric for a cloth that is built already.
+// Changes the fabric of an existing model.
 
 #include "physics/change_rows.h"
 #include "solver/model/cloth_model.h"
@@ -15,13 +15,13 @@ bool same_stiffness(const StretchMaterial& a, const StretchMaterial& b) {
            a.shear == b.shear && a.inextensible == b.inextensible;
 }
 
-// An angle that the mesh has is a NaN.
+// The rest angle is compared by bits, because NaN stands for the angle of the mesh.
 bool same_hinges(const BendMaterial& a, const BendMaterial& b) {
-    return a.model == b.model && a.hinges == b.hinges &&
+    return a.model == b.model && a.edges == b.edges &&
            std::bit_cast<std::uint32_t>(a.rest_angle) == std::bit_cast<std::uint32_t>(b.rest_angle);
 }
 
-// False where the material needs other rows.
+// Returns false if the material needs other constraints.
 template <class Material>
 bool change_table(ClothModel& model, ConstraintKind kind, bool (*change)(const RowsToChange&, const Material&),
                   const Material& material) {
@@ -40,22 +40,22 @@ bool change_table(ClothModel& model, ConstraintKind kind, bool (*change)(const R
 
 bool change_bending(ClothModel& model, const BendMaterial& material) {
     switch (material.model) {
-        case BendModel::hinges:
+        case BendModel::dihedral:
             return change_table(model, ConstraintKind::bend, change_bend, material);
         case BendModel::distance:
-            return change_table(model, ConstraintKind::flexion, change_flexion, material);
+            return change_table(model, ConstraintKind::distance_bend, change_distance_bend, material);
         case BendModel::plate:
-            break;  // a factorization per triangle, of what takes more to keep than to find anew
+            break;  // needs a factorization per triangle; storing its input costs more than a rebuild
     }
     return false;
 }
 
-Result<Done> change_masses(ClothModel& model, float before_density, float density) {
+Result<void> change_masses(ClothModel& model, float before_density, float density) {
     const SharedArray<float> before = model.mass;
     const float ratio = density / before_density;
     AlignedVector<float> mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
     for (std::uint32_t p = 0; p < model.particle_count; ++p)
-        if (!(mass[p] > 0)) mass[p] = before[p] * ratio;  // it has lost its triangles (cloth_edit.h)
+        if (!(mass[p] > 0)) mass[p] = before[p] * ratio;  // its triangles were removed (cloth_edit.h)
     model.mass = std::move(mass);
     if (auto weighed = check_masses(model.mass); !weighed) return weighed;
     AlignedVector<Vec4> start(model.start.begin(), model.start.end());
@@ -64,7 +64,7 @@ Result<Done> change_masses(ClothModel& model, float before_density, float densit
         start[p].w = start[p].w > 0 ? weight : 0;
     }
     model.start = std::move(start);
-    return Done{};
+    return {};
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     model->fabric = fabric;
     model->fabric.tether = from.fabric.tether;
     model->tethers_asked = asked;
-    model->fabric.plate = model->fabric.flexion = fabric.bend;
+    model->fabric.plate = model->fabric.distance_bend = fabric.bend;
     const StretchMaterial& stretch = fabric.stretch;
     const bool same_stretch = same_stiffness(from.fabric.stretch, stretch);
     const bool same_bend = std::ranges::equal(from.fabric.bend.bend, fabric.bend.bend);

@@ -52,13 +52,13 @@ void expect_same(const ClothModel& got, const ClothModel& built) {
     EXPECT_EQ(got.elasticity.tension, built.elasticity.tension);
     EXPECT_TRUE(got.fabric == built.fabric);
     EXPECT_EQ(got.fabric.tether.use, built.fabric.tether.use);
-    EXPECT_EQ(got.fabric.flexion.bend[0], built.fabric.flexion.bend[0]);
+    EXPECT_EQ(got.fabric.distance_bend.bend[0], built.fabric.distance_bend.bend[0]);
 }
 
-class Random {
+class RandomNumbers {
   public:
-    explicit Random(unsigned seed) : engine_(seed) {}
-    /// Of any order of magnitude between the two.
+    explicit RandomNumbers(unsigned seed) : engine_(seed) {}
+    /// Uniform in the logarithm between `low` and `high`.
     float number(float low, float high) {
         return low * std::pow(high / low, static_cast<float>(engine_()) / 4294967296.0f);
     }
@@ -69,7 +69,7 @@ class Random {
     std::mt19937 engine_;
 };
 
-Fabric random_fabric(Random& random, BendModel model) {
+Fabric random_fabric(RandomNumbers& random, BendModel model) {
     Fabric fabric;
     fabric.body = {.density = random.number(0.01f, 10), .damping = random.number(0.01f, 1)};
     for (float& k : fabric.stretch.stretch) k = random.number(10, 1e6f);
@@ -81,13 +81,13 @@ Fabric random_fabric(Random& random, BendModel model) {
     return fabric;
 }
 
-TriangleMesh bent_grid(std::array<std::uint32_t, 2> resolution, Random& random) {
+TriangleMesh bent_grid(std::array<std::uint32_t, 2> resolution, RandomNumbers& random) {
     TriangleMesh mesh = make_grid({1, 0.7f}, resolution, GridDiagonal::alternating);
     for (Vec3& p : mesh.positions) p += Vec3{random.offset(0.02f), random.offset(0.02f), random.offset(0.02f)};
     return mesh;
 }
 
-std::vector<TriangleMesh> meshes(Random& random) {
+std::vector<TriangleMesh> meshes(RandomNumbers& random) {
     std::vector<TriangleMesh> all = {make_grid({1, 1}, {19, 23}, GridDiagonal::uniform), bent_grid({17, 14}, random),
                                      make_sphere(0.5f, 3)};
     all.push_back(bent_grid({9, 12}, random));
@@ -96,13 +96,13 @@ std::vector<TriangleMesh> meshes(Random& random) {
 }
 
 TEST(WithFabric, gives_the_bits_of_a_model_that_is_built_anew) {
-    Random random(3);
-    for (const BendModel model : {BendModel::hinges, BendModel::distance}) {
+    RandomNumbers random(3);
+    for (const BendModel model : {BendModel::dihedral, BendModel::distance}) {
         for (const TriangleMesh& mesh : meshes(random)) {
             for (const bool lines : {false, true}) {
                 Fabric now = random_fabric(random, model);
                 auto running = build(mesh, now, {.lines = lines});
-                for (int change = 0; change < 4; ++change) {  // one after the other
+                for (int change = 0; change < 4; ++change) {  // successive changes of one model
                     now = random_fabric(random, model);
                     running = changed(*running, now);
                     ASSERT_TRUE(running);
@@ -114,12 +114,12 @@ TEST(WithFabric, gives_the_bits_of_a_model_that_is_built_anew) {
 }
 
 TEST(WithFabric, keeps_the_angles_and_edges_that_were_chosen) {
-    Random random(4);
+    RandomNumbers random(4);
     const TriangleMesh mesh = bent_grid({15, 12}, random);
-    for (const BendModel model : {BendModel::hinges, BendModel::distance}) {
-        for (const HingeChoice hinges : {HingeChoice::all, HingeChoice::source}) {
+    for (const BendModel model : {BendModel::dihedral, BendModel::distance}) {
+        for (const BendEdges hinges : {BendEdges::all, BendEdges::no_diagonals}) {
             Fabric before = random_fabric(random, model), after = random_fabric(random, model);
-            before.bend.hinges = after.bend.hinges = hinges;
+            before.bend.edges = after.bend.edges = hinges;
             before.bend.rest_angle = after.bend.rest_angle = 20;
             const auto next = changed(*build(mesh, before), after);
             ASSERT_TRUE(next);
@@ -130,7 +130,7 @@ TEST(WithFabric, keeps_the_angles_and_edges_that_were_chosen) {
 
 TEST(WithFabric, leaves_out_the_same_constraints_as_a_build) {
     const TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::uniform);
-    Fabric threads;  // no shear: nothing holds the diagonals
+    Fabric threads;  // no shear, so diagonals have no constraint
     threads.stretch.shear = 0;
     threads.bend.bend[0] = threads.bend.bend[1] = 0;
     Fabric stiffer = threads;
@@ -163,7 +163,7 @@ TEST(WithFabric, leaves_other_rows_to_a_build) {
     EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.bend.bend[0] = f.bend.bend[1] = f.bend.bend[2] = 0; }));
     EXPECT_TRUE(differs(limp, [](Fabric& f) { f.bend.bend[1] = 1e-5f; }));
     EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.bend.model = BendModel::distance; }));
-    EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.bend.hinges = HingeChoice::source; }));
+    EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.bend.edges = BendEdges::no_diagonals; }));
     EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.bend.rest_angle = 0; }));
     EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.tether.use = Tethers::on; }));
     EXPECT_TRUE(differs(cotton, [](Fabric& f) { f.tether.slack = 0.1f; }));
@@ -173,7 +173,7 @@ TEST(WithFabric, leaves_other_rows_to_a_build) {
 }
 
 TEST(WithFabric, of_a_plate_changes_all_but_its_stiffness) {
-    Random random(5);
+    RandomNumbers random(5);
     const TriangleMesh mesh = bent_grid({9, 9}, random);
     const Fabric before = random_fabric(random, BendModel::plate);
     Fabric after = random_fabric(random, BendModel::plate);

@@ -5,14 +5,14 @@
 namespace weft {
 namespace {
 
-constexpr std::uint32_t per_array = 64;  // levels, or constraints, that an array may exist for
+constexpr std::uint32_t per_array = 64;  // largest number of levels or constraints that have their own array
 constexpr std::uint32_t every = per_array - 1;
 
 std::uint32_t array_id(Data data, std::uint32_t which = 0) {
     return static_cast<std::uint32_t>(data) * per_array + std::min(which, every);
 }
 
-// The array that an access means in this pass.
+// Id of the array that a pass accesses.
 std::uint32_t array_of(Data data, const Pass& pass) {
     switch (data) {
         case Data::node_position:

@@ -1,4 +1,4 @@
-// Where the passes of a frame must wait for one another. The only place that knows; every backend asks here.
+// Barriers between the passes of a frame. All backends use these rules.
 #pragma once
 
 #include "solver/plan/pass.h"
@@ -7,22 +7,21 @@
 
 namespace weft {
 
-/// How passes share work, which decides what may run without a barrier between.
+/// How threads share the items of a pass. This decides which passes can follow one another without a barrier.
 enum class Sharing {
-    /// Each thread owns the same items in every pass, so a pass that touches its own items alone may follow another
-    /// such pass at once. A pass of a single thread may follow another one of that thread.
+    /// Each thread owns the same items in every pass. Passes that access only their own items need no barrier between
+    /// them. Neither do passes that run on the same single thread.
     fixed,
-    /// Any thread may get any item.
+    /// Any thread can get any item.
     free,
 };
 
-/// Goes through a frame's passes in order.
+/// Finds the barriers. Call before() for the passes of a frame in order.
 class Barriers {
   public:
     explicit Barriers(Sharing sharing) : sharing_(sharing) {}
 
-    /// Whether all threads must be done with what came before when this pass begins. `single`: one thread does all of
-    /// it, always the same one.
+    /// Whether a barrier is needed before this pass. `single`: one thread runs the whole pass, always the same one.
     bool before(const Pass& pass, bool single = false);
 
   private:

@@ -8,7 +8,7 @@
 namespace weft {
 namespace {
 
-// Whether a barrier stands before the last of some passes.
+// Whether there is a barrier before the last pass.
 bool barrier_before_last(std::initializer_list<Pass> passes, Sharing sharing = Sharing::fixed) {
     Barriers barriers(sharing);
     bool last = false;
@@ -23,11 +23,11 @@ Pass batch(std::uint32_t number, ConstraintKind constraint = ConstraintKind::str
     return {.kind = PassKind::project, .constraint = constraint, .batch = number};
 }
 Pass level(PassKind kind, std::uint32_t number) {
-    return {.kind = kind, .constraint = ConstraintKind::reach, .level = number, .source = RowSource::level};
+    return {.kind = kind, .constraint = ConstraintKind::coarse_limit, .level = number, .source = RowSource::level};
 }
 
 TEST(Barriers, are_not_needed_between_passes_that_touch_their_own_particles) {
-    EXPECT_FALSE(barrier_before_last({of(PassKind::predict), of(PassKind::hold)}));
+    EXPECT_FALSE(barrier_before_last({of(PassKind::predict), of(PassKind::targets)}));
     EXPECT_FALSE(barrier_before_last({of(PassKind::contact), of(PassKind::velocities)}));
     EXPECT_FALSE(barrier_before_last({of(PassKind::velocities), of(PassKind::predict)}));
     EXPECT_FALSE(barrier_before_last({of(PassKind::push), of(PassKind::predict)}));
@@ -42,13 +42,13 @@ TEST(Barriers, stand_where_a_pass_reads_what_others_write) {
     EXPECT_TRUE(barrier_before_last({of(PassKind::air), of(PassKind::push)}));
     EXPECT_TRUE(barrier_before_last({of(PassKind::faces), of(PassKind::normals)}));
     EXPECT_TRUE(barrier_before_last({of(PassKind::velocities), of(PassKind::damp)}));
-    EXPECT_TRUE(barrier_before_last({level(PassKind::collect, 0), level(PassKind::collect, 1)}));
-    EXPECT_TRUE(barrier_before_last({level(PassKind::settle, 1), level(PassKind::lift, 0)}));
-    EXPECT_TRUE(barrier_before_last({level(PassKind::settle, 0), of(PassKind::spread)}));
+    EXPECT_TRUE(barrier_before_last({level(PassKind::restriction, 0), level(PassKind::restriction, 1)}));
+    EXPECT_TRUE(barrier_before_last({level(PassKind::node_correction, 1), level(PassKind::interpolation, 0)}));
+    EXPECT_TRUE(barrier_before_last({level(PassKind::node_correction, 0), of(PassKind::prolongation)}));
 }
 
 TEST(Barriers, look_back_to_the_last_one) {
-    // Velocities leave positions alone; it is the contact before them that faces have to wait for.
+    // Faces wait for contact, not for velocities, which do not write positions.
     EXPECT_TRUE(barrier_before_last({of(PassKind::contact), of(PassKind::velocities), of(PassKind::faces)}));
     EXPECT_FALSE(barrier_before_last({of(PassKind::velocities), of(PassKind::faces)}));
 }
@@ -77,14 +77,14 @@ TEST(Barriers, stand_between_the_passes_that_find_constraints) {
 
 TEST(Barriers, between_passes_of_one_thread_are_none) {
     Barriers barriers(Sharing::fixed);
-    EXPECT_FALSE(barriers.before(level(PassKind::collect, 0), true));
-    EXPECT_FALSE(barriers.before(level(PassKind::collect, 1), true));
-    EXPECT_FALSE(barriers.before(level(PassKind::lift, 1), true));
-    EXPECT_TRUE(barriers.before(level(PassKind::lift, 0), false)) << "others join";
+    EXPECT_FALSE(barriers.before(level(PassKind::restriction, 0), true));
+    EXPECT_FALSE(barriers.before(level(PassKind::restriction, 1), true));
+    EXPECT_FALSE(barriers.before(level(PassKind::interpolation, 1), true));
+    EXPECT_TRUE(barriers.before(level(PassKind::interpolation, 0), false)) << "others join";
 }
 
 TEST(Barriers, know_that_any_thread_may_get_any_item) {
-    EXPECT_TRUE(barrier_before_last({of(PassKind::predict), of(PassKind::hold)}, Sharing::free));
+    EXPECT_TRUE(barrier_before_last({of(PassKind::predict), of(PassKind::targets)}, Sharing::free));
     EXPECT_FALSE(barrier_before_last({of(PassKind::velocities), of(PassKind::faces)}, Sharing::free));
 }
 

@@ -8,8 +8,8 @@
 namespace weft {
 namespace {
 
-// The cap lets a particle pass this many edges (or thicknesses, if those are longer) in a substep. Beyond, no contact
-// could catch it and no constraint could tell which way back is.
+// The speed cap lets a particle pass this many edges (or thicknesses, if longer) per substep. Beyond that, contacts
+// miss the particle and constraints pull in the wrong direction.
 constexpr float capped_edges_per_substep = 10;
 
 }  // namespace
@@ -36,7 +36,8 @@ double lambda_seconds(const WorldPlan& plan, double dt) {
 FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda, double substep_seconds,
                          std::span<const Vec4> positions) {
     const float tension = tension_in(model.table(ConstraintKind::stretch), lambda, substep_seconds, model.fabric);
-    // Limits have room for the model's tension at all times. What pins stretch is part of what the tension does.
+    // Limits always allow for the model's tension. The strain between pins includes the strain due to tension, so that
+    // is divided out.
     const Elasticity& elastic = model.elasticity;
     FrameLimits limits;
     limits.tension = std::max(0.0f, tension - static_cast<float>(elastic.tension));
@@ -46,7 +47,7 @@ FrameLimits frame_limits(const ClothModel& model, std::span<const float> lambda,
 }
 
 bool has_limits(const ClothModel& model, const WorldPlan& plan) {
-    const bool levels = std::ranges::find(plan.substep, PassKind::spread, &Pass::kind) != plan.substep.end();
+    const bool levels = std::ranges::find(plan.substep, PassKind::prolongation, &Pass::kind) != plan.substep.end();
     return (levels && !model.hierarchy.empty()) || model.table(ConstraintKind::tether).rows > 0;
 }
 

@@ -5,10 +5,10 @@
 namespace weft {
 namespace {
 
-// Levels are solved by one thread where sharing them out costs more than it saves.
+// One thread solves a coarse level if sharing it costs more than it saves.
 bool is_single(std::span<const PlannedCloth> cloths, const Pass& pass) {
     if (pass.kind == PassKind::place) return true;
-    if (pass.source != RowSource::level || pass.kind == PassKind::spread) return false;
+    if (pass.source != RowSource::level || pass.kind == PassKind::prolongation) return false;
     std::size_t nodes = 0;
     for (const PlannedCloth& cloth : cloths)
         nodes += takes_part(cloth, pass) ? cloth.model->hierarchy[pass.level].count : 0;
@@ -22,11 +22,10 @@ IslandPlan::IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> clot
     : substeps_(plan.substeps) {
     Barriers barriers(sharing);
     const auto add = [&](std::vector<IslandPass>& list, const Pass& pass) {
-        const bool work = (links && takes_part(*links, pass)) ||
-                          std::ranges::any_of(cloths, [&](const PlannedCloth& one) { return takes_part(one, pass); });
-        if (!work) return;
+        const auto has_work = [&](const PlannedCloth& one) { return takes_part(one, pass); };
+        if (!(links && takes_part(*links, pass)) && std::ranges::none_of(cloths, has_work)) return;
         const bool single = is_single(cloths, pass);
-        list.push_back({pass, barriers.before(pass, single), single});
+        list.push_back({pass, barriers.before(pass, single), single, std::ranges::all_of(cloths, has_work)});
     };
     const auto add_substep = [&](std::vector<IslandPass>& list, std::uint32_t substep) {
         const SubstepPasses now = passes_of(plan, substep);
@@ -36,7 +35,8 @@ IslandPlan::IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> clot
     for (const Pass& pass : plan.frame_begin) add(frame_begin_, pass);
     add_substep(first_, 0);
     if (plan.substeps > 2) {
-        // The second one may have other barriers than those that follow it: one list for all has those of both.
+        // The second substep may need other barriers than the following ones. One list for all has the barriers of
+        // both.
         add_substep(middle_, 1);
         std::vector<IslandPass> again;
         add_substep(again, 1);

@@ -1,4 +1,4 @@
-// The world's plan as one island runs it: the passes in which somebody has work, and where barriers stand between them.
+// The plan of one island: the passes of the world's plan in which it has work, and the barriers between them.
 #pragma once
 
 #include "solver/plan/barriers.h"
@@ -11,14 +11,15 @@ namespace weft {
 
 struct IslandPass {
     Pass pass;
-    bool barrier = true;  ///< all threads are done with what came before
-    bool single = false;  ///< so little work that one thread has it done before others would have joined
+    bool barrier = true;  ///< all threads wait for one another before the pass
+    bool single = false;  ///< one thread runs the pass, because it is too small to share
+    bool all = false;     ///< all cloths of the island take part, so takes_part() need not be called
 };
 
 class IslandPlan {
   public:
     IslandPlan() = default;
-    /// `links`: of the island; nullptr without.
+    /// `links`: of the island; null if there are none.
     IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> cloths, const LinkTables* links,
                Sharing sharing = Sharing::fixed);
 
@@ -28,7 +29,7 @@ class IslandPlan {
     }
     std::span<const IslandPass> frame_end() const { return frame_end_; }
 
-    /// visit(island pass, substep) for a whole frame, in order.
+    /// Calls visit(island pass, substep) for all passes of a frame, in order.
     template <class Visit>
     void for_each_pass(Visit&& visit) const {
         for (const IslandPass& pass : frame_begin_) visit(pass, 0u);

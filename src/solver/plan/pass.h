@@ -1,4 +1,4 @@
-// A pass: one kind of work over one kind of item, with what it reads and writes.
+// A pass: one kind of work on one kind of item, with the data that it reads and writes.
 #pragma once
 
 #include "physics/constraint.h"
@@ -24,54 +24,54 @@ inline constexpr std::uint32_t pass_kind_count = 0
 struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list
-    std::uint32_t batch = 0;      ///< of project, reach and damp
-    bool first_iteration = true;  ///< of project, reach, correct and contact: no lambda, no friction from before
-    std::uint32_t level = 0;      ///< of collect, lift, reach and settle
+    std::uint32_t batch = 0;      ///< of project, coarse_limit and damp
+    bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0
+    std::uint32_t level = 0;      ///< of restriction, interpolation, coarse_limit, node_correction
     RowSource source = RowSource::model;
     friend bool operator==(const Pass&, const Pass&) = default;
 };
 
-/// What a pass goes over, one item at a time.
+/// The items of a pass.
 enum class Over : std::uint8_t { particles, faces, nodes, rows };
 
-/// What passes read and write. Arrays of coarse levels and corrections exist once per level and per constraint.
+/// Arrays that passes read and write. Coarse levels have arrays per level, corrections per kind of constraint.
 enum class Data : std::uint8_t {
     position,
     start,
     velocity,
-    carry,
+    compensation,
     normals,
     by_face,
     wind,
     node_position,
     node_origin,
     node_displacement,
-    finer_place,           ///< positions, or node_origin of the next finer level
+    finer_place,           ///< node_origin of the next finer level; position on the finest level
     coarser_displacement,  ///< node_displacement of the next coarser level
     finest_displacement,   ///< node_displacement of the finest level
     correction,
     all_corrections,
-    found,      ///< of a dynamic list: how many rows each particle has in it
-    places,     ///< likewise: where they begin
-    list_rows,  ///< likewise: the rows themselves
+    found,      ///< of a dynamic list: number of constraints per particle
+    places,     ///< of a dynamic list: index of each particle's first constraint
+    list_rows,  ///< of a dynamic list: the constraints
 };
 
 struct Access {
     Data data;
     bool write = false;
-    bool own = false;  ///< only the element that belongs to the item itself
+    bool own = false;  ///< only the element that belongs to the item
 };
 
 struct PassInfo {
     std::string_view name;
-    std::uint32_t stage;  ///< stage_of_constraint: that of the constraint
+    std::uint32_t stage;  ///< stage_of_constraint: the stage of the pass's constraint
     Over over;
     std::span<const Access> accesses;
 };
 
 const PassInfo& pass_info(PassKind kind);
 
-/// Timings are kept by stages: one per constraint, then these.
+/// Stages for timings: one per kind of constraint, then these.
 enum Stage : std::uint32_t {
     stage_find = constraint_kind_count,
     stage_air,
@@ -82,7 +82,7 @@ enum Stage : std::uint32_t {
     stage_velocities,
     stage_damp,
     stage_surface,
-    stage_fused,  ///< a frame that a device runs as a whole
+    stage_fused,  ///< a whole frame that runs in one dispatch
     stage_end,
 };
 inline constexpr std::uint32_t stage_count = stage_end;

@@ -7,8 +7,8 @@
 namespace weft {
 namespace {
 
-// Four bins to a doubling; the first one holds everything below the least strain. Found from exponent and thresholds,
-// as logarithms of the math library may round otherwise on another machine.
+// Bins of strain, four per doubling; the first one holds all strains below `least`. They are found by exponent and
+// thresholds, because logarithms of math libraries round differently on different machines.
 constexpr int bins_per_doubling = 4;
 constexpr std::array<double, bins_per_doubling> bin_starts{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
 constexpr double least = 1e-5, most = 100;  // the last bin begins at 9
@@ -36,8 +36,8 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
                  const Fabric& fabric) {
     const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
     if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
-    // A row stands for a strip about as wide as it is long, so its tension over its length is a tension per width.
-    // Counted in bins of the strain that it makes, as that gives the same bits in whatever order.
+    // A constraint represents a strip about as wide as it is long, so its force divided by its length is a tension per
+    // width. Strains are counted in bins, which gives the same bits in every order.
     std::array<std::uint32_t, bin_count> bins{};
     std::uint32_t count = 0;
     const double scale = -1 / (substep_seconds * substep_seconds * softest);

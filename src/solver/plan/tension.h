@@ -1,4 +1,4 @@
-// How taut a cloth is: coarse levels and tethers give way to its elasticity.
+// Tension in a cloth. Limits of coarse levels and tethers are extended by the stretch that it causes.
 #pragma once
 
 #include "scene/fabric.h"
@@ -8,8 +8,8 @@
 
 namespace weft {
 
-/// N/m: what all but a twentieth of the rows stay below in the last substep. `lambda`: of the table's rows;
-/// `substep_seconds`: 0 before the first step. Looks at every fourth vector of rows.
+/// Tension in N/m that 95 % of the constraints did not exceed in the last substep. `lambda`: of the table;
+/// `substep_seconds`: 0 before the first step. Samples every fourth packet of lane_padding rows.
 float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, double substep_seconds,
                  const Fabric& fabric);
 

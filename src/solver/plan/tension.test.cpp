@@ -5,7 +5,7 @@
 namespace weft {
 namespace {
 
-// Rows of 1 cm, all under a tension of `tension` N/m, but every `spared`-th.
+// Tension of 1 cm constraints under `tension` N/m. If `spared` > 0, only every `spared`-th one is under tension.
 float tension_under(double tension, std::uint32_t spared = 0, const Fabric& fabric = {}) {
     RowList rows = make_rows(ConstraintKind::stretch);
     for (std::uint32_t i = 0; i < 4000; ++i) rows.add({2 * i, 2 * i + 1}, {0.01f, 1e-4f, 1e-4f});

@@ -6,8 +6,8 @@
 namespace weft {
 namespace {
 
-// Sweeps over the rows of a level. A level is small, and the more of its error is gone the less is left to the finer
-// one.
+// Sweeps over the constraints of a coarse level. Levels are small, so sweeps are cheap, and they leave less error to
+// the finer levels.
 constexpr std::uint32_t sweeps = 4;
 
 class Planner {
@@ -23,13 +23,13 @@ class Planner {
             for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
                 plan.frame_begin.push_back(dynamic(pass, kind));
         }
-        // The wind changes little within a frame; what the cloth makes of it does.
+        // The wind is evaluated once per frame, because it changes little. Air forces are evaluated every substep.
         if (settings_.air && settings_.wind) plan.frame_begin.push_back({.kind = PassKind::wind});
 
         if (settings_.air) plan.substep.push_back({.kind = PassKind::air});
         if (settings_.air) plan.substep.push_back({.kind = PassKind::push});
         plan.substep.push_back({.kind = PassKind::predict});
-        if (std::ranges::any_of(cloths_, &PlannedCloth::held)) plan.substep.push_back({.kind = PassKind::hold});
+        if (std::ranges::any_of(cloths_, &PlannedCloth::kinematic)) plan.substep.push_back({.kind = PassKind::targets});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
         for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) add_iteration(i == 0, plan.substep);
         plan.substep.push_back({.kind = PassKind::velocities});
@@ -45,7 +45,7 @@ class Planner {
   private:
     using Passes = std::vector<Pass>;
 
-    // The largest number over all cloths: who has less has no work in the rest.
+    // The largest number over all cloths. Cloths with fewer have no work in the remaining passes.
     template <class Count>
     std::uint32_t most(Count&& count) const {
         std::size_t largest = 0;
@@ -66,7 +66,7 @@ class Planner {
         return static_cast<std::uint32_t>(largest);
     }
 
-    /// Kinds whose rows are found anew in every frame.
+    /// Kinds whose constraints are found again in every frame.
     std::vector<ConstraintKind> found() const {
         if (settings_.adhesion) return {ConstraintKind::adhesion};
         return {};
@@ -78,24 +78,24 @@ class Planner {
     void add_hierarchy(bool first, Passes& passes) const {
         const std::uint32_t levels = most([](const ClothModel& model) { return model.hierarchy.size(); });
         for (std::uint32_t i = 0; i < levels; ++i)
-            passes.push_back({.kind = PassKind::collect, .level = i, .source = RowSource::level});
+            passes.push_back({.kind = PassKind::restriction, .level = i, .source = RowSource::level});
         for (std::uint32_t i = levels; i-- > 0;) {
             const std::uint32_t batches = most([&](const ClothModel& model) {
-                return i < model.hierarchy.size() ? model.hierarchy[i].reach.batches.size() : 0;
+                return i < model.hierarchy.size() ? model.hierarchy[i].limits.batches.size() : 0;
             });
-            passes.push_back({.kind = PassKind::lift, .level = i, .source = RowSource::level});
+            passes.push_back({.kind = PassKind::interpolation, .level = i, .source = RowSource::level});
             for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
                 for (std::uint32_t batch = 0; batch < batches; ++batch)
-                    passes.push_back({.kind = PassKind::reach,
-                                      .constraint = ConstraintKind::reach,
+                    passes.push_back({.kind = PassKind::coarse_limit,
+                                      .constraint = ConstraintKind::coarse_limit,
                                       .batch = batch,
                                       .first_iteration = first && sweep == 0,
                                       .level = i,
                                       .source = RowSource::level});
             }
-            passes.push_back({.kind = PassKind::settle, .level = i, .source = RowSource::level});
+            passes.push_back({.kind = PassKind::node_correction, .level = i, .source = RowSource::level});
         }
-        if (levels > 0) passes.push_back({.kind = PassKind::spread, .source = RowSource::level});
+        if (levels > 0) passes.push_back({.kind = PassKind::prolongation, .source = RowSource::level});
     }
 
     void add_iteration(bool first, Passes& passes) const {
@@ -115,7 +115,7 @@ class Planner {
                     passes.push_back({PassKind::project, kind, batch, first});
             });
         }
-        // What ties cloths together has seen what each cloth wants, and leaves the gap that it should.
+        // Constraints between cloths come after those of each cloth, so that an iteration ends with correct gaps.
         for_each_kind([&](ConstraintKind kind) {
             for (std::uint32_t batch = 0; batch < link_batches(kind); ++batch)
                 passes.push_back({.kind = PassKind::project,
@@ -124,16 +124,17 @@ class Planner {
                                   .first_iteration = first,
                                   .source = RowSource::links});
         });
-        // Each row of these moves one particle, which takes the mean of what its rows want.
+        // Each constraint of a dynamic list moves one particle, which takes the mean of its corrections.
         for (const ConstraintKind kind : found()) {
             passes.push_back(dynamic(PassKind::correct, kind, first));
             passes.push_back(dynamic(PassKind::average, kind, first));
         }
-        // Last, so that an iteration ends with nothing inside a collider.
+        // Contacts come last, so that no particle is inside a collider after an iteration.
         if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
     }
 
-    // Once a frame: the cost of one substep's projection. It is implicit, so the longer step stays stable.
+    // Damping runs once per frame and costs as much as the projection of one substep. It is implicit, so the longer
+    // step is stable.
     void add_damping(Passes& passes) const {
         for_each_kind([&](ConstraintKind kind) {
             if (!constraint_info(kind).damped) return;
@@ -149,8 +150,8 @@ class Planner {
     std::span<const LinkTables* const> links_;
 };
 
-// x^(1/n) for x in [0, 1], by halving an interval: products alone, so every machine has the same bits. (pow() differs
-// from one C library to another.)
+// x^(1/n) for x in [0, 1], by bisection. It only multiplies, so every machine gives the same bits; pow() differs
+// between C libraries.
 double root(double x, std::uint32_t n) {
     const auto power = [n](double base) {
         double result = 1;
@@ -166,7 +167,7 @@ double root(double x, std::uint32_t n) {
     return high;
 }
 
-// Undoing the part s of an error in k iterations takes the part 1 - (1 - s)^(1/k) in each (Müller et al. 2007,
+// To remove the fraction s of an error in k iterations, each must remove 1 - (1 - s)^(1/k) (Müller et al. 2007,
 // "Position Based Dynamics", section 3.3).
 float per_iteration(float stiffness, std::uint32_t iterations) {
     return static_cast<float>(1 - root(1 - static_cast<double>(stiffness), iterations));
@@ -203,21 +204,22 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     if (pass.source == RowSource::links) return false;
     if (pass.source == RowSource::dynamic) return true;
     switch (pass.kind) {
-        case PassKind::hold:
-            return cloth.held;
+        case PassKind::targets:
+            return cloth.kinematic;
         case PassKind::project:
             return pass.batch < model.table(pass.constraint).batches.size();
         case PassKind::damp:
             return model.fabric.body.damping > 0 && pass.batch < model.table(pass.constraint).batches.size();
         case PassKind::correct:
             return model.table(pass.constraint).rows > 0;
-        case PassKind::collect:
-        case PassKind::lift:
-        case PassKind::settle:
+        case PassKind::restriction:
+        case PassKind::interpolation:
+        case PassKind::node_correction:
             return pass.level < model.hierarchy.size();
-        case PassKind::reach:
-            return pass.level < model.hierarchy.size() && pass.batch < model.hierarchy[pass.level].reach.batches.size();
-        case PassKind::spread:
+        case PassKind::coarse_limit:
+            return pass.level < model.hierarchy.size() &&
+                   pass.batch < model.hierarchy[pass.level].limits.batches.size();
+        case PassKind::prolongation:
             return !model.hierarchy.empty();
         default:
             return true;

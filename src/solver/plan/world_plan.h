@@ -1,5 +1,5 @@
-// The step as data: one list of passes for the whole world, which every backend executes and which reads like a table
-// of contents. A cloth takes part in a pass or has no work in it.
+// The step as data: one list of passes for the whole world, which every backend executes. A cloth takes part in a pass
+// or has no work in it.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -14,60 +14,60 @@
 
 namespace weft {
 
-/// What `automatic` stands for.
+/// Replaces `automatic` by the projection that it selects.
 constexpr Projection resolve(Projection projection, Method method) {
     if (projection != Projection::automatic) return projection;
     return method == Method::xpbd ? Projection::lines : Projection::gauss_seidel;
 }
 
-/// What decides which passes a plan has, apart from the cloths. Models without coarse levels have no work in passes of
-/// `solver.hierarchy`.
+/// Settings that select the passes of a plan, together with the cloths. Models without coarse levels have no work in
+/// the passes of `solver.hierarchy`.
 struct StepSettings {
     SolverDesc solver = {};
-    bool contacts = true;   ///< there is something to touch
+    bool contacts = true;   ///< there are colliders
     bool air = false;       ///< there is air
-    bool wind = false;      ///< and it moves
-    bool adhesion = false;  ///< some of it sticks to cloth
+    bool wind = false;      ///< the air moves
+    bool adhesion = false;  ///< a collider has adhesion
     bool surface = true;    ///< compute normals
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
-/// Constraints between points of different cloths, or of one: a table per kind whose particles are numbered over the
-/// whole world. Most kinds have none.
+/// Constraints between points of different cloths, or of one cloth: a table per kind, with particles numbered over the
+/// whole world. Most tables are empty.
 using LinkTables = std::array<ConstraintTable, constraint_kind_count>;
 
-/// What a plan has to know of a cloth.
+/// The properties of a cloth that a plan depends on.
 struct PlannedCloth {
     const ClothModel* model = nullptr;
-    bool held = false;  ///< some of its particles are carried along
+    bool kinematic = false;  ///< it has kinematic targets
 };
 
-/// `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those that the passes
-/// were made for; `projection` is never `automatic` here.
+/// A frame runs `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those
+/// that the passes were made for; `projection` is never `automatic` here.
 struct WorldPlan : SolverDesc {
     std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
 };
 
-/// `links`: of every island.
+/// `links`: of all islands that have any.
 WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth> cloths,
                      std::span<const LinkTables* const> links = {});
 
 /// Whether a cloth has work in a pass.
 bool takes_part(const PlannedCloth& cloth, const Pass& pass);
-/// Whether an island's links have.
+/// Whether the links of an island have work in a pass.
 bool takes_part(const LinkTables& links, const Pass& pass);
 
-/// The passes of one substep. Where a substep ends as the next one begins, with the particles one by one, `advance`
-/// comes in place of both, behind `passes`.
+/// The passes of one substep. If the last pass of a substep and the first of the next one both go over single particles
+/// (velocities, predict), `advance` replaces both and runs after `passes`.
 struct SubstepPasses {
     std::span<const Pass> passes;
     bool advance = false;
 };
 SubstepPasses passes_of(const WorldPlan& plan, std::uint32_t substep);
 
-/// visit(pass, substep) for a whole frame, in order.
+/// Calls visit(pass, substep) for all passes of a frame, in order.
 template <class Visit>
 void for_each_pass(const WorldPlan& plan, Visit&& visit) {
     for (const Pass& pass : plan.frame_begin) visit(pass, 0u);
@@ -79,25 +79,26 @@ void for_each_pass(const WorldPlan& plan, Visit&& visit) {
     for (const Pass& pass : plan.frame_end) visit(pass, plan.substeps - 1);
 }
 
-/// What happens to a constraint's multiplier lambda, which restarts at 0 in every substep.
+/// Use of a constraint's Lagrange multiplier lambda, which restarts at 0 in every substep.
 enum class LambdaUse {
     discard,     ///< starts at 0 and is not kept
     store,       ///< starts at 0 and is kept
-    accumulate,  ///< goes on from where the last iteration left it
+    accumulate,  ///< continues from the last iteration
 };
 
-/// A later iteration reads lambda again. The tension in the cloth and the residual are computed from the lambda of
-/// stretch after the last substep. Those of coarse levels go on from sweep to sweep.
+/// Lambda is stored if it is read later: by the next iteration, by the next sweep on a coarse level, or, for stretch in
+/// the last substep, to compute the tension and the residual.
 LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
 
-/// The part of its error that an iteration of plain position-based dynamics undoes, 0…1, while C > 0 and while C < 0.
+/// The fraction 0…1 of its error that a constraint removes per iteration of plain position-based dynamics, for C > 0
+/// and for C < 0.
 using PlainStiffness = std::array<std::array<float, 2>, constraint_kind_count>;
 PlainStiffness plain_stiffness(const Fabric& fabric, std::uint32_t iterations);
 
-/// Nodes of a level that is worth sharing out: a sweep over its rows then takes longer than the barriers between them.
+/// Levels with at least this many nodes are shared among threads: a sweep then takes longer than its barriers.
 inline constexpr std::uint32_t nodes_for_many_threads = 2048;
 
-/// One line per run of alike passes.
+/// The plan as text: one line per run of equal passes.
 std::string describe(const WorldPlan& plan);
 
 }  // namespace weft

@@ -1,4 +1,4 @@
-// What a step leaves behind, to be read and never written.
+// Results of a step, read-only.
 #pragma once
 
 #include "mesh/triangle_view.h"
@@ -17,49 +17,47 @@
 
 namespace weft {
 
-/// What went wrong in a step, or was held back; combined by or.
+/// Bits that report problems of a step; combined with |.
 enum Report : std::uint32_t {
     report_none = 0,
-    report_speed_capped = 1u << 0,   ///< particles went faster than the cap and were slowed to it
-    report_non_finite = 1u << 1,     ///< a NaN or infinity arose; the cloth is back where the frame began
-    report_device_failed = 1u << 2,  ///< the device is lost or out of memory; the cloth is as it was last read
-    report_contacts_full =
-        1u << 3,  ///< more contacts than there was room for; sums are complete, the next frame has room
+    report_speed_capped = 1u << 0,   ///< particles exceeded the speed cap and were slowed to it
+    report_non_finite = 1u << 1,     ///< a NaN or infinity arose; the cloth is restored to the start of the frame
+    report_device_failed = 1u << 2,  ///< the device is lost or out of memory; the state is that of the last read
+    report_contacts_full = 1u << 3,  ///< some contacts are missing; sums are complete, the next frame has room
 };
 
 /// The names of the bits, in the order of the bits.
 std::vector<std::string_view> report_names(std::uint32_t reports);
 
-/// What is drawn of a cloth at one moment. Arrays hold one element per vertex of its render mesh; spans point to what
-/// stays for as long as the frame does.
+/// The render mesh of a cloth in one frame. Arrays have one element per vertex. Spans are valid as long as the frame.
 struct RenderMesh {
     std::vector<Vec3> positions;  ///< m
     std::vector<Vec3> normals;    ///< unit
     std::span<const Triangle> triangles;
     std::span<const Vec2> uvs;             ///< empty if the mesh has none
-    std::span<const Vec4> colors;          ///< likewise
+    std::span<const Vec4> colors;          ///< empty if the mesh has none
     std::span<const Vec3> rest_positions;  ///< m
 };
 
-/// One cloth. Arrays hold one element per particle, in the order of the model's topology.
+/// One cloth. Arrays have one element per particle, in the order of the model's topology.
 struct ClothFrame {
     ClothId id;
     const ClothModel* model = nullptr;
     std::span<const Vec4> positions;   ///< m; w is the inverse mass, 1/kg
     std::span<const Vec4> velocities;  ///< m/s; w is internal
-    std::span<const Vec4> normals;     ///< unit; empty if the settings leave the surface out
+    std::span<const Vec4> normals;     ///< unit; empty if the settings disable the surface
     TriangleView triangles;            ///< of particles
-    /// Another number whenever `triangles`, or those of the render mesh, have changed.
+    /// Changes whenever the triangles of the cloth or of its render mesh change.
     std::uint64_t topology_version = first_topology_version;
     std::uint32_t reports = report_none;
-    std::string detail;  ///< the first input or constraint that produced a non-finite value, or what the device says
+    std::string detail;  ///< source of the first non-finite value, or the device's error message
 
-    /// Computed by the first call in a frame, and costs nothing without one. Needs normals. Not for several threads at
-    /// once.
+    /// Computed by the first call in a frame. Needs normals. Not thread-safe.
     const RenderMesh& render_mesh() const;
-    /// Of the render mesh's vertices, likewise: unit, in w the handedness (tangents.md). Empty if it has no UVs.
+    /// Tangents of the render mesh's vertices, also computed by the first call: unit, w is the handedness
+    /// (tangents.md). Empty if the mesh has no UVs.
     std::span<const Vec4> tangents() const;
-    /// Whoever writes other arrays into the frame says so: what was computed from those before is out of date.
+    /// Must be called after the arrays of the frame have changed: discards the computed mesh and tangents.
     void invalidate() { has_render_mesh_ = has_tangents_ = false; }
 
   private:
@@ -69,22 +67,22 @@ struct ClothFrame {
 };
 
 struct Frame {
-    std::uint64_t index = 0;  ///< 0 is the start
+    std::uint64_t index = 0;  ///< 0: the start
     double time = 0;          ///< s
     std::vector<ClothFrame> cloths;
     std::array<double, stage_count> stage_ms{};  ///< time in each stage, all cloths; see stage_name()
-    /// Of the caller's time, what the frame took: to submit it, and to wait for it where a device runs it. What the
-    /// caller did in between does not count.
+    /// Time in ms that the caller spent on the frame: to submit it, and to wait for the device. Time between the two is
+    /// not included.
     double step_ms = 0;
-    ListCounts lists;                     ///< of constraints that were found in this frame
-    std::uint32_t reports = report_none;  ///< of all cloths
+    ListCounts lists;                     ///< of the dynamic lists of this frame
+    std::uint32_t reports = report_none;  ///< bits of all cloths
 };
 
-/// Positions and normals of the render mesh's vertices. Needs the frame's normals. Where drawn and simulated mesh are
-/// the same, vertices that no triangle uses stay where the mesh has them.
+/// Computes positions and normals of the render mesh's vertices. Needs the frame's normals. Without a separate render
+/// mesh, vertices that no triangle uses keep their positions.
 void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::vector<Vec3>& normals);
 
-/// Tangents of vertices with these positions and normals: unit, in w the handedness (tangents.md). Empty without UVs.
+/// Computes tangents of the vertices: unit, w is the handedness (tangents.md). Empty without UVs.
 void compute_tangents(std::span<const Triangle> triangles, std::span<const Vec2> uvs, std::span<const Vec3> positions,
                       std::span<const Vec3> normals, std::vector<Vec4>& tangents);
 

@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-/// A cloth of `mesh` at rest, as a backend leaves it in a frame, with arrays of the test's own.
+/// A cloth of `mesh` at rest, in a frame whose arrays belong to the test.
 struct Held {
     explicit Held(const TriangleMesh& mesh) {
         auto built = build_cloth_model({.name = "it", .mesh = mesh}, build_topology(mesh, {.reorder = false}).value());
@@ -54,7 +54,7 @@ TEST(ClothFrame, makes_its_render_mesh_once_and_again_when_it_is_invalid) {
     ASSERT_EQ(level.size(), mesh.positions.size());
     EXPECT_EQ(level[0].xyz(), (Vec3{1, 0, 0}));
 
-    for (Vec4& p : cloth.positions) p.y = p.x;  // it slopes
+    for (Vec4& p : cloth.positions) p.y = p.x;  // a slope
     for (Vec4& n : cloth.normals) n = {-std::sqrt(0.5f), std::sqrt(0.5f), 0, 0};
     EXPECT_EQ(cloth.frame.render_mesh().positions, mesh.positions) << "of the frame as it was";
     cloth.frame.invalidate();
@@ -73,7 +73,7 @@ TEST(ClothFrame, measures_see_the_triangles_of_the_frame_and_no_others) {
     EXPECT_EQ(count_intersections(frame).triangles, 1u);
     EXPECT_EQ(measure_penetration(frame, std::span(&ball, 1)).count, 1u);
 
-    const std::vector<std::uint32_t> second = {3, 4, 5};  // what is left when the first one is gone
+    const std::vector<std::uint32_t> second = {3, 4, 5};  // only the second triangle
     frame.cloths[0].triangles = {second.data(), 1, 1};
     EXPECT_EQ(count_intersections(frame).triangles, 0u);
     EXPECT_EQ(measure_penetration(frame, std::span(&ball, 1)).count, 0u);

@@ -1,4 +1,4 @@
-// An inverse mass, as it changes while a cloth moves.
+// A change of a particle's inverse mass.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace weft {
 
 struct ParticleWeight {
     std::uint32_t particle = 0;
-    float weight = 0;  ///< 1/kg; 0 for what is pinned
+    float weight = 0;  ///< inverse mass, 1/kg; 0: pinned
 };
 
 }  // namespace weft

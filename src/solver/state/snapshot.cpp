@@ -12,7 +12,7 @@
 namespace weft {
 namespace {
 
-// "weft" and a version; on a machine of the other byte order it reads as neither.
+// "weft" and the format version. On a machine of the other byte order neither matches.
 constexpr std::uint32_t magic = 0x74666577, version = 4;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -88,14 +88,14 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
         out.list(cloth.position);
         out.list(cloth.start);
         out.list(cloth.velocity);
-        out.list(cloth.carry);
+        out.list(cloth.compensation);
         out.list(cloth.lambda);
         out.one(cloth.substep_seconds);
-        out.list(cloth.holds.particles);
-        out.one<std::uint64_t>(cloth.holds.movers.size());
-        for (const SavedMover& mover : cloth.holds.movers) {
-            out.one(mover.collider);
-            out.list(mover.offsets);
+        out.list(cloth.targets.particles);
+        out.one<std::uint64_t>(cloth.targets.motions.size());
+        for (const SavedMotion& motion : cloth.targets.motions) {
+            out.one(motion.collider);
+            out.list(motion.offsets);
         }
         out.one<std::uint64_t>(cloth.edits.size());
         for (const ClothEdit& edit : cloth.edits) {
@@ -115,7 +115,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
 
 Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
     Reader in(bytes);
-    if (in.one<std::uint32_t>() != magic) return Error{"state", "is no saved state of weft"};
+    if (in.one<std::uint32_t>() != magic) return Error{"state", "is not a saved state of weft"};
     if (const auto found = in.one<std::uint32_t>(); found != version)
         return Error{"state", "has version " + std::to_string(found) + ", this weft reads " + std::to_string(version)};
     const auto sum = in.one<std::uint64_t>();
@@ -132,15 +132,15 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
         cloth.position = in.list<Vec4>();
         cloth.start = in.list<Vec4>();
         cloth.velocity = in.list<Vec4>();
-        cloth.carry = in.list<Vec4>();
+        cloth.compensation = in.list<Vec4>();
         cloth.lambda = in.list<float>();
         cloth.substep_seconds = in.one<double>();
-        cloth.holds.particles = in.list<HeldParticle>();
-        const auto movers = in.one<std::uint64_t>();
-        for (std::uint64_t m = 0; m < movers && !in.too_short(); ++m) {
-            SavedMover& mover = cloth.holds.movers.emplace_back();
-            mover.collider = in.one<std::uint32_t>();
-            mover.offsets = in.list<OffsetKey>();
+        cloth.targets.particles = in.list<KinematicTarget>();
+        const auto motions = in.one<std::uint64_t>();
+        for (std::uint64_t m = 0; m < motions && !in.too_short(); ++m) {
+            SavedMotion& motion = cloth.targets.motions.emplace_back();
+            motion.collider = in.one<std::uint32_t>();
+            motion.offsets = in.list<OffsetKey>();
         }
         const auto edits = in.one<std::uint64_t>();
         for (std::uint64_t e = 0; e < edits && !in.too_short(); ++e) {
@@ -157,7 +157,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
 
 namespace {
 
-// Their squares still fit a float.
+// Largest absolute value: its square still fits in a float.
 constexpr float largest = 1e18f;
 
 bool sound(const Vec3& v) {
@@ -166,7 +166,7 @@ bool sound(const Vec3& v) {
 bool sound(const Vec4& v) {
     return sound(v.xyz()) && std::abs(v.w) <= largest;  // false for what is not finite
 }
-// Of heavy cloth they are larger than any place or speed, and nothing squares them.
+// Lambdas of heavy cloth can exceed `largest`; they are never squared.
 bool sound(float lambda) {
     return std::isfinite(lambda);
 }
@@ -176,8 +176,8 @@ bool is_unit(const Vec3& v) {
 bool sound(const Pose& pose) {
     return sound(pose.position) && is_unit(pose.rotation.x) && is_unit(pose.rotation.y) && is_unit(pose.rotation.z);
 }
-bool sound(const HeldParticle& held) {
-    return sound(held.local);
+bool sound(const KinematicTarget& target) {
+    return sound(target.local);
 }
 bool sound(const OffsetKey& key) {
     return std::isfinite(key.time) && sound(key.offset);
@@ -195,31 +195,32 @@ std::optional<std::size_t> first_unsound(const std::vector<T>& values) {
 
 }  // namespace
 
-Result<Done> check_numbers(const Snapshot& snapshot) {
+Result<void> check_numbers(const Snapshot& snapshot) {
     if (!sound_time(snapshot.time)) return Error{"state", "its time must be finite and ≥ 0 s"};
     if (const auto i = first_unsound(snapshot.colliders))
         return Error{"state", "collider " + std::to_string(*i) + " must have a rotation and a finite position"};
     for (std::size_t c = 0; c < snapshot.cloths.size(); ++c) {
         const ClothSnapshot& cloth = snapshot.cloths[c];
         const std::string of_cloth = "cloth " + std::to_string(c) + ": ";
-        for (const auto* array : {&cloth.position, &cloth.start, &cloth.velocity, &cloth.carry}) {
+        for (const auto* array : {&cloth.position, &cloth.start, &cloth.velocity, &cloth.compensation}) {
             if (const auto i = first_unsound(*array))
                 return Error{"state",
                              of_cloth + "particle " + std::to_string(*i) + " must have finite numbers of at most 1e18"};
         }
         for (const Vec4& particle : cloth.position)
             if (particle.w < 0) return Error{"state", of_cloth + "inverse masses must be ≥ 0"};
-        bool sound_holds = !first_unsound(cloth.holds.particles);
-        for (const SavedMover& mover : cloth.holds.movers)
-            sound_holds = sound_holds && !first_unsound(mover.offsets) &&
-                          std::ranges::is_sorted(mover.offsets, {}, &OffsetKey::time);
-        if (!sound_holds) return Error{"state", of_cloth + "what carries its pins must be finite, keys by time"};
+        bool sound_targets = !first_unsound(cloth.targets.particles);
+        for (const SavedMotion& motion : cloth.targets.motions)
+            sound_targets = sound_targets && !first_unsound(motion.offsets) &&
+                            std::ranges::is_sorted(motion.offsets, {}, &OffsetKey::time);
+        if (!sound_targets)
+            return Error{"state", of_cloth + "the targets of its pins must be finite, with keys in ascending time"};
         if (const auto i = first_unsound(cloth.lambda))
-            return Error{"state", of_cloth + "row " + std::to_string(*i) + " must be finite"};
+            return Error{"state", of_cloth + "constraint " + std::to_string(*i) + " must be finite"};
         if (!sound_time(cloth.substep_seconds))
             return Error{"state", of_cloth + "its substep must be finite and ≥ 0 s"};
     }
-    return Done{};
+    return {};
 }
 
 }  // namespace weft

@@ -1,9 +1,9 @@
-// Everything that moves, at one moment: what brings a world back to it, to the bit.
+// Saved state: everything that moves. Restoring it gives the same bits.
 #pragma once
 
 #include "base/transform.h"
 #include "solver/model/cloth_edit.h"
-#include "solver/state/holds.h"
+#include "solver/state/kinematic_targets.h"
 
 #include <weft/result.h>
 #include <weft/vector.h>
@@ -15,25 +15,25 @@
 
 namespace weft {
 
-/// As Mover, with the collider by its place among all; `none` for none.
-struct SavedMover {
+/// Like TargetMotion, with the collider's index; `none` if there is no collider.
+struct SavedMotion {
     std::uint32_t collider = none;
     std::vector<OffsetKey> offsets;
 };
 
-struct SavedHolds {
-    std::vector<SavedMover> movers;
-    std::vector<HeldParticle> particles;
+struct SavedTargets {
+    std::vector<SavedMotion> motions;
+    std::vector<KinematicTarget> particles;
 };
 
-/// The fourth floats of position are inverse masses, 1/kg; those of start, velocity and carry hold what rounding
-/// dropped from the velocity, as in a step.
+/// position.w is the inverse mass in 1/kg. The w of start, velocity and compensation are the x, y and z of the
+/// velocity's compensation (compensated summation), as in a step.
 struct ClothSnapshot {
-    std::vector<Vec4> position, start, velocity, carry;  ///< per particle and anchor
-    std::vector<float> lambda;                           ///< of the rows of stretch, which tell how taut the cloth is
-    double substep_seconds = 0;                          ///< of the last frame
-    std::vector<ClothEdit> edits = {};                   ///< since the cloth was built
-    SavedHolds holds = {};                               ///< what carries pinned particles and anchors along
+    std::vector<Vec4> position, start, velocity, compensation;  ///< per particle and anchor
+    std::vector<float> lambda;                                  ///< of the stretch constraints, to compute the tension
+    double substep_seconds = 0;                                 ///< s, of the last frame
+    std::vector<ClothEdit> edits = {};                          ///< since the cloth was built
+    SavedTargets targets = {};                                  ///< of pinned particles and anchors
 };
 
 struct Snapshot {
@@ -45,10 +45,10 @@ struct Snapshot {
 
 std::vector<std::byte> to_bytes(const Snapshot& snapshot);
 
-/// Fails on what to_bytes did not write, or what was changed or cut off since.
+/// Fails on data that to_bytes() did not write, and on changed or truncated data.
 Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes);
 
-/// Fails on numbers that no world has: a checksum says that they are as they were written, not by whom.
-Result<Done> check_numbers(const Snapshot& snapshot);
+/// Fails on values that no world can have. A checksum detects damage, but not data written by other programs.
+Result<void> check_numbers(const Snapshot& snapshot);
 
 }  // namespace weft

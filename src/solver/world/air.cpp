@@ -8,14 +8,14 @@ namespace weft {
 namespace {
 
 std::array<Vec3, 3> numbers_of(const WindDesc& wind) {
-    // Any two directions across the wind do, as long as they are the same on every machine.
+    // Two arbitrary directions perpendicular to the wind, the same on every machine.
     const Vec3 along = normalized(wind.velocity);
     const Vec3 axis = std::abs(along.y) < 0.7f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
     const Vec3 across = normalized(cross(along, axis));
     return {wind.velocity, across, cross(across, along)};
 }
 
-// Whole numbers in 0 … 288, the period of the noise, another three for each seed below 289³.
+// Integers in 0 … 288 (the noise has period 289), different for each seed below 289³.
 Vec3 offset_of(std::uint32_t seed) {
     return {static_cast<float>(seed % 289), static_cast<float>(seed / 289 % 289),
             static_cast<float>(seed / 289 / 289 % 289)};
@@ -31,7 +31,7 @@ WindNow wind_at(const WindDesc& wind, double time) {
     return {.kind = wind.kind,
             .numbers = numbers_of(wind),
             .gust = wind.gust.amplitude,
-            // The periods of what the kernels make of them.
+            // Reduced by the periods that the kernels use: 16 turns of a gust here, 289 of the noise below.
             .gust_turns = static_cast<float>(std::fmod(wind.gust.frequency * time, 16.0)),
             .gust_per_meter = 1 / wind.gust.scale,
             .scattered = wind.gust.phase == GustPhase::scattered,

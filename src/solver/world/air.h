@@ -1,4 +1,4 @@
-// The air around the cloths, and the winds that move it.
+// Winds, evaluated for one frame.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -15,19 +15,20 @@ inline constexpr std::uint32_t wind_kind_count = 0
     ;
 #undef WEFT_WIND
 
-/// What a wind is at one moment, as wind.kernel.h names it. Plain numbers, ready for any backend.
+/// Parameters of a wind at one time, named as in wind.kernel.h. Plain numbers for all backends.
 struct WindNow {
     WindKind kind{};
-    std::array<Vec3, 3> numbers{};  ///< as the kind's kernel file states
+    std::array<Vec3, 3> numbers{};  ///< defined in the kind's kernel file
     float gust = 0, gust_turns = 0, gust_per_meter = 0;
     bool scattered = false;
     float turbulence = 0, noise_per_meter = 0, noise_time = 0;
     Vec3 noise_offset;
 };
 
+/// `time`: s.
 WindNow wind_at(const WindDesc& wind, double time);
 
-/// m/s: all winds together at a point, for the triangle of that number. What the `wind` pass computes, one evaluation.
+/// Sum of all winds in m/s at a point, for triangle `number`. Same values as the `wind` pass; for single evaluations.
 Vec3 wind_velocity(const std::vector<WindNow>& winds, Vec3 position, std::uint32_t number);
 
 }  // namespace weft

@@ -14,7 +14,7 @@ namespace {
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
 
-// The key before `time`, the one after it, and how far between them it is, 0…1.
+// The keys before and after `time`, and the position between them, 0…1.
 template <class Key>
 struct Between {
     const Key &before, &after;

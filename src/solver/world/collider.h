@@ -1,4 +1,4 @@
-// A rigid shape that cloth touches.
+// A rigid shape that cloth collides with.
 #pragma once
 
 #include "base/transform.h"
@@ -24,8 +24,8 @@ inline constexpr std::uint32_t shape_kind_count = 0
     ;
 #undef WEFT_SHAPE
 
-/// Particles that are within `distance` of the surface where a frame begins are held during that frame to where they
-/// are on the collider, each by a spring.
+/// Adhesion: each particle within `distance` of the surface at the start of a frame is held during that frame by a
+/// spring to its position relative to the collider.
 struct Adhesion {
     float distance = 0;    ///< m, >= 0: between the surfaces of cloth and collider
     float compliance = 0;  ///< m/N, >= 0: inverse stiffness of a particle's spring
@@ -34,24 +34,25 @@ struct Adhesion {
 struct Collider {
     std::string name;
     ShapeKind shape{};
-    std::array<float, 4> numbers{};             ///< as the shape's kernel file states
+    std::array<float, 4> numbers{};             ///< defined in the shape's kernel file
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
-    std::optional<Adhesion> adhesion = {};      ///< nothing sticks to it without
-    Pose pose;                                  ///< where it is now
-    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: it stays
-    std::optional<Pose> next_pose = {};         ///< where it goes in the next frame, if it is moved from outside
+    std::optional<Adhesion> adhesion = {};      ///< nullopt: cloth does not stick
+    Pose pose;                                  ///< current pose
+    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: no motion by keys
+    std::optional<Pose> next_pose = {};         ///< pose at the end of the next frame, set by World::move()
 };
 
 Collider make_collider(const ColliderDesc& desc);
 
-/// Where the collider is at a time: between two keys on the straight way, angles likewise; before the first and after
-/// the last it stays with them.
+/// Pose of the collider at a time in s. Positions and angles are interpolated linearly between keys, and constant
+/// before the first and after the last key.
 Pose pose_at(const Collider& collider, double time);
+/// Offset of a pin in m, interpolated the same way; 0 without keys.
 Vec3 offset_at(std::span<const OffsetKey> keys, double time);
 
-/// m: distance of a world point to the collider's true surface, negative inside.
+/// Distance in m of a world point to the collider's exact surface, negative inside.
 double signed_distance(const Collider& collider, Vec3 world);
-/// And which way is out, unit, in the world.
+/// Also returns the outward unit normal in world space.
 double signed_distance(const Collider& collider, Vec3 world, Vec3& normal);
 
 }  // namespace weft

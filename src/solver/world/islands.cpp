@@ -36,8 +36,8 @@ LinkTables make_links(std::span<const PlacedStitch> stitches, std::uint32_t firs
     for (const PlacedStitch& stitch : stitches) add_stitch(rows, stitch.from, stitch.to, stitch.gap, stitch.compliance);
     if (rows.size() == 0) return tables;
 
-    // Colors are found on particles in a numbering of the island's own: the world's may be large. An unused slot counts
-    // as the row's first particle, which a row may name twice.
+    // Coloring numbers only the particles of the island, because the world may have many. An unused slot gets the first
+    // particle of its stitch, since a constraint may name a particle twice.
     std::vector<std::uint32_t> particles = rows.particles;
     for (std::size_t i = 0; i < particles.size(); ++i)
         if (particles[i] == no_particle) particles[i] = particles[i - i % rows.arity];

@@ -1,4 +1,4 @@
-// Islands: cloths that are tied together, directly or through others, are stepped together.
+// Islands: groups of cloths that are stitched together, directly or through others. An island is stepped as one.
 #pragma once
 
 #include "physics/stitch/stitch.h"
@@ -13,7 +13,7 @@
 
 namespace weft {
 
-/// A tie between two points on cloth. Particles are those of each cloth.
+/// A tie between two points on cloth. Particles are numbered in their own cloth.
 struct Stitch {
     ClothId a, b;  ///< may be the same one
     StitchPoint from, to;
@@ -21,17 +21,19 @@ struct Stitch {
     float compliance = 0;  ///< m/N
 };
 
-/// Numbers [0, count) in groups that ties hold together: numbers of a group ascending, groups by their first number.
+/// Groups the numbers [0, count) that ties connect. Numbers in a group are ascending; groups are sorted by their first
+/// number.
 std::vector<std::vector<std::uint32_t>> group_islands(std::uint32_t count,
                                                       std::span<const std::array<std::uint32_t, 2>> ties);
 
-/// Stitches between particles that are numbered over the world. Padding acts on dummies from `first_dummy` on, which
-/// must be the island's own: islands are projected side by side. Those of a point to itself are left out. In the order
-/// of the list, so that the bits do not depend on anything else.
+/// A stitch whose particles are numbered over the world.
 struct PlacedStitch {
     StitchPoint from, to;
     float gap = 0, compliance = 0;
 };
+/// Packs the stitches of an island. Padding acts on dummies from `first_dummy` on; no other island may use these
+/// dummies, because islands are projected in parallel. Stitches of a point to itself are left out. Stitches keep the
+/// order of the list, so that the result is deterministic.
 LinkTables make_links(std::span<const PlacedStitch> stitches, std::uint32_t first_dummy);
 
 }  // namespace weft

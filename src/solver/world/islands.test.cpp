@@ -39,7 +39,7 @@ TEST(Links, of_one_color_share_no_particle) {
             real += table.is_real(row);
             for (std::uint32_t slot = 0; slot < table.arity; ++slot) {
                 const std::uint32_t p = table.particles[slot * table.stride + row];
-                const bool lone = row % lane_padding == 0;  // dummies are shared by rows, never by lanes
+                const bool lone = row % lane_padding == 0;  // rows share dummies; lanes of a packet do not
                 if (lone) std::erase_if(seen, [&](std::uint32_t q) { return table.is_dummy(q); });
                 EXPECT_TRUE(seen.insert(p).second) << p;
             }

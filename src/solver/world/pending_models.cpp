@@ -14,8 +14,8 @@ void PendingModels::add(ClothId cloth, std::uint64_t due_frame, BuildModel build
     pending.work = std::make_unique<LaterWork>([&result, build = std::move(build)] {
         try {
             result.emplace(build());
-        } catch (const std::bad_alloc&) {  // on a thread of its own nothing could catch it
-            result.emplace(Error{"model", "there is no memory to build it"});
+        } catch (const std::bad_alloc&) {  // an exception must not leave the build thread
+            result.emplace(Error{"model", "not enough memory to build it"});
         }
     });
     pending_.push_back(std::move(pending));

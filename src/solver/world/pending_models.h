@@ -1,4 +1,4 @@
-// Models that are being built while their cloths move, each to be used from a frame that is known beforehand.
+// Models that are built in the background while their cloths move. Each is used from a frame that is fixed in advance.
 #pragma once
 
 #include "base/workers.h"
@@ -15,12 +15,12 @@
 
 namespace weft {
 
-/// Touches nothing that a world does.
+/// Must not access data that a World changes, because it may run on another thread.
 using BuildModel = std::function<Result<std::shared_ptr<const ClothModel>>()>;
 
-/// Frames that a model of so many particles may take to build: five times what one core of 2024 needs for it at 60
-/// frames a second, so a frame hardly ever waits. It depends on the size alone, so every run uses the model from the
-/// same frame.
+/// Frames until a model of this many particles is used: five times the build time on one core of 2024 at 60 frames per
+/// second, so that a frame rarely has to wait. It depends only on the size, so every run uses the model from the same
+/// frame.
 constexpr std::uint64_t frames_to_build(std::uint32_t particles) {
     return 1 + particles / 1024;
 }
@@ -32,16 +32,17 @@ class PendingModels {
         Result<std::shared_ptr<const ClothModel>> model;
     };
 
-    /// In place of what was pending for the cloth.
+    /// Replaces the pending model of the cloth.
     void add(ClothId cloth, std::uint64_t due_frame, BuildModel build);
-    /// Waits for nothing: what is being built for the cloth is left to itself.
+    /// Does not wait: a running build continues, and its result is discarded.
     void drop(ClothId cloth);
     bool contains(ClothId cloth) const;
-    /// Has the next model built in the background, one at a time. Without calls of this each is built when it is due.
+    /// Starts building the next model in the background, one at a time. A model that was not started is built when it
+    /// is due.
     void start_next();
-    /// The next one that is due in `frame`, in the order in which they were added. Waits for it.
+    /// Returns the next model that is due in `frame`, in the order of adding. Waits until it is built.
     std::optional<Ready> take_due(std::uint64_t frame);
-    /// Likewise, whenever it is due.
+    /// The same for any due frame.
     std::optional<Ready> take_any() { return take_due(~std::uint64_t{0}); }
 
   private:
@@ -49,10 +50,10 @@ class PendingModels {
         ClothId cloth;
         std::uint64_t due;
         std::unique_ptr<std::optional<Result<std::shared_ptr<const ClothModel>>>> result;
-        std::unique_ptr<LaterWork> work;  ///< writes to the result; ends before that goes
+        std::unique_ptr<LaterWork> work;  ///< writes to `result`; destroyed first
     };
     std::vector<Pending> pending_;
-    std::vector<Pending> dropped_;  ///< while they run
+    std::vector<Pending> dropped_;  ///< dropped builds that are still running
 };
 
 }  // namespace weft

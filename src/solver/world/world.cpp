@@ -34,8 +34,8 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::~World() = default;
 
-Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds holds) {
-    settle();
+Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, KinematicTargets targets) {
+    complete_and_resolve();
     const std::uint32_t base = space_.take(model->capacity());
     const auto handle = backend_->add_cloth(model, base);
     if (!handle) {
@@ -46,7 +46,7 @@ Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds ho
     cloth.handle = *handle;
     cloth.pinned = pinned_in(*model);
     cloth.model = std::move(model);
-    cloth.holds = std::move(holds);
+    cloth.targets = std::move(targets);
     cloth.base = base;
     const ClothId id = cloths_.add(std::move(cloth));
     list_cloths();
@@ -54,15 +54,15 @@ Result<ClothId> World::try_add(std::shared_ptr<const ClothModel> model, Holds ho
     return id;
 }
 
-ClothId World::add(std::shared_ptr<const ClothModel> model, Holds holds) {
-    auto id = try_add(std::move(model), std::move(holds));
+ClothId World::add(std::shared_ptr<const ClothModel> model, KinematicTargets targets) {
+    auto id = try_add(std::move(model), std::move(targets));
     if (!id) throw std::runtime_error(id.error().message());
     return *id;
 }
 
 void World::remove(ClothId id) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     const Cloth& cloth = cloths_[cloths_.find(id)];
     backend_->remove_cloth(cloth.handle);
     space_.give_back(cloth.base, cloth.model->capacity());
@@ -76,7 +76,7 @@ void World::remove(ClothId id) {
     replan();
 }
 
-Result<Done> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model) {
+Result<void> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model) {
     assert(model->first_anchor() == cloth.model->first_anchor());
     const std::uint32_t before = cloth.model->capacity(), after = model->capacity();
     const std::uint32_t base = after == before ? cloth.base : space_.take(after);
@@ -90,38 +90,38 @@ Result<Done> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothMode
     cloth.unedited = nullptr;
     cloth.edits.clear();
     cloth.pinned = pinned_in(*cloth.model);
-    return Done{};
+    return {};
 }
 
-Result<Done> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, Holds holds) {
+Result<void> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     pending_.drop(id);
     Cloth& cloth = cloths_[cloths_.find(id)];
     if (auto set = exchange_model(cloth, std::move(model)); !set) return set;
-    cloth.holds = std::move(holds);
+    cloth.targets = std::move(targets);
     list_cloths();
     replan();
-    return Done{};
+    return {};
 }
 
-Result<Done> World::set_material(ClothId id, std::shared_ptr<const ClothModel> model) {
+Result<void> World::set_material(ClothId id, std::shared_ptr<const ClothModel> model) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     Cloth& cloth = cloths_[cloths_.find(id)];
     auto unedited = with_fabric_unedited(cloth, *model);
     if (!unedited) return unedited.errors();
     if (auto set = backend_->set_material(cloth.handle, model); !set) return set;
     pending_.drop(id);
     cloth.unedited = std::move(*unedited);
-    // Of a fabric, plans know nothing but whether it damps.
+    // Plans depend on the fabric only by whether it damps.
     const bool same_passes = (cloth.model->fabric.body.damping > 0) == (model->fabric.body.damping > 0);
     cloth.model = std::move(model);
     if (settings_.solver.method == Method::pbd)
         cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
     list_cloths();
     if (!same_passes) replan();
-    return Done{};
+    return {};
 }
 
 void World::rebuild_later(ClothId id, BuildModel build) {
@@ -131,17 +131,17 @@ void World::rebuild_later(ClothId id, BuildModel build) {
     pending_.add(id, due, std::move(build));
 }
 
-// A model that cannot be built, or for which a device has no room, is no reason to stop a cloth that moves.
+// If the model cannot be built or the device has not enough memory, the cloth keeps its model and continues.
 void World::use_model(const PendingModels::Ready& ready) {
-    settle();
+    complete_and_resolve();
     if (!ready.model || !exchange_model(cloths_[cloths_.find(ready.cloth)], *ready.model)) return;
     list_cloths();
     replan();
 }
 
-Result<Done> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds) {
+Result<void> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, KinematicTargets targets) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     Cloth& cloth = cloths_[cloths_.find(id)];
     std::ranges::sort(pinned);
     pinned.erase(std::ranges::unique(pinned).begin(), pinned.end());
@@ -155,16 +155,16 @@ Result<Done> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Hold
     visit(cloth.pinned, pinned, [&](std::uint32_t p) { return 1 / cloth.model->mass[p]; });
     if (auto set = backend_->set_weights(cloth.handle, changed); !set) return set;
     cloth.pinned = std::move(pinned);
-    const bool replanned = cloth.holds.particles.empty() != holds.particles.empty();
-    cloth.holds = std::move(holds);
-    cloth.mover_poses.resize((std::size_t{settings_.solver.substeps} + 1) * cloth.holds.movers.size());
+    const bool replanned = cloth.targets.particles.empty() != targets.particles.empty();
+    cloth.targets = std::move(targets);
+    cloth.motion_poses.resize((std::size_t{settings_.solver.substeps} + 1) * cloth.targets.motions.size());
     unread_ = true;
     if (replanned) replan();
-    return Done{};
+    return {};
 }
 
 StitchId World::add(std::vector<Stitch> stitches) {
-    settle();
+    complete_and_resolve();
     const StitchId id = stitches_.add(std::move(stitches));
     replan();
     return id;
@@ -172,13 +172,13 @@ StitchId World::add(std::vector<Stitch> stitches) {
 
 void World::remove(StitchId id) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     stitches_.remove(id);
     replan();
 }
 
 ColliderId World::add(Collider collider) {
-    settle();
+    complete_and_resolve();
     const ColliderId id = colliders_.add(std::move(collider));
     replan();
     return id;
@@ -186,14 +186,14 @@ ColliderId World::add(Collider collider) {
 
 void World::remove(ColliderId id) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     const Pose last = collider(id).pose;
     for (Cloth& cloth : cloths_) {
-        for (std::uint32_t m = 0; m < cloth.holds.movers.size(); ++m) {
-            if (cloth.holds.movers[m].collider != id) continue;
-            cloth.holds.movers[m] = {};
-            for (HeldParticle& held : cloth.holds.particles) {
-                if (held.mover == m) held.local = to_world(last, held.local);
+        for (std::uint32_t m = 0; m < cloth.targets.motions.size(); ++m) {
+            if (cloth.targets.motions[m].collider != id) continue;
+            cloth.targets.motions[m] = {};
+            for (KinematicTarget& target : cloth.targets.particles) {
+                if (target.motion == m) target.local = to_world(last, target.local);
             }
         }
     }
@@ -203,7 +203,7 @@ void World::remove(ColliderId id) {
 
 void World::set_friction(ColliderId id, std::array<float, 2> friction) {
     assert(contains(id));
-    complete();  // the frame that runs has the friction that it began with
+    complete();  // the running frame must keep its friction
     colliders_[colliders_.find(id)].friction = friction;
 }
 
@@ -216,11 +216,11 @@ void World::move(ColliderId id, const Pose& to) {
 
 void World::configure(WorldSettings settings) {
     assert(settings.solver.substeps > 0 && settings.solver.iterations > 0);
-    settle();
+    complete_and_resolve();
     settings_ = std::move(settings);
-    if (!settings_.feedback) {
-        felt_ = {};
-        feedback_ = {};
+    if (!settings_.contact_forces) {
+        contact_logs_ = {};
+        contact_forces_ = {};
     }
     replan();
 }
@@ -257,10 +257,10 @@ void World::replan() {
     const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
     std::vector<PlannedCloth> planned;
     for (Cloth& cloth : cloths_) {
-        planned.push_back({cloth.model.get(), !cloth.holds.particles.empty()});
+        planned.push_back({cloth.model.get(), !cloth.targets.particles.empty()});
         if (settings_.solver.method == Method::pbd)
             cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
-        cloth.mover_poses.resize(places * cloth.holds.movers.size());
+        cloth.motion_poses.resize(places * cloth.targets.motions.size());
     }
     poses_.resize(places * colliders_.size());
     winds_.resize(air ? settings_.air->wind.size() : 0);
@@ -279,7 +279,7 @@ void World::replan() {
     ++plan_serial_;
 }
 
-// Cloths that stitches tie together, and their stitches with particles numbered over the world.
+// Groups cloths by stitches, and packs the stitches with particles numbered over the world.
 void World::make_islands() {
     std::vector<std::array<std::uint32_t, 2>> ties;
     const auto place_of = [&](ClothId id) { return static_cast<std::uint32_t>(cloths_.find(id)); };
@@ -309,7 +309,7 @@ void World::make_islands() {
     }
 }
 
-// Where every collider is at the start of the frame and after each substep.
+// Computes the pose of every collider at the start of the frame and after each substep.
 void World::place_colliders(double dt) {
     const std::size_t count = colliders_.size();
     for (std::uint32_t substep = 0; substep <= settings_.solver.substeps; ++substep) {
@@ -323,16 +323,16 @@ void World::place_colliders(double dt) {
     }
 }
 
-void World::place_movers(Cloth& cloth, double dt) const {
-    const std::size_t count = cloth.holds.movers.size();
+void World::place_motions(Cloth& cloth, double dt) const {
+    const std::size_t count = cloth.targets.motions.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const Mover& mover = cloth.holds.movers[i];
-        const std::size_t collider = colliders_.find(mover.collider);
+        const TargetMotion& motion = cloth.targets.motions[i];
+        const std::size_t collider = colliders_.find(motion.collider);
         for (std::uint32_t substep = 0; substep <= settings_.solver.substeps; ++substep) {
             const double time = frame_.time + dt * substep / settings_.solver.substeps;
-            cloth.mover_poses[substep * count + i] = collider < colliders_.size()
-                                                         ? poses_[substep * colliders_.size() + collider]
-                                                         : Pose{{}, offset_at(mover.offsets, time)};
+            cloth.motion_poses[substep * count + i] = collider < colliders_.size()
+                                                          ? poses_[substep * colliders_.size() + collider]
+                                                          : Pose{{}, offset_at(motion.offsets, time)};
         }
     }
 }
@@ -343,7 +343,7 @@ void World::advance(double dt) {
     while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
     if (settings_.background) pending_.start_next();
     place_colliders(dt);
-    for (Cloth& cloth : cloths_) place_movers(cloth, dt);
+    for (Cloth& cloth : cloths_) place_motions(cloth, dt);
     for (std::size_t i = 0; i < winds_.size(); ++i) {
         winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
     }
@@ -352,19 +352,20 @@ void World::advance(double dt) {
     frame_.time += dt;
     frame_.reports = report_none;
     frame_.stage_ms.fill(0);
-    FrameFeedback& felt = begin_feedback(dt);
+    ContactLog& contact_log = begin_contact_forces(dt);
     steps_.clear();
     for (Island& island : islands_) {
         island.steps.clear();
         for (const std::uint32_t place : island.cloths) {
             const Cloth& cloth = cloths_[place];
-            island.steps.push_back({.cloth = cloth.handle,
-                                    .stiffness = &cloth.stiffness,
-                                    .held = cloth.holds.particles,
-                                    .mover_poses = cloth.mover_poses,
-                                    .movers = static_cast<std::uint32_t>(cloth.holds.movers.size()),
-                                    .frame = &frame_.cloths[place],
-                                    .feedback = settings_.feedback ? &felt.cloths[place].feedback : nullptr});
+            island.steps.push_back(
+                {.cloth = cloth.handle,
+                 .stiffness = &cloth.stiffness,
+                 .targets = cloth.targets.particles,
+                 .motion_poses = cloth.motion_poses,
+                 .motions = static_cast<std::uint32_t>(cloth.targets.motions.size()),
+                 .frame = &frame_.cloths[place],
+                 .contact_forces = settings_.contact_forces ? &contact_log.cloths[place].contact_forces : nullptr});
         }
         steps_.push_back({.plan = &island.plan,
                           .cloths = island.steps,
@@ -379,7 +380,7 @@ void World::advance(double dt) {
                        .winds = winds_,
                        .colliders = colliders_.values(),
                        .poses = poses_,
-                       .feedback = settings_.feedback,
+                       .contact_forces = settings_.contact_forces,
                        .list_capacity = settings_.list_capacity},
              .islands = steps_};
     backend_->step(step_);
@@ -399,37 +400,37 @@ void World::complete() const {
     frame_.lists = backend_->list_counts();
     unread_ = true;
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
-    if (settings_.feedback) not_made_out_ = static_cast<std::uint32_t>(frame_.index % felt_.size());
+    if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());
     frame_.step_ms += ms_since(begin);
 }
 
-// Who takes part in the frame that begins.
-FrameFeedback& World::begin_feedback(double dt) {
-    FrameFeedback& felt = felt_[frame_.index % felt_.size()];
-    if (!settings_.feedback) return felt;
-    felt.frame = frame_.index;
-    felt.dt = dt;
-    felt.colliders.clear();
-    for (std::size_t i = 0; i < colliders_.size(); ++i) felt.colliders.push_back(colliders_.id_of(i));
-    felt.cloths.resize(cloths_.size());
+// Lists the cloths and colliders of the new frame in its contact log.
+ContactLog& World::begin_contact_forces(double dt) {
+    ContactLog& contact_log = contact_logs_[frame_.index % contact_logs_.size()];
+    if (!settings_.contact_forces) return contact_log;
+    contact_log.frame = frame_.index;
+    contact_log.dt = dt;
+    contact_log.colliders.clear();
+    for (std::size_t i = 0; i < colliders_.size(); ++i) contact_log.colliders.push_back(colliders_.id_of(i));
+    contact_log.cloths.resize(cloths_.size());
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
-        felt.cloths[i].id = cloths_.id_of(i);
-        felt.cloths[i].model = cloths_[i].model;
-        felt.cloths[i].feedback.contacts = {};
-        felt.cloths[i].feedback.sums.assign(colliders_.size(), {});
+        contact_log.cloths[i].id = cloths_.id_of(i);
+        contact_log.cloths[i].model = cloths_[i].model;
+        contact_log.cloths[i].contact_forces.contacts = {};
+        contact_log.cloths[i].contact_forces.sums.assign(colliders_.size(), {});
     }
-    return felt;
+    return contact_log;
 }
 
-const Feedback& World::feedback() const {
-    if (not_made_out_) make_out(felt_[*not_made_out_], feedback_, vertices_);
-    not_made_out_.reset();
-    return feedback_;
+const ContactForces& World::contact_forces() const {
+    if (unresolved_) resolve(contact_logs_[*unresolved_], contact_forces_, vertices_);
+    unresolved_.reset();
+    return contact_forces_;
 }
 
-void World::settle() {
+void World::complete_and_resolve() {
     complete();
-    (void)feedback();
+    (void)contact_forces();
 }
 
 Snapshot World::save() {
@@ -438,33 +439,33 @@ Snapshot World::save() {
     Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
     for (const Cloth& cloth : cloths_) {
         snapshot.cloths.push_back(backend_->save(cloth.handle));
-        snapshot.cloths.back().holds = save_holds(cloth.holds);
+        snapshot.cloths.back().targets = save_targets(cloth.targets);
         snapshot.cloths.back().edits = cloth.edits;
     }
     for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
     return snapshot;
 }
 
-SavedHolds World::save_holds(const Holds& holds) const {
-    SavedHolds saved;
-    saved.particles = holds.particles;
-    for (const Mover& mover : holds.movers) {
-        const std::size_t place = colliders_.find(mover.collider);
-        saved.movers.push_back({place < colliders_.size() ? static_cast<std::uint32_t>(place) : none, mover.offsets});
+SavedTargets World::save_targets(const KinematicTargets& targets) const {
+    SavedTargets saved;
+    saved.particles = targets.particles;
+    for (const TargetMotion& motion : targets.motions) {
+        const std::size_t place = colliders_.find(motion.collider);
+        saved.motions.push_back({place < colliders_.size() ? static_cast<std::uint32_t>(place) : none, motion.offsets});
     }
     return saved;
 }
 
-Holds World::restore_holds(const SavedHolds& saved) const {
-    Holds holds;
-    holds.particles = saved.particles;
-    for (const SavedMover& mover : saved.movers)
-        holds.movers.push_back(
-            {mover.collider == none ? ColliderId{} : colliders_.id_of(mover.collider), mover.offsets});
-    return holds;
+KinematicTargets World::restore_targets(const SavedTargets& saved) const {
+    KinematicTargets targets;
+    targets.particles = saved.particles;
+    for (const SavedMotion& motion : saved.motions)
+        targets.motions.push_back(
+            {motion.collider == none ? ColliderId{} : colliders_.id_of(motion.collider), motion.offsets});
+    return targets;
 }
 
-Result<Done> World::check_fits(const Snapshot& snapshot) const {
+Result<void> World::check_fits(const Snapshot& snapshot) const {
     const auto differs = [](const char* what, std::size_t got, std::size_t expected) {
         return Error{"state",
                      "has " + std::to_string(got) + ' ' + what + ", here there are " + std::to_string(expected)};
@@ -477,24 +478,55 @@ Result<Done> World::check_fits(const Snapshot& snapshot) const {
         const std::size_t points = cloths_[i].model->point_count();
         const std::size_t rows = cloths_[i].model->table(ConstraintKind::stretch).lambda_count();
         const std::string of_cloth = "particles in cloth '" + cloths_[i].model->name + "'";
-        for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.carry}) {
+        for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.compensation}) {
             if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);
         }
-        if (saved.lambda.size() != rows) return differs("rows of stretch", saved.lambda.size(), rows);
-        for (const SavedMover& mover : saved.holds.movers) {
-            if (mover.collider != none && mover.collider >= colliders_.size())
-                return differs("colliders that carry pins", mover.collider + std::size_t{1}, colliders_.size());
+        if (saved.lambda.size() != rows) return differs("stretch constraints", saved.lambda.size(), rows);
+        for (const SavedMotion& motion : saved.targets.motions) {
+            if (motion.collider != none && motion.collider >= colliders_.size())
+                return differs("colliders of pins", motion.collider + std::size_t{1}, colliders_.size());
         }
-        for (const HeldParticle& held : saved.holds.particles) {
-            if (held.particle >= points || held.mover >= saved.holds.movers.size())
-                return Error{"state", "holds particle " + std::to_string(held.particle) + " of cloth '" +
+        for (const KinematicTarget& target : saved.targets.particles) {
+            if (target.particle >= points || target.motion >= saved.targets.motions.size())
+                return Error{"state", "holds particle " + std::to_string(target.particle) + " of cloth '" +
                                           cloths_[i].model->name + "', which it has not"};
         }
     }
     return check_numbers(snapshot);
 }
 
-Result<Done> World::restore(const Snapshot& snapshot) {
+// All of them or none. Only cloths with other edits need memory on the device.
+Result<void> World::restore_cloths(const Snapshot& snapshot,
+                                   std::span<const std::shared_ptr<const ClothModel>> models) {
+    const auto has_other_edits = [&](std::size_t i) { return snapshot.cloths[i].edits != cloths_[i].edits; };
+    Snapshot before;
+    std::vector<std::shared_ptr<const ClothModel>> models_before;
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        if (before.cloths.empty() && has_other_edits(i)) before = save();
+        models_before.push_back(cloths_[i].model);
+    }
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        auto restored = restore_cloth(cloths_[i], snapshot.cloths[i], models[i]);
+        if (restored) continue;
+        for (std::size_t k = 0; k < i && !before.cloths.empty(); ++k)
+            (void)restore_cloth(cloths_[k], before.cloths[k], models_before[k]);
+        return restored;
+    }
+    return {};
+}
+
+Result<void> World::restore_cloth(Cloth& cloth, const ClothSnapshot& snapshot,
+                                  const std::shared_ptr<const ClothModel>& model) {
+    if (auto set = set_edits(cloth, snapshot.edits, model); !set) return set;
+    if (auto restored = backend_->restore(cloth.handle, snapshot); !restored) return restored;
+    cloth.targets = restore_targets(snapshot.targets);
+    cloth.pinned.clear();
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p)
+        if (!(snapshot.position[p].w > 0)) cloth.pinned.push_back(p);
+    return {};
+}
+
+Result<void> World::restore(const Snapshot& snapshot) {
     complete();
     while (const auto ready = pending_.take_any()) use_model(*ready);
     if (auto fits = check_fits(snapshot); !fits) return fits;
@@ -504,15 +536,7 @@ Result<Done> World::restore(const Snapshot& snapshot) {
         if (!model) return model.errors();
         edited.push_back(std::move(*model));
     }
-    for (std::size_t i = 0; i < cloths_.size(); ++i) {
-        Cloth& cloth = cloths_[i];
-        if (auto set = set_edits(cloth, snapshot.cloths[i].edits, std::move(edited[i])); !set) return set;
-        if (auto restored = backend_->restore(cloth.handle, snapshot.cloths[i]); !restored) return restored;
-        cloth.holds = restore_holds(snapshot.cloths[i].holds);
-        cloth.pinned.clear();
-        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p)
-            if (!(snapshot.cloths[i].position[p].w > 0)) cloth.pinned.push_back(p);
-    }
+    if (auto restored = restore_cloths(snapshot, edited); !restored) return restored;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = snapshot.colliders[i];
         colliders_[i].next_pose.reset();
@@ -520,11 +544,11 @@ Result<Done> World::restore(const Snapshot& snapshot) {
     frame_.index = snapshot.frame;
     frame_.time = snapshot.time;
     frame_.reports = report_none;
-    not_made_out_.reset();
-    feedback_ = {};
+    unresolved_.reset();
+    contact_forces_ = {};
     list_cloths();
     replan();
-    return Done{};
+    return {};
 }
 
 ClothMeasures World::measure() const {

@@ -1,4 +1,4 @@
-// Cloths whose constraints, triangles and particles have been changed since they were built.
+// Edits of the constraints, triangles and particles of cloths.
 #include "base/hash.h"
 #include "solver/world/world.h"
 
@@ -14,9 +14,9 @@ void hash_row(const RowEdit& row, StateHash& hash) {
 
 }  // namespace
 
-Result<Done> World::edit(ClothId id, const ClothEdit& edit) {
+Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     Cloth& cloth = cloths_[cloths_.find(id)];
     auto model = with_edit(*cloth.model, edit);
     if (!model) return model.errors();
@@ -34,13 +34,13 @@ Result<Done> World::edit(ClothId id, const ClothEdit& edit) {
     pending_.drop(id);
     list_cloths();
     replan();
-    return Done{};
+    return {};
 }
 
-Result<bool> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Holds holds,
+Result<bool> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, KinematicTargets targets,
                              const std::vector<Attachment>& attachments) {
     assert(contains(id));
-    settle();
+    complete_and_resolve();
     Cloth& cloth = cloths_[cloths_.find(id)];
     auto model = with_attachments(*cloth.model, attachments);
     if (!model) return model.errors();
@@ -69,12 +69,12 @@ Result<bool> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Hold
     cloth.model = std::move(*model);
     list_cloths();
     replan();
-    if (auto set = set_pins(id, std::move(pinned), std::move(holds)); !set) return go_back(set.errors());
+    if (auto set = set_pins(id, std::move(pinned), std::move(targets)); !set) return go_back(set.errors());
     cloth.unedited = std::move(unedited);
     return true;
 }
 
-// The model that these edits lead to.
+// The model of a cloth after these edits.
 Result<std::shared_ptr<const ClothModel>> World::edited_model(const Cloth& cloth, const std::vector<ClothEdit>& edits) {
     if (edits == cloth.edits) return cloth.model;
     auto model = cloth.unedited ? cloth.unedited : cloth.model;
@@ -86,19 +86,19 @@ Result<std::shared_ptr<const ClothModel>> World::edited_model(const Cloth& cloth
     return model;
 }
 
-// Those of a saved state: what moves follows.
-Result<Done> World::set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits,
+// Sets the edits of a saved state; its positions and velocities are restored afterwards.
+Result<void> World::set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits,
                               std::shared_ptr<const ClothModel> model) {
-    if (edits == cloth.edits) return Done{};
+    if (edits == cloth.edits) return {};
     if (auto set = backend_->set_topology(cloth.handle, model, {}); !set) return set;
     if (!cloth.unedited) cloth.unedited = cloth.model;
     if (edits.empty()) cloth.unedited = nullptr;
     cloth.edits = edits;
     cloth.model = std::move(model);
-    return Done{};
+    return {};
 }
 
-// What a cloth was before its edits, of the fabric of `model`; none without edits.
+// The model of a cloth before its edits, with the fabric of `model`; null without edits.
 Result<std::shared_ptr<const ClothModel>> World::with_fabric_unedited(const Cloth& cloth, const ClothModel& model) {
     if (!cloth.unedited) return std::shared_ptr<const ClothModel>();
     Fabric fabric = model.fabric;

@@ -1,10 +1,10 @@
-// Curvature beyond the one at rest. From the angles across the edges of a triangle, as plate.md has it,
+// Curvature relative to the rest shape. Computed from the angles across the edges of a triangle, as in plate.md:
 //
 //     K = sum over its edges of (angle - angle at rest) · length / (2 · area) · n⊗n
 //
-// with n across the edge, all lengths at rest: whatever the mesh and its constraints, a sheet rolled to a radius R has
-// one of 1/R across the roll. A triangle shows the larger of its two principal ones, a vertex the mean of its
-// triangles.
+// n is the unit vector perpendicular to the edge, and all lengths are those at rest. A sheet rolled to a radius R has
+// the curvature 1/R across the roll, independent of the mesh and its constraints. The value of a triangle is the larger
+// principal curvature. The value of a vertex is the mean over its triangles.
 
 #include "mesh/edges.h"
 #include "physics/scalar.h"
@@ -18,7 +18,7 @@
 namespace weft::overlay {
 namespace {
 
-// 1/m: a radius of half a meter fills the scale.
+// 1/m: lower bound for the end of the scale, a radius of half a meter.
 constexpr double least_scale = 2;
 
 double angle_across(const Hinge& hinge, std::span<const Vec4> positions) {
@@ -26,7 +26,7 @@ double angle_across(const Hinge& hinge, std::span<const Vec4> positions) {
     return reference::hinge_angle(at(hinge.a), at(hinge.b), at(hinge.c), at(hinge.d)).theta;
 }
 
-// rad, toward the side that the first triangle's normal points to.
+// rad, positive toward the side of the first triangle's normal.
 double angle_at_rest(const Hinge& hinge, const ClothModel& model) {
     const float given = model.fabric.bend.rest_angle;
     return std::isnan(given) ? angle_across(hinge, model.start) : given * std::numbers::pi / 180;
@@ -38,7 +38,7 @@ bool winds(const Triangle& triangle, std::uint32_t a, std::uint32_t b) {
     return false;
 }
 
-// Symmetric, in a plane of the triangle's own: x along its first side.
+// A symmetric tensor in the plane of the triangle, with x along its first side.
 struct Curvature {
     double xx = 0, xy = 0, yy = 0;
     int sides = 0;
@@ -49,7 +49,7 @@ struct Curvature {
     }
 };
 
-// Adds what the angle across the side from a to b brings.
+// Adds the term of the angle across the side from a to b.
 void add_side(Curvature& sum, const Triangle& triangle, std::uint32_t a, std::uint32_t b, double angle,
               const ClothModel& model) {
     const Vec3 origin = model.rest_position(triangle[0]);
@@ -57,7 +57,7 @@ void add_side(Curvature& sum, const Triangle& triangle, std::uint32_t a, std::ui
     const double twice_area = length(cross(first, second));
     const Vec3 x = normalized(first), y = normalized(cross(cross(first, second), first));
     const Vec3 edge = model.rest_position(b) - model.rest_position(a);
-    // n·edge = 0, and |edge| of each n is in here: length · n⊗n = (turned edge)⊗(turned edge) / length.
+    // length · n⊗n = r⊗r / length, where r is the edge rotated by 90 degrees, r = length · n.
     const double ex = dot(edge, x), ey = dot(edge, y), scale = angle / (twice_area * length(edge));
     if (!std::isfinite(scale)) return;
     sum.xx += scale * ey * ey;
@@ -74,7 +74,8 @@ std::vector<Curvature> curvature_of(const ClothFrame& cloth, const std::vector<T
         const double angle = static_cast<double>(
             reference::wrap_angle(angle_across(hinge, cloth.positions) - angle_at_rest(hinge, model)));
         if (!std::isfinite(angle)) continue;
-        // Each triangle sees it from its own front; one that is turned over sees the other sign.
+        // The sign refers to the front side of each triangle, so a triangle with the opposite winding gets the opposite
+        // sign.
         const std::uint32_t left = hinge.triangle0, right = hinge.triangle1;
         const double to_left = winds(triangles[left], hinge.a, hinge.b) ? angle : -angle;
         const double to_right = winds(triangles[right], hinge.a, hinge.b) ? -angle : angle;
@@ -84,7 +85,7 @@ std::vector<Curvature> curvature_of(const ClothFrame& cloth, const std::vector<T
     return curvatures;
 }
 
-// 1/m, of each particle. At a border there is an angle missing; triangles that have all three tell more.
+// 1/m, per particle. Triangles at a border lack an angle, so triangles with all three angles are preferred.
 std::vector<float> bending_of(const ClothFrame& cloth) {
     const ClothModel& model = *cloth.model;
     const std::vector<Triangle> triangles(cloth.triangles.begin(), cloth.triangles.end());

@@ -1,6 +1,6 @@
-// Rows as lines: two particles are joined; a hinge joins the tips of its wings; a plate is its triangle, drawn smaller.
-// The color is that of the row's batch. Rows of one batch share no particle, so lines of one color never meet, but for
-// rows along lines (solver/model/lines.h) and the overflow.
+// Constraints as lines: a line between two particles; for a hinge, between the tips of its wings; for a plate, its
+// triangle, drawn smaller. The color is that of the constraint's batch. Constraints of one batch share no particle, so
+// lines of one color do not touch, except constraints along lines (solver/model/lines.h) and the overflow.
 
 #include "view/overlay_parts.h"
 
@@ -13,7 +13,7 @@
 namespace weft::overlay {
 namespace {
 
-// Stretch first, the others as they are solved.
+// Stretch first, the others in the order of the solver.
 std::vector<ConstraintKind> kinds_in_order() {
     std::vector<ConstraintKind> kinds{ConstraintKind::stretch};
     for (std::uint32_t k = 0; k < constraint_kind_count; ++k)
@@ -21,7 +21,7 @@ std::vector<ConstraintKind> kinds_in_order() {
     return kinds;
 }
 
-// Hues a golden angle apart differ from all before them; lightness takes turns too.
+// Hues at multiples of the golden angle differ from all earlier ones. Lightness alternates too.
 Vec4 color_of(std::size_t batch, float opacity) {
     const double hue = std::fmod(0.02 + static_cast<double>(batch) * 0.6180339887, 1.0);
     const float light = std::array{1.0f, 0.72f, 0.88f}[batch % 3];

@@ -10,23 +10,23 @@ namespace {
 
 constexpr Vec4 touching{0.2f, 0.9f, 0.35f, 1}, pushed{1.0f, 0.85f, 0.2f, 1}, beyond{1.0f, 0.12f, 0.1f, 1};
 
-// m: what rounding makes of a particle on a surface is less.
+// m: larger than the rounding error of a particle on a surface.
 constexpr double depth_that_counts = 1e-5;
 
-// How long the line of the largest impulses is, of the scene's radius.
-constexpr float longest = 0.2f;
+// Length of the line for the largest impulses, relative to the scene's radius.
+constexpr float longest_arrow = 0.2f;
 
-// What the collider got, the other way round: the push on the cloth, which stands out of the surface.
+// Draws the impulse on the cloth, which points out of the surface: the opposite of the impulse on the collider.
 void draw_touches(const OverlayInput& input, OverlayOutput& output, Legend& legend) {
-    const Feedback& felt = input.world.feedback();
-    // Of another frame, it would not fit to what is drawn.
-    const bool known = felt.frame > 0 && felt.frame == input.frame.index;
+    const ContactForces& forces = input.world.contact_forces();
+    // Contacts of another frame do not match the drawn positions.
+    const bool known = forces.frame > 0 && forces.frame == input.frame.index;
     std::size_t count = 0;
     std::vector<float> sizes;
-    for (const Contact& contact : felt.contacts) sizes.push_back(length(contact.impulse));
+    for (const Contact& contact : forces.contacts) sizes.push_back(length(contact.impulse));
     const double scale = nice_above(percentile(std::move(sizes), 0.98));  // N·s
-    const float reach = longest * input.size / static_cast<float>(scale);
-    for (const Contact& contact : felt.contacts) {
+    const float reach = longest_arrow * input.size / static_cast<float>(scale);
+    for (const Contact& contact : forces.contacts) {
         if (!known) break;
         add_point(output.points, contact.point, touching, pixels(input, 5));
         add_line(output.lines_on_top, contact.point, contact.point - contact.impulse * reach, pushed,
@@ -35,12 +35,12 @@ void draw_touches(const OverlayInput& input, OverlayOutput& output, Legend& lege
     }
     legend.entries.push_back({touching, known ? "contacts: " + std::to_string(count) : "contacts: not known"});
     if (count > 0) {
-        const std::string centimeters = short_number(100 * longest * input.size);
+        const std::string centimeters = short_number(100 * longest_arrow * input.size);
         legend.entries.push_back({pushed, "push: " + centimeters + " cm is " + short_number(1e3 * scale) + " mN s"});
     }
 }
 
-// Pinned particles are where they were put.
+// Skips pinned particles, because collisions do not move them.
 void draw_penetrations(const OverlayInput& input, OverlayOutput& output, Legend& legend) {
     double deepest = 0;
     std::size_t count = 0;

@@ -7,13 +7,13 @@ namespace {
 
 constexpr Vec4 in_place{1.0f, 0.72f, 0.1f, 1}, on_collider{0.15f, 0.8f, 1.0f, 1};
 
-// Which particles and anchors a collider carries.
-std::vector<std::uint8_t> carried(const World& world, const ClothFrame& cloth) {
+// Marks the particles and anchors that a collider moves.
+std::vector<std::uint8_t> attached_particles(const World& world, const ClothFrame& cloth) {
     std::vector<std::uint8_t> by_collider(cloth.model->point_count());
-    const Holds& holds = world.holds(cloth.id);
-    for (const HeldParticle& held : holds.particles)
-        if (held.particle < by_collider.size())
-            by_collider[held.particle] = world.contains(holds.movers[held.mover].collider);
+    const KinematicTargets& targets = world.kinematic_targets(cloth.id);
+    for (const KinematicTarget& target : targets.particles)
+        if (target.particle < by_collider.size())
+            by_collider[target.particle] = world.contains(targets.motions[target.motion].collider);
     return by_collider;
 }
 
@@ -24,14 +24,14 @@ void pins(const OverlayInput& input, OverlayOutput& output) {
     std::size_t pinned[2] = {}, sprung = 0;
     for (const ClothFrame& cloth : input.frame.cloths) {
         const ClothModel& model = *cloth.model;
-        const std::vector<std::uint8_t> by_collider = carried(input.world, cloth);
+        const std::vector<std::uint8_t> by_collider = attached_particles(input.world, cloth);
         const auto color = [&](std::uint32_t point) { return by_collider[point] ? on_collider : in_place; };
         for (std::uint32_t p = 0; p < cloth.positions.size(); ++p) {
             if (cloth.positions[p].w > 0) continue;
             add_point(output.points, cloth.positions[p].xyz(), color(p), size);
             ++pinned[by_collider[p]];
         }
-        // A spring: a small point where it is fixed, a line to the particle.
+        // A spring: a small point at its anchor, and a line to the particle.
         const ConstraintTable& springs = model.table(ConstraintKind::attachment);
         const std::vector<Vec3> anchors = anchor_places(input.world, cloth, input.frame.time);
         for (std::uint32_t row = 0; row < springs.stride; ++row) {

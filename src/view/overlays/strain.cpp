@@ -7,10 +7,10 @@
 namespace weft::overlay {
 namespace {
 
-// %. A scale that followed smaller ones would show noise.
+// %. Lower bound for the end of the scale, because a smaller scale would show noise.
 constexpr double least_scale = 0.5;
 
-// %: of each particle the mean over its rows of stretch, longer ones positive.
+// %: per particle, mean over its stretch constraints, positive if longer than at rest.
 std::vector<float> strain_of(const ClothFrame& cloth) {
     const ConstraintTable& table = cloth.model->table(ConstraintKind::stretch);
     ParticleMeans means(cloth.model->particle_count);

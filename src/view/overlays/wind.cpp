@@ -10,13 +10,13 @@
 namespace weft::overlay {
 namespace {
 
-// Arrows per radius of the scene; how many more there are to either side of the middle; and how long the longest
-// is, of the way to the next one: gusts that reach it are rare.
+// Arrows per radius of the scene; arrows to either side of the middle; and length of the longest arrow relative to the
+// spacing. It may exceed 1 because such gusts are rare.
 constexpr float per_radius = 4;
 constexpr float to_either_side = 4;
 constexpr float longest = 1.5f;
 
-// m/s: no gust is faster.
+// m/s: upper bound for gusts.
 double fastest(const std::vector<WindDesc>& winds) {
     double sum = 0;
     for (const WindDesc& wind : winds)
@@ -24,7 +24,7 @@ double fastest(const std::vector<WindDesc>& winds) {
     return sum;
 }
 
-// Points at whole multiples of a spacing, which stay in place while the cloth moves.
+// Points at integer multiples of the spacing, so that they stay in place while the cloth moves.
 struct Grid {
     float spacing = 1;  ///< m
     std::array<float, 3> first{};
@@ -57,7 +57,7 @@ void add_arrow(std::vector<render::Line>& lines, Vec3 from, Vec3 along, Vec4 col
     if (!(reach > 0)) return;
     const Vec3 to = from + along, unit = along / reach;
     add_line(lines, from, to, color, width);
-    // Four barbs, of which two are seen from anywhere.
+    // Four barbs, so that at least two are visible from any direction.
     const Vec3 across = normalized(cross(unit, std::abs(unit.y) < 0.7f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
     const Vec3 other = cross(unit, across);
     for (const Vec3 side : {across, -across, other, -other})
@@ -78,7 +78,7 @@ void wind(const OverlayInput& input, OverlayOutput& output) {
     for (const WindDesc& desc : air->wind) winds.push_back(wind_at(desc, input.frame.time));
     const Grid grid = grid_around(bounds, input.size);
     const float scale = longest * grid.spacing / static_cast<float>(most);  // s
-    std::uint32_t number = 0;  // scattered gusts differ from arrow to arrow as they do from triangle to triangle
+    std::uint32_t number = 0;  // scattered gusts differ by this number, as they do by triangle
     for (int x = 0; x < grid.count[0]; ++x) {
         for (int y = 0; y < grid.count[1]; ++y) {
             for (int z = 0; z < grid.count[2]; ++z) {

@@ -7,20 +7,20 @@
 namespace weft::overlay {
 namespace {
 
-constexpr Vec4 color{0.05f, 0.06f, 0.08f, 0.6f};
+constexpr Vec4 line_color{0.05f, 0.06f, 0.08f, 0.6f};
 
-// Edges that are shorter than so many pixels are fainter: what they lie on must be seen.
+// Edges shorter than so many pixels are fainter, so that the surface stays visible.
 constexpr float full_pixels = 9;
 
 Vec4 color_on(const ClothModel& model, float pixel) {
-    Vec4 faded = color;
+    Vec4 faded = line_color;
     faded.w *= std::clamp(model.mean_edge / (pixel * full_pixels), 0.2f, 1.0f);
     return faded;
 }
 
 using Ends = std::array<std::uint32_t, 2>;
 
-// Each edge once, ends ascending, whichever triangles have it; `welded` says which point a corner is.
+// Each edge once, with ascending ends. `welded` maps a corner to its welded point.
 template <class Triangles, class Welded>
 std::vector<Ends> unique_edges(const Triangles& triangles, Welded&& welded) {
     std::vector<Ends> edges;
@@ -36,7 +36,7 @@ std::vector<Ends> unique_edges(const Triangles& triangles, Welded&& welded) {
     return edges;
 }
 
-// The edges of the render mesh, as vertices: of those along a seam, one.
+// The edges of the render mesh, as pairs of vertices. An edge along a seam appears once.
 std::vector<Ends> drawn_edges(const ClothFrame& cloth) {
     if (!cloth.model->binding.empty()) {
         const RenderMesh& mesh = cloth.render_mesh();

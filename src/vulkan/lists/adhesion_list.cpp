@@ -9,9 +9,9 @@
 namespace weft::vulkan {
 namespace {
 
-constexpr std::uint64_t word = sizeof(std::uint32_t);
+constexpr std::uint64_t size_of_word = sizeof(std::uint32_t);
 
-// The layout that GLSL has.
+// Sizes of the GLSL layout.
 static_assert(sizeof(ListMemberIn) == 48 && sizeof(ListArgs) == 112);
 
 }  // namespace
@@ -40,15 +40,17 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
     const auto& info = constraint_info(ConstraintKind::adhesion);
     const std::uint64_t stride = padded(capacity);
     Arena& arena = self->arena_;
-    const Slot table = arena.add_array(list), places = arena.reserve((items + 1) * word),
-               particles = arena.reserve(stride * word), fields = arena.reserve(info.fields.size() * stride * word),
-               share = arena.reserve(stride * word), holds = arena.reserve(stride * sizeof(Vec4)),
-               corrections = arena.reserve(stride * sizeof(Vec4)), lambda = arena.reserve(info.lambdas * stride * word),
+    const Slot table = arena.add_array(list), places = arena.reserve((items + 1) * size_of_word),
+               particles = arena.reserve(stride * size_of_word),
+               fields = arena.reserve(info.fields.size() * stride * size_of_word),
+               share = arena.reserve(stride * size_of_word), targets = arena.reserve(stride * sizeof(Vec4)),
+               corrections = arena.reserve(stride * sizeof(Vec4)),
+               lambda = arena.reserve(info.lambdas * stride * size_of_word),
                scratch = arena.reserve(scan_scratch(static_cast<std::uint32_t>(items)));
-    self->head_ = arena.reserve(WEFT_LIST_HEAD_WORDS * word);
+    self->head_ = arena.reserve(WEFT_LIST_HEAD_WORDS * size_of_word);
     if (auto built = arena.build(device, "list of " + name, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT); !built)
         return built.errors();
-    auto back = device.memory().buffer(word, gpu::MemoryKind::readback, "length of the list of " + name);
+    auto back = device.memory().buffer(size_of_word, gpu::MemoryKind::readback, "length of the list of " + name);
     if (!back) return back.errors();
     self->back_ = std::move(*back);
     self->scratch_ = arena.address(scratch);
@@ -60,7 +62,7 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
                    .particles = arena.address(particles),
                    .fields = arena.address(fields),
                    .share = arena.address(share),
-                   .holds = arena.address(holds),
+                   .targets = arena.address(targets),
                    .corrections = arena.address(corrections),
                    .head = arena.address(self->head_),
                    .member_count = static_cast<std::uint32_t>(list.size()),
@@ -73,7 +75,7 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
                    .widest = device.limits().workgroup_count[0],
                    .first = 0,
                    .end = static_cast<std::uint32_t>(items)};
-    // No fabric says how stiff these are as plain constraints: they are full ones.
+    // Adhesion has no fabric that scales it as a plain constraint, so it is corrected fully.
     self->rows_ = {.position = position,
                    .velocity = 0,
                    .particles = self->args_.particles,
@@ -96,7 +98,7 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
     return self;
 }
 
-Result<Done> AdhesionList::run(gpu::Commands& commands, std::string_view program, const ListArgs& args,
+Result<void> AdhesionList::run(gpu::Commands& commands, std::string_view program, const ListArgs& args,
                                std::uint32_t items) const {
     auto pipeline = programs_.get(program);
     if (!pipeline) return pipeline.errors();
@@ -109,10 +111,10 @@ Result<Done> AdhesionList::run(gpu::Commands& commands, std::string_view program
         assert((*pipeline)->workgroup() == args.group);
         commands.dispatch_indirect(arena_.buffer(), head_.offset);
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
+Result<void> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
     Errors errors;
     RowArgs args = rows_;
     if (plan_.method != Method::pbd) args.lambda_use = use_of_lambda(plan_, pass, substep);
@@ -121,10 +123,10 @@ Result<Done> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass
     commands.barrier();
     bind(commands, command, substep);
     commands.dispatch_indirect(arena_.buffer(), head_.offset);
-    return Done{};
+    return {};
 }
 
-Result<Done> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
+Result<void> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
                                   std::uint32_t member) const {
     ListArgs args = args_;
     args.substep = substep;
@@ -134,7 +136,7 @@ Result<Done> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std
             return run(commands, "find_adhesion", args, args.items);
         case PassKind::place: {
             Recorder recorder(device_, programs_, commands);
-            const std::uint64_t second = args.places + word;  // the first place stays 0
+            const std::uint64_t second = args.places + size_of_word;  // the first place stays 0
             record_scan(recorder, second, second, args.items, scratch_, true);
             if (auto recorded = recorder.end(); !recorded) return recorded;
             return run(commands, "list_size", args, 1);
@@ -151,7 +153,7 @@ Result<Done> AdhesionList::record(gpu::Commands& commands, const Pass& pass, std
 }
 
 void AdhesionList::record_end(gpu::Commands& commands) const {
-    commands.copy(arena_.buffer(), back_, word, head_.offset + WEFT_LIST_WANTED * word, 0);
+    commands.copy(arena_.buffer(), back_, size_of_word, head_.offset + WEFT_LIST_WANTED * size_of_word, 0);
 }
 
 }  // namespace weft::vulkan

@@ -1,11 +1,11 @@
-// What the passes of dynamic lists are told, read by C++ and by GLSL.
+// Arguments of the passes of dynamic lists, shared by C++ and GLSL.
 #ifndef WEFT_VULKAN_LISTS_ARGS_H
 #define WEFT_VULKAN_LISTS_ARGS_H
 
 #include "vulkan/args.data.h"
 
-// Words of ListArgs::head: workgroups along three axes, as an indirect dispatch reads them, then the rows that the frame
-// wants.
+// Words of ListArgs::head: workgroups along three axes, as an indirect dispatch reads them, then the number of
+// constraints in the frame, including those without room.
 #define WEFT_LIST_WANTED 3
 #define WEFT_LIST_HEAD_WORDS 4
 
@@ -16,7 +16,7 @@ using ListMemberRef = std::uint64_t;
 layout(buffer_reference) buffer ListMemberRef;
 #endif
 
-// A cloth that has rows in a list. Its particles are the list's items from `first` on.
+// A cloth of a list. Its particles are the list's items from `first` on.
 struct ListMemberIn {
     FrameRef frame;
     ColliderRef colliders;
@@ -31,11 +31,11 @@ struct ListMemberIn {
 struct ListArgs {
     ListMemberRef members;
     Vec4s position;  // of the world
-    Uints places;    // items + 1: how many rows each item has, from the second one on; summed up, where they begin
-    Uints particles;  // [row], and so are the next ones
+    Uints places;    // items + 1: from the second on, constraints per item; after the scan, where an item's rows begin
+    Uints particles;  // [row], likewise share, targets and corrections
     Floats fields;    // [field · stride + row]
     Floats share;
-    Vec4s holds;  // place in the collider's frame, number of the collider
+    Vec4s targets;  // point in the collider's frame of reference, number of the collider
     Vec4s corrections;
     Uints head;
     uint member_count;
@@ -43,10 +43,10 @@ struct ListArgs {
     uint capacity;
     uint stride;
     uint substep;
-    uint mean;      // 1: an item takes the sum of its rows divided by their number
-    uint group;     // rows of a workgroup
-    uint widest;    // workgroups along an axis at most
-    uint first;     // of gather: items [first, end)
+    uint mean;      // 1: an item's correction is the mean of its rows, not their sum
+    uint group;     // rows per workgroup
+    uint widest;    // largest number of workgroups along an axis
+    uint first;     // gather only: items [first, end)
     uint end;
 };
 

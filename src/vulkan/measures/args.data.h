@@ -1,5 +1,5 @@
-// What the reductions are told, read by C++ and by GLSL. A workgroup sums up a tile of what there is, and writes two words
-// for it: the sum, and the bits of the largest.
+// Arguments of the reductions, shared by C++ and GLSL. A workgroup reduces a tile of elements and writes two words for
+// it: the sum, and the bits of the largest term.
 #ifndef WEFT_VULKAN_MEASURES_ARGS_H
 #define WEFT_VULKAN_MEASURES_ARGS_H
 
@@ -28,11 +28,11 @@ struct MeasureEdgesArgs {
 
 struct MeasureRowsArgs {
     Vec4s position;
-    Uints particles;  // [slot · stride + row], of stretch
+    Uints particles;  // [slot · stride + row] of the stretch constraints
     Floats fields;    // [field · stride + row]
     Floats lambda;
     Uints found;
-    float inv_h2;  // 1/s2  of the substep, as two floats; 0: nothing but C counts
+    float inv_h2;  // 1/s2  of the substep, as two floats; 0: the residual is C alone
     float inv_h2_low;
     uint stride;
     uint count;  // rows with padding

@@ -12,7 +12,7 @@ namespace weft::vulkan {
 namespace {
 
 constexpr std::uint64_t words_of_edge = 4, words_of_tile = 2;
-constexpr std::uint64_t word = sizeof(std::uint32_t);
+constexpr std::uint64_t word_bytes = sizeof(std::uint32_t);
 
 // A double as the sum of two floats.
 struct TwoFloats {
@@ -29,7 +29,7 @@ void add_edge(const ClothModel& model, const EdgeEnds& ends, std::vector<std::ui
                 {a, b, std::bit_cast<std::uint32_t>(square.high), std::bit_cast<std::uint32_t>(square.low)});
 }
 
-// One thing that is summed up, tile by tile.
+// One reduction over tiles.
 struct Part {
     std::uint32_t count = 0;
     std::uint64_t first_tile = 0;
@@ -40,7 +40,7 @@ struct Found {
     double sum = 0, largest = 0;
 };
 
-// The tiles are few: the rest of the sum is the host's, in double.
+// There are few tiles, so the host adds them up, in double.
 Found sum_up(const Part& part, std::span<const std::uint32_t> words) {
     Found found;
     for (std::uint64_t tile = part.first_tile; tile < part.end(); ++tile) {
@@ -60,10 +60,10 @@ class Measuring {
         rows_ = {.count = table.stride, .first_tile = shear_.end()};
     }
 
-    std::uint64_t bytes() const { return rows_.end() * words_of_tile * word; }
+    std::uint64_t bytes() const { return rows_.end() * words_of_tile * word_bytes; }
 
     void record(Recorder& passes, std::uint64_t found) const {
-        const auto place = [&](const Part& part) { return found + part.first_tile * words_of_tile * word; };
+        const auto place = [&](const Part& part) { return found + part.first_tile * words_of_tile * word_bytes; };
         const std::uint64_t position = cloth_.address(PointArray::position);
         passes.run("measure_particles",
                    MeasureParticlesArgs{.position = position,
@@ -149,7 +149,7 @@ Result<std::optional<MeasureSums>> measure(gpu::Device& device, Programs& progra
     const Measuring measuring(cloth, **lists);
     auto found = device.memory().buffer(measuring.bytes(), gpu::MemoryKind::readback, "measures");
     if (!found) return found.errors();
-    Result<Done> recorded = Done{};
+    Result<void> recorded;
     auto done = gpu::run_once(device, [&](gpu::Commands& commands) {
         Recorder passes(device, programs, commands);
         measuring.record(passes, found->address());

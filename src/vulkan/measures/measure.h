@@ -1,4 +1,4 @@
-// Kinetic energy, speed, strain and residual of a cloth, summed up where it lies.
+// Kinetic energy, speed, strain and residual of a cloth, summed up on the device.
 #pragma once
 
 #include "solver/measures/measures.h"
@@ -13,18 +13,18 @@ namespace weft::vulkan {
 
 class ClothState;
 
-/// What measuring a model needs on the device beyond what steps do. Shared by all cloths of it.
+/// Device data that only measuring needs. Shared by all cloths of a model.
 struct MeasureLists {
     static Result<std::unique_ptr<const MeasureLists>> create(gpu::Device& device, const ClothModel& model);
 
     Arena arena;
     Slot masses;          ///< kg
-    Slot stretch, shear;  ///< edges (MeasureEdgesArgs), without those that have no length at rest
+    Slot stretch, shear;  ///< edges (MeasureEdgesArgs), without those of rest length 0
     std::uint32_t stretch_edges = 0, shear_edges = 0;
 };
 
-/// Equal to what MeasureSums::add() finds on the host within 1e-5 of each figure and 1e-12, and the same bits every
-/// time on the same device. Nothing where a number is not finite, or more than a float holds.
+/// Agrees with MeasureSums::add() on the host within a relative 1e-5 and an absolute 1e-12. Gives the same bits every
+/// time on the same device. Returns no value if a number is not finite or exceeds the range of a float.
 Result<std::optional<MeasureSums>> measure(gpu::Device& device, Programs& programs, const ClothState& cloth);
 
 }  // namespace weft::vulkan

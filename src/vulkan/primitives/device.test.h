@@ -1,4 +1,4 @@
-// A device for tests, with validation layers; what these complain about fails the test.
+// A device for tests with validation layers. Their messages fail the test.
 #pragma once
 
 #include "gpu/device.h"
@@ -15,7 +15,7 @@ namespace weft::vulkan {
 
 class DeviceTest : public testing::Test {
   protected:
-    /// `widest`: as if no more workgroups fitted along x; 0: as the device has it.
+    /// `widest`: pretends that no more workgroups fit along x; 0: the device's own limit.
     void open(std::uint32_t widest = 0) {
         programs_.reset();
         device_.reset();
@@ -35,7 +35,7 @@ class DeviceTest : public testing::Test {
     void SetUp() override { open(); }
     void TearDown() override {
         programs_.reset();
-        device_.reset();  // and what it complains about at the end
+        device_.reset();  // may cause messages too
         for (const std::string& message : messages_) ADD_FAILURE() << message;
     }
 

@@ -48,7 +48,7 @@ Result<std::vector<KeyedValue>> sort_keys(gpu::Device& device, Programs& program
     if (keys.size() > most_elements) return too_many(keys.size(), "keys");
     const auto count = static_cast<std::uint32_t>(keys.size());
     const std::uint64_t bytes = count * sizeof(std::uint32_t);
-    // Array by array: high, low and value, and once more to write to.
+    // Six arrays: high, low and value, then the same again as the destination.
     auto buffer = device.memory().buffer(6 * bytes, gpu::MemoryKind::device, "keys");
     if (!buffer) return buffer.errors();
     const SortScratch sizes = sort_scratch(count);

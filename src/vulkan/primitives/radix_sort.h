@@ -15,18 +15,17 @@ struct KeyArrays {
     std::uint64_t high = 0, low = 0, value = 0;
 };
 
-/// What a sort of so many needs besides, bytes.
+/// Scratch memory of a sort, in bytes; for record_sort(), its addresses.
 struct SortScratch {
     std::uint64_t places = 0, sums = 0;
 };
 SortScratch sort_scratch(std::uint32_t count);
 
-/// The bits of numbers below `end`.
+/// Number of bits that numbers below `end` need.
 std::uint32_t bits_below(std::uint32_t end);
 
-/// Ascending by high, then low; equal keys keep their order. Words have `bits` bits, no others may be set: the fewer,
-/// the fewer passes. Writes to both sets of arrays and returns the one that holds the result. `places` and `sums`:
-/// addresses of scratch memory.
+/// Sorts ascending by high, then low; equal keys keep their order. Only the low `bits` bits of each word may be set:
+/// fewer bits need fewer passes. Writes to both sets of arrays and returns the one that holds the result.
 KeyArrays record_sort(Recorder& recorder, KeyArrays keys, KeyArrays spare, std::uint32_t count, std::uint32_t bits,
                       SortScratch addresses);
 
@@ -35,7 +34,7 @@ struct KeyedValue {
     friend constexpr bool operator==(const KeyedValue&, const KeyedValue&) = default;
 };
 
-/// There and back.
+/// Uploads the keys, sorts them and downloads the result.
 Result<std::vector<KeyedValue>> sort_keys(gpu::Device& device, Programs& programs, std::span<const KeyedValue> keys,
                                           std::uint32_t bits = 32);
 

@@ -26,7 +26,7 @@ class RadixSort : public DeviceTest {
     }
 };
 
-/// Values count up, so that only a stable sort gives what the standard library's does.
+/// Values count up, so that only a stable sort equals the stable sort of the standard library.
 Keys random_keys(std::size_t count, std::uint32_t bits) {
     std::mt19937 random(static_cast<std::uint32_t>(count + bits));
     const std::uint32_t mask = bits < 32 ? (1u << bits) - 1 : ~0u;
@@ -46,7 +46,7 @@ TEST_F(RadixSort, sorts_around_the_boundaries_of_tiles) {
         expect_sorted(random_keys(count, 32), 32);
 }
 
-// Many of the keys are equal where there are few bits. Digits lie in the low word, across both and in the high one.
+// With few bits, many keys are equal. Digits are in the low word, across both words and in the high word.
 TEST_F(RadixSort, takes_the_bits_that_there_are) {
     for (std::uint32_t bits = 0; bits <= 32; ++bits) expect_sorted(random_keys(5000, bits), bits);
 }
@@ -89,7 +89,7 @@ TEST_F(RadixSort, knows_how_many_bits_numbers_need) {
     EXPECT_EQ(bits_below(0xffffffffu), 32u);
 }
 
-// As many as a mesh of 3.3 million triangles has sides, and as many bits as its vertices need.
+// The number of sides of a mesh of 3.3 million triangles, and the number of bits that its vertices need.
 // Labels: slow no-asan
 TEST_F(RadixSort, sorts_ten_million_keys) {
     expect_sorted(random_keys(10000000, 21), 21);

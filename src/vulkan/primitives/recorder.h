@@ -1,4 +1,4 @@
-// Recording one pass after another, each of which reads what the one before it wrote.
+// Records a sequence of passes. Each pass may read what the one before it wrote.
 #pragma once
 
 #include "gpu/commands.h"
@@ -13,7 +13,7 @@
 
 namespace weft::vulkan {
 
-/// Groups of `size` that hold `count`.
+/// Number of groups of `size` that hold `count` elements.
 constexpr std::uint32_t groups_of(std::uint32_t count, std::uint32_t size) {
     return static_cast<std::uint32_t>((std::uint64_t{count} + size - 1) / size);
 }
@@ -21,14 +21,14 @@ constexpr std::uint32_t tiles_of(std::uint32_t count) {
     return groups_of(count, WEFT_TILE);
 }
 
-/// So many elements at most: the numbers of workgroups, and of elements past the last one, must fit into 32 bits.
+/// Largest number of elements. The numbers of workgroups, and of elements past the last one, must fit into 32 bits.
 constexpr std::uint64_t most_elements = std::uint64_t{1} << 31;
 
 inline Error too_many(std::size_t count, const std::string& what) {
     return {"", "must be at most " + std::to_string(most_elements) + " " + what + ", got " + std::to_string(count)};
 }
 
-/// What goes wrong is kept for the end.
+/// Collects failures and returns them from end().
 class Recorder {
   public:
     Recorder(gpu::Device& device, Programs& programs, gpu::Commands& commands)
@@ -47,9 +47,9 @@ class Recorder {
         const std::uint32_t wide = std::min(groups, widest_);
         commands_.dispatch(wide, groups_of(groups, wide));
     }
-    Result<Done> end() const {
+    Result<void> end() const {
         if (!errors_.empty()) return errors_;
-        return Done{};
+        return {};
     }
 
   private:
@@ -59,9 +59,9 @@ class Recorder {
     Errors errors_;
 };
 
-/// Records the passes, runs them and waits. Adds the time that they took on the device, if it has a clock.
+/// Records the passes, runs them and waits. Adds their time on the device to `device_ms` if the device has a clock.
 template <class Record>
-Result<Done> run_passes(gpu::Device& device, Programs& programs, Record&& record, double* device_ms = nullptr) {
+Result<void> run_passes(gpu::Device& device, Programs& programs, Record&& record, double* device_ms = nullptr) {
     auto commands = gpu::Commands::create(device, 2);
     if (!commands) return commands.errors();
     if (auto begun = commands->begin(); !begun) return begun;
@@ -76,7 +76,7 @@ Result<Done> run_passes(gpu::Device& device, Programs& programs, Record&& record
     if (auto waited = device.wait(*value); !waited) return waited;
     for (const double ms : commands->intervals())
         if (device_ms) *device_ms += ms;
-    return Done{};
+    return {};
 }
 
 }  // namespace weft::vulkan

@@ -42,7 +42,7 @@ TEST_F(Scan, of_equal_numbers) {
     for (const std::uint32_t number : {0u, 1u, 0xffffffffu}) expect_sums(std::vector<std::uint32_t>(10000, number));
 }
 
-// From here on the sums of tiles are more than a tile themselves.
+// From this size on, the sums of tiles do not fit into one tile.
 TEST_F(Scan, of_so_many_that_it_takes_three_levels) {
     constexpr std::size_t square = std::size_t{WEFT_TILE} * WEFT_TILE;
     for (const std::size_t count : {square - 1, square, square + 1}) expect_sums(random_numbers(count));

@@ -1,15 +1,15 @@
-// What commands are told. Each kind has a name of its own: particle_args.at.position is the address of the positions in
-// ParticleArgs. It is read where it lies, in the constants that a dispatch pushes or behind a head of 16 bytes in the
-// device's memory: a shader that copied it would keep addresses in variables, which some drivers cannot compile.
+// Arguments of commands. Each kind has its own name: particle_args.at.position is the address of the positions in
+// ParticleArgs. Shaders read arguments in place: from the push constants of a dispatch, or from device memory after a
+// head of 16 bytes. Copying them would keep addresses in variables, which some drivers cannot compile.
 #ifndef WEFT_COMMANDS_GLSL
 #define WEFT_COMMANDS_GLSL
 
-uvec2 command = uvec2(0u);  // where it lies, if it is not pushed
+uvec2 command = uvec2(0u);  // address of the command, if it is not pushed
 
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer CommandRef {
     uint program;        // number of its shader
     uint invocations;
-    uint needs_barrier;  // behind the command before it
+    uint needs_barrier;  // after the command before it
     uint unused;
 };
 
@@ -20,7 +20,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Co
         Args at;                                                                   \
     };
 WEFT_COMMAND(ParticleArgs)
-WEFT_COMMAND(HoldArgs)
+WEFT_COMMAND(TargetArgs)
 WEFT_COMMAND(AverageArgs)
 WEFT_COMMAND(ContactArgs)
 WEFT_COMMAND(KeepArgs)
@@ -32,12 +32,12 @@ WEFT_COMMAND(LimitArgs)
 WEFT_COMMAND(RowArgs)
 #undef WEFT_COMMAND
 
-// Of a shader that is pushed one kind, the block has that name (dispatch.glsl).
+// In a shader with one kind of push constants, the block itself has that name (dispatch.glsl).
 #ifndef WEFT_PUSHES_particle_args
 #define particle_args ParticleArgsRef(command)
 #endif
-#ifndef WEFT_PUSHES_hold_args
-#define hold_args HoldArgsRef(command)
+#ifndef WEFT_PUSHES_target_args
+#define target_args TargetArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_average_args
 #define average_args AverageArgsRef(command)
@@ -67,7 +67,7 @@ WEFT_COMMAND(RowArgs)
 #define row_args RowArgsRef(command)
 #endif
 
-// A command that stands for those of several substeps runs once for each of them: how many were before this one.
+// Number of substeps before this one, for a command that is repeated once per substep.
 uint substeps_before = 0u;
 
 #endif

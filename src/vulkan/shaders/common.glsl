@@ -1,4 +1,4 @@
-// What every shader begins with: the kernels, what they are told, and which invocation this is.
+// Common start of all shaders: the kernels, the arguments, and the index of the invocation.
 #ifndef WEFT_COMMON_GLSL
 #define WEFT_COMMON_GLSL
 
@@ -10,7 +10,7 @@
 
 layout(local_size_x_id = 0) in;
 
-// A dispatch of more workgroups than fit along one axis goes on along the next.
+// A dispatch of more workgroups than fit along x continues along y.
 uint invocation()
 {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -18,40 +18,40 @@ uint invocation()
 
 bool is_none(uvec2 address) { return address == uvec2(0u); }
 
-// A particle or node with its inverse mass. Where one workgroup runs a whole frame, particles may live in its shared
-// memory meanwhile.
+// Access to a particle or node with its inverse mass. If one workgroup runs a whole frame, it may keep its particles in
+// shared memory.
 #ifdef WEFT_POINTS_AT_HAND
-layout(constant_id = 3) const uint points_at_hand = 1u;   // 1: none
-shared vec4 points[points_at_hand];
+layout(constant_id = 3) const uint shared_points = 1u;   // 1: none
+shared vec4 points[shared_points];
 uvec2 home_of_points = uvec2(0u);
 
 vec4 load_point(Vec4s array, uint p)
 {
-    if (points_at_hand > 1u && uvec2(array) == home_of_points) return points[p];
+    if (shared_points > 1u && uvec2(array) == home_of_points) return points[p];
     return array.at[p];
 }
 void store_point(Vec4s array, uint p, vec4 point)
 {
-    if (points_at_hand > 1u && uvec2(array) == home_of_points) points[p] = point;
+    if (shared_points > 1u && uvec2(array) == home_of_points) points[p] = point;
     else array.at[p] = point;
 }
 
-// What rows want of a particle, in fixed point: x, y and z.
+// Sums of the constraints' corrections of a particle, in fixed point: x, y and z.
 #define WEFT_QUANTA_PER_POINT 3u
-layout(constant_id = 4) const uint quanta_at_hand = 1u;   // 1: none
-shared uint quanta[quanta_at_hand];
+layout(constant_id = 4) const uint shared_quanta = 1u;   // 1: none
+shared uint quanta[shared_quanta];
 uvec2 home_of_sums = uvec2(0u);
-bool sums_are_at_hand(Uints sums) { return quanta_at_hand > 1u && uvec2(sums) == home_of_sums; }
+bool sums_are_shared(Uints sums) { return shared_quanta > 1u && uvec2(sums) == home_of_sums; }
 
 void add_to_sum(Uints sums, uint p, uint axis, uint change)
 {
-    if (sums_are_at_hand(sums)) atomicAdd(quanta[WEFT_QUANTA_PER_POINT * p + axis], change);
+    if (sums_are_shared(sums)) atomicAdd(quanta[WEFT_QUANTA_PER_POINT * p + axis], change);
     else atomicAdd(sums.at[4u * p + axis], change);
 }
 uint take_sum(Uints sums, uint p, uint axis)
 {
     uint sum = 0u;
-    if (sums_are_at_hand(sums)) {
+    if (sums_are_shared(sums)) {
         sum = quanta[WEFT_QUANTA_PER_POINT * p + axis];
         quanta[WEFT_QUANTA_PER_POINT * p + axis] = 0u;
     } else {
@@ -82,10 +82,10 @@ Step substep_with(FrameRef frame, LimitsRef limits)
     return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, limits.at.tension, limits.at.allowed);
 }
 
-// A step in which every constraint is rigid: compliance over its square is nothing.
+// A step in which every constraint is rigid: compliance times inv_h2 is 0.
 Step rigid_step(LimitsRef limits) { return Step(1e3, 1e-3, 0.0, limits.at.tension, limits.at.allowed); }
 
-// Also where a driver takes it for granted that no number is a NaN.
+// Tests the bits, because a driver may assume that no number is a NaN.
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 bool is_finite(vec4 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z) && is_finite(v.w); }
 

@@ -1,12 +1,12 @@
-// What a workgroup works on: the command that a dispatch pushes, or, with WEFT_MANY, one of those of several cloths.
-// Then the workgroups of a cloth follow those of the cloth before it.
+// Finds the command that a workgroup runs: the one that the dispatch pushes, or, with WEFT_MANY, one of the commands of
+// several cloths. In the second case, the workgroups of a cloth follow those of the cloth before it.
 #ifndef WEFT_DISPATCH_GLSL
 #define WEFT_DISPATCH_GLSL
 
-uint group_of_command = 0u;  // of the command's workgroups, the one that this is
+uint group_of_command = 0u;  // index of this workgroup among those of the command
 uint invocation_of_command() { return group_of_command * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
 
-// A dispatch of more workgroups than fit along one axis goes on along the next, and may have too many there.
+// A dispatch of more workgroups than fit along x continues along y, where some may be surplus.
 uint group_of_dispatch() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
 #ifndef WEFT_MANY
@@ -38,17 +38,17 @@ layout(push_constant) uniform Push {
     uvec2 table;       // MembersRef
     uint members;
     uint groups;       // workgroups of all
-    uint groups_each;  // of each; 0: they differ
+    uint groups_each;  // per cloth; 0: they differ
     uint substep;      // substeps_before
 };
 
-// False if there is nothing to do.
+// Returns false if the workgroup has nothing to do.
 bool find_command()
 {
     substeps_before = substep;
     uint group = group_of_dispatch();
     if (group >= groups) return false;
-    uint begin = 0u, end = members;  // the last one that begins here or before is in between
+    uint begin = 0u, end = members;  // binary search for the last one that begins at or before `group`
     if (groups_each > 0u) {
         begin = group / groups_each;
         end = begin + 1u;

@@ -44,7 +44,7 @@ void run_air(uint t)
     float mass = face_args.at.mass.at[t];
     vec3 dv = air_velocity_change(v, face_normal(x[0], x[1], x[2]), mass,
                                   AirFabric(face_args.at.frame.at.drag, face_args.at.frame.at.lift,
-                                            face_args.at.frame.at.listing),
+                                            face_args.at.frame.at.sine_lift),
                                   face_args.at.frame.at.h);
     face_args.at.by_face.at[t] = vec4(dv * (mass * third), 0.0);
 }
@@ -70,12 +70,12 @@ void run_push(uint p)
 {
     float w = load_point(around_args.at.position, p).w;
     if (!(w > 0.0)) return;
-    vec4 s = around_args.at.start.at[p], v = around_args.at.velocity.at[p], c = around_args.at.carry.at[p];
+    vec4 s = around_args.at.start.at[p], v = around_args.at.velocity.at[p], c = around_args.at.compensation.at[p];
     Motion m = Motion(v.xyz, vec3(s.w, v.w, c.w), c.xyz);
     push_by_air(m, sum_around(p), w);
     around_args.at.start.at[p].w = m.v_dropped.x;
     around_args.at.velocity.at[p] = vec4(m.v, m.v_dropped.y);
-    around_args.at.carry.at[p].w = m.v_dropped.z;
+    around_args.at.compensation.at[p].w = m.v_dropped.z;
 }
 
 void run_normals(uint p)

@@ -1,11 +1,10 @@
 #version 450
-// Lists of commands, one list to a workgroup, from the first to the last in one dispatch: whole frames of small cloths,
-// or the passes of coarse levels that are too small to be worth a dispatch each. Commands of
-// a list lie one behind the other.
+// Runs lists of commands in one dispatch, one list per workgroup: whole frames of small cloths, or passes of coarse
+// levels that are too small for a dispatch each. The commands of a list are contiguous in memory.
 #extension GL_GOOGLE_include_directive : require
 #define WEFT_POINTS_AT_HAND
 #define WEFT_LINE_ROWS_ID 5
-#include "vulkan/shaders/meet.glsl"
+#include "vulkan/shaders/workgroup_barrier.glsl"
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/faces.glsl"
 #include "vulkan/shaders/levels.glsl"
@@ -15,7 +14,7 @@
 #include "vulkan/shaders/rows.glsl"
 #include <shader_ids.glsl>
 
-// Which shaders there are commands of: the others need not take registers.
+// One bit per shader that the lists use. The compiler removes the others, which would take registers.
 layout(constant_id = 1) const uint used_low = 0xffffffffu;
 layout(constant_id = 2) const uint used_high = 0xffffffffu;
 bool uses(uint id) { return ((id < 32u ? used_low >> id : used_high >> (id - 32u)) & 1u) != 0u; }
@@ -23,10 +22,10 @@ bool uses(uint id) { return ((id < 32u ? used_low >> id : used_high >> (id - 32u
 struct ListIn {
     uvec2 commands;
     uint count;
-    uint points;      // particles to be kept at hand
-    uvec2 position;   // where they are
-    uvec2 sums;       // in fixed point, likewise at hand and 0 at first; 0: none
-    uint repeat_begin;  // commands of a substep, which run so many times
+    uint points;      // particles to keep in shared memory
+    uvec2 position;   // their address
+    uvec2 sums;       // fixed-point sums to keep in shared memory, initially 0; 0: none
+    uint repeat_begin;  // commands of a substep, which run `times` times
     uint repeat_end;
     uint times;
     uint unused;
@@ -43,14 +42,14 @@ uvec2 advanced(uvec2 address, uint bytes)
     return uvec2(low, address.y + carry);
 }
 
-// As many blocks at once as have their rows at hand.
+// Solves as many blocks at once as shared memory has room for.
 void run_all_lines()
 {
     for (uint b = 0u; b < line_args.at.count;) {
         uint base = line_args.at.blocks.at[2u * b], end = b + 1u;
-        while (end < line_args.at.count && (line_rows_at_hand == 1u || row_after_block(end) - base <= line_rows_at_hand))
+        while (end < line_args.at.count && (shared_line_rows == 1u || row_after_block(end) - base <= shared_line_rows))
             ++end;
-        if (b > 0u) meet();
+        if (b > 0u) workgroup_barrier();
         run_lines(LineRound(b, end, base));
         b = end;
     }
@@ -72,7 +71,7 @@ void run_all_lines()
         }                                                                                   \
         break;
 
-// By where rows come from, and by whether they are damped (constraints.def).
+// Macros by the source of the constraints and by their damping (constraints.def).
 #define WEFT_EACH_OF_MODEL(name)                          \
     WEFT_EACH_ROW(WEFT_ID_plain_##name, plain_row_##name) \
     WEFT_EACH_ROW(WEFT_ID_side_by_side_##name, side_by_side_row_##name)
@@ -91,16 +90,16 @@ void run_command(uint me, uint all)
     WEFT_EACH(predict)
     WEFT_EACH(velocities)
     WEFT_EACH(advance)
-    WEFT_EACH(hold)
+    WEFT_EACH(targets)
     WEFT_EACH(average)
     WEFT_EACH(contact)
     WEFT_EACH(keep)
     WEFT_EACH(check)
     WEFT_EACH(roll_back)
-    WEFT_EACH(collect)
-    WEFT_EACH(lift)
-    WEFT_EACH(settle)
-    WEFT_EACH(spread)
+    WEFT_EACH(restriction)
+    WEFT_EACH(interpolation)
+    WEFT_EACH(node_correction)
+    WEFT_EACH(prolongation)
     WEFT_EACH(wind)
     WEFT_EACH(air)
     WEFT_EACH(faces)
@@ -125,19 +124,19 @@ void main()
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     ListIn list = lists.at[first + gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x];
-    if (points_at_hand > 1u) {
+    if (shared_points > 1u) {
         Vec4s from = Vec4s(list.position);
         for (uint p = me; p < list.points; p += all) points[p] = from.at[p];
         home_of_points = list.position;
     }
-    if (quanta_at_hand > 1u) {
+    if (shared_quanta > 1u) {
         for (uint i = me; i < list.points * WEFT_QUANTA_PER_POINT; i += all) quanta[i] = 0u;
         home_of_sums = list.sums;
     }
     uint round = 0u;
     for (uint c = 0u; c < list.count;) {
         command = advanced(list.commands, c * WEFT_COMMAND_BYTES);
-        if (CommandRef(command).needs_barrier != 0u || c == 0u) meet();
+        if (CommandRef(command).needs_barrier != 0u || c == 0u) workgroup_barrier();
         substeps_before = substep + (c >= list.repeat_begin && c < list.repeat_end ? round : 0u);
         run_command(me, all);
         ++c;
@@ -146,8 +145,8 @@ void main()
             ++round;
         }
     }
-    if (points_at_hand > 1u) {
-        meet();
+    if (shared_points > 1u) {
+        workgroup_barrier();
         Vec4s to = Vec4s(list.position);
         for (uint p = me; p < list.points; p += all) to.at[p] = points[p];
     }

@@ -2,9 +2,9 @@
 #ifndef WEFT_LEVELS_GLSL
 #define WEFT_LEVELS_GLSL
 
-#define WEFT_PARENTS 4u  // Carry::parents
+#define WEFT_PARENTS 4u  // Prolongation::parents
 
-vec3 carried(uint i)
+vec3 interpolated(uint i)
 {
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < WEFT_PARENTS; ++k) {
@@ -14,7 +14,7 @@ vec3 carried(uint i)
     return sum;
 }
 
-void run_collect(uint i)
+void run_restriction(uint i)
 {
     vec3 sum = vec3(0.0);
     uint packet = i / WEFT_LANE_PADDING;
@@ -26,25 +26,25 @@ void run_collect(uint i)
     level_args.at.origin.at[i] = vec4(sum, 0.0);
 }
 
-void run_lift(uint i)
+void run_interpolation(uint i)
 {
     vec3 x = level_args.at.origin.at[i].xyz;
-    if (!is_none(uvec2(level_args.at.coarser))) x = x + carried(i);
+    if (!is_none(uvec2(level_args.at.coarser))) x = x + interpolated(i);
     store_point(level_args.at.position, i, vec4(x, load_point(level_args.at.position, i).w));
 }
 
-void run_settle(uint i)
+void run_node_correction(uint i)
 {
     vec3 moved = load_point(level_args.at.position, i).xyz - level_args.at.origin.at[i].xyz;
     level_args.at.displacement.at[i] = vec4(moved, 0.0);
 }
 
-void run_spread(uint i)
+void run_prolongation(uint i)
 {
     vec4 x = load_point(level_args.at.position, i);
-    // The levels may not know yet of a particle that was pinned a moment ago.
+    // The weights of the levels may be older than a pin, so a pinned particle may have a displacement.
     float moves = x.w > 0.0 ? 1.0 : 0.0;
-    store_point(level_args.at.position, i, vec4(x.xyz + carried(i) * moves, x.w));
+    store_point(level_args.at.position, i, vec4(x.xyz + interpolated(i) * moves, x.w));
 }
 
 #endif

@@ -1,5 +1,5 @@
 #version 450
-// What one-sided rows allow for in this frame. One workgroup to a cloth.
+// Slack of the one-sided constraints in this frame. One workgroup per cloth.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/dispatch.glsl"

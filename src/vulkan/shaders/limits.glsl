@@ -1,6 +1,6 @@
-// What one-sided rows allow for in this frame: the tension that the last one left in the cloth, all but a twentieth of
-// the rows stay below it, and what pins stretch that are held too far apart. The work of one workgroup.
-// (solver/plan/tension.cpp has the same for the CPU.)
+// Slack of the one-sided constraints in this frame, computed by one workgroup. It has two parts: the tension that 95 %
+// of the stretch constraints stayed below in the last frame, and the stretch between pins that are too far apart.
+// (solver/plan/tension.cpp is the CPU version.)
 #ifndef WEFT_LIMITS_GLSL
 #define WEFT_LIMITS_GLSL
 
@@ -8,12 +8,12 @@
 #define WEFT_BINS_PER_DOUBLING 4u
 #define WEFT_LEAST 1e-5
 #define WEFT_MOST 100.0  // the last bin begins at 9
-#define WEFT_ROWS_LOOKED_AT 16u  // of four times as many
+#define WEFT_ROWS_LOOKED_AT 16u  // constraints per vector; one vector in four is sampled
 
 shared uint bins[WEFT_BINS];
-shared uint strain_bits;  // the largest one between pins; as bits, positive floats are in order
+shared uint strain_bits;  // largest strain between pins; the bits of positive floats have the order of the floats
 
-// Bins of strain, found from exponent and thresholds: drivers round logarithms each in their own way.
+// Bins of strain, found from exponent and thresholds, because drivers round logarithms differently.
 const float bin_starts[WEFT_BINS_PER_DOUBLING] = float[](1.0, 1.18920712, 1.41421356, 1.68179283);
 
 uint bin_of(float strain)
@@ -36,7 +36,7 @@ float start_of(uint bin)
 
 void run_limits()
 {
-    // They are found from what the frame before left, which the first run of this one has written over.
+    // The limits depend on lambda of the previous frame, which the first run of this frame has overwritten.
     if (limit_args.at.frame.at.again == 1u) return;
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     for (uint i = me; i < WEFT_BINS; i += all) bins[i] = 0u;
@@ -65,7 +65,7 @@ void run_limits()
         for (uint i = 0u; i < WEFT_BINS; ++i) count += bins[i];
         uint above = 0u, bin = WEFT_BINS;
         while (bin > 1u && 20u * (above + bins[bin - 1u]) <= count) above += bins[--bin];
-        // The upper end of the bin.
+        // Upper end of the highest bin below the excluded 5 %.
         float strain = bin <= 1u ? 0.0 : start_of(bin);
         float tension = max(0.0, strain * limit_args.at.softest - limit_args.at.model_tension);
         limit_args.at.limits.at.tension = tension;

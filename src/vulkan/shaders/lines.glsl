@@ -1,23 +1,23 @@
-// Rows of stretch along lines: elimination along the line, substitution back. What each row brings to that, and what
-// comes of it for the particles, is done row by row by all of a workgroup; the way there and back is a line to an
-// invocation, on numbers that are close at hand.
+// Line solve of stretch constraints: forward elimination along the line, then back substitution. All invocations of a
+// workgroup compute the terms of the constraints and later move the particles. In between, one invocation per line
+// eliminates and substitutes, on numbers in shared memory.
 #ifndef WEFT_LINES_GLSL
 #define WEFT_LINES_GLSL
 
-// Rows whose numbers a workgroup has in shared memory; 1: none, they are in the scratch memory.
-layout(constant_id = WEFT_LINE_ROWS_ID) const uint line_rows_at_hand = 1u;
-// limit, couples, diagonal, right side; after elimination limit, couples, factor, g; after substitution delta lambda first.
-shared vec4 line_numbers[line_rows_at_hand];
-shared float line_couplings[line_rows_at_hand];
+// Number of constraints that shared memory has room for; 1: none, their numbers are in the scratch memory.
+layout(constant_id = WEFT_LINE_ROWS_ID) const uint shared_line_rows = 1u;
+// limit, couples, diagonal, right side; after elimination limit, couples, factor, g; after substitution delta lambda.
+shared vec4 line_numbers[shared_line_rows];
+shared float line_couplings[shared_line_rows];
 
 // Blocks that are solved together.
 struct LineRound {
     uint first;
     uint end;
-    uint base;  // row that is the first at hand
+    uint base;  // first row in shared memory
 };
 
-// Rows up to the end of the block.
+// First row after the block.
 uint row_after_block(uint block)
 {
     return line_args.at.blocks.at[2u * block] + line_args.at.blocks.at[2u * block + 1u] * WEFT_LANE_PADDING;
@@ -25,17 +25,17 @@ uint row_after_block(uint block)
 
 vec4 line_number(LineRound round, uint r)
 {
-    if (line_rows_at_hand > 1u) return line_numbers[r - round.base];
+    if (shared_line_rows > 1u) return line_numbers[r - round.base];
     return line_args.at.scratch.at[line_args.at.stride + r];
 }
 void keep_number(LineRound round, uint r, vec4 number)
 {
-    if (line_rows_at_hand > 1u) line_numbers[r - round.base] = number;
+    if (shared_line_rows > 1u) line_numbers[r - round.base] = number;
     else line_args.at.scratch.at[line_args.at.stride + r] = number;
 }
 float line_coupling_of(LineRound round, uint r)
 {
-    if (line_rows_at_hand > 1u) return line_couplings[r - round.base];
+    if (shared_line_rows > 1u) return line_couplings[r - round.base];
     return line_args.at.scratch.at[r].w;
 }
 
@@ -46,7 +46,7 @@ StretchRow line_row(uint r)
                       line_args.at.fields.at[2u * stride + r]);
 }
 
-// Direction and weight go to the scratch memory, where the next row looks for them.
+// Writes direction and weight to the scratch memory, where couple_row() of the next row reads them.
 void begin_row(LineRound round, uint r, Step h)
 {
     vec4 from = load_point(line_args.at.position, line_args.at.particles.at[r]);
@@ -63,11 +63,11 @@ void couple_row(LineRound round, uint r, bool first)
     vec3 before = vec3(0.0);
     if (!first) before = line_args.at.scratch.at[r - WEFT_LANE_PADDING].xyz;
     float coupling = line_coupling(before, mine.xyz, mine.w);
-    if (line_rows_at_hand > 1u) line_couplings[r - round.base] = coupling;
+    if (shared_line_rows > 1u) line_couplings[r - round.base] = coupling;
     else line_args.at.scratch.at[r].w = coupling;
 }
 
-// The next row's numbers are asked for before this one's are needed: nothing that is written here is read there.
+// Loads the numbers of the next row one step ahead to hide latency. The writes of a step do not change these numbers.
 void solve_line(LineRound round, uint begin, uint length)
 {
     LineRow before = line_start();
@@ -98,7 +98,7 @@ void solve_line(LineRound round, uint begin, uint length)
     }
 }
 
-// Each point is moved by the row that it is the second of, and the first one by the first row.
+// Each row moves its second particle. The first row of a line also moves its first particle.
 void end_row(LineRound round, uint r, bool first, bool last)
 {
     float change = line_number(round, r).x;
@@ -107,9 +107,9 @@ void end_row(LineRound round, uint r, bool first, bool last)
         line_args.at.lambda.at[r] = line_args.at.lambda.at[r] + change;
     uint from = line_args.at.particles.at[r], to = line_args.at.particles.at[line_args.at.stride + r];
     vec3 mine = line_args.at.scratch.at[r].xyz * change;
-    vec3 pull = vec3(0.0);  // of the row behind
+    vec3 pull = vec3(0.0);  // of the next row
     if (!last) pull = line_args.at.scratch.at[r + WEFT_LANE_PADDING].xyz * line_number(round, r + WEFT_LANE_PADDING).x;
-    // Padding goes from the end of a line to itself; that point is the last real row's.
+    // Padding connects the end of a line to itself. The last real row moves that particle.
     if (from != to) {
         vec4 x = load_point(line_args.at.position, to);
         store_point(line_args.at.position, to, vec4(x.xyz + (pull - mine) * x.w, x.w));
@@ -120,7 +120,7 @@ void end_row(LineRound round, uint r, bool first, bool last)
     }
 }
 
-// By all of a workgroup.
+// Called by all invocations of a workgroup.
 void run_lines(LineRound round)
 {
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
@@ -129,17 +129,17 @@ void run_lines(LineRound round)
         uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all) begin_row(round, begin + i, h);
     }
-    meet();
+    workgroup_barrier();
     for (uint b = round.first; b < round.end; ++b) {
         uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all) couple_row(round, begin + i, i < WEFT_LANE_PADDING);
     }
-    meet();
+    workgroup_barrier();
     for (uint i = me; i < (round.end - round.first) * WEFT_LANE_PADDING; i += all) {
         uint b = round.first + i / WEFT_LANE_PADDING;
         solve_line(round, line_args.at.blocks.at[2u * b] + i % WEFT_LANE_PADDING, line_args.at.blocks.at[2u * b + 1u]);
     }
-    meet();
+    workgroup_barrier();
     for (uint b = round.first; b < round.end; ++b) {
         uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all)

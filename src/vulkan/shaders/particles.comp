@@ -1,5 +1,5 @@
 #version 450
-// A pass over particles or what is as simple: WEFT_PASS is its function.
+// A pass with one invocation per particle or other element. WEFT_PASS is its function.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/dispatch.glsl"

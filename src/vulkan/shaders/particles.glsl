@@ -1,13 +1,14 @@
-// Passes over particles one by one.
+// Passes over single particles.
 #ifndef WEFT_PARTICLES_GLSL
 #define WEFT_PARTICLES_GLSL
 
-// The fourth floats hold, in this order, the inverse mass and the x, y and z of the velocity that rounding dropped.
+// The fourth floats of position, start, velocity and compensation hold, in this order, the inverse mass and the x, y
+// and z of the velocity's compensation.
 Motion load_motion(uint p, out vec3 start)
 {
     vec4 s = particle_args.at.start.at[p];
     vec4 v = particle_args.at.velocity.at[p];
-    vec4 c = particle_args.at.carry.at[p];
+    vec4 c = particle_args.at.compensation.at[p];
     start = s.xyz;
     return Motion(v.xyz, vec3(s.w, v.w, c.w), c.xyz);
 }
@@ -15,7 +16,7 @@ Motion load_motion(uint p, out vec3 start)
 void store_motion(uint p, Motion m)
 {
     particle_args.at.velocity.at[p] = vec4(m.v, m.v_dropped.y);
-    particle_args.at.carry.at[p] = vec4(m.x_dropped, m.v_dropped.z);
+    particle_args.at.compensation.at[p] = vec4(m.x_dropped, m.v_dropped.z);
 }
 
 vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravity_y, frame.at.gravity_z); }
@@ -66,13 +67,13 @@ void run_advance(uint p)
     report_capped(ended || begun);
 }
 
-void run_hold(uint i)
+void run_targets(uint i)
 {
-    HeldIn held = hold_args.at.held.at[i];
-    uint after = hold_args.at.substep + substeps_before + 1u;
-    PoseIn pose = hold_args.at.poses.at[after * hold_args.at.frame.at.movers + held.mover];
-    vec3 x = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, held.local.xyz) + pose.position.xyz;
-    store_point(hold_args.at.position, held.particle, vec4(x, load_point(hold_args.at.position, held.particle).w));
+    TargetIn target = target_args.at.targets.at[i];
+    uint after = target_args.at.substep + substeps_before + 1u;
+    PoseIn pose = target_args.at.poses.at[after * target_args.at.frame.at.motions + target.motion];
+    vec3 x = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, target.local.xyz) + pose.position.xyz;
+    store_point(target_args.at.position, target.particle, vec4(x, load_point(target_args.at.position, target.particle).w));
 }
 
 void run_average(uint p)
@@ -91,7 +92,7 @@ void run_average(uint p)
     store_point(average_args.at.position, p, vec4(x.xyz + sum, x.w));
 }
 
-// Adds what a contact did to the particle's account of the frame, which the first contacts of the frame begin.
+// Adds the effect of a contact to the particle's sums of the frame. The first contact pass of a frame resets the sums.
 void trace(uint collider, uint p, bool touches, vec3 before, vec3 x, vec3 position)
 {
     bool begins = contact_args.at.substep + substeps_before == 0u && contact_args.at.first_iteration == 1u;
@@ -99,10 +100,10 @@ void trace(uint collider, uint p, bool touches, vec3 before, vec3 x, vec3 positi
     uint at = collider * contact_args.at.capacity + p;
     uint turned = contact_args.at.frame.at.colliders * contact_args.at.capacity + at;
     ContactTrace sum = ContactTrace(vec3(0.0), vec3(0.0));
-    if (!begins) sum = ContactTrace(contact_args.at.felt.at[at].xyz, contact_args.at.felt.at[turned].xyz);
+    if (!begins) sum = ContactTrace(contact_args.at.contact_log.at[at].xyz, contact_args.at.contact_log.at[turned].xyz);
     if (touches) trace_contact(sum, before, x, position);
-    contact_args.at.felt.at[at] = vec4(sum.moved, 0.0);
-    contact_args.at.felt.at[turned] = vec4(sum.turned, 0.0);
+    contact_args.at.contact_log.at[at] = vec4(sum.moved, 0.0);
+    contact_args.at.contact_log.at[turned] = vec4(sum.turned, 0.0);
 }
 
 void run_contact(uint p)
@@ -110,7 +111,7 @@ void run_contact(uint p)
     vec4 x = load_point(contact_args.at.position, p);
     vec3 start = contact_args.at.start.at[p].xyz;
     uint colliders = contact_args.at.frame.at.colliders, substep = contact_args.at.substep + substeps_before;
-    bool keeps = !is_none(uvec2(contact_args.at.sums)), traces = !is_none(uvec2(contact_args.at.felt));
+    bool keeps = !is_none(uvec2(contact_args.at.sums)), traces = !is_none(uvec2(contact_args.at.contact_log));
     for (uint c = 0u; c < colliders; ++c) {
         ColliderIn collider = contact_args.at.colliders.at[c];
         PoseIn now = contact_args.at.poses.at[(substep + 1u) * colliders + c];
@@ -153,32 +154,32 @@ void run_contact(uint p)
     store_point(contact_args.at.position, p, x);
 }
 
-// What the frame found, to go back to.
+// Saves the state at the beginning of the frame, for run_roll_back().
 void run_keep(uint p)
 {
     keep_args.at.good_position.at[p] = vec4(load_point(keep_args.at.position, p).xyz, keep_args.at.start.at[p].w);
     keep_args.at.good_velocity.at[p] = keep_args.at.velocity.at[p];
-    keep_args.at.good_carry.at[p] = keep_args.at.carry.at[p];
+    keep_args.at.good_compensation.at[p] = keep_args.at.compensation.at[p];
 }
 
 void run_check(uint p)
 {
     if (!is_finite(load_point(keep_args.at.position, p)) || !is_finite(keep_args.at.velocity.at[p]) ||
-        !is_finite(keep_args.at.carry.at[p]))
+        !is_finite(keep_args.at.compensation.at[p]))
         atomicOr(keep_args.at.island_report.at[0], WEFT_REPORT_NON_FINITE);
 }
 
 void run_roll_back(uint i)
 {
     if ((keep_args.at.island_report.at[0] & (WEFT_REPORT_NON_FINITE | WEFT_REPORT_LIST_FULL)) == 0u) return;
-    // What was solved was not of this place; a residual and a saved state still read it.
+    // Lambda does not match the restored positions. Residuals and saved states still read it.
     if (i < keep_args.at.lambdas) keep_args.at.lambda.at[i] = 0.0;
     if (i >= keep_args.at.count) return;
     vec4 good = keep_args.at.good_position.at[i];
     keep_args.at.start.at[i] = good;
     store_point(keep_args.at.position, i, vec4(good.xyz, keep_args.at.weights.at[i]));
     keep_args.at.velocity.at[i] = keep_args.at.good_velocity.at[i];
-    keep_args.at.carry.at[i] = keep_args.at.good_carry.at[i];
+    keep_args.at.compensation.at[i] = keep_args.at.good_compensation.at[i];
 }
 
 #endif

@@ -1,6 +1,6 @@
 #version 450
-// Rows of one constraint: WEFT_ROW_PASS is project_row_<name>, plain_row_<name>, side_by_side_row_<name> or
-// damp_row_<name>.
+// A pass over the constraints of one kind: WEFT_ROW_PASS is project_row_<name>, plain_row_<name>,
+// side_by_side_row_<name> or damp_row_<name>.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/dispatch.glsl"

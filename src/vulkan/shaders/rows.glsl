@@ -1,4 +1,4 @@
-// Passes over rows, for every constraint alike.
+// Passes over constraints, for all kinds.
 #ifndef WEFT_ROWS_GLSL
 #define WEFT_ROWS_GLSL
 
@@ -10,17 +10,17 @@
 #define WEFT_LAMBDAS_3(v) v[0], v[1], v[2]
 #define WEFT_LOAD_FIELD(field) row.field = row_args.at.fields.at[field_at], field_at += row_args.at.stride;
 
-// Without compliance, lambda is what moved the particles, and its sign tells which way C was.
+// Without compliance, the sign of lambda is opposite to that of C.
 float plain_part(float lambda) { return lambda < 0.0 ? row_args.at.plain_positive : row_args.at.plain_negative; }
 
-// What iterations before this one have found.
+// Lambda from the previous iterations.
 float lambda_before(uint multiplier, uint r)
 {
     if (row_args.at.lambda_use != WEFT_LAMBDA_ACCUMULATE) return 0.0;
     return row_args.at.lambda.at[multiplier * row_args.at.stride + r];
 }
 
-// Whole numbers give the same sum in whatever order they come.
+// Sums of integers do not depend on the order.
 void add_quanta(Uints sums, uint p, vec3 change)
 {
     for (uint axis = 0u; axis < 3u; ++axis) add_to_sum(sums, p, axis, uint(int(to_quanta(change[axis]))));
@@ -53,7 +53,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
         for (uint k = 0u; k < moved; ++k) store_point(row_args.at.position, p[k], vec4(x[k], w[k]));           \
     }
 
-// What the row wants of its particles.
+// Computes the constraint's correction of its particles without moving them.
 #define WEFT_CORRECT_ROW(name, arity, lambdas)                                                                        \
     void correct_row_##name(uint r, out uint p[arity], out vec3 change[arity], out float w[arity])                    \
     {                                                                                                                 \
@@ -106,7 +106,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
                 row_args.at.corrections.at[k * row_args.at.stride + r] = vec4(change[k], 0.0);             \
         } else {                                                                                           \
             for (uint k = 0u; k < moved; ++k) {                                                            \
-                /* Of a particle that a row names twice, the last one counts (solver/model/jacobi.cpp). */ \
+                /* If a row has a particle twice, the last entry counts (solver/model/jacobi.cpp). */      \
                 bool counts = arity == 1 || p[0] != p[min(1, arity - 1)];                                  \
                 for (uint later = k + 1u; later < moved; ++later) counts = counts && p[later] != p[k];     \
                 if (counts) add_quanta(row_args.at.sums, p[k], change[k]);                                 \
@@ -131,7 +131,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
     }
 #define WEFT_DAMP_ROW_undamped(name, arity, moved)
 
-// By where rows come from (constraints.def).
+// Macros by the source of the constraints (constraints.def).
 #define WEFT_ROWS_OF_MODEL(name, arity, moved, lambdas) \
     WEFT_CORRECT_ROW(name, arity, lambdas)              \
     WEFT_PLAIN_ROW(name, arity, moved)                  \
@@ -153,7 +153,7 @@ void add_quanta(Uints sums, uint p, vec3 change)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-// The rows of an invocation: `count` of them, from `row` on, `stride` apart.
+// The rows of an invocation: `count` rows from `row` on, `stride` apart.
 struct RowRange {
     uint row;
     uint count;

@@ -1,4 +1,4 @@
-// What the passes of the drawn surface are told, read by C++ and by GLSL. One invocation is one drawn vertex.
+// Arguments of the passes of the drawn surface, shared by C++ and GLSL. One invocation handles one drawn vertex.
 #ifndef WEFT_VULKAN_SURFACE_ARGS_H
 #define WEFT_VULKAN_SURFACE_ARGS_H
 
@@ -8,23 +8,23 @@
 namespace weft::vulkan {
 #endif
 
-// Where drawn and simulated mesh are the same.
+// For a drawn mesh that is the simulated mesh.
 struct WeldedArgs {
     Vec4s position;
     Vec4s normals;
-    Uints particle;  // of the vertex; 0xffffffff: it stays where it is
+    Uints particle;  // of the vertex; 0xffffffff: the vertex never moves
     Vec4s to_position;
     Vec4s to_normal;
     uint count;
     uint unused;
 };
 
-// Where the drawn mesh follows the simulated one.
+// For a drawn mesh that follows the simulated one.
 struct BoundArgs {
     Vec4s position;
     Vec4s normals;
     Uints particles;  // three per vertex
-    Vec4s shape;      // two per vertex: weights and offset, the normal behind them
+    Vec4s shape;      // two per vertex: weights and offset, then the normal
     Vec4s to_position;
     Vec4s to_normal;
     uint count;

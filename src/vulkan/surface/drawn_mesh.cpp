@@ -6,13 +6,13 @@
 namespace weft::vulkan {
 namespace {
 
-// What lies in the arena until it is built.
+// Arrays that the arena reads when it is built.
 struct Lists {
     std::vector<std::uint32_t> offsets, items, particles;
     std::vector<Vec4> shape;
 };
 
-// A triangle that has a vertex twice is twice in its list, as it is added to it twice elsewhere.
+// A triangle with the same vertex twice is twice in the vertex's list, because compute_tangents() adds it twice.
 void list_around(const TriangleMesh& mesh, Lists& lists) {
     lists.offsets.assign(mesh.positions.size() + 1, 0);
     for (const Triangle& triangle : mesh.triangles)

@@ -1,5 +1,5 @@
-// The drawn mesh of a model on the device: what of a drawn surface does not change while the cloth moves. Shared by all
-// cloths of that model.
+// The drawn mesh of a model on the device: the data of a drawn surface that does not change while the cloth moves.
+// Shared by all cloths of that model.
 #pragma once
 
 #include "gpu/surface_buffers.h"
@@ -10,10 +10,10 @@
 
 namespace weft::vulkan {
 
-/// Vertices, indices, and whatever shaders want.
+/// Usage as vertex and index buffers, in addition to the usage of every buffer.
 inline constexpr VkBufferUsageFlags drawn_usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
 
-/// Where a slot lies; no buffer if it is empty.
+/// The range of a slot; without a buffer if the slot is empty.
 gpu::BufferRange range_of(const Arena& arena, Slot slot);
 
 class DrawnMesh {
@@ -24,8 +24,8 @@ class DrawnMesh {
     const std::shared_ptr<const ClothModel> model;
     Slot triangles, uvs;
     Slot around_offsets, around_items;  ///< the triangles at each vertex, ascending; only with UVs
-    Slot particle;                      ///< of each vertex, or, with a binding,
-    Slot bound_particles, bound_shape;
+    Slot particle;                      ///< of each vertex; only without a binding
+    Slot bound_particles, bound_shape;  ///< only with a binding
 
     std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(model->mesh().positions.size()); }
     const Arena& arena() const { return arena_; }

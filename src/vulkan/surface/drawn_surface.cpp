@@ -23,18 +23,18 @@ DrawnSurface::~DrawnSurface() {
     (void)device_.wait(std::max(sets_[0].written, sets_[1].written));
 }
 
-Result<Done> DrawnSurface::particles_moved() {
+Result<void> DrawnSurface::particles_moved() {
     for (Set& set : sets_) {
         if (auto idle = device_.wait(set.written); !idle) return idle;
         if (auto recorded = record(set); !recorded) return recorded;
     }
-    return Done{};
+    return {};
 }
 
-Result<Done> DrawnSurface::make(Set& set) {
+Result<void> DrawnSurface::make(Set& set) {
     const ClothModel& model = *mesh_->model;
     const std::uint64_t bytes = mesh_->vertex_count() * sizeof(Vec4);
-    // Vertices that no triangle uses are in their place from the start, and nothing moves them.
+    // Vertices without a triangle keep their initial positions, because no pass writes them.
     std::vector<Vec4> still_positions, still_normals;
     if (std::ranges::find(model.vertex_to_particle, none) != model.vertex_to_particle.end()) {
         for (const Vec3 p : model.mesh().positions) still_positions.push_back({p.x, p.y, p.z, 1});
@@ -49,7 +49,7 @@ Result<Done> DrawnSurface::make(Set& set) {
     return set.arena.build(device_, "surface of " + model.name, drawn_usage);
 }
 
-Result<Done> DrawnSurface::record(Set& set) {
+Result<void> DrawnSurface::record(Set& set) {
     auto commands = gpu::Commands::create(device_);
     if (!commands) return commands.errors();
     if (auto begun = commands->begin(); !begun) return begun;
@@ -94,7 +94,7 @@ Result<Done> DrawnSurface::record(Set& set) {
     if (auto recorded = passes.end(); !recorded) return recorded;
     if (auto ended = commands->end(); !ended) return ended;
     set.commands = std::move(*commands);
-    return Done{};
+    return {};
 }
 
 gpu::SurfaceBuffers DrawnSurface::buffers(const Set& set) const {
@@ -113,7 +113,8 @@ Result<gpu::SurfaceBuffers> DrawnSurface::update(std::uint64_t change, gpu::Mome
     if (change_ == change) return buffers(sets_[current_]);
     const std::size_t next = (current_ + 1) % sets_.size();
     Set& set = sets_[next];
-    if (auto idle = device_.wait(set.written); !idle) return idle.errors();  // its commands cannot run twice at once
+    // A command buffer must not be submitted again while it is pending.
+    if (auto idle = device_.wait(set.written); !idle) return idle.errors();
     auto value = set.commands->submit(before);
     if (!value) return value.errors();
     set.written = *value;

@@ -1,6 +1,5 @@
-// The drawn surface of a cloth, made on the device from where its particles are: positions, normals and tangents, one
-// of each for every vertex of the drawn mesh, equal to those of draw_surface() and compute_tangents()
-// (solver/state/frame.h).
+// The drawn surface of a cloth, computed on the device from its particles: positions, normals and tangents for every
+// vertex of the drawn mesh. They equal those of draw_surface() and compute_tangents() (solver/state/frame.h).
 #pragma once
 
 #include "gpu/commands.h"
@@ -18,17 +17,17 @@ namespace weft::vulkan {
 
 class DrawnSurface {
   public:
-    /// `cloth` outlives it.
+    /// `cloth` must outlive the surface.
     static Result<std::unique_ptr<DrawnSurface>> create(gpu::Device& device, Programs& programs,
                                                         const ClothState& cloth, std::shared_ptr<const DrawnMesh> mesh);
     ~DrawnSurface();
 
-    /// The cloth's particles lie elsewhere from now on.
-    Result<Done> particles_moved();
-    /// The surface of the cloth as it is, with the particles' normals as they are. `change` is another number whenever
-    /// the cloth has changed; with the same one, what there is. Otherwise the device writes the other one of two sets
-    /// of buffers, after all work that was submitted to its queue before and after `before`, which must come of work
-    /// that is submitted already. Does not wait for the device.
+    /// Call after the cloth's particles got new addresses.
+    Result<void> particles_moved();
+    /// Returns the surface of the cloth's current positions and normals. `change` must be a new number whenever the
+    /// cloth has changed; with the same number, the present surface is returned. Otherwise the device writes the other
+    /// one of two sets of buffers, after all work that is already in its queue and after `before`, which must belong to
+    /// submitted work. The host does not wait for the device, unless that set is still being written.
     Result<gpu::SurfaceBuffers> update(std::uint64_t change, gpu::Moment before = {});
 
   private:
@@ -36,14 +35,14 @@ class DrawnSurface {
         Arena arena;
         Slot positions, normals, tangents;
         std::optional<gpu::Commands> commands;
-        std::uint64_t written = 0;  ///< when its commands are done
+        std::uint64_t written = 0;  ///< timeline value after its commands
     };
 
     DrawnSurface(gpu::Device& device, Programs& programs, const ClothState& cloth,
                  std::shared_ptr<const DrawnMesh> mesh)
         : device_(device), programs_(programs), cloth_(cloth), mesh_(std::move(mesh)) {}
-    Result<Done> make(Set& set);
-    Result<Done> record(Set& set);
+    Result<void> make(Set& set);
+    Result<void> record(Set& set);
     gpu::SurfaceBuffers buffers(const Set& set) const;
 
     gpu::Device& device_;
@@ -52,7 +51,7 @@ class DrawnSurface {
     std::shared_ptr<const DrawnMesh> mesh_;
     std::array<Set, 2> sets_;
     std::size_t current_ = 0;
-    std::optional<std::uint64_t> change_;  ///< what the current set shows
+    std::optional<std::uint64_t> change_;  ///< number of the state in the current set
 };
 
 }  // namespace weft::vulkan

@@ -1,4 +1,4 @@
-// What the passes of finding edges are told, read by C++ and by GLSL.
+// Arguments of the passes that find edges, shared by C++ and GLSL.
 #ifndef WEFT_VULKAN_TOPOLOGY_ARGS_H
 #define WEFT_VULKAN_TOPOLOGY_ARGS_H
 
@@ -21,8 +21,10 @@ struct EdgeArgs {
     Uints high;  // sides, sorted
     Uints low;
     Uints value;
-    Uints heads;    // 1 at the first side of an edge, of a hinge, of an edge with three triangles or more; scanned: how
-    Uints hinges;   // many come before. One element more than there are sides
+    // 1 at the first side of an edge, of a hinge, of an edge with three triangles or more; after the scan: the number
+    // of ones before. One element more than there are sides.
+    Uints heads;
+    Uints hinges;
     Uints crowded;
     Uints triangles;
     Uints to_edges;

@@ -16,7 +16,7 @@ using gpu::MemoryKind;
 
 constexpr std::uint64_t word = sizeof(std::uint32_t);
 
-// Shaders write them as words.
+// Shaders write these structs as words.
 static_assert(sizeof(Triangle) == 3 * word && sizeof(Edge) == 4 * word && sizeof(Hinge) == 7 * word);
 
 class EdgeBuilder {
@@ -46,17 +46,17 @@ class EdgeBuilder {
     double device_ms = 0;
 
   private:
-    // An array of words for each side, and one more.
+    // Bytes of an array of one word per side, plus one.
     std::uint64_t array_bytes() const { return (std::uint64_t{sides_} + 1) * word; }
 
-    Result<Done> make(Buffer& buffer, std::uint64_t bytes, const std::string& name) {
+    Result<void> make(Buffer& buffer, std::uint64_t bytes, const std::string& name) {
         auto made = device_.memory().buffer(bytes, MemoryKind::device, name);
         if (!made) return made.errors();
         buffer = std::move(*made);
-        return Done{};
+        return {};
     }
 
-    Result<Done> make_arrays() {
+    Result<void> make_arrays() {
         for (Buffer& one : arrays_)
             if (auto made = make(one, array_bytes(), "sides of triangles"); !made) return made;
         const SortScratch sizes = sort_scratch(sides_);
@@ -71,7 +71,7 @@ class EdgeBuilder {
         return {arrays_[first].address(), arrays_[first + 1].address(), arrays_[first + 2].address()};
     }
 
-    /// Sorts the sides, and numbers what they make.
+    /// Sorts the sides, and numbers edges, hinges and non-manifold edges.
     void sort_sides(Recorder& passes) {
         const KeyArrays sides = addresses(0), spare = addresses(3);
         const SideArgs args{.triangles = indices_.address(),
@@ -83,7 +83,7 @@ class EdgeBuilder {
         passes.run("sides", args, groups_of(triangle_count_, WEFT_GROUP));
         const KeyArrays sorted =
             record_sort(passes, sides, spare, sides_, bits_below(vertex_count_), {places_.address(), sums_.address()});
-        // Of the two sets of arrays one holds the sorted sides, the other nothing that is still needed.
+        // One of the two sets of arrays holds the sorted sides. The other one is free and takes the flags.
         flags_ = sorted.high == sides.high ? 3 : 0;
         const KeyArrays flags = addresses(flags_);
         edge_args_ = {};
@@ -96,8 +96,8 @@ class EdgeBuilder {
             record_scan(passes, list, list, sides_ + 1, sums_.address());
     }
 
-    /// How long the lists will be: what the scans end with.
-    Result<Done> read_counts() {
+    /// Reads the lengths of the lists: the last elements of the scans.
+    Result<void> read_counts() {
         auto back = device_.memory().buffer(3 * word, MemoryKind::readback, "lengths of lists");
         if (!back) return back.errors();
         auto done = gpu::run_once(device_, [&](gpu::Commands& commands) {
@@ -108,10 +108,10 @@ class EdgeBuilder {
         if (!done) return done;
         const auto counts = back->as<std::uint32_t>();
         edges_ = counts[0], hinges_ = counts[1], crowded_ = counts[2];
-        return Done{};
+        return {};
     }
 
-    Result<Done> make_lists() {
+    Result<void> make_lists() {
         if (auto made = make(to_edges_, edges_ * sizeof(Edge), "edges"); !made) return made;
         if (auto made = make(to_hinges_, hinges_ * sizeof(Hinge), "hinges"); !made) return made;
         if (auto made = make(to_crowded_, crowded_ * word, "non-manifold edges"); !made) return made;
@@ -128,7 +128,7 @@ class EdgeBuilder {
     }
 
     template <class Array>
-    Result<Done> read(const Buffer& buffer, Array& array, std::uint32_t count) {
+    Result<void> read(const Buffer& buffer, Array& array, std::uint32_t count) {
         array.resize(count);
         return download(device_, buffer, 0, std::as_writable_bytes(std::span(array)));
     }
@@ -149,8 +149,8 @@ class EdgeBuilder {
     std::span<const Triangle> triangles_;
     std::uint32_t vertex_count_, triangle_count_, sides_;
     Buffer indices_, places_, sums_;
-    std::array<Buffer, 6> arrays_;  // high, low and value, and once more
-    std::uint32_t flags_ = 0;       // the first of the three that hold flags, and then their sums
+    std::array<Buffer, 6> arrays_;  // two sets of high, low and value
+    std::uint32_t flags_ = 0;       // first of the three arrays that hold flags, and then their sums
     EdgeArgs edge_args_{};
     std::uint32_t edges_ = 0, hinges_ = 0, crowded_ = 0;
     Buffer to_edges_, to_hinges_, to_crowded_, inconsistent_;

@@ -11,11 +11,12 @@
 namespace weft::vulkan {
 
 struct EdgeTimes {
-    double device_ms = 0;  ///< of the passes, without the ways there and back; 0 if the device has no clock
-    double wall_ms = 0;    ///< all of it: memory, triangles up, passes, lists back
+    double device_ms = 0;  ///< of the passes, without transfers; 0 if the device has no clock
+    double wall_ms = 0;    ///< total: allocation, upload of triangles, passes, download of lists
 };
 
-/// The lists that build_edges and build_hinges (mesh/edges.h) give, in the same order. Corners are < vertex_count.
+/// Returns the same lists in the same order as build_edges and build_hinges (mesh/edges.h). Corners must be
+/// < vertex_count.
 Result<EdgesAndHinges> build_edges_and_hinges(gpu::Device& device, Programs& programs,
                                               std::span<const Triangle> triangles, std::uint32_t vertex_count,
                                               EdgeTimes* times = nullptr);

@@ -41,7 +41,7 @@ class FindEdgesOnDevice : public DeviceTest {
             return build_edges_and_hinges(device(), programs(), triangles, particles);
         });
     }
-    /// A whole topology by the device, against the CPU's.
+    /// Compares a whole topology from the device with that of the CPU.
     void expect_same_topology(const TriangleMesh& mesh, const TopologyOptions& options, const std::string& what) {
         const auto here = build_topology(mesh, options), there = built(mesh, options);
         ASSERT_TRUE(here.ok() && there.ok()) << what;
@@ -71,7 +71,8 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
     return all;
 }
 
-/// Any corners at all, few of them: edges of many triangles, triangles twice, sides of no length.
+/// Random corners from few vertices: edges with many triangles, duplicate triangles, and, unless `sound`, sides of
+/// length 0.
 std::vector<Triangle> random_triangles(std::uint32_t count, std::uint32_t vertices, bool sound) {
     std::mt19937 random(count + vertices);
     std::vector<Triangle> triangles;
@@ -113,7 +114,7 @@ TEST_F(FindEdgesOnDevice, of_nothing_and_of_one_triangle) {
     EXPECT_TRUE(far.edges.edges == edges);
 }
 
-// As they come: nobody has taken out what is degenerate or twice there.
+// Triangles from which degenerate and duplicate ones were not removed.
 TEST_F(FindEdgesOnDevice, of_any_triangles) {
     for (const std::uint32_t vertices : {3u, 4u, 12u, 100u, 5000u})
         for (const bool sound : {true, false}) {
@@ -154,7 +155,7 @@ TEST_F(FindEdgesOnDevice, makes_the_same_topology_of_meshes_with_faults) {
     mesh.positions.push_back({9, 9, 9});                  // isolated
     add_triangle(mesh, {5, 0, 0}, {6, 0, 0}, {7, 0, 0});  // no area
     mesh.triangles.push_back({3, 3, 4});                  // no area either
-    for (std::uint32_t i = 0; i < count; i += 5) {        // twice, turned over or not
+    for (std::uint32_t i = 0; i < count; i += 5) {        // duplicates, flipped or not
         auto [a, b, c] = mesh.triangles[i];
         mesh.triangles.push_back(i % 2 ? Triangle{b, c, a} : Triangle{b, a, c});
     }

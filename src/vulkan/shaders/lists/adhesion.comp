@@ -1,6 +1,6 @@
 #version 450
-// Which particles stick to colliders where the frame begins: how many colliders each one does (WEFT_FINDS), or a row for
-// each of them.
+// Finds the particles that stick to colliders at the beginning of the frame. Writes the number of colliders for each
+// particle (WEFT_FINDS), or a constraint for each pair.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/lists/list.glsl"
 
@@ -39,7 +39,7 @@ void main()
         list.particles.at[row] = p;
         list.fields.at[3u * list.stride + row] = collider.adhesion_compliance;
         list.share.at[row] = share;
-        list.holds.at[row] = vec4(local, uintBitsToFloat(c));
+        list.targets.at[row] = vec4(local, uintBitsToFloat(c));
         ++row;
 #endif
     }

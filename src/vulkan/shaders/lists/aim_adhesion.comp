@@ -1,5 +1,5 @@
 #version 450
-// Where the colliders take what sticks to them in a substep.
+// Moves the targets of sticking particles with the colliders, once per substep.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/lists/list.glsl"
 
@@ -7,11 +7,11 @@ void main()
 {
     uint row = invocation();
     if (row >= first_row(list.items)) return;
-    vec4 hold = list.holds.at[row];
-    // Every cloth of a frame is told the same poses.
+    vec4 on_collider = list.targets.at[row];
+    // All cloths of a frame have the same poses.
     uint colliders = list.members.at[0].frame.at.colliders;
-    PoseIn pose = list.members.at[0].poses.at[(list.substep + 1u) * colliders + floatBitsToUint(hold.w)];
-    vec3 target = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, hold.xyz) + pose.position.xyz;
+    PoseIn pose = list.members.at[0].poses.at[(list.substep + 1u) * colliders + floatBitsToUint(on_collider.w)];
+    vec3 target = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, on_collider.xyz) + pose.position.xyz;
     list.fields.at[row] = target.x;
     list.fields.at[list.stride + row] = target.y;
     list.fields.at[2u * list.stride + row] = target.z;

@@ -1,5 +1,5 @@
 #version 450
-// What the rows of an item want of its particle.
+// Adds up the corrections of an item's constraints and moves its particle.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/lists/list.glsl"
 

@@ -1,4 +1,4 @@
-// Dynamic lists: rows that are found anew while the world moves, each with the other rows of the particle that it moves.
+// Dynamic lists: constraints that are found anew in every frame. The constraints of a particle are consecutive.
 #ifndef WEFT_LIST_GLSL
 #define WEFT_LIST_GLSL
 
@@ -7,7 +7,7 @@
 
 layout(push_constant) uniform Push { ListArgs list; };
 
-// The cloth that an item belongs to: the last one that begins there or before.
+// The cloth that an item belongs to: the last one that begins at or before the item.
 uint member_of(uint item)
 {
     uint begin = 0u, end = list.member_count;
@@ -21,7 +21,7 @@ uint member_of(uint item)
 
 uint particle_of(uint member, uint item) { return list.members.at[member].base + item - list.members.at[member].first; }
 
-// Rows [first_row(item), first_row(item + 1)) are those of an item. Rows that there is no room for have no place.
+// An item has rows [first_row(item), first_row(item + 1)). Rows beyond the capacity are left out.
 uint first_row(uint item) { return min(list.places.at[item], list.capacity); }
 
 #endif

@@ -1,5 +1,5 @@
 #version 450
-// How many workgroups the rows of this frame fill, and whether there is room for all of them. The work of one workgroup.
+// Computes the number of workgroups for this frame's list, and reports a full list. Runs as one workgroup.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/lists/list.glsl"
 

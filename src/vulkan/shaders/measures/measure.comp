@@ -1,6 +1,6 @@
 #version 450
-// The sum and the largest of each tile, always in the same order: 16 terms by each invocation, then by halves.
-// WEFT_ARGS is what it is told, and WEFT_MEASURES_… says what is summed.
+// Sum and largest term of each tile, always in the same order: each invocation adds 16 terms, then a tree reduction.
+// WEFT_ARGS is the type of the arguments, and WEFT_MEASURES_… selects the terms.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/tiles.glsl"
 #include "vulkan/measures/args.data.h"

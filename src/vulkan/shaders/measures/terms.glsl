@@ -1,5 +1,5 @@
-// What a particle, an edge or a row adds. Its size is ≥ 0 and goes as bits, which are in the order of such floats, with
-// what is not finite above all.
+// Term of a particle, an edge or a constraint. Its size is a float ≥ 0, stored as bits: they have the same order as
+// such floats, and non-finite numbers are the largest.
 #ifndef WEFT_TERMS_GLSL
 #define WEFT_TERMS_GLSL
 
@@ -12,7 +12,7 @@ struct Term {
 
 #define WEFT_NAN 0x7fc00000u
 
-// Also where a driver takes it for granted that no number is a NaN.
+// Tests the bits, because a driver may assume that no number is a NaN.
 bool is_finite(float x) { return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u; }
 bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
@@ -36,7 +36,7 @@ Term deviation(float x)
 }
 
 #ifdef WEFT_MEASURES_EDGES
-// ℓ/ℓ₀ - 1 as (ℓ² - ℓ₀²) / (ℓ₀ (ℓ + ℓ₀)), whose difference alone needs more than a float.
+// ℓ/ℓ₀ - 1 as (ℓ² - ℓ₀²) / (ℓ₀ (ℓ + ℓ₀)). Only the difference of the squares needs more than a float.
 Term term_of(uint e)
 {
     vec3 p = args.position.at[args.edges.at[4u * e]].xyz, q = args.position.at[args.edges.at[4u * e + 1u]].xyz;
@@ -48,21 +48,21 @@ Term term_of(uint e)
 #endif
 
 #ifdef WEFT_MEASURES_ROWS
-// What is left of a row of stretch (solver/measures/residual.cpp): |C + α̃λ| over the rest length, C from the length as float
-// that the solver has seen.
+// Residual of a stretch constraint (solver/measures/residual.cpp): |C + α̃λ| over the rest length. C uses the length
+// rounded to a float, as in the solver.
 Term term_of(uint row)
 {
     uint p = args.particles.at[row], q = args.particles.at[args.stride + row];
     if (p >= args.first_dummy || p == q) return Term(0.0, 0u);  // padding
     float length2 = square_of(args.position.at[p].xyz - args.position.at[q].xyz);
     float now = sqrt(length2);
-    // A device may have rounded the root as it likes; its error is a float, and makes it the nearest one.
+    // Devices round square roots differently. One Newton step gives the nearest float.
     Two squared = product_of(now, now);
     if (now > 0.0) now = now + ((length2 - squared.high) - squared.low) / (2.0 * now);
     float rest = args.fields.at[row];
     Two left = sum_of(now, -rest);
     float compliance = args.fields.at[(left.high > 0.0 ? 1u : 2u) * args.stride + row];
-    if (compliance < 0.0) return Term(0.0, 0u);  // nothing was to be solved
+    if (compliance < 0.0) return Term(0.0, 0u);  // no stiffness on this side
     if (args.inv_h2 > 0.0) {
         float lambda = args.lambda.at[row];
         if (!is_finite(lambda)) return Term(0.0, WEFT_NAN);

@@ -1,5 +1,5 @@
-// Numbers as sums of two floats, the second of which is what rounding dropped from the first: some 48 bits (Dekker 1971,
-// Knuth 1969). Strain and residual are small differences of large numbers, for which one float is not enough.
+// Numbers as sums of two floats, the second of which is the rounding error of the first: about 48 bits (Dekker 1971,
+// Knuth 1969). Strain and residual are small differences of large numbers, for which one float is not precise enough.
 #ifndef WEFT_TWO_FLOATS_GLSL
 #define WEFT_TWO_FLOATS_GLSL
 
@@ -10,7 +10,7 @@ struct Two {
 
 float value(Two a) { return a.high + a.low; }
 
-// Both to the last bit.
+// Exact sum and exact product.
 Two sum_of(float a, float b)
 {
     float sum = a + b;

@@ -1,9 +1,9 @@
 #version 450
-// How often each digit stands in each tile.
+// Counts how often each digit occurs in each tile.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/digits.glsl"
 
-#define WEFT_COPIES 8u  // neighbors often have the same digit, and must not queue for its counter
+#define WEFT_COPIES 8u  // neighbors often have the same digit; copies avoid contention for its counter
 
 shared uint counters[WEFT_DIGITS * WEFT_COPIES];
 

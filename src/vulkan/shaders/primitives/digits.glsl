@@ -6,7 +6,7 @@
 
 layout(push_constant) uniform Push { SortArgs args; };
 
-// Both words side by side are one number, of which the digit is some bits: those above the low word belong to the high.
+// Both words of a key form one number. A digit may have its lower bits in the low word and the others in the high word.
 uint digit_at(uint i)
 {
     uint digit = 0u;

@@ -1,5 +1,5 @@
 #version 450
-// Prefix sums of each tile, on top of the sums of the tiles before.
+// Prefix sums of each tile, plus the sums of the tiles before.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/tiles.glsl"
 
@@ -15,7 +15,7 @@ void main()
         tile[padded(i)] = begin + i < args.count ? args.source.at[begin + i] : 0u;
     barrier();
 
-    // Each invocation has some that follow one another.
+    // Each invocation scans consecutive elements.
     uint sum = 0u;
     for (uint k = 0u; k < WEFT_EACH; ++k) sum += tile[padded(me * WEFT_EACH + k)];
     uint all;

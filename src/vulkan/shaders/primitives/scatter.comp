@@ -1,13 +1,13 @@
 #version 450
-// Sorts each tile by a digit and carries it to where the digits of all tiles belong. Equal digits keep their order.
+// Sorts each tile by a digit and writes it to its place in the sorted array. Equal digits keep their order.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/digits.glsl"
 
 // Counters of 16 bits, two in a word: [digit % 16 · group + invocation], digits from 16 on in the upper halves.
 #define WEFT_HALF (WEFT_DIGITS / 2u)
 
-shared uint pool[WEFT_PADDED_TILE];  // the counters, then which element goes to which place in the sorted tile
-shared uint first[WEFT_DIGITS];      // where a digit's elements go, less its place in the sorted tile
+shared uint pool[WEFT_PADDED_TILE];  // the counters, then the element at each place of the sorted tile
+shared uint first[WEFT_DIGITS];      // destination of a digit's elements minus their place in the sorted tile
 
 uint counter_of(uint digit, uint invocation) { return padded(digit % WEFT_HALF * WEFT_GROUP + invocation); }
 uint upper_of(uint digit) { return digit / WEFT_HALF * 16u; }
@@ -18,7 +18,7 @@ void main()
     if (begin >= args.count) return;
     uint count = min(args.count - begin, WEFT_TILE);
 
-    // Each invocation counts the digits of elements that follow one another: how many of the same came before.
+    // Each invocation counts the digits of consecutive elements. The rank of an element is the count before it.
     for (uint digit = 0u; digit < WEFT_HALF; ++digit) pool[counter_of(digit, me)] = 0u;
     uint ranks[WEFT_EACH], digits[WEFT_EACH];
     for (uint k = 0u; k < WEFT_EACH; ++k) {
@@ -31,8 +31,8 @@ void main()
     }
     barrier();
 
-    // All counters of a digit after those of the digits before; in each digit, the invocations in order. A tile's
-    // elements fit into 16 bits, so that both halves are summed at once, and the upper ones begin with all lower.
+    // Prefix sums over the counters: by digit, and for each digit by invocation. The number of elements of a tile fits
+    // into 16 bits, so both halves are summed at once. The upper half starts at the total of the lower half.
     uint sum = 0u;
     for (uint k = 0u; k < WEFT_EACH; ++k) sum += pool[padded(me * WEFT_EACH + k)];
     uint all;
@@ -59,7 +59,7 @@ void main()
     }
     barrier();
 
-    // In sorted order: neighbors write side by side.
+    // Writes in sorted order, so that neighbors write to adjacent addresses.
     for (uint place = me; place < count; place += WEFT_GROUP) {
         uint i = begin + pool[place], to = first[digit_at(i)] + place;
         args.to_high.at[to] = args.high.at[i];

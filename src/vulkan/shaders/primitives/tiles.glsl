@@ -1,5 +1,5 @@
-// What these shaders begin with: a workgroup works on a tile of elements that follow one another. Nothing here knows
-// about subgroups, and no workgroup waits for another.
+// Common start of these shaders. A workgroup works on a tile of consecutive elements. The shaders use no subgroup
+// operations, and no workgroup waits for another.
 #ifndef WEFT_TILES_GLSL
 #define WEFT_TILES_GLSL
 
@@ -8,17 +8,17 @@
 
 layout(local_size_x = WEFT_GROUP) in;
 
-// A dispatch of more workgroups than fit along one axis goes on along the next.
+// A dispatch of more workgroups than fit along x continues along y.
 uint workgroup() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 uint invocation() { return workgroup() * WEFT_GROUP + gl_LocalInvocationID.x; }
 
-// Invocations that read 16 elements apart would all meet in two banks of shared memory; one gap in 32 spreads them.
+// Reads with a stride of 16 would all use the same two banks of shared memory. One gap per 32 elements spreads them.
 #define WEFT_PADDED_TILE 2112
 uint padded(uint i) { return i + (i >> 5u); }
 
 shared uint partial[2u * WEFT_GROUP];
 
-// The sum of what the invocations before this one bring, and of all (Hillis and Steele 1986). Once in a shader.
+// Sum of `mine` over the invocations before this one, and over all (Hillis and Steele 1986). Call once per shader.
 uint sum_before(uint mine, out uint all)
 {
     uint me = gl_LocalInvocationID.x;
@@ -28,7 +28,7 @@ uint sum_before(uint mine, out uint all)
     for (uint reach = 1u; reach < WEFT_GROUP; reach *= 2u) {
         uint sum = partial[at + me];
         if (me >= reach) sum += partial[at + me - reach];
-        at ^= WEFT_GROUP;  // the other half: nobody reads it now
+        at ^= WEFT_GROUP;  // the other half, which no invocation reads now
         partial[at + me] = sum;
         barrier();
     }

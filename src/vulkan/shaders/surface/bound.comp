@@ -1,5 +1,5 @@
 #version 450
-// Drawn vertices that follow a triangle of the simulated mesh each.
+// Moves drawn vertices, each of which follows a triangle of the simulated mesh.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/surface/args.data.h"

@@ -1,5 +1,5 @@
 #version 450
-// Tangents: each vertex adds up its triangles, in their order, so that there is one order.
+// Tangents: each vertex adds up its triangles in ascending order, so that the result is deterministic.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/surface/args.data.h"

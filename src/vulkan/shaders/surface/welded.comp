@@ -1,5 +1,5 @@
 #version 450
-// Drawn vertices whose particles they are.
+// Moves drawn vertices that coincide with particles.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/surface/args.data.h"

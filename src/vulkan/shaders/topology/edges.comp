@@ -1,5 +1,5 @@
 #version 450
-// Writes the edges, the hinges and the list of edges with three triangles or more, as mesh/edges.h has them.
+// Writes the edges, the hinges and the list of edges with three triangles or more, in the format of mesh/edges.h.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/primitives/tiles.glsl"
 #include "vulkan/topology/args.data.h"
@@ -20,7 +20,7 @@ void write_hinge(uint hinge, uint edge, uint a, uint b, uint triangle0, uint tri
 {
     uvec3 t0 = triangle_at(triangle0), t1 = triangle_at(triangle1);
     bool first_is_left = winds(t0, a, b);
-    // A count is the same in whatever order it is counted.
+    // The count does not depend on the order.
     if (first_is_left == winds(t1, a, b)) atomicAdd(args.to_inconsistent.at[0], 1u);
     uint opposite0 = t0.x ^ t0.y ^ t0.z ^ a ^ b, opposite1 = t1.x ^ t1.y ^ t1.z ^ a ^ b, to = 7u * hinge;
     args.to_hinges.at[to] = a;
