@@ -212,6 +212,7 @@ struct ClothDesc {
     MeshDesc mesh = {};                        ///< simulated mesh
     std::optional<MeshDesc> render_mesh = {};  ///< drawn mesh, follows `mesh`; nullopt: `mesh` is drawn
     TransformDesc transform = {};              ///< of both meshes, at the start
+    Vec3 velocity = {};  ///< m/s, each component within ±1e4: of all particles that are not pinned, at the start
     FabricDesc fabric = {};
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;

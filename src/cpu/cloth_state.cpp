@@ -14,6 +14,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
         std::ranges::fill(array, Vec4{});
     std::ranges::copy(model->start, mine.position.begin());
     std::ranges::transform(model->start, weights().begin(), &Vec4::w);
+    std::ranges::copy(start_velocities(*model), mine.velocity.begin());
     remember();
     stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
     by_face.resize(std::size_t{model->face_stride} + 1);

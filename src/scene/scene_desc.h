@@ -45,6 +45,7 @@ struct SceneCloth {
     MeshDesc mesh = {};                        ///< the simulated mesh
     std::optional<MeshDesc> render_mesh = {};  ///< the drawn mesh, which follows `mesh`; by default the same
     TransformDesc transform = {};
+    Vec3 velocity = {};  ///< m/s, at the start
     Fabric fabric = {};
     std::string fabric_name = "cotton";  ///< of the preset that the fabric is based on
     std::vector<PinDesc> pins = {};

@@ -133,6 +133,8 @@ inline constexpr Parameter cloth_keys[] = {
     {.key = "render_mesh", .kind = ParameterKind::object, .what = "mesh that is drawn and exported in place of "
                                                                   "`mesh`, and follows it"},
     {.key = "transform", .kind = ParameterKind::object, .what = "position, rotation and scale at the start"},
+    {.key = "velocity", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(SceneCloth, velocity),
+     .min = -1e4, .max = 1e4, .unit = "m/s", .what = "velocity at the start, of all particles that are not pinned"},
     {.key = "fabric", .kind = ParameterKind::object, .what = "name of a fabric, or an object"},
     {.key = "tethers", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, tethers),
      .what = "limit each particle's distance to its pins by the geodesic distance at rest: far less stretch; "

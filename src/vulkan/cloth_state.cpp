@@ -92,12 +92,14 @@ Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std:
     self->limits = arena.add_array(none);
     if (auto built = arena.build(device, "state of " + model.name); !built) return built.errors();
     // The range may still hold the particles of a removed cloth.
-    const std::vector<Vec4> zeros(model.capacity());
+    const std::vector<Vec4> velocities = start_velocities(model), zeros(model.capacity());
     for (std::uint32_t i = 0; i < point_array_count; ++i) {
         const auto array = static_cast<PointArray>(i);
-        const auto bytes =
-            array == PointArray::position ? std::as_bytes(std::span(model.start)) : std::as_bytes(std::span(zeros));
-        if (auto done = upload(device, world.buffer(), self->offset(array), bytes); !done) return done.errors();
+        std::span<const Vec4> values = zeros;
+        if (array == PointArray::position) values = model.start;
+        if (array == PointArray::velocity) values = velocities;
+        if (auto done = upload(device, world.buffer(), self->offset(array), std::as_bytes(values)); !done)
+            return done.errors();
     }
     return self;
 }

@@ -41,6 +41,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .mesh = {},
             .render_mesh = {},
             .transform = cloth.transform,
+            .velocity = cloth.velocity,
             .fabric = cloth.fabric,
             .fabric_name = cloth.fabric_name,
             .pins = cloth.pins,
@@ -51,7 +52,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
 
 /// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
-    return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform;
+    return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform && a.velocity == b.velocity;
 }
 bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
     return a.shape == b.shape && (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));

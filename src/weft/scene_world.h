@@ -67,11 +67,11 @@ class SceneWorld {
     void set_contact_forces(bool on);
 
     /// Applies the differences between the document and `next`, for example to undo edits. Objects are matched by name.
-    /// Fabric, pins, friction and pose of a matched object are changed while it keeps moving. A cloth whose mesh or
-    /// transform differs, and a collider whose shape or keys differ, are replaced by new ones. Kept objects keep their
-    /// order. Fails on a scene that does not pass its checks, with all problems, and then changes nothing. If a cloth
-    /// cannot be built, the world returns to the old document; cloths that were removed in the process begin at their
-    /// start.
+    /// Fabric, pins, friction and pose of a matched object are changed while it keeps moving. A cloth whose mesh,
+    /// transform or velocity differs, and a collider whose shape or keys differ, are replaced by new ones. Kept objects
+    /// keep their order. Fails on a scene that does not pass its checks, with all problems, and then changes nothing.
+    /// If a cloth cannot be built, the world returns to the old document; cloths that were removed in the process begin
+    /// at their start.
     Result<void> change_to(SceneDesc next);
 
     World& world() { return *world_; }

@@ -23,6 +23,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .mesh = desc.mesh,
             .render_mesh = desc.render_mesh,
             .transform = desc.transform,
+            .velocity = desc.velocity,
             .fabric = fabric,
             .fabric_name = desc.fabric.preset,
             .pins = desc.pins,

@@ -128,6 +128,21 @@ TEST(Simulation, takes_meshes_from_memory) {
     EXPECT_EQ(simulation.cloth_count(), 1u) << "what fails leaves nothing behind";
 }
 
+TEST(Simulation, starts_a_cloth_with_a_velocity) {
+    Simulation simulation = make_simulation({.gravity = {}});
+    ClothDesc thrown = small_sheet();
+    thrown.velocity = {0, -15, 0};
+    const auto cloth = simulation.add(thrown);
+    ASSERT_TRUE(cloth.ok());
+    simulation.step();
+    EXPECT_NEAR(simulation.surface(*cloth).positions[40].y, -15.0 / 60, 1e-5);
+
+    thrown.velocity = {NAN, 1e9f, -1e4f};
+    EXPECT_THAT(messages(simulation.add(thrown)), ElementsAre("/velocity/0: must be a finite number, got nan",
+                                                              "/velocity/1: must be ≤ 10000 m/s, got 1e9"));
+    EXPECT_EQ(simulation.cloth_count(), 1u);
+}
+
 TEST(Simulation, describes_fabrics_by_keys) {
     Simulation simulation = make_simulation();
     ClothDesc cloth = small_sheet();

@@ -26,6 +26,7 @@ struct SheetDesc {
     GridDiagonal diagonal = GridDiagonal::alternating;
     Vec3 rotation_degrees = {};
     Vec3 position = {};
+    Vec3 velocity = {};  ///< m/s, at the start
     Fabric fabric = {};
     ClothLayout layout = {};
     // Of the sheet as it lies flat around the origin:
@@ -40,7 +41,11 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
     for (Vec3& p : mesh.positions) p = turn * p + desc.position;
     auto topology = build_topology(mesh, {.reorder = false});
     EXPECT_TRUE(topology.ok());
-    ClothModelDesc model{.name = "sheet", .mesh = std::move(mesh), .fabric = desc.fabric, .layout = desc.layout};
+    ClothModelDesc model{.name = "sheet",
+                         .mesh = std::move(mesh),
+                         .start_velocity = desc.velocity,
+                         .fabric = desc.fabric,
+                         .layout = desc.layout};
     for (std::uint32_t v = 0; v < flat.size(); ++v) {
         const std::uint32_t p = topology->vertex_to_particle[v];
         if (desc.pinned && desc.pinned(flat[v])) model.pins.particles.push_back(p);

@@ -48,6 +48,48 @@ TEST(Snapshot, brings_back_the_same_bits) {
     EXPECT_EQ(other.state_hash(), later);
 }
 
+TEST(World, starts_a_cloth_with_its_velocity) {
+    constexpr Vec3 velocity{2, 5, -1};
+    SheetDesc flying = small({0, 1, 0});
+    flying.velocity = velocity;
+    World world = make_world({.gravity = {}}, flying);
+    for (const Vec4& v : world.frame().cloths[0].velocities) EXPECT_EQ(v.xyz(), velocity);
+    run(world, 0.5);
+    const ClothFrame& cloth = world.frame().cloths[0];
+    const Vec3 center = center_of_mass(cloth);
+    EXPECT_NEAR(center.x, 1, 1e-5);
+    EXPECT_NEAR(center.y, 3.5, 1e-5);
+    EXPECT_NEAR(center.z, -0.5, 1e-5);
+    EXPECT_LT(measure_strain(world.frame()).stretch.max, 1e-4) << "all particles fly alike";
+
+    // Another model keeps the velocities of the particles.
+    ASSERT_TRUE(world.set_model(world.cloth_id(0), make_sheet(small({0, 1, 0})), {}).ok());
+    for (const Vec4& v : world.frame().cloths[0].velocities) EXPECT_NEAR(v.y, velocity.y, 1e-3);
+}
+
+TEST(World, starts_pinned_particles_at_rest) {
+    SheetDesc sheet = small({0, 1, 0});
+    sheet.velocity = {0, -3, 0};
+    sheet.pinned = [](Vec3 p) { return p.x < -0.19f; };
+    World world = make_world({.gravity = {}}, sheet);
+    const auto count_moved = [&] {
+        const ClothFrame& cloth = world.frame().cloths[0];
+        int moved = 0;
+        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+            const bool pinned = !(cloth.positions[p].w > 0);
+            EXPECT_EQ(cloth.velocities[p].xyz() == Vec3{}, pinned) << p;
+            if (pinned) {
+                EXPECT_EQ(cloth.positions[p].xyz(), cloth.model->rest_position(p)) << p;
+            }
+            moved += cloth.positions[p].y < 1;
+        }
+        return moved;
+    };
+    EXPECT_EQ(count_moved(), 0);
+    run(world, 1.0 / 60);
+    EXPECT_EQ(count_moved(), 9 * 8);
+}
+
 TEST(World, is_measured_as_its_frame_is) {
     World world = lively_world();
     run(world, 0.25);

@@ -267,6 +267,7 @@ TEST(SceneFile, NamesWrongTypes) {
          {"s.json: /cloths/0/fabric/inextensible: must be true or false, got 1"}},
         {cloth(R"("fabric": {"rest_angle": "flat"})"),
          {"s.json: /cloths/0/fabric/rest_angle: must be a number or \"mesh\", got \"flat\""}},
+        {cloth(R"("velocity": -15)"), {"s.json: /cloths/0/velocity: must be a list of 3 numbers, got -15"}},
         {cloth(R"("pins": {"vertices": [1]})"), {"s.json: /cloths/0/pins: must be a list, got an object"}},
         {cloth(R"("pins": [{"vertices": 1}])"), {"s.json: /cloths/0/pins/0/vertices: must be a list, got 1"}},
         {cloth(R"("pins": [{"vertices": [1.5, "a"]}])"),
@@ -346,7 +347,7 @@ TEST(SceneFile, NamesWhatIsMissingOrTooMuch) {
 
 TEST(SceneFile, ReadsWhatMoves) {
     const auto read = parse_scene(R"({"weft": 1,
-        "cloths": [{"tethers": "on", "tether_slack": 0.1, "pins": [
+        "cloths": [{"tethers": "on", "tether_slack": 0.1, "velocity": [0, -15, 0.5], "pins": [
             {"vertices": [0], "attach": "drum"},
             {"vertices": [1], "motion": [{"time": 1}, {"time": 2, "offset": [1, 2, 3]}]}]}],
         "colliders": [
@@ -358,6 +359,7 @@ TEST(SceneFile, ReadsWhatMoves) {
     const SceneCloth& cloth = read->cloths[0];
     EXPECT_EQ(cloth.tethers, Tethers::on);
     EXPECT_EQ(cloth.tether_slack, 0.1f);
+    EXPECT_EQ(cloth.velocity, Vec3(0, -15, 0.5f));
     EXPECT_EQ(cloth.pins[0].attach, "drum");
     ASSERT_EQ(cloth.pins[1].motion.size(), 2u);
     EXPECT_EQ(cloth.pins[1].motion[1].offset, Vec3(1, 2, 3));

@@ -239,6 +239,7 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
+    model->start_velocity = desc.start_velocity;
     model->build_times = desc.build_times;
     if (auto done =
             lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout, desc.reserve);
@@ -283,6 +284,7 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
                                                              const ClothPins& pins, const ClothLayout& layout) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
+    model->start_velocity = from.start_velocity;
     model->binding = from.binding;
     if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
         model->set_mesh_of_particles(mesh.uvs, mesh.colors);
@@ -363,6 +365,14 @@ EdgesByDirection edges_by_direction(const ClothModel& model) {
         return edges;
     };
     return {grouped(true), grouped(false)};
+}
+
+std::vector<Vec4> start_velocities(const ClothModel& model) {
+    std::vector<Vec4> velocities(model.capacity());
+    const auto [x, y, z] = model.start_velocity;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p)
+        if (model.start[p].w > 0) velocities[p] = {x, y, z, 0};
+    return velocities;
 }
 
 std::vector<float> face_masses(const ClothModel& model) {

@@ -46,6 +46,7 @@ struct ClothModelDesc {
     std::string name = {};
     TriangleMesh mesh = {};                        ///< simulated mesh, in world space, m
     std::optional<TriangleMesh> render_mesh = {};  ///< drawn mesh, follows `mesh`; nullopt: `mesh` is drawn
+    Vec3 start_velocity = {};                      ///< m/s
     Fabric fabric = {};
     ClothPins pins = {};
     ClothLayout layout = {};
@@ -78,9 +79,10 @@ struct ClothModel {
     std::uint32_t anchor_count = 0;  ///< anchors of attachments, stored after the reserve; inverse mass 0
     std::uint32_t anchor_room = 0;   ///< largest number of anchors
     std::uint32_t pinned_count = 0;
-    SharedArray<Vec4> start;  ///< m and 1/kg: position and inverse mass; padded to capacity()
-    SharedArray<float> mass;  ///< kg, per particle, pinned ones included
-    float extent = 0;         ///< m, of the cloth at rest
+    SharedArray<Vec4> start;   ///< m and 1/kg: position and inverse mass; padded to capacity()
+    Vec3 start_velocity = {};  ///< m/s, of the particles that are not pinned
+    SharedArray<float> mass;   ///< kg, per particle, pinned ones included
+    float extent = 0;          ///< m, of the cloth at rest
 
     std::array<ConstraintTable, constraint_kind_count> constraints;
     SharedArray<CoarseLevel> hierarchy;  ///< finest level first; empty if not requested or of no use
@@ -151,6 +153,10 @@ struct EdgesByDirection {
     std::vector<EdgeEnds> axial, others;
 };
 EdgesByDirection edges_by_direction(const ClothModel& model);
+
+/// Velocity of every point at the start: that of the model for particles that are not pinned, 0 for all other points.
+/// capacity() elements; w is 0.
+std::vector<Vec4> start_velocities(const ClothModel& model);
 
 /// Mass of every triangle in kg; 0 for padding.
 std::vector<float> face_masses(const ClothModel& model);
