@@ -378,6 +378,16 @@ TEST_F(Cli, stats_say_the_same_on_vulkan) {
         EXPECT_EQ(on_vulkan[key], on_cpu[key]) << key;
 }
 
+TEST_F(Cli, names_a_cloth_that_vulkan_cannot_simulate) {
+    write("sheet.json", R"({ "weft": 1, "cloths": [{}, { "name": "scarf", "self_collision": true }] })");
+    const Outcome outcome = weft("run sheet.json --frames 2 --quiet --backend vulkan");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.err,
+              "weft: error: sheet.json: /cloths/1/self_collision: must be \"off\" on the Vulkan backend, got \"exact\" "
+              "for cloth 'scarf'; use --backend cpu\n");
+    EXPECT_EQ(stats("--frames 2")["backend"], "cpu");
+}
+
 TEST_F(Cli, names_what_vulkan_lacks_with_status_1) {
     const auto expect_failure = [&](const std::string& arguments, const std::string& before, const std::string& says) {
         const Outcome outcome = weft("run sheet.json --frames 2 --quiet " + arguments, before);

@@ -46,6 +46,10 @@ struct SolverDesc {
 /// SolverDesc::hierarchy is on, the fabric is inextensible and the cloth hangs by at most 16 places.
 enum class Tethers { automatic, on, off };
 
+/// Contact of a cloth with itself and with the other cloths that have it. `exact`: the cloth passes neither through
+/// itself nor through such a cloth; on the CPU backend only.
+enum class SelfCollision { off, exact };
+
 /// `directional`: the same velocity everywhere.
 enum class WindKind { directional };
 
@@ -217,6 +221,7 @@ struct ClothDesc {
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
+    SelfCollision self_collision = SelfCollision::off;
 };
 
 /// The solid half space normal·x ≤ offset, in the collider's local frame.

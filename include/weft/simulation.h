@@ -28,7 +28,8 @@ using MeshReader = std::function<Result<TriangleMesh>(const std::string& file, c
 
 /// Where and how to compute, and solver settings that replace those of the scene.
 struct Options {
-    /// "cpu", "vulkan" or "auto". "auto" uses Vulkan if there is a suitable GPU, otherwise the CPU.
+    /// "cpu", "vulkan" or "auto". "auto" uses Vulkan if there is a suitable GPU, otherwise the CPU. For a
+    /// scene file with self-collision, "auto" uses the CPU if `device` is empty.
     std::string backend = "auto";
     /// Vulkan: part of the device's name, case-insensitive; empty: the best device.
     std::string device = {};

@@ -50,7 +50,8 @@ struct SceneCloth {
     std::string fabric_name = "cotton";  ///< of the preset that the fabric is based on
     std::vector<PinDesc> pins = {};
     Tethers tethers = Tethers::automatic;
-    float tether_slack = 0;                      ///< relative to the geodesic distance
+    float tether_slack = 0;  ///< relative to the geodesic distance
+    SelfCollision self_collision = SelfCollision::off;
     std::optional<SceneMaterial> material = {};  ///< by default that of the fabric
     friend bool operator==(const SceneCloth&, const SceneCloth&) = default;
 };

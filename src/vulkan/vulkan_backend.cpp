@@ -49,6 +49,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+        if (auto supported = check_supported(*model); !supported) return supported.errors();
         auto cloth = make_cloth(std::move(model), base);
         if (!cloth) return cloth.errors();
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
@@ -69,6 +70,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     Result<void> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         Cloth& old = cloth(handle);
         assert(model->first_anchor() == old.model().first_anchor());
+        if (auto supported = check_supported(*model); !supported) return supported;
         const auto before = old.save();
         if (!before) return before.errors();
         const bool same_anchors = model->anchor_count == old.model().anchor_count;
@@ -203,6 +205,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
   private:
+    static Result<void> check_supported(const ClothModel& model) {
+        if (model.self_collision == SelfCollision::off) return {};
+        return Error{"/self_collision", "must be \"off\" on the Vulkan backend, got \"exact\" for cloth '" +
+                                            model.name + "'; use --backend cpu"};
+    }
+
     Cloth& cloth(ClothHandle handle) const {
         assert(handle.value < cloths_.size() && cloths_[handle.value]);
         return *cloths_[handle.value];

@@ -20,6 +20,7 @@ inline constexpr std::array<std::string_view, 3> backend_names = {"auto", "cpu",
 using MakeBackend = std::function<Result<std::unique_ptr<Backend>>(const Options&)>;
 
 /// `auto` selects a suitable GPU if there is one, otherwise the CPU. It never selects a software device.
+/// SceneWorld::create() passes `cpu` in its place if the scene needs the CPU.
 Result<std::unique_ptr<Backend>> make_backend(const Options& options);
 
 }  // namespace weft

@@ -123,6 +123,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                     .render_mesh = std::move(drawn),
                                     .start_velocity = cloth.velocity,
                                     .fabric = fabric_of(cloth),
+                                    .self_collision = cloth.self_collision,
                                     .pins = std::move(pinned->pins),
                                     .layout = world.settings().layout(),
                                     .build_times = build_times},
@@ -139,7 +140,7 @@ Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, c
     const TriangleMesh& mesh = simulated_mesh(now, source);
     auto topology = build_topology(mesh, source.topology);
     if (!topology) return topology.errors();
-    return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout);
+    return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout, cloth.self_collision);
 }
 
 Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource& source,

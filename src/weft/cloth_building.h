@@ -46,7 +46,8 @@ Fabric fabric_of(const SceneCloth& cloth);
 /// The simulated mesh at the start, in world space.
 const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source);
 
-/// Builds a model with another fabric, other pins or another layout for the particles of `now`.
+/// Builds a model with the fabric and the self-collision of `cloth`, and other pins or another layout, for the
+/// particles of `now`.
 Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,
                                                         const SceneCloth& cloth, const ClothPins& pins,
                                                         const ClothLayout& layout);

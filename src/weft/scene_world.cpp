@@ -29,6 +29,21 @@ WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, Worl
     return now;
 }
 
+/// The options, with the CPU in place of `auto` if the scene needs it. A named device remains: it is one of Vulkan.
+Options for_scene(Options options, const SceneDesc& scene) {
+    const auto collides = [](const SceneCloth& cloth) { return cloth.self_collision != SelfCollision::off; };
+    if (options.backend == "auto" && options.device.empty() && std::ranges::any_of(scene.cloths, collides))
+        options.backend = "cpu";
+    return options;
+}
+
+/// Puts the place of an object before the places of its values.
+Errors placed_at(const std::string& pointer, Errors errors) {
+    for (Error& error : errors)
+        if (error.fault == Fault::input && error.where.starts_with('/')) error.where.insert(0, pointer);
+    return errors;
+}
+
 template <class Named>
 const Named* find_named(const std::vector<Named>& all, const std::string& name) {
     const auto it = std::ranges::find(all, name, &Named::name);
@@ -47,6 +62,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .pins = cloth.pins,
             .tethers = cloth.tethers,
             .tether_slack = cloth.tether_slack,
+            .self_collision = cloth.self_collision,
             .material = cloth.material};
 }
 
@@ -72,8 +88,9 @@ SceneWorld::SceneWorld(SceneWorld&&) noexcept = default;
 SceneWorld& SceneWorld::operator=(SceneWorld&&) noexcept = default;
 SceneWorld::~SceneWorld() = default;
 
-Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
+Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& wanted, const std::filesystem::path& folder,
                                       const MakeBackend& make) {
+    const Options options = for_scene(wanted, scene);
     if (Errors errors = apply(options, scene.solver); !errors.empty()) return errors;
     auto backend = make ? make(options) : make_backend(options);
     if (!backend) return backend.errors();
@@ -118,7 +135,7 @@ Result<ClothId> SceneWorld::add(SceneCloth cloth, const std::string& pointer) {
     auto built = build_cloth(cloth, files_, *world_, pointer, notes_);
     if (!built) return built.errors();
     auto id = world_->try_add(std::move(built->model), std::move(built->targets));
-    if (!id) return id.errors();
+    if (!id) return placed_at(pointer, id.errors());
     sources_.push_back(std::move(built->source));
     scene_.cloths.push_back(std::move(cloth));
     return *id;
@@ -403,7 +420,7 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         if (*there == wanted) continue;
         const ClothId id = world_->cloth_id(place);
         Pinned pinned{sources_[place].pins, world_->kinematic_targets(id)};
-        if (there->pins == wanted.pins) {
+        if (there->pins == wanted.pins && there->self_collision == wanted.self_collision) {
             auto changed = change_material(place, wanted);
             if (!changed) return changed.errors();
             if (*changed) continue;
@@ -413,7 +430,7 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
             pinned = std::move(*selected);
         }
         auto changed = change_cloth(id, without_meshes(wanted), std::move(pinned.pins), std::move(pinned.targets));
-        if (!changed) return changed;
+        if (!changed) return placed_at("/cloths/" + std::to_string(i), changed.errors());
     }
     return {};
 }

@@ -180,6 +180,58 @@ TEST(SceneWorld, starts_a_cloth_again_with_another_velocity) {
     EXPECT_EQ(world.world().model(world.world().cloth_id(1))->start_velocity, (Vec3{0, -15, 0}));
 }
 
+TEST(SceneWorld, changes_self_collision_of_a_moving_cloth) {
+    SceneWorld world = open(two_sheets());
+    hash_after(world, 2);
+    const ClothId a = world.world().cloth_id(0);
+    const auto in_model = [&] { return world.world().model(a)->self_collision; };
+    EXPECT_EQ(in_model(), SelfCollision::off);
+    const float height = world.world().frame().cloths[0].positions[143].y;
+    SceneDesc next = world.scene();
+    next.cloths[0].self_collision = SelfCollision::exact;
+    next.cloths[0].fabric.body.density = 0.3f;
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_TRUE(world.world().contains(a)) << "it goes on as it was";
+    EXPECT_EQ(world.world().frame().cloths[0].positions[143].y, height);
+    EXPECT_EQ(in_model(), SelfCollision::exact);
+    EXPECT_EQ(world.world().model(a)->fabric.body.density, 0.3f);
+    EXPECT_EQ(world.scene().cloths[0].self_collision, SelfCollision::exact);
+    expect_document_says_all(world);
+
+    // Other changes keep it, whether they build a model or not.
+    ASSERT_TRUE(world.set_fabric(a, find_fabric("denim")->fabric, "denim").ok());
+    EXPECT_EQ(in_model(), SelfCollision::exact);
+    ASSERT_TRUE(world.set_pins(a, {{.select = VertexPins{{5}}}}).ok());
+    EXPECT_EQ(in_model(), SelfCollision::exact);
+    ASSERT_TRUE(world.set_solver({.substeps = 3, .hierarchy = false}).ok());
+    EXPECT_EQ(in_model(), SelfCollision::exact);
+    expect_document_says_all(world);
+
+    next = world.scene();
+    next.cloths[0].self_collision = SelfCollision::off;
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_EQ(in_model(), SelfCollision::off);
+    expect_document_says_all(world);
+}
+
+TEST(SceneWorld, with_self_collision_selects_the_cpu_for_auto) {
+    const auto selected = [](const SceneDesc& scene, const Options& options) {
+        std::string backend;
+        const auto world = SceneWorld::create(scene, options, {}, [&](const Options& made) {
+            backend = made.backend;
+            return make_backend({.backend = "cpu"});
+        });
+        EXPECT_TRUE(world.ok()) << world.error().message();
+        return backend;
+    };
+    SceneDesc scene = two_sheets();
+    EXPECT_EQ(selected(scene, {}), "auto");
+    scene.cloths[1].self_collision = SelfCollision::exact;
+    EXPECT_EQ(selected(scene, {}), "cpu");
+    EXPECT_EQ(selected(scene, {.backend = "vulkan"}), "vulkan") << "the backend reports an error then";
+    EXPECT_EQ(selected(scene, {.device = "some"}), "auto") << "who names a device wants that one";
+}
+
 TEST(SceneWorld, keeps_to_its_document_where_another_is_wrong) {
     SceneWorld world = open(two_sheets());
     const SceneDesc before = world.scene();

@@ -117,6 +117,12 @@ Json numbers(const Parameter& p) {
     return {{"type", "array"}, {"items", one_number(p)}, {"minItems", p.count}, {"maxItems", p.count}};
 }
 
+Json choices_json(const Parameter& p) {
+    Json names = choice_names(p);
+    if (p.flag_too) names.push_back(false), names.push_back(true);
+    return names;
+}
+
 Json fabric_names() {
     Json names = Json::array();
     for (const FabricPreset& preset : fabric_presets()) names.push_back(preset.name);
@@ -160,7 +166,7 @@ Json type_json(const Parameter& p, const std::string& place) {
         case ParameterKind::flag:
             return {{"type", "boolean"}};
         case ParameterKind::choice:
-            return {{"enum", choice_names(p)}};
+            return {{"enum", choices_json(p)}};
         case ParameterKind::text:
             if (place + key == "/cloths/*/fabric/preset") return {{"enum", fabric_names()}};
             if (place + key == "/cloths/*/material/preset") return {{"enum", material_names()}};

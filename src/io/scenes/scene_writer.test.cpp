@@ -76,6 +76,14 @@ TEST(SceneWriter, NoKeyIsForgotten) {
         }
 }
 
+TEST(SceneWriter, WritesSelfCollisionAsAWord) {
+    EXPECT_EQ(rewritten(R"({"weft": 1, "cloths": [{"self_collision": true}, {"self_collision": false}]})"), R"({
+    "weft": 1,
+    "cloths": [{ "self_collision": "exact" }, {}]
+}
+)");
+}
+
 TEST(SceneWriter, SaysOnlyWhatDiffersFromDefaults) {
     EXPECT_EQ(rewritten(R"({"weft": 1, "cloths": [{}]})"), R"({
     "weft": 1,

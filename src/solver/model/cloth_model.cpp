@@ -240,6 +240,7 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->start_velocity = desc.start_velocity;
+    model->self_collision = desc.self_collision;
     model->build_times = desc.build_times;
     if (auto done =
             lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout, desc.reserve);
@@ -281,10 +282,12 @@ Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& fro
 
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Topology& topology, const Fabric& fabric,
-                                                             const ClothPins& pins, const ClothLayout& layout) {
+                                                             const ClothPins& pins, const ClothLayout& layout,
+                                                             SelfCollision self_collision) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
     model->start_velocity = from.start_velocity;
+    model->self_collision = self_collision;
     model->binding = from.binding;
     if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
         model->set_mesh_of_particles(mesh.uvs, mesh.colors);

@@ -48,6 +48,7 @@ struct ClothModelDesc {
     std::optional<TriangleMesh> render_mesh = {};  ///< drawn mesh, follows `mesh`; nullopt: `mesh` is drawn
     Vec3 start_velocity = {};                      ///< m/s
     Fabric fabric = {};
+    SelfCollision self_collision = SelfCollision::off;
     ClothPins pins = {};
     ClothLayout layout = {};
     ClothReserve reserve = {};
@@ -72,6 +73,7 @@ struct ClothModel {
     SharedArray<std::uint32_t> vertex_to_particle;  ///< as in Topology; empty with a binding
     Fabric fabric;                                  ///< `tether.use` is on or off, never automatic
     Tethers tethers_asked = Tethers::automatic;     ///< `tether.use` as requested
+    SelfCollision self_collision = SelfCollision::off;
 
     std::uint32_t particle_count = 0;
     ClothReserve reserved = {};      ///< reserve at build time
@@ -166,11 +168,12 @@ std::vector<float> face_masses(const ClothModel& model);
 /// not > 0 and finite, or if the render mesh is malformed.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
-/// Builds a model of the same mesh with another fabric, other pins or another layout. `mesh` and `topology` are those
-/// that `from` was built from.
+/// Builds a model of the same mesh with another fabric, other pins, another layout or another self-collision. `mesh`
+/// and `topology` are those that `from` was built from.
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Topology& topology, const Fabric& fabric,
-                                                             const ClothPins& pins, const ClothLayout& layout = {});
+                                                             const ClothPins& pins, const ClothLayout& layout = {},
+                                                             SelfCollision self_collision = SelfCollision::off);
 
 /// Returns the same constraints with the parameters of another fabric. Compliances, masses, inverse masses and
 /// elasticity have the bits that build_cloth_model() gives. All other arrays are shared with `from`, so coarse levels
