@@ -52,8 +52,8 @@ TEST_F(Cli, stats_have_every_figure) {
     EXPECT_GT(s["mean_speed"], 0.01);
     EXPECT_GT(s["max_speed"], 0);
     EXPECT_TRUE(s["penetration"].contains("max") && s["penetration"].contains("count"));
-    EXPECT_EQ(s["self_contacts"], 0);
-    EXPECT_TRUE(s["intersections"].contains("triangles") && s["intersections"].contains("edges"));
+    for (const char* key : {"self_contacts", "searches", "limited", "tangled"}) EXPECT_EQ(s[key], 0) << key;
+    for (const char* key : {"triangles", "edges", "worst"}) EXPECT_TRUE(s["intersections"].contains(key)) << key;
     EXPECT_EQ(s["torn_edges"], 0);
     EXPECT_EQ(s["reports"], Json::array());
     EXPECT_EQ(s["state_hash"].get<std::string>().size(), 16u);
@@ -83,6 +83,26 @@ TEST_F(Cli, contact_forces_are_the_force_on_each_collider) {
     const Outcome said = weft("run sheet.json --frames 60 --contact-forces");
     EXPECT_NE(said.out.find("on scale"), std::string::npos) << said.out;
     EXPECT_NE(said.out.find("64 contacts"), std::string::npos) << said.out;
+}
+
+TEST_F(Cli, crossings_are_counted_in_the_last_frame_or_in_every_one) {
+    // A tilted sheet flies through one that hangs by its corners.
+    write("sheet.json", R"({ "weft": 1, "cloths": [
+        { "mesh": { "grid": { "size": [0.4, 0.4], "resolution": [5, 5] } }, "pins": [{ "vertices": [0, 4, 20, 24] }] },
+        { "mesh": { "grid": { "size": [0.4, 0.4], "resolution": [5, 5] } }, "velocity": [0, -15, 0],
+          "transform": { "position": [0, 0.25, 0], "rotation": [30, 0, 0] } }] })");
+    const Json within = stats("--frames 1"), after = stats("--frames 8"), every = stats("--frames 8 --crossings every");
+    EXPECT_GT(within["intersections"]["triangles"], 0);
+    EXPECT_EQ(within["intersections"]["worst"], within["intersections"]["triangles"]);
+    EXPECT_EQ(after["intersections"]["triangles"], 0);
+    EXPECT_EQ(after["intersections"]["worst"], 0) << "only the last frame is counted";
+    EXPECT_EQ(every["intersections"]["triangles"], 0);
+    EXPECT_GE(every["intersections"]["worst"], within["intersections"]["triangles"]);
+    EXPECT_EQ(every["state_hash"], after["state_hash"]);
+    const Outcome said = weft("run sheet.json --frames 8 --crossings every");
+    EXPECT_NE(said.out.find("crossings     0 pairs of triangles, at most "), std::string::npos) << said.out;
+    EXPECT_EQ(weft("run sheet.json --frames 8").out.find("crossings"), std::string::npos);
+    expect_usage_error("run sheet.json --crossings all", "--crossings: must be \"last\" or \"every\", got \"all\"");
 }
 
 // Labels: slow no-asan

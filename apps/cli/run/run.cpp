@@ -21,6 +21,7 @@ struct RunOptions {
     Length length;
     std::vector<std::string> outputs;
     std::string stats;
+    std::string crossings = "last";
     bool quiet = false;
     Options common;
 };
@@ -101,6 +102,8 @@ int run(const RunOptions& options) {
         print_errors(errors);
         return exit_code(errors);
     };
+    const auto crossings = read_crossings(options.crossings);
+    if (!crossings) return wrong(crossings.errors());
     auto exporters = open_exporters(options);
     if (!exporters) return wrong(exporters.errors());
     Options common = options.common;
@@ -118,7 +121,7 @@ int run(const RunOptions& options) {
     for (const std::string& note : session->notes()) print_warning(note);
     if (const auto note = large_export_note(*estimates)) print_warning(*note);
 
-    RunStatistics statistics(*session, *frames);
+    RunStatistics statistics(*session, *frames, *crossings);
     if (auto done = simulate(*session, *frames, *exporters, statistics, options.quiet); !done) {
         print_errors(done.errors());
         return exit_failed;
@@ -168,6 +171,12 @@ Command add_run(Program& program) {
         .one_at_a_time();
     arguments.add("--stats", options->stats, "write times, stretch and energy of the run to this JSON file")
         .called("FILE");
+    arguments
+        .add("--crossings", options->crossings,
+             "where to count pairs of crossing triangles: in the last frame, or in every frame, which is slow and "
+             "finds the worst one")
+        .called("last|every")
+        .with_default();
     arguments.add("--contact-forces", options->common.contact_forces,
                   "print force and torque of the cloths on each collider in the last frame");
     arguments.add("--quiet", options->quiet, "print errors only");

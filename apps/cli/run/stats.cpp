@@ -2,8 +2,8 @@
 
 #include "io/files/atomic_file.h"
 #include "scene/check.h"
+#include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
-#include "solver/measures/statistics.h"
 
 #include <nlohmann/json.hpp>
 
@@ -57,8 +57,15 @@ double median_of(std::vector<double> values) {
     return median(values);
 }
 
-RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames)
-    : frame_seconds_(session.frame_seconds()) {
+Result<CountCrossings> read_crossings(const std::string& word) {
+    constexpr std::array<std::string_view, 2> names = {"last", "every"};
+    if (word == names[0]) return CountCrossings::last;
+    if (word == names[1]) return CountCrossings::every;
+    return Error{"--crossings", "must be " + alternatives(names) + ", got " + in_quotes(word)};
+}
+
+RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings)
+    : frame_seconds_(session.frame_seconds()), count_crossings_(crossings) {
     const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);
     snapshot_frame_ = frames - static_cast<std::uint64_t>(last_second + 0.5);
     if (snapshot_frame_ == 0) collect_positions(session.world().frame(), snapshot_);
@@ -70,6 +77,11 @@ void RunStatistics::add(const World& world) {
     step_ms_.push_back(frame.step_ms);
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms_[stage] += frame.stage_ms[stage];
     reports_ |= frame.reports;
+    cloth_contacts_.add(frame.cloth_contacts);
+    if (count_crossings_ == CountCrossings::every) {
+        crossings_ = count_intersections(world.frame());
+        worst_crossings_ = std::max(worst_crossings_, crossings_->triangles);
+    }
     if (frame.index == snapshot_frame_) {
         collect_positions(world.frame(), snapshot_);
         snapshot_time_ = frame.time;
@@ -105,7 +117,7 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     }
     const ClothMeasures measures = world.measure();
     const Penetration penetration = measure_penetration(frame, world.colliders());
-    const Intersections intersections = count_intersections(frame);
+    const Intersections crossings = crossings_ ? *crossings_ : count_intersections(frame);
 
     Json stats;
     stats["scene"] = scene_file;
@@ -130,8 +142,13 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["max_speed"] = measures.max_speed;
     stats["penetration"] = {{"max", penetration.max}, {"count", penetration.count}};
     if (world.settings().contact_forces) stats["colliders"] = loads(world);
-    stats["self_contacts"] = 0;  // cloth does not collide with itself yet
-    stats["intersections"] = {{"triangles", intersections.triangles}, {"edges", intersections.edges}};
+    stats["self_contacts"] = cloth_contacts_.contacts;
+    stats["searches"] = cloth_contacts_.searches;
+    stats["limited"] = cloth_contacts_.limited;
+    stats["tangled"] = cloth_contacts_.tangled;
+    stats["intersections"] = {{"triangles", crossings.triangles},
+                              {"edges", crossings.edges},
+                              {"worst", std::max(worst_crossings_, crossings.triangles)}};
     stats["torn_edges"] = 0;  // cloth cannot tear yet
     stats["reports"] = report_names(reports_);
     stats["state_hash"] = world.state_hash();
@@ -170,6 +187,13 @@ void print_summary(const Json& s) {
                 100 * number("residual", "max"));
     std::printf("  penetration   max %.3g mm\n", 1000 * number("penetration", "max"));
     std::printf("  mean speed    %.3g m/s\n", s["mean_speed"].get<double>());
+    const auto count = [&](const char* key) { return s[key].get<unsigned long long>(); };
+    if (count("searches") > 0)
+        std::printf("  self contact  %llu contacts, %llu searches, %llu limited, %llu tangled\n",
+                    count("self_contacts"), count("searches"), count("limited"), count("tangled"));
+    if (const auto worst = s["intersections"]["worst"].get<unsigned long long>(); worst > 0)
+        std::printf("  crossings     %llu pairs of triangles, at most %llu in a counted frame\n",
+                    s["intersections"]["triangles"].get<unsigned long long>(), worst);
     if (s.contains("colliders")) {
         for (const Json& load : s["colliders"]) {
             const auto axis = [&](const char* of, std::size_t k) { return load[of][k].get<double>(); };

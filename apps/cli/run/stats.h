@@ -1,11 +1,15 @@
 // The figures of a run: collected frame by frame, written as JSON, summarized on the terminal.
 #pragma once
 
+#include "solver/measures/statistics.h"
 #include "weft/scene_world.h"
+
+#include <weft/result.h>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +21,16 @@ double median(const std::vector<double>& sorted);
 double median_of(std::vector<double> values);
 double percentile(const std::vector<double>& sorted, double fraction);
 
+/// Frames in which pairs of crossing triangles are counted.
+enum class CountCrossings { last, every };
+
+/// Reads the value of --crossings.
+Result<CountCrossings> read_crossings(const std::string& word);
+
 class RunStatistics {
   public:
     /// `frames`: the number of steps that will follow.
-    RunStatistics(const SceneWorld& session, std::uint64_t frames);
+    RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings = CountCrossings::last);
 
     /// Call it after every step.
     void add(const World& world);
@@ -38,6 +48,10 @@ class RunStatistics {
     std::vector<double> step_ms_;
     std::array<double, stage_count> stage_ms_{};
     std::uint32_t reports_ = report_none;
+    ClothContactCounts cloth_contacts_;
+    CountCrossings count_crossings_;
+    std::optional<Intersections> crossings_;  ///< of the last frame; nullopt: not counted
+    std::uint64_t worst_crossings_ = 0;       ///< most pairs of triangles in a counted frame
 };
 
 /// "xpbd, lines", "pbd, jacobi by gather, hierarchy"

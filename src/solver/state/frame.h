@@ -4,6 +4,7 @@
 #include "mesh/triangle_view.h"
 #include "solver/model/cloth_model.h"
 #include "solver/plan/pass.h"
+#include "solver/state/cloth_contact_counts.h"
 #include "solver/state/list_counts.h"
 
 #include <weft/ids.h>
@@ -75,6 +76,7 @@ struct Frame {
     /// not included.
     double step_ms = 0;
     ListCounts lists;                     ///< of the dynamic lists of this frame
+    ClothContactCounts cloth_contacts;    ///< of cloth against cloth in this frame
     std::uint32_t reports = report_none;  ///< bits of all cloths
 };
 

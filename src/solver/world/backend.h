@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "solver/measures/measures.h"
 #include "solver/plan/island_plan.h"
+#include "solver/state/cloth_contact_counts.h"
 #include "solver/state/contact_forces.h"
 #include "solver/state/frame.h"
 #include "solver/state/kinematic_targets.h"
@@ -109,6 +110,8 @@ class Backend {
     virtual void finish(std::array<double, stage_count>& stage_ms) = 0;
     /// Counts of the last finished frame.
     virtual ListCounts list_counts() const = 0;
+    /// Counts of the last finished frame. All are 0 on a backend without contact of cloth against cloth.
+    virtual ClothContactCounts cloth_contact_counts() const { return {}; }
     /// Reads the current state of a cloth. The arrays stay valid until the next call of any function. Returns false if
     /// the device is lost; the state is then that of the last read.
     virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;

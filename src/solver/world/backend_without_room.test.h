@@ -43,6 +43,7 @@ class BackendWithoutRoom final : public Backend {
     }
     void finish(std::array<double, stage_count>& stage_ms) override { inner_->finish(stage_ms); }
     ListCounts list_counts() const override { return inner_->list_counts(); }
+    ClothContactCounts cloth_contact_counts() const override { return inner_->cloth_contact_counts(); }
     bool read(ClothHandle cloth, ClothFrame& frame) const override { return inner_->read(cloth, frame); }
     void measure(ClothHandle cloth, MeasureSums& sums) const override { inner_->measure(cloth, sums); }
     ClothSnapshot save(ClothHandle cloth) const override { return inner_->save(cloth); }

@@ -398,6 +398,7 @@ void World::complete() const {
     const auto begin = std::chrono::steady_clock::now();
     backend_->finish(frame_.stage_ms);
     frame_.lists = backend_->list_counts();
+    frame_.cloth_contacts = backend_->cloth_contact_counts();
     unread_ = true;
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());

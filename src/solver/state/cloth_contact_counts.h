@@ -1,0 +1,27 @@
+// Counts of the contact of cloths with themselves and with each other.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace weft {
+
+/// Counts of one frame, over all cloths.
+struct ClothContactCounts {
+    std::uint64_t contacts = 0;  ///< pairs that pushed in the last substep
+    std::uint64_t searches = 0;  ///< substeps in which lists of pairs were searched
+    std::uint64_t limited = 0;   ///< particles that were sent back, summed over the substeps
+    std::uint64_t tangled = 0;   ///< pairs that the frame could not separate
+
+    /// Adds a frame to the counts of a run: keeps the contacts of the last frame, sums searches and limited particles,
+    /// and keeps the largest number of tangled pairs.
+    void add(const ClothContactCounts& frame) {
+        contacts = frame.contacts;
+        searches += frame.searches;
+        limited += frame.limited;
+        tangled = std::max(tangled, frame.tangled);
+    }
+    friend bool operator==(const ClothContactCounts&, const ClothContactCounts&) = default;
+};
+
+}  // namespace weft
