@@ -28,7 +28,7 @@ class Threads {
   public:
     template <class Over>
     Threads(std::uint32_t side, const Yarn& yarn, std::uint32_t seed, const Over& over)
-        : side_(side), yarn_(yarn), seed_(seed), places_(std::size_t{side} * threads) {
+        : side_(side), yarn_(yarn), places_(std::size_t{side} * threads) {
         const float step = static_cast<float>(threads) / static_cast<float>(side);
         for (std::uint32_t thread = 0; thread < threads; ++thread) {
             const float width = yarn.half_width * (1 + yarn.uneven * swing(seed, thread, 101));
@@ -68,7 +68,6 @@ class Threads {
 
     std::uint32_t side_;
     Yarn yarn_;
-    std::uint32_t seed_;
     std::vector<Place> places_;
 };
 
