@@ -23,7 +23,7 @@ const Layers layers = {
     {"base", {}},
     {"mesh", {"base"}},
     {"physics", {"base", "mesh"}},
-    {"collide", {"base", "mesh"}},
+    {"collide", {"base", "mesh", "physics"}},
     {"look", {"base"}},
     {"scene", {"base", "mesh", "physics", "look"}},
     {"solver", {"base", "mesh", "physics", "collide", "scene"}},

@@ -15,7 +15,10 @@ namespace {
 class CpuBackend final : public Backend {
   public:
     CpuBackend(const cpu::Passes& passes, const CpuOptions& options)
-        : passes_(passes), team_(options.workers), executor_(passes, team_, options.smallest_shared) {}
+        : passes_(passes),
+          team_(options.workers),
+          executor_(passes, team_, options.smallest_shared),
+          search_always_(options.search_always) {}
 
     std::string_view name() const override { return "cpu"; }
     std::string device() const override {
@@ -82,6 +85,8 @@ class CpuBackend final : public Backend {
         const bool sticks = std::ranges::find(begin, PassKind::find, &Pass::kind) != begin.end();
         adhesion_.resize(sticks ? std::max(adhesion_.size(), step.islands.size()) : 0);
         counts_ = {};
+        contact_counts_ = {};
+        while (cloth_contact_.size() < step.islands.size()) cloth_contact_.emplace_back(search_always_);
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             cpu::Executor::Job& job = jobs_[i];
             job.step = &step.islands[i];
@@ -90,10 +95,13 @@ class CpuBackend final : public Backend {
             job.again = false;
             job.cloths.clear();
             for (const ClothStep& one : job.step->cloths) job.cloths.push_back(&cloth(one.cloth));
+            const auto collides = [](const cpu::ClothState* state) { return state->model->tiles != nullptr; };
+            job.cloth_contact = std::ranges::any_of(job.cloths, collides) ? &cloth_contact_[i] : nullptr;
         }
         executor_.run(step, jobs_, stage_ms_);
         for (cpu::Executor::Job& job : jobs_) {
             if (job.adhesion) complete_lists(step, job);
+            if (job.cloth_contact) add_counts(job.cloth_contact->counts());
             end_island(step, job);
         }
     }
@@ -117,6 +125,7 @@ class CpuBackend final : public Backend {
     }
 
     ListCounts list_counts() const override { return counts_; }
+    ClothContactCounts cloth_contact_counts() const override { return contact_counts_; }
 
     void measure(ClothHandle id, MeasureSums& sums) const override {
         const cpu::ClothState& state = cloth(id);
@@ -161,6 +170,13 @@ class CpuBackend final : public Backend {
         counts_.capacity += job.adhesion->rows().capacity();
     }
 
+    void add_counts(const ClothContactCounts& island) {
+        contact_counts_.contacts += island.contacts;
+        contact_counts_.searches += island.searches;
+        contact_counts_.limited += island.limited;
+        contact_counts_.tangled += island.tangled;
+    }
+
     // Collects the reports and contacts of an island. If one of its cloths is not finite, rolls all of them back.
     void end_island(const WorldStep& step, const cpu::Executor::Job& job) {
         std::uint32_t all = report_none;
@@ -191,10 +207,13 @@ class CpuBackend final : public Backend {
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
-    std::vector<cpu::Executor::Job> jobs_;     // of the current frame
-    std::vector<cpu::LinkState> links_;        // by island
-    std::vector<cpu::AdhesionList> adhesion_;  // by island; empty if nothing sticks
-    ListCounts counts_;                        // of the last frame
+    std::vector<cpu::Executor::Job> jobs_;          // of the current frame
+    std::vector<cpu::LinkState> links_;             // by island
+    std::vector<cpu::AdhesionList> adhesion_;       // by island; empty if nothing sticks
+    std::vector<cpu::ClothContact> cloth_contact_;  // by island
+    bool search_always_;
+    ListCounts counts_;                  // of the last frame
+    ClothContactCounts contact_counts_;  // of the last frame
     cpu::WorldArrays arrays_;
     std::array<double, stage_count> stage_ms_{};
     std::vector<std::unique_ptr<cpu::ClothState>> cloths_;

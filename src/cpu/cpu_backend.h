@@ -21,6 +21,8 @@ struct CpuOptions {
     /// Particles. A smaller island runs on one thread, because several would wait for each other longer than they work:
     /// two threads are 0.9 times as fast as one on a sheet of 32², 1.2 times on 64².
     std::uint32_t smallest_shared = 2000;
+    /// Searches for pairs of features in every substep, whether or not the lists are still valid. For tests.
+    bool search_always = false;
 };
 
 /// Fails if this machine lacks the instruction set, or if there are more than 255 workers.

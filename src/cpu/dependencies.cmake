@@ -3,14 +3,16 @@ find_library(HIGHWAY_LIBRARY hwy REQUIRED)
 target_include_directories(weft_cpu SYSTEM PRIVATE ${HIGHWAY_INCLUDE_DIR})
 target_link_libraries(weft_cpu PRIVATE ${HIGHWAY_LIBRARY})
 
-# These two files take long to compile, so they are compiled in parallel; one of them includes itself.
+# These files take long to compile, so they are compiled in parallel; some include themselves.
 set_source_files_properties(${folder}/passes_simd.cpp ${folder}/passes_scalar.cpp
+    ${folder}/cloth_contact/contact_simd.cpp ${folder}/cloth_contact/contact_scalar.cpp
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 if(WEFT_SANITIZE)
     # No pointer to a local variable leaves a kernel's scope. Checking for such pointers takes five times as long as the
     # rest of the compilation.
-    set_source_files_properties(${folder}/passes_simd.cpp ${folder}/passes_scalar.cpp PROPERTIES
+    set_source_files_properties(${folder}/passes_simd.cpp ${folder}/passes_scalar.cpp
+        ${folder}/cloth_contact/contact_simd.cpp ${folder}/cloth_contact/contact_scalar.cpp PROPERTIES
         COMPILE_OPTIONS "-O1;-fno-sanitize-address-use-after-scope")
-    set_source_files_properties(${folder}/passes_simd.cpp PROPERTIES
+    set_source_files_properties(${folder}/passes_simd.cpp ${folder}/cloth_contact/contact_simd.cpp PROPERTIES
         COMPILE_DEFINITIONS WEFT_ONE_TARGET SKIP_PRECOMPILE_HEADERS ON)
 endif()

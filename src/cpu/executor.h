@@ -3,6 +3,7 @@
 
 #include "base/workers.h"
 #include "cpu/adhesion_list.h"
+#include "cpu/cloth_contact/cloth_contact.h"
 #include "cpu/cloth_run.h"
 #include "cpu/links.h"
 
@@ -24,6 +25,7 @@ class Executor {
         std::vector<ClothState*> cloths = {};     ///< as in the step
         LinkState* links = nullptr;               ///< null if the step has none
         AdhesionList* adhesion = nullptr;         ///< null if nothing sticks
+        ClothContact* cloth_contact = nullptr;    ///< null if no cloth collides with cloth
         bool again = false;                       ///< the frame is repeated from the same state
         std::vector<std::uint32_t> reports = {};  ///< out: per cloth; run() does not roll back non-finite ones
     };

@@ -76,6 +76,13 @@ WEFT_FN bool any(mask m) {
     return !hn::AllFalse(D(), m.m);
 }
 
+// Lane i as bit i.
+WEFT_FN std::uint32_t bits_of(mask m) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(D(), m.m, bytes);
+    return bytes[0] | std::uint32_t{bytes[1]} << 8;
+}
+
 WEFT_FN real sqrt(real x) {
     return hn::Sqrt(x.v);
 }

@@ -14,6 +14,7 @@ WEFT_FN real max(real a, real b) { return a > b ? a : b; }
 WEFT_FN real inversesqrt(real x) { return real(1) / sqrt(x); }
 WEFT_FN real select(mask m, real yes, real no) { return m ? yes : no; }
 WEFT_FN bool any(mask m) { return m; }
+WEFT_FN std::uint32_t bits_of(mask m) { return m ? 1u : 0u; }
 
 #include "physics/lanes_vec3.inl"
 

@@ -147,6 +147,11 @@ class Compiler {
             case PassKind::list:
             case PassKind::aim:
                 break;  // of dynamic lists only
+            case PassKind::detect:
+            case PassKind::cloth_contact:
+            case PassKind::limit:
+            case PassKind::separate:
+                break;  // add_cloth() refuses cloths that collide with cloth
             case PassKind::targets:
                 add_targets(list, pass, substep);
                 break;

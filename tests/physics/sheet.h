@@ -29,6 +29,7 @@ struct SheetDesc {
     Vec3 velocity = {};  ///< m/s, at the start
     Fabric fabric = {};
     ClothLayout layout = {};
+    SelfCollision self_collision = SelfCollision::off;
     // Of the sheet as it lies flat around the origin:
     std::function<bool(Vec3 at_rest)> pinned = {};
     std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
@@ -45,6 +46,7 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
                          .mesh = std::move(mesh),
                          .start_velocity = desc.velocity,
                          .fabric = desc.fabric,
+                         .self_collision = desc.self_collision,
                          .layout = desc.layout};
     for (std::uint32_t v = 0; v < flat.size(); ++v) {
         const std::uint32_t p = topology->vertex_to_particle[v];

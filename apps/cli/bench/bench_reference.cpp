@@ -136,7 +136,12 @@ class TrafficCounter {
             case PassKind::place:
             case PassKind::list:
             case PassKind::aim:
-                return {};           // of dynamic lists
+                return {};  // of dynamic lists
+            case PassKind::detect:
+            case PassKind::cloth_contact:
+            case PassKind::limit:
+            case PassKind::separate:
+                return {};           // the number of pairs is known only during the run
             case PassKind::predict:  // four arrays read, four written
                 return {.own = 0, .shared = 8 * block * points};
             case PassKind::velocities:  // four read, two written; all but the last are merged with the next prediction

@@ -230,6 +230,7 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 #undef WEFT_CONSTRAINT
 
     measure_edges(model, rest);
+    model.make_tiles_if_needed();
     clock.spent_on(BuildPart::rest);
     return {};
 }
@@ -298,6 +299,12 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout, from.reserved); !done)
         return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+void ClothModel::make_tiles_if_needed() {
+    tiles = nullptr;
+    if (self_collision == SelfCollision::off) return;
+    tiles = std::make_shared<const std::vector<Tile>>(make_tiles(triangles(), {start.data(), start.size()}));
 }
 
 void ClothModel::set_mesh(TriangleMesh mesh) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/shared_array.h"
+#include "collide/tiles.h"
 #include "mesh/topology.h"
 #include "mesh/triangle_view.h"
 #include "scene/fabric.h"
@@ -96,7 +97,8 @@ struct ClothModel {
     std::uint32_t triangle_count = 0, face_stride = 0;
     std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< its `nothing` is face_stride
     std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();
-    float mean_edge = 0;  ///< m
+    float mean_edge = 0;                             ///< m
+    std::shared_ptr<const std::vector<Tile>> tiles;  ///< null if the cloth does not collide with cloth
     std::uint64_t topology_version = first_topology_version;
 
     BuildTimes build_times;
@@ -107,6 +109,9 @@ struct ClothModel {
     /// Sets a mesh whose positions and triangles are those of the particles. They are computed by the first call of
     /// mesh(), on any thread.
     void set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors);
+
+    /// Sets `tiles` for the current triangles.
+    void make_tiles_if_needed();
 
     /// Whether the render mesh is the simulated one, vertex by vertex.
     bool mesh_is_of_particles() const { return drawn_->of_particles && binding.empty(); }

@@ -113,6 +113,7 @@ class Editor {
             if (!alive) area[triangle] = 0;
         }
         model_->faces = std::move(faces);
+        model_->make_tiles_if_needed();
         model_->face_area = std::move(area);
         return {};
     }

@@ -24,7 +24,7 @@ inline constexpr std::uint32_t pass_kind_count = 0
 struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list
-    std::uint32_t batch = 0;      ///< of project, coarse_limit and damp
+    std::uint32_t batch = 0;      ///< of project, coarse_limit and damp; the round of cloth_contact
     bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0
     std::uint32_t level = 0;      ///< of restriction, interpolation, coarse_limit, node_correction
     RowSource source = RowSource::model;
@@ -54,6 +54,7 @@ enum class Data : std::uint8_t {
     found,      ///< of a dynamic list: number of constraints per particle
     places,     ///< of a dynamic list: index of each particle's first constraint
     list_rows,  ///< of a dynamic list: the constraints
+    pairs,      ///< of features of cloth that are near each other
 };
 
 struct Access {
@@ -79,6 +80,7 @@ enum Stage : std::uint32_t {
     stage_hierarchy,
     stage_average,
     stage_contact,
+    stage_cloth_contact,
     stage_velocities,
     stage_damp,
     stage_surface,

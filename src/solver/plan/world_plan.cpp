@@ -1,5 +1,7 @@
 #include "solver/plan/world_plan.h"
 
+#include "solver/plan/cloth_contact_numbers.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +33,19 @@ class Planner {
         plan.substep.push_back({.kind = PassKind::predict});
         if (std::ranges::any_of(cloths_, &PlannedCloth::kinematic)) plan.substep.push_back({.kind = PassKind::targets});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
-        for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) add_iteration(i == 0, plan.substep);
+        for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) {
+            if (settings_.solver.hierarchy) add_hierarchy(i == 0, plan.substep);
+            add_constraints(i == 0, plan.substep);
+            add_contact(i == 0, plan.substep);
+        }
+        const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
+        const bool exact = std::ranges::any_of(cloths_, collides);
+        if (exact) {
+            add_cloth_contact(plan.substep);
+            plan.iterations += contact_rounds - 1;
+        }
         plan.substep.push_back({.kind = PassKind::velocities});
+        if (exact) plan.substep.push_back({.kind = PassKind::separate});
 
         add_damping(plan.frame_end);
         if (settings_.surface) {
@@ -98,8 +111,24 @@ class Planner {
         if (levels > 0) passes.push_back({.kind = PassKind::prolongation, .source = RowSource::level});
     }
 
-    void add_iteration(bool first, Passes& passes) const {
-        if (settings_.solver.hierarchy) add_hierarchy(first, passes);
+    // The constraints answer what contact has moved: rounds of both make a pile quiet. Coarse levels have done their
+    // part before, and would move what lies in contact by many edges.
+    void add_cloth_contact(Passes& passes) const {
+        passes.push_back({.kind = PassKind::detect});
+        for (std::uint32_t round = 0; round < contact_rounds; ++round) {
+            if (round > 0) add_constraints(false, passes);
+            passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
+            add_contact(false, passes);
+        }
+        passes.push_back({.kind = PassKind::limit});
+    }
+
+    // Contacts come last in an iteration, so that no particle is inside a collider after it.
+    void add_contact(bool first, Passes& passes) const {
+        if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
+    }
+
+    void add_constraints(bool first, Passes& passes) const {
         if (settings_.solver.projection == Projection::jacobi) {
             bool any = false;
             for_each_kind([&](ConstraintKind kind) {
@@ -129,8 +158,6 @@ class Planner {
             passes.push_back(dynamic(PassKind::correct, kind, first));
             passes.push_back(dynamic(PassKind::average, kind, first));
         }
-        // Contacts come last, so that no particle is inside a collider after an iteration.
-        if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
     }
 
     // Damping runs once per frame and costs as much as the projection of one substep. It is implicit, so the longer
@@ -221,6 +248,11 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
                    pass.batch < model.hierarchy[pass.level].limits.batches.size();
         case PassKind::prolongation:
             return !model.hierarchy.empty();
+        case PassKind::detect:
+        case PassKind::cloth_contact:
+        case PassKind::limit:
+        case PassKind::separate:
+            return model.tiles != nullptr;
         default:
             return true;
     }

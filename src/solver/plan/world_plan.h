@@ -43,7 +43,8 @@ struct PlannedCloth {
 };
 
 /// A frame runs `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those
-/// that the passes were made for; `projection` is never `automatic` here.
+/// that the passes were made for; `projection` is never `automatic` here. `iterations` includes the rounds of contact
+/// between cloths.
 struct WorldPlan : SolverDesc {
     std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
@@ -53,6 +54,12 @@ struct WorldPlan : SolverDesc {
 /// `links`: of all islands that have any.
 WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth> cloths,
                      std::span<const LinkTables* const> links = {});
+
+/// Whether a pass is one of contact between cloths.
+constexpr bool is_cloth_contact(PassKind kind) {
+    return kind == PassKind::detect || kind == PassKind::cloth_contact || kind == PassKind::limit ||
+           kind == PassKind::separate;
+}
 
 /// Whether a cloth has work in a pass.
 bool takes_part(const PlannedCloth& cloth, const Pass& pass);

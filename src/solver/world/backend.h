@@ -53,8 +53,8 @@ struct ClothStep {
     ClothContactLog* contact_forces = nullptr;  ///< output; null if the input records no contacts
 };
 
-/// An island: cloths that are stitched together. All finish a substep before any begins the next. Islands are
-/// independent and may run in parallel.
+/// An island: cloths that are stitched together or can collide. All finish a substep before any begins the next.
+/// Islands are independent and may run in parallel.
 struct IslandStep {
     const IslandPlan* plan = nullptr;
     std::span<const ClothStep> cloths = {};

@@ -43,7 +43,7 @@ LinkTables make_links(std::span<const PlacedStitch> stitches, std::uint32_t firs
         if (particles[i] == no_particle) particles[i] = particles[i - i % rows.arity];
     std::vector<std::uint32_t> numbers = particles;
     std::ranges::sort(numbers);
-    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     for (std::uint32_t& p : particles)
         p = static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, p) - numbers.begin());
     const Coloring coloring = color_rows(particles, rows.arity, static_cast<std::uint32_t>(numbers.size()));

@@ -1,4 +1,5 @@
-// Islands: groups of cloths that are stitched together, directly or through others. An island is stepped as one.
+// Islands: groups of cloths that are stitched together or can collide, directly or through others. An island is stepped
+// as one.
 #pragma once
 
 #include "physics/stitch/stitch.h"

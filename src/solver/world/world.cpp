@@ -144,7 +144,7 @@ Result<void> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Kine
     complete_and_resolve();
     Cloth& cloth = cloths_[cloths_.find(id)];
     std::ranges::sort(pinned);
-    pinned.erase(std::ranges::unique(pinned).begin(), pinned.end());
+    pinned.erase(std::unique(pinned.begin(), pinned.end()), pinned.end());
     std::vector<ParticleWeight> changed;
     const auto visit = [&](const auto& from, const auto& other, auto&& weight_of) {
         std::vector<std::uint32_t> only;
@@ -279,12 +279,19 @@ void World::replan() {
     ++plan_serial_;
 }
 
-// Groups cloths by stitches, and packs the stitches with particles numbered over the world.
+// Groups cloths that are stitched together or can collide, and packs the stitches with particles numbered over the
+// world.
 void World::make_islands() {
     std::vector<std::array<std::uint32_t, 2>> ties;
     const auto place_of = [&](ClothId id) { return static_cast<std::uint32_t>(cloths_.find(id)); };
     for (const auto& group : stitches_)
         for (const Stitch& stitch : group) ties.push_back({place_of(stitch.a), place_of(stitch.b)});
+    std::optional<std::uint32_t> colliding;
+    for (std::uint32_t place = 0; place < cloths_.size(); ++place) {
+        if (!cloths_[place].model->tiles) continue;
+        if (colliding) ties.push_back({*colliding, place});
+        colliding = place;
+    }
     islands_.clear();
     std::vector<std::size_t> island_of(cloths_.size());
     for (auto& cloths : group_islands(static_cast<std::uint32_t>(cloths_.size()), ties)) {

@@ -1,0 +1,308 @@
+#include "collide/pair_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft {
+namespace {
+
+// Ticks that a list is made for at most. A longer one holds more pairs and is made less often.
+constexpr std::int32_t longest_lifetime = 12;
+// Part of the slack that particles of a tile may leave its mean motion by while a list lasts.
+constexpr float most_spread = 1.0f;
+// The same for the relative motion of two tiles, per margin of both. Tiles that meet at speed get a list for few ticks:
+// it would hold all that they fly past.
+constexpr float most_approach = 0.5f;
+// Motion per tick, in slacks, below which a tile counts as resting: its list has no end.
+constexpr float resting = 0.1f;
+// How far, in slacks, the motion within a tick may differ from the velocity for the list to follow the velocity.
+constexpr float follows_velocity = 0.48f;
+
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+float squared(Vec3 v) {
+    return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+float length_of(Vec3 v) {
+    return std::sqrt(squared(v));
+}
+
+}  // namespace
+
+void PairList::reserve(std::uint32_t pairs) {
+    const std::size_t needed = std::size_t{pairs} + 16;
+    if (thickness.size() >= needed) return;
+    const std::size_t room = needed + needed / 2;
+    for (auto& array : particle) array.resize(room);
+    thickness.resize(room), spare.resize(room);
+}
+
+void PairList::append(const PairList& other, std::uint32_t begin, std::uint32_t pairs) {
+    reserve(count + pairs);
+    for (int k = 0; k < 4; ++k) std::copy_n(&other.particle[k][begin], pairs, &particle[k][count]);
+    std::copy_n(&other.thickness[begin], pairs, &thickness[count]);
+    std::copy_n(&other.spare[begin], pairs, &spare[count]);
+    count += pairs;
+}
+
+void PairList::add(const std::array<std::uint32_t, 4>& particles, float of_pair, float spare_of_pair) {
+    if (thickness.size() < count + std::size_t{17}) reserve(count + 1);
+    for (int k = 0; k < 4; ++k) particle[k][count] = particles[k];
+    spare[count] = spare_of_pair;
+    thickness[count++] = of_pair;
+}
+
+void PairList::pad(std::uint32_t with_particle) {
+    reserve(count);
+    for (std::uint32_t i = count; i < count + 16; ++i) {
+        for (auto& array : particle) array[i] = with_particle;
+        thickness[i] = -1;
+    }
+}
+
+void PairSearch::set_cloths(const SearchLoops& loops, std::vector<SearchedCloth> cloths) {
+    loops_ = &loops;
+    if (cloths == cloths_) return;
+    cloths_ = std::move(cloths);
+    tiles_.clear(), pairs_.clear();
+    thickest_ = most_slack_ = 0;
+    std::size_t count = 0;
+    for (const SearchedCloth& cloth : cloths_) count += cloth.tiles->size();
+    tiles_.resize(count);
+    pairs_.resize(count);
+    near_.assign(count, {});
+    outdated_.assign(count, 0);
+    for (auto& array : bounds_) array.assign(count + 16, 1e9f);
+    std::size_t at = 0;
+    for (std::uint32_t c = 0; c < cloths_.size(); ++c) {
+        thickest_ = std::max(thickest_, cloths_[c].thickness);
+        most_slack_ = std::max(most_slack_, cloths_[c].slack);
+        for (const Tile& tile : *cloths_[c].tiles) {
+            TileState& state = tiles_[at++];
+            state.tile = &tile;
+            state.cloth = c;
+            for (std::uint32_t i = 0; i < tile_vertices; ++i) state.particle[i] = cloths_[c].base + tile.particle[i];
+        }
+    }
+    for (TilePairs& row : pairs_) {
+        row.until = never;
+        for (PairList& list : row.lists) list.pad(cloths_.front().base);
+    }
+}
+
+std::int64_t PairSearch::remaining(const TileState& tile) const {
+    return tile.moving ? tile.lifetime - (tick_ - tile.listed) : never;
+}
+
+bool PairSearch::find_outdated(const Vec4* positions, float part, bool all) {
+    bool any = false;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        TileState& tile = tiles_[i];
+        bool outdated = all || tile.listed < 0 || remaining(tile) < 1;
+        if (!outdated) {
+            const auto ticks = static_cast<float>(tick_ + 1 - tile.listed);
+            const float deviation = loops_->deviation(tile, &positions->x, ticks);
+            tile.strays[1] = std::max(tile.strays[1], deviation);
+            outdated = !(deviation <= part * slack(tile));
+        }
+        outdated_[i] = outdated;
+        any = any || outdated || pairs_[i].until <= tick_;
+    }
+    return any;
+}
+
+void PairSearch::follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere) {
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        if (outdated_[i]) follow(tiles_[i], from, to, velocity, h, anywhere);
+}
+
+// The trajectory follows the velocity rather than the motion of this tick, and runs midway between the two ends: at
+// rest the constraints pull a pile together by the same amount in every tick and contact pushes it back, which is no
+// motion.
+void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h,
+                        bool anywhere) {
+    const std::uint32_t count = tile.tile->vertex_count;
+    float fastest = 0, farthest = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t p = tile.particle[i];
+        const Vec3 v = velocity[p].xyz() * h, moved = to[p].xyz() - from[p].xyz();
+        farthest = std::max(farthest, squared(moved - v));
+        fastest = std::max(fastest, squared(v));
+    }
+    const float slack_here = slack(tile);
+    const bool along_velocity = !anywhere && std::sqrt(farthest) < follows_velocity * slack_here;
+    tile.moving = !along_velocity || fastest > resting * resting * slack_here * slack_here;
+    Vec3 mean{};
+    for (std::uint32_t i = 0; i < tile_vertices; ++i) {
+        const std::uint32_t p = tile.particle[i];
+        const Vec3 start = from[p].xyz(), moved = to[p].xyz() - start;
+        Vec3 v{}, place = start;
+        tile.around[i] = anywhere ? length_of(moved) : 0;
+        if (!anywhere) {
+            if (!along_velocity) {
+                v = moved;
+            } else if (tile.moving) {
+                v = velocity[p].xyz() * h;
+            }
+            place = start + (moved - v) * 0.5f;
+        }
+        tile.place[0][i] = place.x, tile.place[1][i] = place.y, tile.place[2][i] = place.z;
+        tile.velocity[0][i] = v.x, tile.velocity[1][i] = v.y, tile.velocity[2][i] = v.z;
+        if (i < count) mean = mean + v;
+    }
+    tile.mean_velocity = mean * (1.0f / static_cast<float>(count));
+
+    // A list that outlived its purpose is followed by a longer one, one that failed early by a shorter one.
+    const std::int64_t age = tick_ - tile.listed;
+    const std::int64_t adapted = std::max<std::int64_t>(1, age >= tile.lifetime ? age + 2 : age);
+    tile.lifetime = static_cast<std::int32_t>(tile.listed < 0 ? 4
+                                              : tile.moving   ? std::min<std::int64_t>(longest_lifetime, adapted)
+                                                              : longest_lifetime);
+    tile.listed = tick_;
+    tile.bounded = -1;
+    tile.spread = 0;
+    tile.strays.fill(slack_here);
+    if (!tile.moving) return;
+    if (anywhere) {
+        tile.lifetime = 1;
+        tile.strays.fill(*std::ranges::max_element(tile.around) + slack_here);
+        return;
+    }
+    float spread = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 v{tile.velocity[0][i], tile.velocity[1][i], tile.velocity[2][i]};
+        spread = std::max(spread, squared(v - tile.mean_velocity));
+    }
+    tile.spread = std::sqrt(spread);
+    const float ticks = most_spread * slack_here / (tile.spread + 1e-9f);
+    if (ticks < static_cast<float>(tile.lifetime)) tile.lifetime = std::max(1, static_cast<std::int32_t>(ticks));
+}
+
+void PairSearch::bound(TileState& tile) {
+    if (tile.bounded == tick_) return;
+    tile.bounded = tick_;
+    loops_->bound(tile, static_cast<float>(tick_ - tile.listed),
+                  tile.moving ? static_cast<float>(tile.lifetime) : 0.0f);
+}
+
+// For each outdated tile, the tiles whose boxes come near while the list can last.
+void PairSearch::find_near_tiles() {
+    const auto count = static_cast<std::uint32_t>(tiles_.size());
+    for (auto& list : near_) list.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        TileState& tile = tiles_[i];
+        bound(tile);
+        const std::array<float, 3> mean{tile.mean_velocity.x, tile.mean_velocity.y, tile.mean_velocity.z};
+        for (int k = 0; k < 3; ++k) {
+            bounds_[k][i] = tile.center[k];
+            bounds_[3 + k][i] = tile.half[k];
+            bounds_[6 + k][i] = mean[k];
+        }
+    }
+    const float apart = thickest_ + 2 * most_slack_, half_time = 0.5f * longest_lifetime;
+    for (std::uint32_t a = 0; a < count; ++a) {
+        if (!outdated_[a]) continue;
+        ++searched_;
+        const auto of_a = [&](int k) { return bounds_[k][a]; };
+        for (std::uint32_t b = 0; b < count; ++b) {
+            bool near = true;
+            for (int k = 0; k < 3; ++k) {
+                const float shift = (bounds_[6 + k][b] - of_a(6 + k)) * half_time;
+                const float distance = std::fabs(of_a(k) - bounds_[k][b] - shift);
+                near &= distance <= of_a(3 + k) + bounds_[3 + k][b] + apart + std::fabs(shift);
+            }
+            if (near && !(outdated_[b] && b < a)) near_[std::min(a, b)].push_back(std::max(a, b));
+        }
+    }
+}
+
+TileReach PairSearch::reach(const TileState& a, const TileState& b, std::int64_t& until) const {
+    const SearchedCloth &of_a = cloths_[a.cloth], &of_b = cloths_[b.cloth];
+    const float slack_both = of_a.slack + of_b.slack;
+    const std::int64_t full = std::min<std::int64_t>({longest_lifetime, remaining(a), remaining(b)});
+    const Vec3 relative = b.mean_velocity - a.mean_velocity;
+    const float speed = length_of(relative);
+    std::int64_t ticks = full;
+    if (speed * static_cast<float>(full) > most_approach * slack_both)
+        ticks = std::max<std::int64_t>(1, static_cast<std::int64_t>(most_approach * slack_both / speed));
+    until = ticks < full ? tick_ + ticks : never;
+    const Vec3 moved = relative * static_cast<float>(ticks);
+    TileReach reach;
+    reach.thickness = 0.5f * (of_a.thickness + of_b.thickness);
+    reach.add = slack_both + length_of(moved);
+    const std::array<float, 3> parts{moved.x, moved.y, moved.z};
+    for (int k = 0; k < 3; ++k) {
+        reach.shift[k] = 0.5f * parts[k];
+        reach.widen[k] = reach.thickness + slack_both + std::fabs(reach.shift[k]);
+    }
+    if (a.cloth == b.cloth) reach.rest = of_a.rest;
+    return reach;
+}
+
+float PairSearch::approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const {
+    const auto ticks = static_cast<float>(tick_ + 1 - block.listed);
+    const float relative = a.spread + b.spread + length_of(b.mean_velocity - a.mean_velocity);
+    return ticks * relative + std::max(a.strays[0], a.strays[1]) + std::max(b.strays[0], b.strays[1]);
+}
+
+void PairSearch::next_tick() {
+    ++tick_;
+    for (TileState& tile : tiles_) tile.strays = {tile.strays[1], 0};
+}
+
+void PairSearch::list_block(std::uint32_t a, std::uint32_t b, TilePairs& row) {
+    TilePairs::Block block{.other = b, .listed = tick_};
+    const TileReach how = reach(tiles_[a], tiles_[b], block.until);
+    for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
+    loops_->list_pairs(tiles_[a], tiles_[b], how, scratch_, row.lists);
+    for (int kind = 0; kind < 2; ++kind) block.count[kind] = row.lists[kind].count - block.begin[kind];
+    if (block.count[0] + block.count[1] == 0 && block.until == never) return;
+    row.until = std::min(row.until, block.until);
+    row.blocks.push_back(block);
+}
+
+// Merges the blocks that stay with those that are listed anew, in the order of the other tile.
+void PairSearch::list_row(std::uint32_t a) {
+    TilePairs& row = pairs_[a];
+    std::vector<std::uint32_t>& todo = near_[a];
+    const auto is_old = [&](const TilePairs::Block& block) {
+        return outdated_[a] || outdated_[block.other] || block.until <= tick_;
+    };
+    if (!outdated_[a] && row.until <= tick_) {
+        for (const TilePairs::Block& block : row.blocks)
+            if (block.until <= tick_ && !outdated_[block.other]) todo.push_back(block.other);
+    }
+    if (!outdated_[a] && todo.empty() && std::ranges::none_of(row.blocks, is_old)) return;
+    std::ranges::sort(todo);
+    for (PairList& list : fresh_.lists) list.count = 0;
+    fresh_.blocks.clear();
+    fresh_.until = never;
+    auto kept = row.blocks.begin();
+    auto next = todo.begin();
+    while (true) {
+        while (kept != row.blocks.end() && is_old(*kept)) ++kept;
+        if (kept == row.blocks.end() && next == todo.end()) break;
+        if (next == todo.end() || (kept != row.blocks.end() && kept->other < *next)) {
+            TilePairs::Block block = *kept;
+            for (int kind = 0; kind < 2; ++kind) {
+                block.begin[kind] = fresh_.lists[kind].count;
+                fresh_.lists[kind].append(row.lists[kind], kept->begin[kind], kept->count[kind]);
+            }
+            fresh_.until = std::min(fresh_.until, block.until);
+            fresh_.blocks.push_back(block);
+            ++kept;
+        } else {
+            list_block(a, *next++, fresh_);
+        }
+    }
+    std::swap(fresh_, row);
+    for (PairList& list : row.lists) list.pad(cloths_.front().base);
+}
+
+void PairSearch::search() {
+    find_near_tiles();
+    for (std::uint32_t a = 0; a < tiles_.size(); ++a) list_row(a);
+}
+
+}  // namespace weft

@@ -1,0 +1,179 @@
+// Lists all pairs of features of cloth that can come within their thickness: vertices and triangles, edges and edges.
+//
+// A list stays valid while every particle is near its listed trajectory, a uniform motion. A check after each substep
+// finds the tiles whose particles are not, and only pairs of these tiles are searched again. A list may hold more pairs
+// than are near; their order does not depend on when they were listed.
+#pragma once
+
+#include "collide/tiles.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace weft {
+
+/// Centers and half sizes of boxes, as [axis][box].
+template <std::size_t Count>
+struct BoxArrays {
+    alignas(cache_line) std::array<std::array<float, Count>, 3> center, half;
+};
+
+/// A cloth as the search needs it.
+struct SearchedCloth {
+    std::shared_ptr<const std::vector<Tile>> tiles;
+    std::uint32_t base = 0;      ///< number of its first particle in the world
+    const Vec4* rest = nullptr;  ///< m, by particle of the cloth
+    float thickness = 0;         ///< m
+    float slack = 0;             ///< m: how far a particle may be from its listed trajectory
+    friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;
+};
+
+/// A tile and the trajectory of its vertices that the lists were made for: place + velocity * ticks since then.
+struct TileState {
+    const Tile* tile = nullptr;
+    std::uint32_t cloth = 0;
+    std::array<std::uint32_t, tile_vertices> particle;                ///< in the world
+    std::array<std::array<float, tile_vertices>, 3> place, velocity;  ///< m and m per tick
+    std::array<float, tile_vertices> around;  ///< m: the lists cover all points this near the trajectory besides
+    std::int64_t listed = -1;                 ///< tick; -1: never
+    std::int32_t lifetime = 4;                ///< ticks that a list of a moving tile is made for
+    bool moving = false;
+    Vec3 mean_velocity{};
+    float spread = 0;  ///< m per tick: largest deviation of a vertex's velocity from the mean
+    /// m: bound on the distance of its vertices from their trajectories, at the start and at the end of the tick.
+    std::array<float, 2> strays{};
+
+    // At the current tick.
+    std::int64_t bounded = -1;                                ///< the tick that the following is valid for
+    alignas(cache_line) std::array<Vec4, tile_vertices> now;  ///< w: farthest deviation from the mean motion
+    BoxArrays<tile_vertices> vertex_boxes;
+    BoxArrays<tile_edges> edge_boxes;
+    BoxArrays<tile_triangles> triangle_boxes;
+    std::array<float, 3> center, half;  ///< of all boxes
+
+    std::uint32_t base() const { return particle[0] - tile->particle[0]; }  ///< of the cloth
+};
+
+/// Pairs of one kind, as arrays. Their ends are padded with 16 pairs of negative thickness.
+struct PairList {
+    std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
+    AlignedVector<float> thickness;                        ///< m
+    AlignedVector<float> spare;  ///< m: by how much the distance exceeded the thickness when the pair was listed
+    std::uint32_t count = 0;
+
+    void reserve(std::uint32_t pairs);
+    void append(const PairList& other, std::uint32_t begin, std::uint32_t pairs);
+    void add(const std::array<std::uint32_t, 4>& particles, float of_pair, float spare_of_pair);
+    void pad(std::uint32_t with_particle);
+};
+
+/// Features in a kind of pair.
+enum class PairKind : std::uint8_t { vertex_triangle, edge_edge };
+
+/// All pairs of a tile with itself and with tiles of higher numbers.
+struct TilePairs {
+    struct Block {
+        std::uint32_t other = 0;
+        std::array<std::uint32_t, 2> begin{}, count{};  ///< by kind, in `lists`
+        std::int64_t until = 0;                         ///< tick from which on the block is not valid
+        std::int64_t listed = 0;                        ///< tick in which it was made
+    };
+    std::array<PairList, 2> lists;  ///< by kind
+    std::vector<Block> blocks;      ///< by ascending `other`
+    std::int64_t until = 0;         ///< the least of all blocks
+};
+
+/// How two tiles move relative to each other while a list of their pairs lasts.
+struct TileReach {
+    std::array<float, 3> shift, widen;  ///< m: half of the relative motion, and how much farther boxes reach
+    float add = 0;               ///< m: pairs whose distance is at most this more than their thickness are listed
+    float thickness = 0;         ///< m
+    const Vec4* rest = nullptr;  ///< by particle of the cloth, if both tiles belong to one cloth
+};
+
+/// Working memory of SearchLoops::list_pairs.
+struct SearchScratch {
+    /// Features whose boxes come near the other tile.
+    template <std::size_t Count>
+    struct Culled {
+        std::array<std::uint32_t, Count + 16> feature;
+        alignas(cache_line) std::array<std::array<float, Count + 16>, 3> center, half;
+        std::uint32_t count = 0;
+    };
+    Culled<tile_edges> a, b;
+    // Of the candidates, the pairs whose boxes meet.
+    std::array<AlignedVector<std::uint32_t>, 4> vertex;    ///< in their tiles
+    std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in their cloths
+    AlignedVector<float> least;                            ///< m: least thickness that makes the pair worth listing
+    AlignedVector<float> distance;                         ///< m
+    std::uint32_t candidates = 0;
+};
+
+/// The inner loops, one table per instruction set.
+struct SearchLoops {
+    /// Largest distance of a vertex from its listed trajectory, m. Not a number if a position is not.
+    float (*deviation)(const TileState&, const float* positions, float ticks);
+    /// Boxes of all features at a tick, `ticks` after the list was made, for the next `lifetime` ticks.
+    void (*bound)(TileState&, float ticks, float lifetime);
+    /// Appends the pairs of features of both tiles to `lists`.
+    void (*list_pairs)(const TileState& a, const TileState& b, const TileReach&, SearchScratch&,
+                       std::array<PairList, 2>& lists);
+};
+
+class PairSearch {
+  public:
+    /// Starts anew with these cloths, whose particles must not overlap. Keeps all lists if nothing differs.
+    void set_cloths(const SearchLoops& loops, std::vector<SearchedCloth> cloths);
+
+    /// Marks the tiles with a vertex farther than `part` of its slack from its listed trajectory at the end of the
+    /// current tick, or all tiles. Returns whether there is anything to search.
+    bool find_outdated(const Vec4* positions, float part, bool all = false);
+    /// Lists the marked tiles for motion from `from` to `to` within this tick, and on along `velocity` (m/s) times `h`
+    /// if that is near. A list made by `anywhere` covers all places between the two, for this tick only.
+    void follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere);
+    /// Lists all pairs of which a tile is marked or whose list has expired. find_outdated() and follow() come before.
+    void search();
+    void next_tick();
+
+    /// Calls visit(pairs of a tile, block, approach) for all blocks. `approach`, in m: the distance of a listed pair is
+    /// now at least its distance when it was listed less this, for all places that its particles take in this tick.
+    template <class Visit>
+    void for_each_block(Visit&& visit) const {
+        for (std::size_t a = 0; a < pairs_.size(); ++a)
+            for (const TilePairs::Block& block : pairs_[a].blocks)
+                visit(pairs_[a], block, approach(tiles_[a], tiles_[block.other], block));
+    }
+    std::span<const SearchedCloth> cloths() const { return cloths_; }
+    std::size_t tile_count() const { return tiles_.size(); }
+    /// Tiles searched since set_cloths().
+    std::uint64_t searched_tiles() const { return searched_; }
+
+  private:
+    float slack(const TileState& tile) const { return cloths_[tile.cloth].slack; }
+    std::int64_t remaining(const TileState& tile) const;
+    void follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere);
+    void bound(TileState& tile);
+    void find_near_tiles();
+    float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
+    TileReach reach(const TileState& a, const TileState& b, std::int64_t& until) const;
+    void list_row(std::uint32_t a);
+    void list_block(std::uint32_t a, std::uint32_t b, TilePairs& row);
+
+    const SearchLoops* loops_ = nullptr;
+    std::vector<SearchedCloth> cloths_;
+    std::vector<TileState> tiles_;
+    std::vector<TilePairs> pairs_;
+    std::vector<std::uint8_t> outdated_;
+    std::array<AlignedVector<float>, 9> bounds_;    // of all tiles: center, half, mean velocity
+    std::vector<std::vector<std::uint32_t>> near_;  // by tile: tiles of higher numbers to list it with
+    std::int64_t tick_ = 0;
+    std::uint64_t searched_ = 0;
+    float thickest_ = 0, most_slack_ = 0;
+    TilePairs fresh_;
+    SearchScratch scratch_;
+};
+
+}  // namespace weft

@@ -1,0 +1,407 @@
+#include "cpu/cloth_contact/cloth_contact.h"
+
+#include "physics/scalar.h"
+#include "solver/plan/cloth_contact_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::cpu {
+namespace {
+
+scalar::vec3 on_lane(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Vec3 to_vec3(scalar::vec3 v) {
+    return {v.x, v.y, v.z};
+}
+float squared(Vec3 v) {
+    return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+void set_place(Vec4& x, Vec3 place) {
+    x = {place.x, place.y, place.z, x.w};
+}
+
+template <class Pairs>
+std::array<std::uint32_t, 4> particles_of(const Pairs& near, std::uint32_t i) {
+    return {near.particle[0][i], near.particle[1][i], near.particle[2][i], near.particle[3][i]};
+}
+std::array<float, 4> weights_of(const NearPairs& near, std::uint32_t i) {
+    return {near.weight[0][i], near.weight[1][i], near.weight[2][i], near.weight[3][i]};
+}
+Vec3 normal_of(const NearPairs& near, std::uint32_t i) {
+    return {near.normal[0][i], near.normal[1][i], near.normal[2][i]};
+}
+
+}  // namespace
+
+void ClothContact::prepare(const Passes& passes, const ClothContactContext& context) {
+    cloths_ = context.cloths;
+    counts_ = {};
+    WorldArrays& world = cloths_.front()->world;
+    x_ = world.position.data(), velocity_ = world.velocity.data(), start_ = world.start.data();
+    loops_ = &contact_loops_of(passes.isa);
+    slack_ = 0;
+    for (const ClothState* cloth : cloths_) {
+        const float slack = contact_slack(*cloth->model);
+        if (cloth->model->tiles && (slack_ == 0 || slack < slack_)) slack_ = slack;
+    }
+    cap_ = contact_cap * slack_;
+    h_ = frame_numbers(*cloths_.front()->model, *context.step.plan, context.step.input.dt).h;
+
+    std::vector<SearchedCloth> searched;
+    for (const ClothState* cloth : cloths_) {
+        const ClothModel& model = *cloth->model;
+        if (model.tiles)
+            searched.push_back({model.tiles, cloth->base, model.start.data(),
+                                std::max(model.fabric.contact.thickness, least_contact_thickness), slack_});
+    }
+    search_.set_cloths(loops_->search, std::move(searched));
+
+    const std::size_t size = world.size();
+    if (part_.size() < size) {
+        for (auto* array : {&reached_, &asked_}) array->resize(size);
+        pushes_.resize(size);
+        share_.resize(size), part_.resize(size);
+        sent_back_.resize(size), friction_.resize(size);
+    }
+    for (const ClothState* cloth : cloths_)
+        std::fill_n(friction_.begin() + cloth->base, cloth->model->particle_count,
+                    std::array{cloth->model->fabric.contact.friction[0], cloth->model->fabric.contact.friction[1]});
+}
+
+template <class Visit>
+void ClothContact::for_each_particle(Visit&& visit) const {
+    for (const ClothState* cloth : cloths_) {
+        if (!cloth->model->tiles) continue;
+        for (std::uint32_t p = cloth->base, end = p + cloth->model->particle_count; p < end; ++p) visit(p);
+    }
+}
+
+// One thread runs these passes.
+void ClothContact::run(const ClothContactContext& context, const Pass& pass, Worker worker) {
+    if (worker.number != 0) return;
+    cloths_ = context.cloths;
+    switch (pass.kind) {
+        case PassKind::detect:
+            return detect();
+        case PassKind::cloth_contact:
+            return push(pass);
+        case PassKind::limit:
+            return limit();
+        default:
+            return separate();
+    }
+}
+
+void ClothContact::detect() {
+    for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
+    if (search_.find_outdated(x_, 1 - contact_cap, search_always_)) {
+        search_.follow(start_, x_, velocity_, h_, false);
+        search_.search();
+        ++counts_.searches;
+    }
+    reach_ = std::min(cap_, std::max(2 * most_moved_, 0.02f * slack_));
+    most_moved_ = 0;
+    find_near();
+    for (int kind = 0; kind < 2; ++kind) pushed_[kind].assign(listed_[kind], 0);
+    pushes_of_substep_.clear();
+}
+
+// Most listed pairs are too far apart to meet in this substep, which their distance at the time of listing says.
+void ClothContact::find_near() {
+    for (int kind = 0; kind < 2; ++kind) {
+        Candidates& candidates = candidates_[kind];
+        candidates.pairs.count = 0;
+        candidates.source.clear();
+        std::uint32_t number = 0;
+        search_.for_each_block([&](const TilePairs& row, const TilePairs::Block& block, float approach) {
+            const PairList& list = row.lists[kind];
+            const float most = approach + 2 * reach_;
+            candidates.pairs.reserve(candidates.pairs.count + block.count[kind]);
+            for (std::uint32_t i = block.begin[kind], end = i + block.count[kind]; i < end; ++i, ++number) {
+                if (!(list.spare[i] <= most)) continue;
+                candidates.pairs.add(particles_of(list, i), list.thickness[i], list.spare[i]);
+                candidates.source.push_back(number);
+            }
+        });
+        listed_[kind] = number;
+        candidates.pairs.pad(cloths_.front()->base);
+        const NearInput input{&start_->x, &reached_.data()->x, reach_, contact_gap_floor};
+        loops_->find_near[kind](candidates, input, near_[kind]);
+        near_[kind].pad(cloths_.front()->base);
+    }
+}
+
+// Extends the near pairs if a particle has moved farther from where the constraints left it than they allow for.
+// Returns whether it did.
+bool ClothContact::extend_reach() {
+    float farthest = 0;
+    for_each_particle(
+        [&](std::uint32_t p) { farthest = std::max(farthest, squared(x_[p].xyz() - reached_[p].xyz())); });
+    farthest = std::sqrt(farthest);
+    most_moved_ = std::max(most_moved_, farthest);
+    if (farthest <= reach_) return false;
+    reach_ = 2 * farthest;
+    find_near();
+    return true;
+}
+
+// Whether a pair that starts beyond its thickness comes within it. Its gap along the normal alone does not say so,
+// since features may pass each other far to the side; and a pair that does not come near must do nothing, or the result
+// would depend on which pairs are listed. Conservative advancement: every step is as long as the distance allows.
+bool ClothContact::comes_near(int kind, std::uint32_t pair, const Vec4* positions) const {
+    const NearPairs& near = near_[kind];
+    const float thickness = near.thickness[pair];
+    float distance = near.distance[pair];
+    if (distance <= thickness) return true;
+    const auto particles = particles_of(near, pair);
+    std::array<Vec3, 4> from, moved;
+    for (int k = 0; k < 4; ++k) {
+        from[k] = start_[particles[k]].xyz();
+        moved[k] = positions[particles[k]].xyz() - from[k];
+    }
+    const int side_one = kind == 0 ? 1 : 2;
+    float fastest = 0;
+    for (int i = 0; i < side_one; ++i)
+        for (int j = side_one; j < 4; ++j) fastest = std::max(fastest, squared(moved[i] - moved[j]));
+    fastest = std::sqrt(fastest);
+    float time = 0;
+    for (int step = 0; step < 64; ++step) {
+        time += (distance - 0.5f * thickness) / fastest;
+        if (!(time < 1)) time = 1;
+        scalar::vec3 x[4];
+        for (int k = 0; k < 4; ++k) x[k] = on_lane(from[k] + moved[k] * time);
+        distance = kind == 0 ? scalar::closest_vertex_triangle(x[0], x[1], x[2], x[3]).distance
+                             : scalar::closest_edge_edge(x[0], x[1], x[2], x[3]).distance;
+        if (distance <= thickness) return true;
+        if (time >= 1) return false;
+    }
+    return true;
+}
+
+void ClothContact::find_overlaps() {
+    for_each_particle([&](std::uint32_t p) { share_[p] = 0; });
+    for (int kind = 0; kind < 2; ++kind) {
+        NearPairs& near = near_[kind];
+        std::vector<Overlap>& overlaps = overlaps_[kind];
+        overlaps.clear();
+        loops_->find_overlaps[kind](near, &x_->x, contact_recovery_speed * h_, overlaps);
+        std::erase_if(overlaps, [&](const Overlap& overlap) { return !comes_near(kind, overlap.pair, x_); });
+        for (const Overlap& overlap : overlaps) {
+            pushed_[kind][near.source[overlap.pair]] = 1;
+            const auto particles = particles_of(near, overlap.pair);
+            const auto weights = weights_of(near, overlap.pair);
+            for (int k = 0; k < 4; ++k) share_[particles[k]] += std::fabs(weights[k]);
+        }
+    }
+}
+
+// The masses of the particles are split among the pairs that push them, alike on both sides of a pair, so that momentum
+// is kept. In full this is safe and slow. A part of it is enough for pairs that push in different directions; it moves
+// pairs that push alike too far, so their pushes are scaled in a second step.
+void ClothContact::find_pushes() {
+    for (int kind = 0; kind < 2; ++kind) {
+        const NearPairs& near = near_[kind];
+        for (Overlap& overlap : overlaps_[kind]) {
+            const auto particles = particles_of(near, overlap.pair);
+            const auto weights = weights_of(near, overlap.pair);
+            const Vec3 normal = normal_of(near, overlap.pair);
+            Vec3 moved{};
+            float resistance = 0;
+            for (int k = 0; k < 4; ++k) {
+                const std::uint32_t p = particles[k];
+                moved = moved + (x_[p].xyz() - start_[p].xyz()) * weights[k];
+                const float weight = std::fabs(weights[k]);
+                resistance += x_[p].w * weight * std::max(weight, share_[p] * contact_split);
+            }
+            overlap.push = {};
+            if (!(resistance > 1e-12f)) continue;
+            const auto &one = friction_[particles[0]], &two = friction_[particles[3]];
+            const Vec3 rub = to_vec3(scalar::cloth_friction(on_lane(moved), on_lane(normal), overlap.depth,
+                                                            std::sqrt(one[0] * two[0]), std::sqrt(one[1] * two[1])));
+            overlap.push = (normal * overlap.depth - rub) * (1 / resistance);
+        }
+    }
+}
+
+void ClothContact::add_pushes() {
+    for (int kind = 0; kind < 2; ++kind) {
+        for (const Overlap& overlap : overlaps_[kind]) {
+            const auto particles = particles_of(near_[kind], overlap.pair);
+            const auto weights = weights_of(near_[kind], overlap.pair);
+            for (int k = 0; k < 4; ++k)
+                pushes_[particles[k]] = pushes_[particles[k]] + overlap.push * (weights[k] * x_[particles[k]].w);
+        }
+    }
+}
+
+void ClothContact::scale_pushes() {
+    for (int kind = 0; kind < 2; ++kind) {
+        for (Overlap& overlap : overlaps_[kind]) {
+            const auto particles = particles_of(near_[kind], overlap.pair);
+            const auto weights = weights_of(near_[kind], overlap.pair);
+            const Vec3 normal = normal_of(near_[kind], overlap.pair);
+            float opened = 0;
+            for (int k = 0; k < 4; ++k) {
+                const Vec3& push = pushes_[particles[k]];
+                opened += weights[k] * (normal.x * push.x + normal.y * push.y + normal.z * push.z);
+            }
+            if (opened > overlap.depth) overlap.push = overlap.push * (overlap.depth / opened);
+        }
+    }
+    for_each_particle([&](std::uint32_t p) { pushes_[p] = {}; });
+}
+
+void ClothContact::move_by_pushes() {
+    for_each_particle([&](std::uint32_t p) {
+        if (!(share_[p] > 0)) return;
+        set_place(x_[p], x_[p].xyz() + pushes_[p]);
+        pushes_[p] = {};
+    });
+    keep_in_reach();
+}
+
+// What contact moves stays within what the lists cover.
+void ClothContact::keep_in_reach() {
+    for_each_particle([&](std::uint32_t p) {
+        const Vec3 away = x_[p].xyz() - reached_[p].xyz();
+        const float length2 = squared(away);
+        if (length2 > cap_ * cap_) set_place(x_[p], reached_[p].xyz() + away * (cap_ / std::sqrt(length2)));
+    });
+}
+
+bool ClothContact::any_lost() {
+    extend_reach();
+    for (int kind = 0; kind < 2; ++kind) {
+        lost_.clear();
+        loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
+        for (const std::uint32_t pair : lost_)
+            if (comes_near(kind, pair, x_)) return true;
+    }
+    return false;
+}
+
+void ClothContact::push(const Pass& pass) {
+    const auto sweep = [&] {
+        extend_reach();
+        find_overlaps();
+        find_pushes();
+        add_pushes();
+        scale_pushes();
+        add_pushes();
+        move_by_pushes();
+    };
+    if (pass.batch > 0) keep_in_reach();
+    sweep();
+    if (pass.batch + 1 < contact_rounds) return;
+    counts_.contacts = overlaps_[0].size() + overlaps_[1].size();
+    // Where the limit would have to act, more sweeps are the better answer.
+    for (int extra = 0; extra < contact_extra_sweeps && any_lost(); ++extra) sweep();
+    for (int kind = 0; kind < 2; ++kind) {
+        const NearPairs& near = near_[kind];
+        for (std::uint32_t i = 0; i < near.count; ++i) {
+            if (pushed_[kind][near.source[i]])
+                pushes_of_substep_.push_back({particles_of(near, i), weights_of(near, i), normal_of(near, i)});
+        }
+    }
+}
+
+// Sends the particles of all pairs that lose their gap back towards the start of the substep, where every pair has its
+// gap: half of the way, and at last all of it. A pair that keeps its gap along one normal at both ends of a linear
+// motion does not meet in between.
+void ClothContact::send_back() {
+    for_each_particle([&](std::uint32_t p) { part_[p] = 1; });
+    std::uint64_t stuck = 0;
+    while (true) {
+        to_send_back_.clear();
+        stuck = 0;
+        for (int kind = 0; kind < 2; ++kind) {
+            lost_.clear();
+            loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
+            for (const std::uint32_t pair : lost_) {
+                if (!comes_near(kind, pair, x_)) continue;
+                bool helps = false;
+                for (const std::uint32_t p : particles_of(near_[kind], pair)) {
+                    if (!(part_[p] > 0) || !(x_[p].w > 0)) continue;
+                    helps = true;
+                    if (sent_back_[p]) continue;
+                    sent_back_[p] = 1;
+                    to_send_back_.push_back(p);
+                }
+                stuck += !helps;
+            }
+        }
+        if (to_send_back_.empty()) break;
+        for (const std::uint32_t p : to_send_back_) {
+            sent_back_[p] = 0;
+            part_[p] = part_[p] > 0.2f ? 0.5f * part_[p] : 0;
+            const Vec3 from = start_[p].xyz();
+            set_place(x_[p], from + (asked_[p].xyz() - from) * part_[p]);
+        }
+    }
+    counts_.tangled = std::max(counts_.tangled, stuck);
+}
+
+void ClothContact::limit() {
+    for_each_particle([&](std::uint32_t p) { asked_[p] = x_[p]; });
+    extend_reach();
+    send_back();
+    // A particle that was sent back may have left its listed trajectory. Its tile is then listed for all places between
+    // the start and where the particle was to go, and the limit starts again.
+    for (int attempt = 0;; ++attempt) {
+        const bool extended = extend_reach();
+        if (!extended && !search_.find_outdated(x_, 1)) break;
+        if (attempt == contact_most_attempts) {
+            for_each_particle([&](std::uint32_t p) {
+                if (!(x_[p].w > 0)) return;
+                part_[p] = 0;
+                set_place(x_[p], start_[p].xyz());
+            });
+            break;
+        }
+        for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
+        if (!extended) {
+            search_.follow(start_, asked_.data(), velocity_, h_, true);
+            search_.search();
+            find_near();
+        }
+        send_back();
+    }
+    for_each_particle([&](std::uint32_t p) { counts_.limited += part_[p] < 1; });
+    search_.next_tick();
+}
+
+// Takes the velocity with which pushed pairs separate, so that contact does not make cloth bounce. Masses are split in
+// full, so that one pass never takes too much.
+void ClothContact::separate() {
+    for_each_particle([&](std::uint32_t p) { share_[p] = 0; });
+    const auto for_each_pushed = [&](auto&& visit) {
+        for (const Pushed& pair : pushes_of_substep_) visit(pair.particles, pair.weights, pair.normal);
+    };
+    for_each_pushed([&](const auto& particles, const auto& weights, Vec3) {
+        for (int k = 0; k < 4; ++k) share_[particles[k]] += std::fabs(weights[k]);
+    });
+    for_each_pushed([&](const auto& particles, const auto& weights, Vec3 normal) {
+        float speed = 0, resistance = 0;
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t p = particles[k];
+            const Vec3 v = velocity_[p].xyz();
+            speed += weights[k] * (normal.x * v.x + normal.y * v.y + normal.z * v.z);
+            const float weight = std::fabs(weights[k]);
+            resistance += x_[p].w * weight * std::max(weight, share_[p]);
+        }
+        if (!(speed > 0) || !(resistance > 1e-12f)) return;
+        for (int k = 0; k < 4; ++k)
+            pushes_[particles[k]] =
+                pushes_[particles[k]] - normal * (speed / resistance * weights[k] * x_[particles[k]].w);
+    });
+    for_each_particle([&](std::uint32_t p) {
+        if (!(share_[p] > 0)) return;
+        velocity_[p] = {velocity_[p].x + pushes_[p].x, velocity_[p].y + pushes_[p].y, velocity_[p].z + pushes_[p].z,
+                        velocity_[p].w};
+        pushes_[p] = {};
+    });
+}
+
+}  // namespace weft::cpu

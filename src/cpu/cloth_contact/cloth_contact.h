@@ -1,0 +1,90 @@
+// Contact of cloth with itself and with other cloths, exactly: a substep that starts without crossings ends without
+// crossings (law: physics/cloth_contact/cloth_contact.md). One object per island.
+#pragma once
+
+#include "cpu/cloth_contact/contact_loops.h"
+#include "cpu/cloth_run.h"
+#include "solver/state/cloth_contact_counts.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace weft::cpu {
+
+/// Input of the passes over an island's pairs.
+struct ClothContactContext {
+    const WorldStep& step;
+    std::span<ClothState* const> cloths;
+};
+
+class ClothContact {
+  public:
+    explicit ClothContact(bool search_always = false) : search_always_(search_always) {}
+
+    /// Allocates for the island's cloths. Keeps the lists if they are the same cloths as in the frame before.
+    void prepare(const Passes& passes, const ClothContactContext& context);
+    void run(const ClothContactContext& context, const Pass& pass, Worker worker);
+
+    /// Of the frame.
+    const ClothContactCounts& counts() const { return counts_; }
+
+  private:
+    void detect();
+    void find_near();
+    bool extend_reach();
+    void push(const Pass& pass);
+    void keep_in_reach();
+    void find_overlaps();
+    void find_pushes();
+    void add_pushes();
+    void scale_pushes();
+    void move_by_pushes();
+    bool any_lost();
+    bool comes_near(int kind, std::uint32_t pair, const Vec4* positions) const;
+    void limit();
+    void send_back();
+    void separate();
+    template <class Visit>
+    void for_each_particle(Visit&& visit) const;
+
+    bool search_always_;
+    const ContactLoops* loops_ = nullptr;
+    PairSearch search_;
+    std::array<Candidates, 2> candidates_;             // by kind
+    std::array<NearPairs, 2> near_;                    // by kind
+    std::array<std::uint32_t, 2> listed_{};            // number of listed pairs, by kind
+    float reach_ = 0;                                  // m: how far near pairs allow particles to move from reached_
+    float most_moved_ = 0;                             // m: how far they did, in this substep
+    std::array<std::vector<std::uint8_t>, 2> pushed_;  // by kind and source: whether contact pushed it in this substep
+    struct Pushed {
+        std::array<std::uint32_t, 4> particles;
+        std::array<float, 4> weights;
+        Vec3 normal;
+    };
+    std::vector<Pushed> pushes_of_substep_;
+
+    // Of the frame.
+    std::span<ClothState* const> cloths_;
+    Vec4 *x_ = nullptr, *velocity_ = nullptr;
+    const Vec4* start_ = nullptr;
+    float h_ = 0;      // s
+    float slack_ = 0;  // m
+    float cap_ = 0;    // m: how far pushes may move a particle from where the constraints left it
+    ClothContactCounts counts_;
+
+    // By particle of the world.
+    AlignedVector<Vec4> reached_;  // where the constraints left the particles
+    AlignedVector<Vec4> asked_;    // before the limit
+    std::vector<Vec3> pushes_;
+    std::vector<float> share_;  // sum of the weights of all pairs that push the particle
+    std::vector<float> part_;   // of its motion that the limit leaves to the particle
+    std::vector<std::uint8_t> sent_back_;
+    std::vector<std::array<float, 2>> friction_;  // static and kinetic, by particle of the world
+
+    std::array<std::vector<Overlap>, 2> overlaps_;
+    std::vector<std::uint32_t> lost_;
+    std::vector<std::uint32_t> to_send_back_;
+};
+
+}  // namespace weft::cpu

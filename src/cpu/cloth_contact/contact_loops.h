@@ -1,0 +1,66 @@
+// Pairs of features that can take part in contact in the current substep, and the loops over them.
+#pragma once
+
+#include "collide/pair_search.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace weft::cpu {
+
+/// Listed pairs of one kind that may be near in this substep.
+struct Candidates {
+    PairList pairs;
+    std::vector<std::uint32_t> source;  ///< number of the pair among all listed ones
+};
+
+/// Pairs of one kind with their closest points and normal at the start of the substep. Padded to whole packets of
+/// lanes; padding has no weights.
+struct NearPairs {
+    std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
+    std::array<AlignedVector<float>, 4> weight;            ///< of the closest points
+    std::array<AlignedVector<float>, 3> normal;
+    AlignedVector<float> thickness;     ///< m
+    AlignedVector<float> gap;           ///< m: between the sides along the normal, at the start
+    AlignedVector<float> distance;      ///< m, at the start
+    std::vector<std::uint32_t> source;  ///< number of the pair among all listed ones
+    std::uint32_t count = 0;
+
+    void reserve(std::uint32_t pairs);
+    void pad(std::uint32_t with_particle);
+};
+
+struct NearInput {
+    const float* start;    ///< blocks of four: positions at the start of the substep
+    const float* reached;  ///< where the constraints left the particles
+    float reach;           ///< m: how far contact may move a particle from there
+    float floor;           ///< least gap that a pair keeps, as a part of its thickness
+};
+
+/// A pair that has to be pushed apart.
+struct Overlap {
+    std::uint32_t pair;
+    float depth;     ///< m, > 0
+    Vec3 push = {};  ///< kg·m: what one unit of inverse mass moves at weight 1
+};
+
+/// One table per instruction set.
+struct ContactLoops {
+    SearchLoops search;
+    /// Replaces `NearPairs` by the candidates that contact or the limit may have to act on.
+    std::array<void (*)(const Candidates&, const NearInput&, NearPairs&), 2> find_near;
+    /// Appends the pairs that overlap at `positions`, in order. `recovery`: m.
+    std::array<void (*)(const NearPairs&, const float* positions, float recovery, std::vector<Overlap>&), 2>
+        find_overlaps;
+    /// Appends the pairs that lose their gap at `positions`, in order.
+    std::array<void (*)(const NearPairs&, const float* positions, float floor, std::vector<std::uint32_t>&), 2>
+        find_lost;
+};
+
+/// The table of an instruction set that available_passes() lists.
+const ContactLoops& contact_loops_of(std::string_view isa);
+const ContactLoops& scalar_contact_loops();
+
+}  // namespace weft::cpu

@@ -1,0 +1,93 @@
+// The loops over pairs of features, for the lanes of the including namespace. Include collide/pair_search.inl before.
+
+template <PairKind kind>
+WEFT_FN real gap_of(const real* along) {
+    if constexpr (kind == PairKind::vertex_triangle) return gap_vertex_triangle(along[0], along[1], along[2], along[3]);
+    else return gap_edge_edge(along[0], along[1], along[2], along[3]);
+}
+
+template <PairKind kind>
+inline void find_near_pairs(const Candidates& candidates, const NearInput& input, NearPairs& near) {
+    const PairList& list = candidates.pairs;
+    near.count = 0;
+    near.reserve(list.count);
+    for (std::uint32_t i = 0; i < list.count; i += lane_count) {
+        vec3 x[4];
+        real w, along_start[4], along[4], low[4], high[4];
+        for (int k = 0; k < 4; ++k) x[k] = gather_blocks(input.start, &list.particle[k][i], w);
+        const ClosestPoints points = closest<kind>(x);
+        const real weight[4] = {points.w0, points.w1, points.w2, points.w3};
+        const real thickness = load(&list.thickness[i]);
+        real reached(0.0f);
+        for (int k = 0; k < 4; ++k) {
+            // Relative to the first particle, so that rounding does not grow with the distance from the origin.
+            along_start[k] = dot(x[k] - x[0], points.normal);
+            along[k] = dot(gather_blocks(input.reached, &list.particle[k][i], w) - x[0], points.normal);
+            reached = reached + weight[k] * along[k];
+            low[k] = min(along_start[k], along[k]), high[k] = max(along_start[k], along[k]);
+        }
+        const real gap = gap_of<kind>(along_start);
+        // The least gap that any positions between start and end can have.
+        const real worst = kind == PairKind::vertex_triangle ? low[0] - max(high[1], max(high[2], high[3]))
+                                                             : min(low[0], low[1]) - max(high[2], high[3]);
+        const mask is_near = reached < thickness + real(2 * input.reach) ||
+                             worst < thickness * real(input.floor) + real(4 * input.reach);
+        const std::uint32_t bits = bits_of(is_near) & lanes_before(i, list.count);
+        if (bits == 0) continue;
+        alignas(64) float lanes[9][16];
+        for (int k = 0; k < 4; ++k) store(weight[k], lanes[k]);
+        store(points.normal.x, lanes[4]), store(points.normal.y, lanes[5]), store(points.normal.z, lanes[6]);
+        store(gap, lanes[7]), store(points.distance, lanes[8]);
+        for_each_bit(bits, [&](std::uint32_t lane) {
+            const std::uint32_t at = near.count++;
+            for (int k = 0; k < 4; ++k) near.particle[k][at] = list.particle[k][i + lane], near.weight[k][at] = lanes[k][lane];
+            for (int k = 0; k < 3; ++k) near.normal[k][at] = lanes[4 + k][lane];
+            near.thickness[at] = list.thickness[i + lane];
+            near.source[at] = candidates.source[i + lane];
+            near.gap[at] = lanes[7][lane], near.distance[at] = lanes[8][lane];
+        });
+    }
+}
+
+// The particles' coordinates along the normal of their pair, relative to the first of them.
+WEFT_FN void load_along(const NearPairs& near, std::uint32_t i, const float* positions, real* along) {
+    const vec3 normal(load(&near.normal[0][i]), load(&near.normal[1][i]), load(&near.normal[2][i]));
+    real w;
+    const vec3 first = gather_blocks(positions, &near.particle[0][i], w);
+    along[0] = real(0.0f);
+    for (int k = 1; k < 4; ++k)
+        along[k] = dot(gather_blocks(positions, &near.particle[k][i], w) - first, normal);
+}
+
+inline void find_overlapping_pairs(const NearPairs& near, const float* positions, float recovery,
+                                   std::vector<Overlap>& overlaps) {
+    for (std::uint32_t i = 0; i < near.count; i += lane_count) {
+        real along[4], gap(0.0f);
+        load_along(near, i, positions, along);
+        for (int k = 1; k < 4; ++k) gap = gap + load(&near.weight[k][i]) * along[k];
+        const real overlap = cloth_overlap(gap, load(&near.distance[i]), load(&near.thickness[i]), real(recovery));
+        const std::uint32_t bits = bits_of(overlap < real(0.0f)) & lanes_before(i, near.count);
+        if (bits == 0) continue;
+        alignas(64) float lanes[16];
+        store(-overlap, lanes);
+        for_each_bit(bits, [&](std::uint32_t lane) { overlaps.push_back({i + lane, lanes[lane], {}}); });
+    }
+}
+
+template <PairKind kind>
+inline void find_lost_pairs(const NearPairs& near, const float* positions, float floor,
+                            std::vector<std::uint32_t>& lost) {
+    for (std::uint32_t i = 0; i < near.count; i += lane_count) {
+        real along[4];
+        load_along(near, i, positions, along);
+        const mask loses = loses_gap(gap_of<kind>(along), load(&near.gap[i]), load(&near.thickness[i]) * real(floor));
+        for_each_bit(bits_of(loses) & lanes_before(i, near.count), [&](std::uint32_t lane) { lost.push_back(i + lane); });
+    }
+}
+
+constexpr ContactLoops contact_loops{
+    search_loops,
+    {find_near_pairs<PairKind::vertex_triangle>, find_near_pairs<PairKind::edge_edge>},
+    {find_overlapping_pairs, find_overlapping_pairs},
+    {find_lost_pairs<PairKind::vertex_triangle>, find_lost_pairs<PairKind::edge_edge>},
+};

@@ -1,0 +1,44 @@
+#include "cpu/cloth_contact/contact_loops.h"
+#include "physics/scalar.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace weft::scalar {
+namespace {
+
+using namespace weft::cpu;
+
+#include "collide/pair_search.inl"
+#include "cpu/cloth_contact/contact_loops.inl"
+
+}  // namespace
+}  // namespace weft::scalar
+
+namespace weft::cpu {
+
+const ContactLoops& scalar_contact_loops() {
+    static constexpr ContactLoops table = scalar::contact_loops;
+    return table;
+}
+
+void NearPairs::reserve(std::uint32_t pairs) {
+    const std::size_t needed = std::size_t{pairs} + 16;
+    if (thickness.size() >= needed) return;
+    const std::size_t room = needed + needed / 2;
+    for (auto& array : particle) array.resize(room);
+    for (auto& array : weight) array.resize(room);
+    for (auto& array : normal) array.resize(room);
+    for (auto* array : {&thickness, &gap, &distance}) array->resize(room);
+    source.resize(room);
+}
+
+void NearPairs::pad(std::uint32_t with_particle) {
+    reserve(count);
+    for (auto& array : particle) std::fill_n(&array[count], 16, with_particle);
+    for (auto& array : weight) std::fill_n(&array[count], 16, 0.0f);
+    for (auto& array : normal) std::fill_n(&array[count], 16, 0.0f);
+}
+
+}  // namespace weft::cpu

@@ -1,0 +1,110 @@
+// Contact of two features of cloth: closest points, gap and push (law: cloth_contact.md).
+//
+// A pair has four particles. In a vertex-triangle pair the first is the vertex; in an edge-edge pair the first two are
+// one edge and the others the other one. The first feature is side one.
+
+struct ClosestPoints {
+    real w0, w1, w2, w3;  // the closest point of side one minus that of side two is the sum of w_i x_i
+    vec3 normal;          // from side two to side one, unit
+    real distance;        // m
+};
+
+WEFT_FN real clamp01(real x) { return min(max(x, real(0)), real(1)); }
+
+WEFT_FN ClosestPoints with_normal(ClosestPoints points, vec3 difference)
+{
+    real length2 = dot(difference, difference);
+    points.distance = sqrt(length2);
+    // Features that touch have no direction; any unit vector will do.
+    points.normal = select(points.distance > real(0), difference * (real(1) / max(points.distance, real(1e-30))),
+                           vec3(real(0), real(1), real(0)));
+    return points;
+}
+
+// A triangle without area is treated as its three edges.
+WEFT_FN ClosestPoints closest_vertex_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
+{
+    vec3 ab = b - a, ac = c - a, bc = c - b, ap = p - a, bp = p - b, cp = p - c;
+    real d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp), d6 = dot(ac, cp);
+
+    // The closest of the three edges.
+    real t_ab = clamp01(d1 / max(dot(ab, ab), real(1e-30)));
+    real t_ac = clamp01(d2 / max(dot(ac, ac), real(1e-30)));
+    real t_bc = clamp01(dot(bc, bp) / max(dot(bc, bc), real(1e-30)));
+    vec3 to_ab = ap - ab * t_ab, to_ac = ap - ac * t_ac, to_bc = bp - bc * t_bc;
+    real l_ab = dot(to_ab, to_ab), l_ac = dot(to_ac, to_ac), l_bc = dot(to_bc, to_bc);
+    mask ac_wins = l_ac < l_ab;
+    real nearest = select(ac_wins, l_ac, l_ab);
+    real wb = select(ac_wins, real(0), t_ab), wc = select(ac_wins, t_ac, real(0));
+    mask bc_wins = l_bc < nearest;
+    nearest = select(bc_wins, l_bc, nearest);
+    wb = select(bc_wins, real(1) - t_bc, wb);
+    wc = select(bc_wins, t_bc, wc);
+
+    // The face, if the vertex lies above it (Ericson 2005, Real-Time Collision Detection, 5.1.5). Of a triangle almost
+    // without area rounding leaves any point of it, which may be farther away than the edges.
+    real vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    mask inside = va > real(0) && vb > real(0) && vc > real(0);
+    real scale = real(1) / select(inside, va + vb + vc, real(1));
+    vec3 to_face = ap - ab * (vb * scale) - ac * (vc * scale);
+    mask face_wins = inside && dot(to_face, to_face) < nearest;
+    wb = select(face_wins, vb * scale, wb);
+    wc = select(face_wins, vc * scale, wc);
+
+    ClosestPoints points;
+    points.w0 = real(1);
+    points.w1 = wb + wc - real(1);
+    points.w2 = -wb;
+    points.w3 = -wc;
+    return with_normal(points, p + a * points.w1 + b * points.w2 + c * points.w3);
+}
+
+// After Ericson 2005, 5.1.9. Parallel edges have many closest points; this takes one at an end.
+WEFT_FN ClosestPoints closest_edge_edge(vec3 p0, vec3 p1, vec3 q0, vec3 q1)
+{
+    vec3 u = p1 - p0, v = q1 - q0, r = p0 - q0;
+    real a = max(dot(u, u), real(1e-30)), e = max(dot(v, v), real(1e-30));
+    real b = dot(u, v), c = dot(u, r), f = dot(v, r);
+    real determinant = a * e - b * b;
+    mask crossed = determinant > real(1e-7) * a * e;
+    real s = select(crossed, clamp01((b * f - c * e) / select(crossed, determinant, real(1))), real(0));
+    real t = (b * s + f) / e;
+    s = select(t < real(0), clamp01(-c / a), s);
+    s = select(t > real(1), clamp01((b - c) / a), s);
+    t = clamp01(t);
+    ClosestPoints points;
+    points.w0 = real(1) - s;
+    points.w1 = s;
+    points.w2 = t - real(1);
+    points.w3 = -t;
+    return with_normal(points, p0 * points.w0 + p1 * points.w1 + q0 * points.w2 + q1 * points.w3);
+}
+
+// Gap between the two sides along a direction: the least of side one minus the most of side two. `a0` … `a3`: the
+// particles' coordinates along it.
+WEFT_FN real gap_vertex_triangle(real a0, real a1, real a2, real a3) { return a0 - max(a1, max(a2, a3)); }
+WEFT_FN real gap_edge_edge(real a0, real a1, real a2, real a3) { return min(a0, a1) - max(a2, a3); }
+
+// Negative where a pair has to be pushed apart.
+//   gap        distance of the closest points along the normal, m
+//   distance   their distance at the start of the substep, m
+//   recovery   m, the most of an overlap from before the substep that one substep removes
+WEFT_FN real cloth_overlap(real gap, real distance, real thickness, real recovery)
+{
+    return gap - thickness - min(real(0), distance - thickness + recovery);
+}
+
+// Whether a pair no longer has the gap that keeps its sides apart. `gap`, `gap_start`: of the sides along the normal.
+WEFT_FN mask loses_gap(real gap, real gap_start, real least_gap)
+{
+    return gap < min(gap_start, least_gap) - real(3e-7);
+}
+
+// Friction: the tangential displacement that a push of the length `push` takes back.
+WEFT_FN vec3 cloth_friction(vec3 moved, vec3 normal, real push, real static_friction, real kinetic_friction)
+{
+    vec3 slip = moved - normal * dot(moved, normal);
+    real length = sqrt(dot(slip, slip));
+    real share = select(length > static_friction * push, kinetic_friction * push / max(length, real(1e-30)), real(1));
+    return slip * min(share, real(1));
+}

@@ -1,0 +1,35 @@
+// Numbers of contact between cloths, shared by all backends.
+#pragma once
+
+#include "solver/model/cloth_model.h"
+
+#include <cstdint>
+
+namespace weft {
+
+/// Rounds of constraints, one sweep over contacts and colliders in a substep. More rounds make a pile quieter: the
+/// constraints answer what contact has moved.
+inline constexpr std::uint32_t contact_rounds = 4;
+/// Sweeps that follow the last round where the limit would have to act.
+inline constexpr int contact_extra_sweeps = 8;
+/// Part of the slack by which all rounds together may move a particle from where the first constraints left it. The
+/// rest is for the motion of the following substeps.
+inline constexpr float contact_cap = 0.4f;
+/// Gap that a pair keeps at least, as a part of its thickness. Without it gaps of micrometers stay closed forever.
+inline constexpr float contact_gap_floor = 0.1f;
+/// m/s at which an overlap from before the substep is removed at most.
+inline constexpr float contact_recovery_speed = 1;
+/// Least thickness of a pair, m. With less, rounding would decide about the gap that a pair keeps.
+inline constexpr float least_contact_thickness = 1e-4f;
+/// Part of the mass splitting that a sweep uses; 1 would be stable for any number of pairs, and slower.
+inline constexpr float contact_split = 0.3f;
+/// How often the limit may start again because a particle left its listed trajectory.
+inline constexpr int contact_most_attempts = 20;
+
+/// How far a particle may leave its listed trajectory, m: a fifth of an edge. A larger slack makes lists longer, a
+/// smaller one makes them fail earlier.
+inline float contact_slack(const ClothModel& model) {
+    return 0.2f * model.mean_edge;
+}
+
+}  // namespace weft

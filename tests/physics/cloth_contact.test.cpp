@@ -1,0 +1,354 @@
+// Cloth that meets itself and other cloth: nothing passes through, and piles come to rest.
+
+#include "sheet.h"
+
+#include "collide/crossings.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace weft::physical {
+namespace {
+
+/// Crossing pairs of triangles, over all cloths of the world.
+std::uint64_t crossings(const World& world) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec4& x : cloth.positions) positions.push_back(x.xyz());
+        for (const Triangle t : cloth.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    return count_crossings(positions, triangles).triangles;
+}
+
+double mean_speed(const World& world) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        for (const Vec4& v : cloth.velocities) sum += std::hypot(v.x, v.y, v.z);
+        count += cloth.velocities.size();
+    }
+    return sum / static_cast<double>(count);
+}
+
+bool all_finite(const World& world) {
+    for (const ClothFrame& cloth : world.frame().cloths)
+        for (const Vec4& x : cloth.positions)
+            if (!(std::abs(x.x) + std::abs(x.y) + std::abs(x.z) < 1e3)) return false;
+    return true;
+}
+
+struct Outcome {
+    std::uint64_t worst = 0;    ///< crossings of any frame
+    std::uint64_t limited = 0;  ///< particles sent back in the last second
+    double speed = 0;           ///< m/s, mean at the end
+    double highest = 0;         ///< m, of any particle at the end
+};
+
+Outcome fall(World& world, double seconds) {
+    Outcome result;
+    const int frames = static_cast<int>(std::lround(seconds * 60));
+    for (int i = 0; i < frames; ++i) {
+        world.step(1.0 / 60);
+        result.worst = std::max(result.worst, crossings(world));
+        if (i + 60 >= frames) result.limited += world.frame().cloth_contacts.limited;
+    }
+    result.speed = mean_speed(world);
+    for (const ClothFrame& cloth : world.frame().cloths)
+        for (const Vec4& x : cloth.positions) result.highest = std::max(result.highest, double{x.y});
+    return result;
+}
+
+void add_ground(World& world) {
+    world.add(make_collider({.name = "ground", .shape = PlaneDesc{}, .friction = {0.6f, 0.5f}}));
+}
+
+/// A square meter that falls by one corner.
+SheetDesc falling(std::uint32_t side, Vec3 rotation = {80, 20, 45}) {
+    SheetDesc sheet{.resolution = {side, side},
+                    .rotation_degrees = rotation,
+                    .position = {0, 0.75f, 0},
+                    .fabric = find_fabric("cotton")->fabric,
+                    .layout = {.lines = true, .hierarchy = true},
+                    .self_collision = SelfCollision::exact};
+    sheet.fabric.contact.thickness = 0.2f / static_cast<float>(side - 1);
+    return sheet;
+}
+
+World falling_world(const SheetDesc& sheet, std::uint32_t substeps = 20, CpuOptions options = {}) {
+    World world = make_world({.solver = {.substeps = substeps}}, sheet, options);
+    add_ground(world);
+    return world;
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, a_sheet_that_falls_by_a_corner_never_crosses_itself_and_comes_to_rest) {
+    for (const Vec3 rotation : {Vec3{80, 20, 45}, Vec3{70, 10, -45}, Vec3{-80, -20, 135}}) {
+        World world = falling_world(falling(28, rotation));
+        const Outcome result = fall(world, 5);
+        EXPECT_EQ(result.worst, 0u);
+        EXPECT_LT(result.speed, 0.005);
+        EXPECT_EQ(result.limited, 0u);
+    }
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, a_sheet_never_crosses_itself_with_few_substeps) {
+    for (const std::uint32_t substeps : {1u, 2u, 5u, 10u}) {
+        World world = falling_world(falling(24), substeps);
+        const Outcome result = fall(world, 3);
+        EXPECT_EQ(result.worst, 0u) << substeps << " substeps";
+        EXPECT_TRUE(all_finite(world));
+    }
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, other_meshes_never_cross_themselves) {
+    SheetDesc cross = falling(16);
+    cross.diagonal = GridDiagonal::cross;
+    SheetDesc uniform = falling(24);
+    uniform.diagonal = GridDiagonal::uniform;
+    SheetDesc oblong = falling(24);
+    oblong.size = {1.4f, 0.5f}, oblong.resolution = {50, 12};
+    for (const SheetDesc& sheet : {cross, uniform, oblong}) {
+        World world = falling_world(sheet);
+        EXPECT_EQ(fall(world, 3).worst, 0u);
+    }
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, a_sheet_thrown_down_never_crosses_itself_and_does_not_rebound) {
+    for (const std::uint32_t substeps : {10u, 20u}) {
+        SheetDesc sheet = falling(28);
+        sheet.velocity = {0, -15, 0};
+        World world = falling_world(sheet, substeps);
+        const Outcome impact = fall(world, 0.5);
+        EXPECT_EQ(impact.worst, 0u);
+        EXPECT_LT(impact.highest, 0.6) << "it was 1.5 m high";
+        EXPECT_EQ(fall(world, 2).worst, 0u);
+    }
+}
+
+World stack(float speed, std::uint32_t sheets, CpuOptions options = {}) {
+    World world = make_world({.solver = {.substeps = 20}}, options);
+    for (std::uint32_t i = 0; i < sheets; ++i) {
+        SheetDesc sheet = falling(8, {0, 0, 0});
+        sheet.fabric.contact.thickness = 0.004f;
+        sheet.position = {0, 0.5f + 0.006f * static_cast<float>(i), 0};
+        sheet.velocity = {0, speed, 0};
+        world.add(make_sheet(sheet));
+    }
+    add_ground(world);
+    return world;
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, a_stack_keeps_its_order) {
+    for (const float speed : {0.0f, -10.0f}) {
+        World world = stack(speed, 10);
+        EXPECT_EQ(fall(world, 2).worst, 0u);
+        EXPECT_LT(mean_speed(world), 0.005);
+        const auto& cloths = world.frame().cloths;
+        for (std::size_t i = 1; i < cloths.size(); ++i) {
+            for (std::size_t p = 0; p < cloths[i].positions.size(); ++p)
+                EXPECT_GT(cloths[i].positions[p].y, cloths[i - 1].positions[p].y)
+                    << "sheet " << i << ", particle " << p;
+        }
+    }
+}
+
+TEST(ClothContact, a_stack_in_flight_is_not_braked) {
+    World world = make_world({.gravity = {}, .solver = {.substeps = 20}}, CpuOptions{});
+    for (int i = 0; i < 5; ++i) {
+        SheetDesc sheet = falling(10, {0, 0, 0});
+        sheet.position = {0, 0.0105f * static_cast<float>(i), 0};
+        sheet.fabric.contact.thickness = 0.01f;
+        sheet.velocity = {3, 10, -2};
+        world.add(make_sheet(sheet));
+    }
+    run(world, 0.5);
+    EXPECT_EQ(world.frame().cloth_contacts.limited, 0u);
+    for (const ClothFrame& cloth : world.frame().cloths)
+        for (const Vec4& v : cloth.velocities) EXPECT_NEAR(v.y, 10, 1e-3);
+}
+
+TEST(ClothContact, a_collision_in_free_space_keeps_momentum) {
+    World world = make_world({.gravity = {}, .solver = {.substeps = 20}}, CpuOptions{});
+    SheetDesc one = falling(14, {0, 0, 0}), two = falling(17, {7, 30, 4});
+    one.position = {0, 0, 0}, one.velocity = {0, 2, 0};
+    two.position = {0.1f, 0.12f, 0.05f}, two.velocity = {0.5f, -1, 0};
+    two.fabric.body.density = 0.2f;
+    world.add(make_sheet(one));
+    world.add(make_sheet(two));
+    const auto momentum = [&] {
+        std::array<double, 4> sum{};  // and the sum of its lengths
+        for (const ClothFrame& cloth : world.frame().cloths) {
+            for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+                const double m = cloth.model->mass[p];
+                const Vec4 v = cloth.velocities[p];
+                sum[0] += m * v.x, sum[1] += m * v.y, sum[2] += m * v.z, sum[3] += m * std::hypot(v.x, v.y, v.z);
+            }
+        }
+        return sum;
+    };
+    const auto before = momentum();
+    // Later, rounding of the positions of cloth that vibrates adds about 1e-3 of it per second.
+    const Outcome result = fall(world, 0.25);
+    const auto after = momentum();
+    EXPECT_EQ(result.worst, 0u);
+    EXPECT_LT(after[3], 0.9 * before[3]) << "they met";
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(after[k], before[k], 1e-4 * before[3]);
+}
+
+std::string hash_after(World& world, int frames) {
+    for (int i = 0; i < frames; ++i) world.step(1.0 / 60);
+    return world.state_hash();
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, bits_do_not_depend_on_when_lists_are_made) {
+    const auto drop = [](bool always) {
+        World world = falling_world(falling(24), 10, {.search_always = always});
+        const std::string hash = hash_after(world, 75);
+        EXPECT_GT(world.frame().cloth_contacts.contacts, 0u);
+        return hash;
+    };
+    EXPECT_EQ(drop(false), drop(true));
+    const auto flat = [](bool always) {
+        World world = stack(-3, 4, {.search_always = always});
+        return hash_after(world, 40);
+    };
+    EXPECT_EQ(flat(false), flat(true));
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, bits_do_not_depend_on_instruction_sets_and_threads) {
+    const auto drop = [](std::string_view isa, unsigned workers) {
+        World world = falling_world(falling(20), 10, {.workers = workers, .isa = std::string(isa)});
+        return hash_after(world, 60);
+    };
+    const std::string expected = drop("scalar", 0);
+    for (const std::string_view isa : cpu_instruction_sets())
+        for (const unsigned workers : {0u, 3u}) EXPECT_EQ(drop(isa, workers), expected) << isa << ", " << workers;
+}
+
+TEST(ClothContact, a_restored_world_goes_on_with_the_same_bits) {
+    World world = falling_world(falling(20), 10);
+    (void)hash_after(world, 45);
+    const Snapshot saved = world.save();
+    const std::string expected = hash_after(world, 15);
+    ASSERT_TRUE(world.restore(saved).ok());
+    EXPECT_EQ(hash_after(world, 15), expected);
+    World other = falling_world(falling(20), 10);
+    ASSERT_TRUE(other.restore(saved).ok());
+    EXPECT_EQ(hash_after(other, 15), expected);
+}
+
+TEST(ClothContact, cloths_without_contact_keep_their_bits) {
+    const auto hang = [](SelfCollision self_collision) {
+        SheetDesc sheet = hung_by_corners(12, {});
+        sheet.self_collision = self_collision;
+        World world = make_world({.solver = {.substeps = 10}}, sheet, {});
+        return hash_after(world, 5);
+    };
+    (void)hang(SelfCollision::exact);  // runs, with more rounds, so its bits differ
+    EXPECT_EQ(hang(SelfCollision::off), hang(SelfCollision::off));
+}
+
+TEST(ClothContact, cloth_slides_on_tilted_cloth_if_the_slope_exceeds_the_friction) {
+    const auto slides = [](float degrees) {
+        World world = make_world({.solver = {.substeps = 20}}, CpuOptions{});
+        SheetDesc under = falling(10, {0, 0, degrees}), over = falling(6, {0, 0, degrees});
+        const float angle = degrees * std::numbers::pi_v<float> / 180;
+        under.pinned = [](Vec3) { return true; };
+        under.position = {};
+        over.size = {0.3f, 0.3f};
+        for (SheetDesc* sheet : {&under, &over}) {
+            sheet->fabric.contact.thickness = 0.01f;
+            sheet->fabric.contact.friction[0] = sheet->fabric.contact.friction[1] = 0.4f;
+        }
+        over.position = {-0.0101f * std::sin(angle), 0.0101f * std::cos(angle), 0.01f};
+        world.add(make_sheet(under));
+        world.add(make_sheet(over));
+        run(world, 0.3);
+        const Vec3 before = center_of_mass(world.frame().cloths[1]);
+        run(world, 1);
+        const Vec3 moved = center_of_mass(world.frame().cloths[1]) - before;
+        return std::hypot(moved.x, moved.y, moved.z) > 0.01f;
+    };
+    const float limit = std::atan(0.4f) * 180 / std::numbers::pi_v<float>;
+    EXPECT_FALSE(slides(limit - 1));
+    EXPECT_TRUE(slides(limit + 1));
+}
+
+TEST(ClothContact, crossings_do_not_appear_far_from_the_origin) {
+    SheetDesc sheet = falling(16);
+    sheet.position = {60, 0.75f, -40};
+    World world = falling_world(sheet, 10);
+    EXPECT_EQ(fall(world, 2).worst, 0u);
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, any_thickness_is_survived) {
+    for (const float thickness : {0.0f, 1e-5f, 0.1f, 1.0f}) {  // edges are 59 mm long
+        SheetDesc sheet = falling(18);
+        sheet.fabric.contact.thickness = thickness;
+        World world = falling_world(sheet, 10);
+        const Outcome result = fall(world, 2);
+        EXPECT_TRUE(all_finite(world)) << thickness;
+        EXPECT_EQ(result.worst, 0u) << thickness;
+    }
+}
+
+TEST(ClothContact, cloths_at_one_place_stay_finite) {
+    for (const float apart : {0.0f, 1e-7f}) {
+        World world = make_world({.solver = {.substeps = 10}}, CpuOptions{});
+        for (int i = 0; i < 2; ++i) {
+            SheetDesc sheet = falling(10, {0, 0, 0});
+            sheet.position.y = 0.1f + apart * static_cast<float>(i);
+            world.add(make_sheet(sheet));
+        }
+        add_ground(world);
+        run(world, 1);
+        EXPECT_TRUE(all_finite(world));
+        EXPECT_EQ(world.frame().reports, report_none);
+    }
+}
+
+TEST(ClothContact, pinned_cloth_and_cloth_without_gravity_do_not_move) {
+    SheetDesc sheet = falling(8, {0, 0, 0});
+    sheet.pinned = [](Vec3) { return true; };
+    World world = make_world({.solver = {.substeps = 5}}, sheet, {});
+    run(world, 0.2);
+    EXPECT_EQ(mean_speed(world), 0);
+    EXPECT_EQ(world.frame().cloth_contacts.limited, 0u);
+}
+
+TEST(ClothContact, pins_that_press_cloth_together_are_counted) {
+    World world = make_world({.solver = {.substeps = 5}}, CpuOptions{});
+    SheetDesc lower = falling(6, {0, 0, 0}), upper = falling(6, {3, 10, 0});
+    lower.pinned = upper.pinned = [](Vec3) { return true; };
+    lower.position = {};
+    upper.position = {0, 0.1f, 0};
+    world.add(make_sheet(lower));
+    const auto model = make_sheet(upper);
+    KinematicTargets targets;
+    targets.motions.push_back({.collider = {}, .offsets = {{0, {}}, {0.5f, {0, -0.3f, 0}}}});
+    for (std::uint32_t p = 0; p < model->particle_count; ++p)
+        targets.particles.push_back({.particle = p, .motion = 0, .local = model->start[p].xyz()});
+    world.add(model, targets);
+    std::uint64_t tangled = 0;
+    for (int i = 0; i < 60; ++i) {
+        world.step(1.0 / 60);
+        tangled = std::max(tangled, world.frame().cloth_contacts.tangled);
+    }
+    EXPECT_GT(tangled, 0u);
+    EXPECT_TRUE(all_finite(world));
+    EXPECT_NEAR(world.frame().cloths[1].positions[0].y, model->start[0].y - 0.3f, 1e-5) << "pins win";
+}
+
+}  // namespace
+}  // namespace weft::physical
