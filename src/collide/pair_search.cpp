@@ -257,6 +257,10 @@ void PairSearch::list_block(std::uint32_t a, std::uint32_t b, TilePairs& row) {
     for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
     loops_->list_pairs(tiles_[a], tiles_[b], how, scratch_, row.lists);
     for (int kind = 0; kind < 2; ++kind) block.count[kind] = row.lists[kind].count - block.begin[kind];
+    for (int kind = 0; kind < 2; ++kind) {
+        const auto spare = std::span(row.lists[kind].spare).subspan(block.begin[kind], block.count[kind]);
+        if (!spare.empty()) block.least_spare[kind] = *std::ranges::min_element(spare);
+    }
     if (block.count[0] + block.count[1] == 0 && block.until == never) return;
     row.until = std::min(row.until, block.until);
     row.blocks.push_back(block);

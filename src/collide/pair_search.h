@@ -78,6 +78,7 @@ struct TilePairs {
     struct Block {
         std::uint32_t other = 0;
         std::array<std::uint32_t, 2> begin{}, count{};  ///< by kind, in `lists`
+        std::array<float, 2> least_spare{};             ///< m, by kind
         std::int64_t until = 0;                         ///< tick from which on the block is not valid
         std::int64_t listed = 0;                        ///< tick in which it was made
     };

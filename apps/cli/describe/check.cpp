@@ -1,5 +1,6 @@
 #include "cli/shell/command.h"
 
+#include "collide/crossings.h"
 #include "files/open_scene.h"
 #include "io/meshes/mesh_file.h"
 #include "scene/materials.h"
@@ -41,6 +42,22 @@ void warn_of_size(const std::string& cloth, double largest, const std::string& s
                   " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
 }
 
+// Contact between cloths keeps each pair of features on the sides on which it starts.
+void warn_of_crossings(const Frame& frame, const std::string& scene_file) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (const ClothFrame& cloth : frame.cloths) {
+        if (cloth.model->self_collision == SelfCollision::off) continue;
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec4& position : cloth.positions) positions.push_back(position.xyz());
+        for (const Triangle t : cloth.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    const std::uint64_t crossings = count_crossings(positions, triangles).triangles;
+    if (crossings == 0) return;
+    print_warning(scene_file + ": cloth with self_collision crosses itself or other cloth at the start, at " +
+                  std::to_string(crossings) + " pairs of triangles; it will stay crossed there");
+}
+
 }  // namespace
 
 Command add_check(Program& program) {
@@ -71,6 +88,7 @@ Command add_check(Program& program) {
             }
             std::cout << '\n';
         }
+        warn_of_crossings(session->world().frame(), *scene);
         std::cout << *scene << ": ok\n";
         return exit_done;
     };

@@ -114,18 +114,28 @@ void ClothContact::find_near() {
         Candidates& candidates = candidates_[kind];
         candidates.pairs.count = 0;
         candidates.source.clear();
-        std::uint32_t number = 0;
+        std::uint32_t first = 0;  // number of the block's first pair
         search_.for_each_block([&](const TilePairs& row, const TilePairs::Block& block, float approach) {
             const PairList& list = row.lists[kind];
+            const std::uint32_t begin = block.begin[kind], count = block.count[kind];
             const float most = approach + 2 * reach_;
-            candidates.pairs.reserve(candidates.pairs.count + block.count[kind]);
-            for (std::uint32_t i = block.begin[kind], end = i + block.count[kind]; i < end; ++i, ++number) {
-                if (!(list.spare[i] <= most)) continue;
-                candidates.pairs.add(particles_of(list, i), list.thickness[i], list.spare[i]);
-                candidates.source.push_back(number);
+            if (count > 0 && !(block.least_spare[kind] > most)) {
+                chosen_.resize(std::max<std::size_t>(chosen_.size(), count));
+                std::uint32_t chosen = 0;
+                for (std::uint32_t i = 0; i < count; ++i) {  // without branches
+                    chosen_[chosen] = i;
+                    chosen += !(list.spare[begin + i] > most);
+                }
+                candidates.pairs.reserve(candidates.pairs.count + chosen);
+                for (std::uint32_t k = 0; k < chosen; ++k) {
+                    const std::uint32_t i = begin + chosen_[k];
+                    candidates.pairs.add(particles_of(list, i), list.thickness[i], list.spare[i]);
+                    candidates.source.push_back(first + chosen_[k]);
+                }
             }
+            first += count;
         });
-        listed_[kind] = number;
+        listed_[kind] = first;
         candidates.pairs.pad(cloths_.front()->base);
         const NearInput input{&start_->x, &reached_.data()->x, reach_, contact_gap_floor};
         loops_->find_near[kind](candidates, input, near_[kind]);

@@ -52,6 +52,7 @@ class ClothContact {
     const ContactLoops* loops_ = nullptr;
     PairSearch search_;
     std::array<Candidates, 2> candidates_;             // by kind
+    std::vector<std::uint32_t> chosen_;                // pairs of a block
     std::array<NearPairs, 2> near_;                    // by kind
     std::array<std::uint32_t, 2> listed_{};            // number of listed pairs, by kind
     float reach_ = 0;                                  // m: how far near pairs allow particles to move from reached_
