@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace weft {
 namespace {
@@ -201,20 +202,51 @@ void PairSearch::find_near_tiles() {
         }
     }
     const float apart = thickest_ + 2 * most_slack_, half_time = 0.5f * longest_lifetime;
+    const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
+        bool near = true;
+        for (int k = 0; k < 3; ++k) {
+            const float shift = (bounds_[6 + k][b] - bounds_[6 + k][a]) * half_time;
+            const float distance = std::fabs(bounds_[k][a] - bounds_[k][b] - shift);
+            near &= distance <= bounds_[3 + k][a] + bounds_[3 + k][b] + apart + std::fabs(shift);
+        }
+        return near;
+    };
+    // Along the axis on which the tiles spread most, only those in a window come into question.
+    const int axis = sort_tiles();
+    const auto center = [&](std::uint32_t i) { return bounds_[axis][i]; };
+    float largest = 0, fastest = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        largest = std::max(largest, bounds_[3 + axis][i]);
+        fastest = std::max(fastest, std::fabs(bounds_[6 + axis][i]));
+    }
     for (std::uint32_t a = 0; a < count; ++a) {
         if (!outdated_[a]) continue;
         ++searched_;
-        const auto of_a = [&](int k) { return bounds_[k][a]; };
-        for (std::uint32_t b = 0; b < count; ++b) {
-            bool near = true;
-            for (int k = 0; k < 3; ++k) {
-                const float shift = (bounds_[6 + k][b] - of_a(6 + k)) * half_time;
-                const float distance = std::fabs(of_a(k) - bounds_[k][b] - shift);
-                near &= distance <= of_a(3 + k) + bounds_[3 + k][b] + apart + std::fabs(shift);
-            }
-            if (near && !(outdated_[b] && b < a)) near_[std::min(a, b)].push_back(std::max(a, b));
+        const float window =
+            bounds_[3 + axis][a] + largest + apart + 2 * half_time * (fastest + std::fabs(bounds_[6 + axis][a]));
+        for (auto b = std::ranges::lower_bound(sorted_, center(a) - window, {}, center);
+             b != sorted_.end() && center(*b) <= center(a) + window; ++b) {
+            if (is_near(a, *b) && !(outdated_[*b] && *b < a)) near_[std::min(a, *b)].push_back(std::max(a, *b));
         }
     }
+}
+
+// Sorts the tiles along the axis on which their centers spread most.
+int PairSearch::sort_tiles() {
+    const auto count = static_cast<std::uint32_t>(tiles_.size());
+    int axis = 0;
+    float most = -1;
+    for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax_element(bounds_[k].begin(), bounds_[k].begin() + count);
+        if (*high - *low > most) axis = k, most = *high - *low;
+    }
+    sorted_.resize(count);
+    std::iota(sorted_.begin(), sorted_.end(), 0u);
+    // A center that is not a number is near nothing. It counts as 0 here, because it has no place in the order.
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!(std::fabs(bounds_[axis][i]) < 1e30f)) bounds_[axis][i] = 0, bounds_[3 + axis][i] = -1e30f;
+    std::ranges::sort(sorted_, {}, [&](std::uint32_t i) { return bounds_[axis][i]; });
+    return axis;
 }
 
 TileReach PairSearch::reach(const TileState& a, const TileState& b, std::int64_t& until) const {

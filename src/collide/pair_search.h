@@ -158,6 +158,7 @@ class PairSearch {
     void follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere);
     void bound(TileState& tile);
     void find_near_tiles();
+    int sort_tiles();
     float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
     TileReach reach(const TileState& a, const TileState& b, std::int64_t& until) const;
     void list_row(std::uint32_t a);
@@ -169,6 +170,7 @@ class PairSearch {
     std::vector<TilePairs> pairs_;
     std::vector<std::uint8_t> outdated_;
     std::array<AlignedVector<float>, 9> bounds_;    // of all tiles: center, half, mean velocity
+    std::vector<std::uint32_t> sorted_;             // tiles along an axis
     std::vector<std::vector<std::uint32_t>> near_;  // by tile: tiles of higher numbers to list it with
     std::int64_t tick_ = 0;
     std::uint64_t searched_ = 0;

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t contact_rounds = 4;
 inline constexpr int contact_extra_sweeps = 8;
 /// Part of the slack by which all rounds together may move a particle from where the first constraints left it. The
 /// rest is for the motion of the following substeps.
-inline constexpr float contact_cap = 0.4f;
+inline constexpr float contact_cap = 0.7f;
 /// Gap that a pair keeps at least, as a part of its thickness. Without it gaps of micrometers stay closed forever.
 inline constexpr float contact_gap_floor = 0.1f;
 /// m/s at which an overlap from before the substep is removed at most.
