@@ -8,7 +8,7 @@
 namespace weft::vulkan {
 
 bool fits_fused(const gpu::Device& device, const ClothModel& model) {
-    return fits_shared_memory(device, model.point_count(), false);
+    return fits_shared_memory(device, model.capacity(), false);
 }
 
 FrameRun::FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
@@ -144,7 +144,8 @@ Result<void> FrameRun::record_fused(bool timings) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Cloth& cloth = *members_[i].cloth;
         PointsAtHand points;
-        if (const std::uint32_t count = cloth.model().point_count(); fits_fused(device_, cloth.model())) {
+        // Padding of constraint tables acts on dummies, which are the last of the capacity.
+        if (const std::uint32_t count = cloth.model().capacity(); fits_fused(device_, cloth.model())) {
             const std::uint64_t position = cloth.state().address(PointArray::position);
             points = {.position = position, .count = count};
             if (fits_shared_memory(device_, count, true)) points.sums = work_[i].arena.address(work_[i].sums);
