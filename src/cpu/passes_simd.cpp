@@ -1,13 +1,6 @@
 // Compiled once per instruction set: foreach_target.h includes this file again for each of them.
 
-// Disables instruction sets that gain nothing here over the next lower one.
-#if defined(WEFT_ONE_TARGET)
-// With sanitizers these loops take minutes and gigabytes to compile for each instruction set. One set is enough to find
-// the same errors.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
-#else
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
-#endif
+#include "cpu/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/passes_simd.cpp"

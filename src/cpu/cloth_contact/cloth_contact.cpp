@@ -108,37 +108,43 @@ void ClothContact::detect() {
     pushes_of_substep_.clear();
 }
 
-// Most listed pairs are too far apart to meet in this substep, which their distance at the time of listing says.
+// Appends the pairs of a block that may be near to the candidates of their kind. Most listed pairs are too far apart to
+// meet in this substep, which their distance at the time of listing says. `first`: number of the block's first pair.
+void ClothContact::choose(int kind, const PairList& list, const TilePairs::Block& block, float most,
+                          std::uint32_t first) {
+    const std::uint32_t begin = block.begin[kind], count = block.count[kind];
+    if (count == 0 || block.least_spare[kind] > most) return;
+    chosen_.resize(std::max<std::size_t>(chosen_.size(), count));
+    std::uint32_t chosen = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {  // without branches
+        chosen_[chosen] = i;
+        chosen += !(list.spare[begin + i] > most);
+    }
+    auto& [pairs, source] = candidates_[kind];
+    pairs.reserve(pairs.count + chosen);
+    for (std::uint32_t k = 0; k < chosen; ++k) {
+        const std::uint32_t i = begin + chosen_[k];
+        pairs.add(particles_of(list, i), list.thickness[i], list.spare[i]);
+        source.push_back(first + chosen_[k]);
+    }
+}
+
 void ClothContact::find_near() {
-    for (int kind = 0; kind < 2; ++kind) {
-        Candidates& candidates = candidates_[kind];
+    listed_ = {};
+    for (Candidates& candidates : candidates_) {
         candidates.pairs.count = 0;
         candidates.source.clear();
-        std::uint32_t first = 0;  // number of the block's first pair
-        search_.for_each_block([&](const TilePairs& row, const TilePairs::Block& block, float approach) {
-            const PairList& list = row.lists[kind];
-            const std::uint32_t begin = block.begin[kind], count = block.count[kind];
-            const float most = approach + 2 * reach_;
-            if (count > 0 && !(block.least_spare[kind] > most)) {
-                chosen_.resize(std::max<std::size_t>(chosen_.size(), count));
-                std::uint32_t chosen = 0;
-                for (std::uint32_t i = 0; i < count; ++i) {  // without branches
-                    chosen_[chosen] = i;
-                    chosen += !(list.spare[begin + i] > most);
-                }
-                candidates.pairs.reserve(candidates.pairs.count + chosen);
-                for (std::uint32_t k = 0; k < chosen; ++k) {
-                    const std::uint32_t i = begin + chosen_[k];
-                    candidates.pairs.add(particles_of(list, i), list.thickness[i], list.spare[i]);
-                    candidates.source.push_back(first + chosen_[k]);
-                }
-            }
-            first += count;
-        });
-        listed_[kind] = first;
-        candidates.pairs.pad(cloths_.front()->base);
-        const NearInput input{&start_->x, &reached_.data()->x, reach_, contact_gap_floor};
-        loops_->find_near[kind](candidates, input, near_[kind]);
+    }
+    search_.for_each_block([&](const TilePairs& row, const TilePairs::Block& block, float approach) {
+        for (int kind = 0; kind < 2; ++kind) {
+            choose(kind, row.lists[kind], block, approach + 2 * reach_, listed_[kind]);
+            listed_[kind] += block.count[kind];
+        }
+    });
+    const NearInput input{&start_->x, &reached_.data()->x, reach_, contact_gap_floor};
+    for (int kind = 0; kind < 2; ++kind) {
+        candidates_[kind].pairs.pad(cloths_.front()->base);
+        loops_->find_near[kind](candidates_[kind], input, near_[kind]);
         near_[kind].pad(cloths_.front()->base);
     }
 }

@@ -31,6 +31,7 @@ class ClothContact {
 
   private:
     void detect();
+    void choose(int kind, const PairList& list, const TilePairs::Block& block, float most, std::uint32_t first);
     void find_near();
     bool extend_reach();
     void push(const Pass& pass);

@@ -1,10 +1,6 @@
 // Compiled once per instruction set, as passes_simd.cpp.
 
-#if defined(WEFT_ONE_TARGET)
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
-#else
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
-#endif
+#include "cpu/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cpu/cloth_contact/contact_simd.cpp"
