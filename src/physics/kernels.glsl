@@ -8,4 +8,6 @@
 
 #include "physics/kernels.inl"
 
+#include "physics/cloth_contact/comes_near.scalar.h"
+
 #endif

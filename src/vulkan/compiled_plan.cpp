@@ -79,7 +79,7 @@ class Compiler {
             const std::size_t before = list.size();
             add_pass(list, pass, substep);
             for (std::size_t i = before; i < list.size(); ++i) {
-                list[i].single = single && pass.source != RowSource::dynamic;
+                list[i].single = single && !is_for_all(pass);
                 // The commands before the first pass are not in the plan, so the plan has no barrier after them.
                 list[i].needs_barrier = barrier || first_pass_;
                 first_pass_ = false;
@@ -122,7 +122,7 @@ class Compiler {
     }
 
     // Placeholder that marks the time of the pass. FrameRun runs it once for all cloths.
-    void add_dynamic(List& list, const Pass& pass, std::uint32_t substep) {
+    void add_for_all(List& list, const Pass& pass, std::uint32_t substep) {
         Command& command = list.emplace_back();
         command.groups = 1;
         command.pass = pass;
@@ -130,7 +130,7 @@ class Compiler {
     }
 
     void add_pass(List& list, const Pass& pass, std::uint32_t substep) {
-        if (pass.source == RowSource::dynamic) return add_dynamic(list, pass, substep);
+        if (is_for_all(pass)) return add_for_all(list, pass, substep);
         const std::uint32_t points = model_.point_count();
         switch (pass.kind) {
             case PassKind::predict:
@@ -146,12 +146,11 @@ class Compiler {
             case PassKind::place:
             case PassKind::list:
             case PassKind::aim:
-                break;  // of dynamic lists only
             case PassKind::detect:
             case PassKind::cloth_contact:
             case PassKind::limit:
             case PassKind::separate:
-                break;  // add_cloth() refuses cloths that collide with cloth
+                break;  // for all cloths only
             case PassKind::targets:
                 add_targets(list, pass, substep);
                 break;

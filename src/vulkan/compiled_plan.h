@@ -72,6 +72,11 @@ Result<std::vector<Command>> compile_surface(Programs& programs, const ClothStat
 /// One of WEFT_LAMBDA_… for a pass.
 std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
 
+/// Whether a pass is recorded once for all cloths of a frame.
+inline bool is_for_all(const Pass& pass) {
+    return pass.source == RowSource::dynamic || is_cloth_contact(pass.kind);
+}
+
 /// Workgroups that a command fills.
 std::uint32_t workgroups_of(const Command& command);
 /// Dispatches `groups` workgroups, along a second axis if the limit of the first is exceeded.

@@ -100,7 +100,7 @@ Result<void> Dispatches::build(gpu::Device& device, Programs& programs, const Sh
         Dispatch& dispatch = dispatches_.emplace_back();
         dispatch.needs_barrier = pass.needs_barrier;
         in_table.push_back(table.size());
-        if (pass.is_list || pass.pass.source == RowSource::dynamic) continue;
+        if (pass.is_list || is_for_all(pass.pass)) continue;
         const Command& one = command_of(plans, pass.parts.front());
         if (pass.parts.size() == 1) {
             dispatch.single = &one;

@@ -63,7 +63,7 @@ class Dispatches {
         ManyArgs args;
         bool needs_barrier = false;
     };
-    std::vector<Dispatch> dispatches_;  ///< by pass; unused for lists and passes of dynamic lists
+    std::vector<Dispatch> dispatches_;  ///< by pass; unused for lists and passes for all cloths
     Arena arena_;
 };
 

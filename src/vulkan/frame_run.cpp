@@ -22,10 +22,10 @@ FrameRun::FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& pla
 
 Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
                                                    std::uint64_t serial, std::span<const Member> members,
-                                                   Execution execution, bool timings, std::uint32_t list_capacity) {
+                                                   Execution execution, bool timings, const Lists& lists) {
     auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, plan, serial, members, execution));
     if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
-    if (auto made = self->make_lists(list_capacity); !made) return made.errors();
+    if (auto made = self->make_lists(lists); !made) return made.errors();
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
     if (!recorded) return recorded.errors();
     if (auto prepared = self->prepare_contact_forces(); !prepared) return prepared.errors();
@@ -90,7 +90,35 @@ Result<void> FrameRun::compile_members() {
     return memory_.build(device_, name());
 }
 
-Result<void> FrameRun::make_lists(std::uint32_t capacity) {
+Result<void> FrameRun::make_lists(const Lists& lists) {
+    if (auto made = make_adhesion(lists.adhesion); !made) return made;
+    return make_cloth_contact(lists);
+}
+
+Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
+    std::vector<ClothContact::Member> members;
+    bool any = false;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const FrameInput& input = buffers_.input(i);
+        members.push_back({&members_[i].cloth->state(), input.frame(), input.report()});
+        any = any || members_[i].cloth->model().tiles;
+    }
+    if (!any) return {};
+    auto made = ClothContact::create(device_, programs_, members, lists.cloth_contact, lists.first_capacity,
+                                     lists.search_always, name());
+    if (!made) return made.errors();
+    cloth_contact_ = std::move(*made);
+    return {};
+}
+
+Result<void> FrameRun::record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
+                                      std::uint32_t member) const {
+    if (!is_cloth_contact(pass.kind)) return adhesion_->record(commands, pass, substep, member);
+    // A replay of one cloth alone leaves contact out, whose results are always finite for finite positions.
+    return member == none ? cloth_contact_->record(commands, pass, substep) : Result<void>{};
+}
+
+Result<void> FrameRun::make_adhesion(std::uint32_t capacity) {
     const auto& begin = plan_.frame_begin;
     if (std::ranges::find(begin, PassKind::find, &Pass::kind) == begin.end()) return {};
     std::vector<AdhesionList::Member> members;
@@ -133,10 +161,9 @@ Result<void> FrameRun::begin_recording(bool timings, std::size_t stages) {
 Result<void> FrameRun::end_recording() {
     commands_->stamp();
     buffers_.record_end(*commands_);
-    if (adhesion_) {
-        adhesion_->record_end(*commands_);
-        commands_->host_barrier();
-    }
+    if (adhesion_) adhesion_->record_end(*commands_);
+    if (cloth_contact_) cloth_contact_->record_end(*commands_);
+    if (adhesion_ || cloth_contact_) commands_->host_barrier();
     return commands_->end();
 }
 
@@ -192,11 +219,10 @@ Result<void> FrameRun::record_passes(bool timings) {
     run_through(shared.passes.size(), shared.repeat, [&](std::size_t i, std::uint32_t substep) {
         const SharedPass& pass = shared.passes[i];
         if (const std::uint32_t stage = stage_of(pass.pass); stage != last) commands_->stamp(), last = stage;
-        if (pass.pass.source == RowSource::dynamic) {
-            // Recorded once for all cloths.
+        if (is_for_all(pass.pass)) {
             const PlanPart& part = pass.parts.front();
             auto recorded =
-                adhesion_->record(*commands_, pass.pass, plans_[part.member].commands[part.begin].substep + substep);
+                record_for_all(*commands_, pass.pass, plans_[part.member].commands[part.begin].substep + substep);
             if (!recorded) return errors = recorded.errors(), false;
         } else if (pass.is_list) {
             commands_->barrier();
@@ -262,9 +288,8 @@ Result<std::string> FrameRun::replay(std::size_t member) {
 Result<void> FrameRun::run(const Command& command, std::uint32_t substep, std::size_t member) {
     Result<void> recorded;
     auto done = gpu::run_once(device_, [&](gpu::Commands& now) {
-        if (command.pass.source == RowSource::dynamic) {
-            recorded =
-                adhesion_->record(now, command.pass, command.substep + substep, static_cast<std::uint32_t>(member));
+        if (is_for_all(command.pass)) {
+            recorded = record_for_all(now, command.pass, command.substep + substep, static_cast<std::uint32_t>(member));
         } else {
             record(now, command, substep, device_.limits());
         }

@@ -3,6 +3,7 @@
 
 #include "gpu/commands.h"
 #include "vulkan/cloth.h"
+#include "vulkan/cloth_contact/cloth_contact.h"
 #include "vulkan/command_lists.h"
 #include "vulkan/contact_forces/contact_readback.h"
 #include "vulkan/dispatches.h"
@@ -39,11 +40,19 @@ class FrameRun {
         const LinkTables* links = nullptr;  ///< of the island; needed during create() only
     };
 
-    /// `execution` must not be automatic, and not fused if the plan has dynamic lists. Keeps a copy of the plan.
-    /// `serial`: that of the plan (WorldStep). `list_capacity`: constraints that dynamic lists have room for.
+    /// Sizes of lists that are found on the device.
+    struct Lists {
+        std::uint32_t first_capacity = 0;  ///< StepInput::list_capacity
+        std::uint32_t adhesion = 0;        ///< constraints
+        ClothContactRoom cloth_contact{};
+        bool search_always = false;  ///< see VulkanOptions
+    };
+
+    /// `execution` must not be automatic, and not fused if the plan has dynamic lists or contact between cloths. Keeps
+    /// a copy of the plan. `serial`: that of the plan (WorldStep).
     static Result<std::unique_ptr<FrameRun>> create(gpu::Device& device, Programs& programs, const WorldPlan& plan,
                                                     std::uint64_t serial, std::span<const Member> members,
-                                                    Execution execution, bool timings, std::uint32_t list_capacity);
+                                                    Execution execution, bool timings, const Lists& lists);
 
     bool is_for(std::uint64_t serial, std::span<const Member> members, Execution execution) const {
         const auto same = [](const Member& a, const Member& b) {
@@ -59,7 +68,12 @@ class FrameRun {
     /// The adhesion list of the last finished frame; null without a list. If the list was full, the state is the one
     /// before the frame.
     const AdhesionList* adhesion() const { return adhesion_.get(); }
-    bool list_was_full() const { return adhesion_ && adhesion_->wanted() > adhesion_->capacity(); }
+    /// Likewise for contact between cloths.
+    const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
+    bool list_was_full() const {
+        return (adhesion_ && adhesion_->wanted() > adhesion_->capacity()) ||
+               (cloth_contact_ && !cloth_contact_->room().holds(cloth_contact_->wanted()));
+    }
     /// Call when the device has finished the frame. Adds the stages' times to `stage_ms`.
     void finish(std::array<double, stage_count>& stage_ms);
     /// Reports of the member. A non-finite number in one cloth is reported for all cloths of its island.
@@ -78,7 +92,11 @@ class FrameRun {
     FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
              std::span<const Member> members, Execution execution);
     Result<void> compile_members();
-    Result<void> make_lists(std::uint32_t capacity);
+    Result<void> make_lists(const Lists& lists);
+    Result<void> make_adhesion(std::uint32_t capacity);
+    Result<void> make_cloth_contact(const Lists& lists);
+    Result<void> record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
+                                std::uint32_t member = none) const;
     Result<void> prepare_contact_forces();
     Result<void> record_fused(bool timings);
     Result<void> record_passes(bool timings);
@@ -101,8 +119,9 @@ class FrameRun {
     std::vector<LinkBuffers> links_;
     std::vector<CompiledPlan> plans_;
     CommandMemory memory_;
-    std::vector<std::uint32_t> first_command_;  ///< number in `memory_`, by member
-    std::unique_ptr<AdhesionList> adhesion_;    ///< null if nothing sticks
+    std::vector<std::uint32_t> first_command_;     ///< number in `memory_`, by member
+    std::unique_ptr<AdhesionList> adhesion_;       ///< null if nothing sticks
+    std::unique_ptr<ClothContact> cloth_contact_;  ///< null if no cloth collides with cloth
     CommandLists lists_;
     Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;

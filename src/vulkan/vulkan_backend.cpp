@@ -9,6 +9,8 @@
 #include <cassert>
 #include <cstdlib>
 #include <map>
+#include <tuple>
+#include <utility>
 
 namespace weft {
 namespace {
@@ -38,8 +40,12 @@ std::filesystem::path pipeline_cache_file(const gpu::DeviceInfo& device) {
 
 class VulkanBackend final : public Backend, public VulkanInterop {
   public:
-    VulkanBackend(std::shared_ptr<gpu::Device> device, Execution execution, bool timings)
-        : device_(std::move(device)), programs_(*device_), execution_(execution), timings_(timings) {}
+    VulkanBackend(std::shared_ptr<gpu::Device> device, Execution execution, const VulkanOptions& options)
+        : device_(std::move(device)),
+          programs_(*device_),
+          execution_(execution),
+          timings_(options.timings),
+          search_always_(options.search_always) {}
     // The results of a running frame are not needed any more, but its buffers must exist until it ends.
     ~VulkanBackend() override { (void)device_->wait(device_->submitted()); }
 
@@ -49,7 +55,6 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
-        if (auto supported = check_supported(*model); !supported) return supported.errors();
         auto cloth = make_cloth(std::move(model), base);
         if (!cloth) return cloth.errors();
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
@@ -70,7 +75,6 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     Result<void> set_model(ClothHandle handle, std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         Cloth& old = cloth(handle);
         assert(model->first_anchor() == old.model().first_anchor());
-        if (auto supported = check_supported(*model); !supported) return supported;
         const auto before = old.save();
         if (!before) return before.errors();
         const bool same_anchors = model->anchor_count == old.model().anchor_count;
@@ -151,6 +155,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         assert(groups_.empty());
         step_ = &step;
         counts_ = {};
+        contact_counts_ = {};
         group(step);
         for (Group& group : groups_) submit(step, group);
         last_ = device_->submitted();
@@ -183,6 +188,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
     ListCounts list_counts() const override { return counts_; }
+    ClothContactCounts cloth_contact_counts() const override { return contact_counts_; }
     void measure(ClothHandle handle, MeasureSums& sums) const override { cloth(handle).measure(sums); }
     ClothSnapshot save(ClothHandle handle) const override {
         auto snapshot = cloth(handle).save();
@@ -205,12 +211,6 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
   private:
-    static Result<void> check_supported(const ClothModel& model) {
-        if (model.self_collision == SelfCollision::off) return {};
-        return Error{"/self_collision", "must be \"off\" on the Vulkan backend, got \"exact\" for cloth '" +
-                                            model.name + "'; use --backend cpu"};
-    }
-
     Cloth& cloth(ClothHandle handle) const {
         assert(handle.value < cloths_.size() && cloths_[handle.value]);
         return *cloths_[handle.value];
@@ -272,9 +272,10 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     };
 
     // `fused`: a workgroup runs a cloth to the end of the frame without waiting for others. So the cloth must be the
-    // only one in its island, and there must be no dynamic lists, which all cloths share.
+    // only one in its island, and there must be no dynamic lists and no contact between cloths, which all cloths share.
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
-        const bool single_cloth = island.cloths.size() == 1 && !island.links && !has_lists(step);
+        const bool single_cloth = island.cloths.size() == 1 && !island.links && !has_lists(step) &&
+                                  !cloth(island.cloths.front().cloth).model().tiles;
         if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
         return single_cloth && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model())
@@ -334,8 +335,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             if (run->is_for(step.plan_serial, group.members, group.execution)) return run.get();
         }
         for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
-        auto run = FrameRun::create(*device_, programs_, *step.plan, step.plan_serial, group.members, group.execution,
-                                    timings_, std::max(list_capacity_, first_list_capacity(step.input.list_capacity)));
+        auto run = FrameRun::create(
+            *device_, programs_, *step.plan, step.plan_serial, group.members, group.execution, timings_,
+            {.first_capacity = step.input.list_capacity,
+             .adhesion = std::max(list_capacity_, first_list_capacity(step.input.list_capacity)),
+             .cloth_contact = contact_room_,
+             .search_always = search_always_});
         if (!run) return run.errors();
         runs_.push_back(std::move(*run));
         return runs_.back().get();
@@ -350,12 +355,15 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     bool complete_lists(Group& group) {
         while (group.run->list_was_full()) {
             ++counts_.repeats;
-            const std::uint32_t before = list_capacity_;
-            list_capacity_ = grown_list_capacity(group.run->adhesion()->wanted());
+            const auto before = std::pair(list_capacity_, contact_room_);
+            if (const auto* list = group.run->adhesion(); list && list->wanted() > list->capacity())
+                list_capacity_ = grown_list_capacity(list->wanted());
+            if (const auto* contact = group.run->cloth_contact())
+                contact_room_ = contact_room_.with(contact->room().grown(contact->wanted()));
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
             auto run = find_run(*step_, group);
-            if (!run) list_capacity_ = before;  // the next frame may need less
+            if (!run) std::tie(list_capacity_, contact_room_) = before;  // the next frame may need less
             if (!run) return fail(group, run.error()), false;
             const auto value = (*run)->submit(step_->input, group.steps, true);
             if (!value) return fail(group, value.error()), false;
@@ -367,6 +375,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             counts_.rows += list->wanted();
             counts_.capacity += list->capacity();
         }
+        if (const auto* contact = group.run->cloth_contact()) contact_counts_ = contact->counts();
         return true;
     }
 
@@ -407,7 +416,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::shared_ptr<gpu::Device> device_;
     vulkan::Programs programs_;
     Execution execution_;
-    bool timings_;
+    bool timings_, search_always_;
     std::map<const ClothModel*, std::weak_ptr<ModelBuffers>> models_;
     std::map<const ClothModel*, std::weak_ptr<const DrawnMesh>> drawn_;
     vulkan::WorldParticles particles_;  // outlives the cloths
@@ -419,8 +428,10 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     // Valid until the frame is finished:
     std::vector<Group> groups_;
     const WorldStep* step_ = nullptr;
-    ListCounts counts_;                ///< of the last frame
-    std::uint32_t list_capacity_ = 0;  ///< grown capacity of dynamic lists, in constraints
+    ListCounts counts_;                      ///< of the last frame
+    std::uint32_t list_capacity_ = 0;        ///< grown capacity of dynamic lists, in constraints
+    vulkan::ClothContactRoom contact_room_;  ///< the same for contact between cloths
+    ClothContactCounts contact_counts_;      ///< of the last frame
 };
 
 Result<Execution> execution_of(const VulkanOptions& options) {
@@ -442,7 +453,7 @@ Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<gpu::Device
                                                      const VulkanOptions& options) {
     const auto execution = execution_of(options);
     if (!execution) return execution.errors();
-    return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(std::move(device), *execution, options.timings));
+    return std::unique_ptr<Backend>(std::make_unique<VulkanBackend>(std::move(device), *execution, options));
 }
 
 Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<const gpu::Instance> instance,

@@ -36,6 +36,8 @@ struct VulkanOptions {
     bool timings = false;
     /// Largest amount of device memory to use, in bytes; 0: no limit.
     std::uint64_t memory_limit = 0;
+    /// For tests: searches for pairs of cloth in every substep. The result is the same.
+    bool search_always = false;
     /// For presentation in windows: see gpu::InstanceOptions.
     std::vector<std::string> surface_extensions = {};
     /// Enables validation layers, for tests. `on_message` gets their messages.

@@ -18,6 +18,9 @@ Vec3 to_vec3(scalar::vec3 v) {
 float squared(Vec3 v) {
     return v.x * v.x + v.y * v.y + v.z * v.z;
 }
+std::uint32_t to_integer(float quanta) {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(quanta));
+}
 void set_place(Vec4& x, Vec3 place) {
     x = {place.x, place.y, place.z, x.w};
 }
@@ -60,9 +63,8 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
 
     const std::size_t size = world.size();
     if (part_.size() < size) {
-        for (auto* array : {&reached_, &asked_}) array->resize(size);
-        pushes_.resize(size);
-        share_.resize(size), part_.resize(size);
+        for (auto* array : {&reached_, &asked_, &farthest_}) array->resize(size);
+        sums_.resize(size), share_.resize(size), part_.resize(size);
         sent_back_.resize(size), friction_.resize(size);
     }
     for (const ClothState* cloth : cloths_)
@@ -163,37 +165,16 @@ bool ClothContact::extend_reach() {
     return true;
 }
 
-// Whether a pair that starts beyond its thickness comes within it. Its gap along the normal alone does not say so,
-// since features may pass each other far to the side; and a pair that does not come near must do nothing, or the result
-// would depend on which pairs are listed. Conservative advancement: every step is as long as the distance allows.
-bool ClothContact::comes_near(int kind, std::uint32_t pair, const Vec4* positions) const {
+bool ClothContact::comes_near(int kind, std::uint32_t pair) const {
     const NearPairs& near = near_[kind];
-    const float thickness = near.thickness[pair];
-    float distance = near.distance[pair];
-    if (distance <= thickness) return true;
-    const auto particles = particles_of(near, pair);
-    std::array<Vec3, 4> from, moved;
+    scalar::vec3 from[4], moved[4];
     for (int k = 0; k < 4; ++k) {
-        from[k] = start_[particles[k]].xyz();
-        moved[k] = positions[particles[k]].xyz() - from[k];
+        const std::uint32_t p = near.particle[k][pair];
+        from[k] = on_lane(start_[p].xyz());
+        moved[k] = on_lane(x_[p].xyz() - start_[p].xyz());
     }
-    const int side_one = kind == 0 ? 1 : 2;
-    float fastest = 0;
-    for (int i = 0; i < side_one; ++i)
-        for (int j = side_one; j < 4; ++j) fastest = std::max(fastest, squared(moved[i] - moved[j]));
-    fastest = std::sqrt(fastest);
-    float time = 0;
-    for (int step = 0; step < 64; ++step) {
-        time += (distance - 0.5f * thickness) / fastest;
-        if (!(time < 1)) time = 1;
-        scalar::vec3 x[4];
-        for (int k = 0; k < 4; ++k) x[k] = on_lane(from[k] + moved[k] * time);
-        distance = kind == 0 ? scalar::closest_vertex_triangle(x[0], x[1], x[2], x[3]).distance
-                             : scalar::closest_edge_edge(x[0], x[1], x[2], x[3]).distance;
-        if (distance <= thickness) return true;
-        if (time >= 1) return false;
-    }
-    return true;
+    return scalar::comes_near(kind == 1, from[0], from[1], from[2], from[3], moved[0], moved[1], moved[2], moved[3],
+                              near.distance[pair], near.thickness[pair]);
 }
 
 void ClothContact::find_overlaps() {
@@ -203,14 +184,44 @@ void ClothContact::find_overlaps() {
         std::vector<Overlap>& overlaps = overlaps_[kind];
         overlaps.clear();
         loops_->find_overlaps[kind](near, &x_->x, contact_recovery_speed * h_, overlaps);
-        std::erase_if(overlaps, [&](const Overlap& overlap) { return !comes_near(kind, overlap.pair, x_); });
+        std::erase_if(overlaps, [&](const Overlap& overlap) { return !comes_near(kind, overlap.pair); });
         for (const Overlap& overlap : overlaps) {
             pushed_[kind][near.source[overlap.pair]] = 1;
             const auto particles = particles_of(near, overlap.pair);
             const auto weights = weights_of(near, overlap.pair);
-            for (int k = 0; k < 4; ++k) share_[particles[k]] += std::fabs(weights[k]);
+            add_shares(particles, weights);
         }
     }
+}
+
+void ClothContact::add_shares(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights) {
+    for (int k = 0; k < 4; ++k)
+        share_[particles[k]] += static_cast<std::uint32_t>(scalar::to_weight_quanta(weights[k]));
+}
+
+// Sum of the weights of all pushes of a particle.
+float ClothContact::share(std::uint32_t p) const {
+    return static_cast<float>(share_[p]) * static_cast<float>(1 / WEFT_WEIGHT_QUANTA);
+}
+
+// Adds `change` times the weight and the inverse mass of each particle to the sums.
+void ClothContact::add_to_sums(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights,
+                               Vec3 change, double quanta) {
+    for (int k = 0; k < 4; ++k) {
+        const std::uint32_t p = particles[k];
+        const Vec3 part = change * (weights[k] * x_[p].w);
+        const auto scale = static_cast<float>(quanta);
+        sums_[p][0] += to_integer(scalar::to_contact_quanta(part.x, scale));
+        sums_[p][1] += to_integer(scalar::to_contact_quanta(part.y, scale));
+        sums_[p][2] += to_integer(scalar::to_contact_quanta(part.z, scale));
+    }
+}
+
+Vec3 ClothContact::sum(std::uint32_t p, double quanta) const {
+    const auto axis = [&](int k) {
+        return static_cast<float>(static_cast<std::int32_t>(sums_[p][k])) * static_cast<float>(1 / quanta);
+    };
+    return {axis(0), axis(1), axis(2)};
 }
 
 // The masses of the particles are split among the pairs that push them, alike on both sides of a pair, so that momentum
@@ -228,8 +239,7 @@ void ClothContact::find_pushes() {
             for (int k = 0; k < 4; ++k) {
                 const std::uint32_t p = particles[k];
                 moved = moved + (x_[p].xyz() - start_[p].xyz()) * weights[k];
-                const float weight = std::fabs(weights[k]);
-                resistance += x_[p].w * weight * std::max(weight, share_[p] * contact_split);
+                resistance += scalar::contact_resistance(x_[p].w, weights[k], share(p) * contact_split);
             }
             overlap.push = {};
             if (!(resistance > 1e-12f)) continue;
@@ -246,8 +256,7 @@ void ClothContact::add_pushes() {
         for (const Overlap& overlap : overlaps_[kind]) {
             const auto particles = particles_of(near_[kind], overlap.pair);
             const auto weights = weights_of(near_[kind], overlap.pair);
-            for (int k = 0; k < 4; ++k)
-                pushes_[particles[k]] = pushes_[particles[k]] + overlap.push * (weights[k] * x_[particles[k]].w);
+            add_to_sums(particles, weights, overlap.push, WEFT_PUSH_QUANTA_PER_METER);
         }
     }
 }
@@ -260,20 +269,20 @@ void ClothContact::scale_pushes() {
             const Vec3 normal = normal_of(near_[kind], overlap.pair);
             float opened = 0;
             for (int k = 0; k < 4; ++k) {
-                const Vec3& push = pushes_[particles[k]];
+                const Vec3 push = sum(particles[k], WEFT_PUSH_QUANTA_PER_METER);
                 opened += weights[k] * (normal.x * push.x + normal.y * push.y + normal.z * push.z);
             }
             if (opened > overlap.depth) overlap.push = overlap.push * (overlap.depth / opened);
         }
     }
-    for_each_particle([&](std::uint32_t p) { pushes_[p] = {}; });
+    for_each_particle([&](std::uint32_t p) { sums_[p] = {}; });
 }
 
 void ClothContact::move_by_pushes() {
     for_each_particle([&](std::uint32_t p) {
-        if (!(share_[p] > 0)) return;
-        set_place(x_[p], x_[p].xyz() + pushes_[p]);
-        pushes_[p] = {};
+        if (share_[p] == 0) return;
+        set_place(x_[p], x_[p].xyz() + sum(p, WEFT_PUSH_QUANTA_PER_METER));
+        sums_[p] = {};
     });
     keep_in_reach();
 }
@@ -293,7 +302,7 @@ bool ClothContact::any_lost() {
         lost_.clear();
         loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
         for (const std::uint32_t pair : lost_)
-            if (comes_near(kind, pair, x_)) return true;
+            if (comes_near(kind, pair)) return true;
     }
     return false;
 }
@@ -336,7 +345,7 @@ void ClothContact::send_back() {
             lost_.clear();
             loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
             for (const std::uint32_t pair : lost_) {
-                if (!comes_near(kind, pair, x_)) continue;
+                if (!comes_near(kind, pair)) continue;
                 bool helps = false;
                 for (const std::uint32_t p : particles_of(near_[kind], pair)) {
                     if (!(part_[p] > 0) || !(x_[p].w > 0)) continue;
@@ -359,6 +368,12 @@ void ClothContact::send_back() {
     counts_.tangled = std::max(counts_.tangled, stuck);
 }
 
+// Whether a particle that was sent back may have been beyond what its list covers, on any part of its way.
+bool ClothContact::any_uncovered() {
+    for_each_particle([&](std::uint32_t p) { farthest_[p] = part_[p] < 1 ? start_[p] : x_[p]; });
+    return search_.find_outdated(farthest_.data(), 1);
+}
+
 void ClothContact::limit() {
     for_each_particle([&](std::uint32_t p) { asked_[p] = x_[p]; });
     extend_reach();
@@ -367,7 +382,7 @@ void ClothContact::limit() {
     // the start and where the particle was to go, and the limit starts again.
     for (int attempt = 0;; ++attempt) {
         const bool extended = extend_reach();
-        if (!extended && !search_.find_outdated(x_, 1)) break;
+        if (!extended && !any_uncovered()) break;
         if (attempt == contact_most_attempts) {
             for_each_particle([&](std::uint32_t p) {
                 if (!(x_[p].w > 0)) return;
@@ -395,28 +410,22 @@ void ClothContact::separate() {
     const auto for_each_pushed = [&](auto&& visit) {
         for (const Pushed& pair : pushes_of_substep_) visit(pair.particles, pair.weights, pair.normal);
     };
-    for_each_pushed([&](const auto& particles, const auto& weights, Vec3) {
-        for (int k = 0; k < 4; ++k) share_[particles[k]] += std::fabs(weights[k]);
-    });
+    for_each_pushed([&](const auto& particles, const auto& weights, Vec3) { add_shares(particles, weights); });
     for_each_pushed([&](const auto& particles, const auto& weights, Vec3 normal) {
         float speed = 0, resistance = 0;
         for (int k = 0; k < 4; ++k) {
             const std::uint32_t p = particles[k];
             const Vec3 v = velocity_[p].xyz();
             speed += weights[k] * (normal.x * v.x + normal.y * v.y + normal.z * v.z);
-            const float weight = std::fabs(weights[k]);
-            resistance += x_[p].w * weight * std::max(weight, share_[p]);
+            resistance += scalar::contact_resistance(x_[p].w, weights[k], share(p));
         }
         if (!(speed > 0) || !(resistance > 1e-12f)) return;
-        for (int k = 0; k < 4; ++k)
-            pushes_[particles[k]] =
-                pushes_[particles[k]] - normal * (speed / resistance * weights[k] * x_[particles[k]].w);
+        add_to_sums(particles, weights, normal * -(speed / resistance), WEFT_SPEED_QUANTA_PER_METER);
     });
     for_each_particle([&](std::uint32_t p) {
-        if (!(share_[p] > 0)) return;
-        velocity_[p] = {velocity_[p].x + pushes_[p].x, velocity_[p].y + pushes_[p].y, velocity_[p].z + pushes_[p].z,
-                        velocity_[p].w};
-        pushes_[p] = {};
+        if (share_[p] == 0) return;
+        set_place(velocity_[p], velocity_[p].xyz() + sum(p, WEFT_SPEED_QUANTA_PER_METER));
+        sums_[p] = {};
     });
 }
 

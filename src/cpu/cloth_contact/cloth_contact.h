@@ -42,7 +42,13 @@ class ClothContact {
     void scale_pushes();
     void move_by_pushes();
     bool any_lost();
-    bool comes_near(int kind, std::uint32_t pair, const Vec4* positions) const;
+    bool comes_near(int kind, std::uint32_t pair) const;
+    bool any_uncovered();
+    void add_shares(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights);
+    float share(std::uint32_t p) const;
+    void add_to_sums(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights, Vec3 change,
+                     double quanta);
+    Vec3 sum(std::uint32_t p, double quanta) const;
     void limit();
     void send_back();
     void separate();
@@ -76,11 +82,12 @@ class ClothContact {
     ClothContactCounts counts_;
 
     // By particle of the world.
-    AlignedVector<Vec4> reached_;  // where the constraints left the particles
-    AlignedVector<Vec4> asked_;    // before the limit
-    std::vector<Vec3> pushes_;
-    std::vector<float> share_;  // sum of the weights of all pairs that push the particle
-    std::vector<float> part_;   // of its motion that the limit leaves to the particle
+    AlignedVector<Vec4> reached_;                     // where the constraints left the particles
+    AlignedVector<Vec4> asked_;                       // before the limit
+    AlignedVector<Vec4> farthest_;                    // from the listed trajectories
+    std::vector<std::array<std::uint32_t, 3>> sums_;  // of pushes or velocities, in quanta
+    std::vector<std::uint32_t> share_;                // sum of the weights of all pairs that push, in quanta
+    std::vector<float> part_;                         // of its motion that the limit leaves to the particle
     std::vector<std::uint8_t> sent_back_;
     std::vector<std::array<float, 2>> friction_;  // static and kinetic, by particle of the world
 

@@ -108,3 +108,28 @@ WEFT_FN vec3 cloth_friction(vec3 moved, vec3 normal, real push, real static_fric
     real share = select(length > static_friction * push, kinetic_friction * push / max(length, real(1e-30)), real(1));
     return slip * min(share, real(1));
 }
+
+// Part of a pair's resistance to a push that one of its particles has, 1/kg. `share`: sum of the weights of all pushes of
+// the particle, as far as its mass is split among them.
+WEFT_FN real contact_resistance(real inverse_mass, real weight, real share)
+{
+    return inverse_mass * abs(weight) * max(abs(weight), share);
+}
+
+// Pushes, velocities and weights are summed in fixed point: integer sums do not depend on the order, so pairs may add to
+// a particle in parallel. Quanta: 2^-28 m of pushes, 2^-20 m/s of velocities, 2^-10 of weights.
+
+#define WEFT_PUSH_QUANTA_PER_METER 268435456.0
+#define WEFT_SPEED_QUANTA_PER_METER 1048576.0
+#define WEFT_WEIGHT_QUANTA 1024.0
+
+// x · scale, rounded to an integer that fits into 32 bits.
+WEFT_FN real to_contact_quanta(real x, real scale)
+{
+    real quanta = min(max(x * scale, real(-1073741824.0)), real(1073741824.0));
+    // From 2^23 on, every float is an integer, and adding 0.5 would round it again.
+    return select(abs(quanta) < real(8388608.0), floor(quanta + real(0.5)), quanta);
+}
+
+// Rounded up, so that a weight above 0 counts.
+WEFT_FN real to_weight_quanta(real weight) { return floor(abs(weight) * real(WEFT_WEIGHT_QUANTA)) + real(1); }

@@ -1,0 +1,198 @@
+// Arguments and data of contact between cloths, shared by C++ and GLSL.
+#ifndef WEFT_VULKAN_CLOTH_CONTACT_ARGS_H
+#define WEFT_VULKAN_CLOTH_CONTACT_ARGS_H
+
+#include "vulkan/args.data.h"
+
+// Sizes of a tile (collide/tiles.h), and tiles per group of tiles.
+#define WEFT_TILE_VERTICES 96
+#define WEFT_TILE_EDGES 128
+#define WEFT_TILE_TRIANGLES 64
+#define WEFT_TILES_TOGETHER 64
+
+#define WEFT_CONTACT_ROUNDS 4        // contact_rounds
+#define WEFT_CONTACT_EXTRA_SWEEPS 8  // contact_extra_sweeps
+// Rounds of the limit that run in parallel. What they leave to do, one workgroup does.
+#define WEFT_LIMIT_ROUNDS 6
+
+// The two searches of a substep, and their lists of near pairs.
+#define WEFT_SEARCH_MOTION 0    // for the motion to where the constraints left the particles
+#define WEFT_SEARCH_ANYWHERE 1  // for all places on the way there, because the limit sent particles back
+
+// Flags of a near pair.
+#define WEFT_PAIR_OF_EDGES 1u
+#define WEFT_PAIR_PUSHED 2u  // in this substep
+
+#ifdef __cplusplus
+namespace weft::vulkan {
+using ContactDataRef = std::uint64_t;
+using ContactTileRef = std::uint64_t;
+using TrackedTileRef = std::uint64_t;
+using ListedPairRef = std::uint64_t;
+using Uvec4s = std::uint64_t;
+using ContactHeadRef = std::uint64_t;
+using ReportsRef = std::uint64_t;
+struct uvec4 {
+    uint x, y, z, w;
+};
+#else
+layout(buffer_reference) buffer ContactDataRef;
+layout(buffer_reference) buffer ContactTileRef;
+layout(buffer_reference) buffer TrackedTileRef;
+layout(buffer_reference) buffer ListedPairRef;
+layout(buffer_reference) buffer Uvec4s;
+layout(buffer_reference) buffer ContactHeadRef;
+layout(buffer_reference) buffer ReportsRef;
+#endif
+
+// A tile of a cloth. Its vertices, edges and triangles are in arrays of fixed size per tile.
+struct ContactTileIn {
+    uint vertices;
+    uint own_vertices;
+    uint edges;
+    uint triangles;
+    uint cloth;
+    float thickness;  // m
+    float static_friction;
+    float kinetic_friction;
+};
+
+// The trajectory that a tile's lists were made for (TileState of collide/pair_search.h), and where it is now.
+struct TrackedTile {
+    vec4 center;  // m; of the box around its vertices, at the start of the tick; w: spread
+    vec4 extent;  // m: half of the box's size; w: stray
+    vec4 mean;    // m per tick: mean velocity; w: unused
+    uint listed;  // tick; 0: never
+    uint until;   // tick from which on its lists are not valid
+    uint lifetime;
+    uint outdated;
+};
+
+struct ListedPair {
+    uvec4 particle;
+    uint one;  // tile of side one; the highest bit is set for a pair of edges
+    uint two;  // tile of side two
+    float thickness;  // m
+    float spare;      // m: by how much the distance exceeded the thickness when it was listed
+};
+
+// Workgroups of an indirect dispatch.
+struct GroupsIn {
+    uint x;
+    uint y;
+    uint z;
+};
+
+struct ContactHead {
+    // Of the substep.
+    GroupsIn keep_groups;
+    GroupsIn list_groups;
+    GroupsIn listed_groups;
+    GroupsIn near_groups0;  // by search
+    GroupsIn near_groups1;
+    uint tick;
+    uint outdated;    // 1: there are outdated tiles
+    uint tile_pairs;  // pairs of tiles to search
+    uint list;        // which half of the listed pairs is in use
+    uint listed0;     // number of pairs in each half
+    uint listed1;
+    uint near0;       // near pairs, by search
+    uint near1;
+    uint uncovered;   // 1: the second search is needed
+    uint contacts;
+    uint lost[WEFT_CONTACT_EXTRA_SWEEPS];  // 1: some pair loses its gap before this extra sweep
+    uint sent_back[2 * WEFT_LIMIT_ROUNDS];  // 1: the round sends particles back; [search · rounds + round]
+    uint stuck[2 * WEFT_LIMIT_ROUNDS];      // pairs that sending back does not separate
+    uint finally_stuck[2];
+    // Of the frame.
+    uint searches;
+    uint limited;
+    uint tangled;
+    // Largest numbers in the frame, including those without room.
+    uint wanted_tile_pairs;
+    uint wanted_listed;
+    uint wanted_near;
+};
+
+struct ContactData {
+    Vec4s position;  // of the world, by particle; likewise start, velocity
+    Vec4s start;
+    Vec4s velocity;
+    Vec4s reached;  // where the constraints left the particles
+    Vec4s asked;    // before the limit
+    Vec4s rest;
+    Uints share;  // sums of weights, in quanta
+    Uints sums;   // in quanta: four per particle
+    Uints scaled_sums;
+    Floats part;  // of its motion that the limit leaves to the particle
+    Uints marks;  // 1: to be sent back
+    ContactTileRef tiles;
+    TrackedTileRef tracked;
+    Vec4s places;      // by vertex of the tiles; w: m that the lists cover around the trajectory
+    Vec4s velocities;  // m per tick
+    Uints particles;   // by vertex of the tiles: in the world
+    Uints edges;       // two vertices of the tile, 8 bits each
+    Uints triangles;   // three
+    Vec4s groups;      // by group of tiles: low and high corner of their boxes
+    Uints tile_pairs;  // two tiles each
+    ListedPairRef listed;  // two halves of listed_capacity
+    // Near pairs, by search:
+    Uvec4s near_particles;
+    Vec4s near_weights;  // of the closest points
+    Vec4s near_normals;  // w: thickness, m
+    Vec4s near_starts;   // gap between the sides along the normal and distance at the start, m; friction, static and kinetic
+    Vec4s near_pushes;   // kg m; w: depth, m, > 0 where the current sweep pushes
+    Uints near_kinds;    // WEFT_PAIR_…
+    ContactHeadRef head;
+    FrameRef frame;  // of any of the cloths
+    ReportsRef reports;
+    uint tile_count;
+    uint group_count;
+    uint report_count;
+    uint tile_pair_capacity;
+    uint listed_capacity;
+    uint near_capacity;
+    uint widest;  // largest number of workgroups along an axis
+    float thickest;  // m: of all cloths
+    float slack;  // m
+    float cap;    // m: how far pushes may move a particle
+    float cap_part;  // of the slack
+    float recovery_speed;  // m/s
+    float gap_floor;
+    float split;
+    uint search_always;
+};
+
+struct ClothContactArgs {
+    ContactDataRef data;
+    uint round;
+    uint search;
+};
+
+#ifdef __cplusplus
+}  // namespace weft::vulkan
+#else
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer ContactDataRef {
+    ContactData at;
+};
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ContactTileRef {
+    ContactTileIn at[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer TrackedTileRef {
+    TrackedTile at[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer ListedPairRef {
+    ListedPair at[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer Uvec4s {
+    uvec4 at[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 4) buffer ContactHeadRef {
+    ContactHead at;
+};
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ReportsRef {
+    uvec2 at[];  // Uints
+};
+#endif
+
+#endif

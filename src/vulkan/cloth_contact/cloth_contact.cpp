@@ -1,0 +1,284 @@
+#include "vulkan/cloth_contact/cloth_contact.h"
+
+#include "solver/plan/cloth_contact_numbers.h"
+#include "solver/state/list_counts.h"
+#include "vulkan/compiled_plan.h"
+#include "vulkan/primitives/recorder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace weft::vulkan {
+namespace {
+
+// Sizes of the GLSL layout.
+static_assert(sizeof(ContactTileIn) == 32 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32);
+static_assert(sizeof(ClothContactArgs) == 16);
+static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edges &&
+              WEFT_TILE_TRIANGLES == tile_triangles);
+static_assert(WEFT_CONTACT_ROUNDS == contact_rounds && WEFT_CONTACT_EXTRA_SWEEPS == contact_extra_sweeps);
+
+// The tiles of all cloths, as the shaders read them.
+struct TileArrays {
+    std::vector<ContactTileIn> tiles;
+    std::vector<std::uint32_t> particles, edges, triangles;
+
+    void add(const Tile& tile, const ClothModel& model, std::uint32_t cloth, std::uint32_t base) {
+        const ContactMaterial& material = model.fabric.contact;
+        tiles.push_back({.vertices = tile.vertex_count,
+                         .own_vertices = tile.own_vertices,
+                         .edges = tile.edge_count,
+                         .triangles = tile.triangle_count,
+                         .cloth = cloth,
+                         .thickness = std::max(material.thickness, least_contact_thickness),
+                         .static_friction = material.friction[0],
+                         .kinetic_friction = material.friction[1]});
+        for (const std::uint32_t p : tile.particle) particles.push_back(base + p);
+        for (std::uint32_t e = 0; e < tile_edges; ++e) edges.push_back(tile.edge[0][e] | tile.edge[1][e] << 8);
+        for (std::uint32_t t = 0; t < tile_triangles; ++t)
+            triangles.push_back(tile.triangle[0][t] | tile.triangle[1][t] << 8 | tile.triangle[2][t] << 16);
+    }
+};
+
+std::uint32_t in_proportion(std::uint64_t items, double each) {
+    return static_cast<std::uint32_t>(std::min(64 + static_cast<double>(items) * each, double{most_list_rows}));
+}
+
+/// Records one pass after another.
+class PassRecorder {
+  public:
+    PassRecorder(gpu::Device& device, Programs& programs, gpu::Commands& commands, const Arena& arena, Slot head,
+                 std::uint64_t data)
+        : device_(device), programs_(programs), commands_(commands), arena_(arena), head_(head), data_(data) {}
+
+    void on(std::uint32_t search) { search_ = search; }
+    void round(std::uint32_t round) { round_ = round; }
+    void run(std::string_view program, std::uint32_t groups) {
+        if (bind(program)) dispatch_groups(commands_, groups, device_.limits());
+    }
+    /// As many workgroups as the member of ContactHead at this offset says.
+    void run_indirect(std::string_view program, std::size_t groups, bool barrier = true) {
+        if (bind(program, barrier)) commands_.dispatch_indirect(arena_.buffer(), head_.offset + groups);
+    }
+    void run_near(std::string_view program) {
+        run_indirect(program, search_ == WEFT_SEARCH_MOTION ? offsetof(ContactHead, near_groups0)
+                                                            : offsetof(ContactHead, near_groups1));
+    }
+    Result<void> end() const {
+        if (!errors_.empty()) return errors_;
+        return {};
+    }
+
+  private:
+    bool bind(std::string_view program, bool barrier = true) {
+        auto pipeline = programs_.get(program);
+        if (!pipeline) {
+            errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
+            return false;
+        }
+        const ClothContactArgs args{.data = data_, .round = round_, .search = search_};
+        if (barrier) commands_.barrier();
+        commands_.bind(**pipeline);
+        commands_.push(std::as_bytes(std::span(&args, 1)));
+        return true;
+    }
+
+    gpu::Device& device_;
+    Programs& programs_;
+    gpu::Commands& commands_;
+    const Arena& arena_;
+    Slot head_;
+    std::uint64_t data_;
+    std::uint32_t search_ = WEFT_SEARCH_MOTION, round_ = 0;
+    Errors errors_;
+};
+
+void record_search(PassRecorder& passes, std::uint32_t search, std::uint32_t tiles, std::uint32_t groups) {
+    passes.on(search);
+    passes.run("contact_track", tiles);
+    passes.run("contact_bound_group", groups);
+    passes.run("contact_pair_tiles", tiles);
+    passes.run("contact_begin_search", 1);
+    passes.run_indirect("contact_keep", offsetof(ContactHead, keep_groups));
+    passes.run_indirect("contact_list", offsetof(ContactHead, list_groups), false);
+    passes.run("contact_end_search", 1);
+    passes.run_indirect("contact_near", offsetof(ContactHead, listed_groups));
+    passes.run("contact_end_near", 1);
+}
+
+void record_sweep(PassRecorder& passes, std::uint32_t round, std::uint32_t tiles) {
+    passes.round(round);
+    passes.run_near("contact_overlaps");
+    passes.run_near("contact_pushes");
+    passes.run_near("contact_scale");
+    passes.run("contact_move", tiles);
+}
+
+void record_limit(PassRecorder& passes, std::uint32_t search, std::uint32_t tiles) {
+    passes.on(search);
+    for (std::uint32_t round = 0; round < WEFT_LIMIT_ROUNDS; ++round) {
+        passes.round(round);
+        passes.run_near("contact_find_lost");
+        passes.run("contact_send_back", tiles);
+    }
+    passes.run("contact_finish_limit", 1);
+}
+
+}  // namespace
+
+ClothContactRoom ClothContactRoom::for_cloths(std::uint64_t tiles, std::uint64_t particles,
+                                              std::uint32_t list_capacity) {
+    const double each = static_cast<double>(list_capacity) / default_list_capacity;
+    return {in_proportion(tiles, 24 * each), in_proportion(particles, 32 * each), in_proportion(particles, 8 * each)};
+}
+
+ClothContactRoom ClothContactRoom::with(const ClothContactRoom& other) const {
+    return {std::max(tile_pairs, other.tile_pairs), std::max(listed, other.listed), std::max(near, other.near)};
+}
+
+ClothContactRoom ClothContactRoom::grown(const ClothContactRoom& wanted) const {
+    const auto grow = [](std::uint32_t room, std::uint32_t more) {
+        return more <= room ? room : grown_list_capacity(more);
+    };
+    return {grow(tile_pairs, wanted.tile_pairs), grow(listed, wanted.listed), grow(near, wanted.near)};
+}
+
+Result<std::unique_ptr<ClothContact>> ClothContact::create(gpu::Device& device, Programs& programs,
+                                                           std::span<const Member> members,
+                                                           const ClothContactRoom& room, std::uint32_t list_capacity,
+                                                           bool search_always, const std::string& name) {
+    auto self = std::unique_ptr<ClothContact>(new ClothContact(device, programs));
+    self->room_ = room;
+    if (auto built = self->build(members, list_capacity, search_always, name); !built) return built.errors();
+    return self;
+}
+
+Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
+                                 const std::string& name) {
+    TileArrays arrays;
+    std::vector<std::uint64_t> reports;
+    std::uint64_t particles = 0, end = 0;
+    ContactData data{};
+    for (std::uint32_t m = 0; m < members.size(); ++m) {
+        const ClothState& cloth = *members[m].cloth;
+        const ClothModel& model = cloth.model();
+        reports.push_back(members[m].report);
+        if (!model.tiles) continue;
+        for (const Tile& tile : *model.tiles) arrays.add(tile, model, m, cloth.base());
+        const float slack = contact_slack(model);
+        if (data.slack == 0 || slack < data.slack) data.slack = slack;
+        data.thickest = std::max(data.thickest, std::max(model.fabric.contact.thickness, least_contact_thickness));
+        data.frame = members[m].frame;
+        particles += model.particle_count;
+        end = std::max(end, std::uint64_t{cloth.base()} + model.capacity());
+    }
+    tiles_ = static_cast<std::uint32_t>(arrays.tiles.size());
+    groups_ = groups_of(tiles_, WEFT_TILES_TOGETHER);
+    room_ = room_.with(ClothContactRoom::for_cloths(tiles_, particles, list_capacity));
+    std::vector<Vec4> rest(end);
+    for (const Member& member : members) {
+        const ClothModel& model = member.cloth->model();
+        if (model.tiles) std::copy_n(model.start.begin(), model.particle_count, rest.begin() + member.cloth->base());
+    }
+
+    constexpr std::uint64_t word = sizeof(std::uint32_t);
+    const std::uint64_t vertices = std::uint64_t{tiles_} * tile_vertices;
+    const Slot points[] = {arena_.reserve(end * sizeof(Vec4)), arena_.reserve(end * sizeof(Vec4)),
+                           arena_.add_array(rest)};
+    const Slot share = arena_.reserve(end * word), sums = arena_.reserve(4 * end * word),
+               scaled = arena_.reserve(4 * end * word), part = arena_.reserve(end * word),
+               marks = arena_.reserve(end * word);
+    const Slot tiles = arena_.add_array(arrays.tiles), tracked = arena_.reserve(tiles_ * sizeof(TrackedTile)),
+               places = arena_.reserve(vertices * sizeof(Vec4)), velocities = arena_.reserve(vertices * sizeof(Vec4)),
+               of_tiles = arena_.add_array(arrays.particles), edges = arena_.add_array(arrays.edges),
+               triangles = arena_.add_array(arrays.triangles), groups = arena_.reserve(2 * groups_ * sizeof(Vec4)),
+               tile_pairs = arena_.reserve(2 * word * room_.tile_pairs),
+               listed = arena_.reserve(2 * sizeof(ListedPair) * room_.listed), all_reports = arena_.add_array(reports);
+    std::array<Slot, 5> near;  // particles, weights, normals, starts, pushes
+    for (Slot& slot : near) slot = arena_.reserve(2 * sizeof(Vec4) * room_.near);
+    const Slot kinds = arena_.reserve(2 * word * room_.near);
+    head_ = arena_.reserve(sizeof(ContactHead));
+    if (auto built = arena_.build(device_, "cloth contact of " + name, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT); !built)
+        return built;
+    auto back = device_.memory().buffer(sizeof(ContactHead), gpu::MemoryKind::readback, "counts of " + name);
+    if (!back) return back.errors();
+    back_ = std::move(*back);
+
+    const WorldParticles& world = members.front().cloth->world();
+    data.position = world.address(PointArray::position, 0);
+    data.start = world.address(PointArray::start, 0);
+    data.velocity = world.address(PointArray::velocity, 0);
+    data.reached = arena_.address(points[0]), data.asked = arena_.address(points[1]);
+    data.rest = arena_.address(points[2]);
+    data.share = arena_.address(share), data.sums = arena_.address(sums), data.scaled_sums = arena_.address(scaled);
+    data.part = arena_.address(part), data.marks = arena_.address(marks);
+    data.tiles = arena_.address(tiles), data.tracked = arena_.address(tracked);
+    data.places = arena_.address(places), data.velocities = arena_.address(velocities);
+    data.particles = arena_.address(of_tiles), data.edges = arena_.address(edges);
+    data.triangles = arena_.address(triangles), data.groups = arena_.address(groups);
+    data.tile_pairs = arena_.address(tile_pairs), data.listed = arena_.address(listed);
+    data.near_particles = arena_.address(near[0]), data.near_weights = arena_.address(near[1]);
+    data.near_normals = arena_.address(near[2]), data.near_starts = arena_.address(near[3]);
+    data.near_pushes = arena_.address(near[4]), data.near_kinds = arena_.address(kinds);
+    data.head = arena_.address(head_), data.reports = arena_.address(all_reports);
+    data.tile_count = tiles_, data.group_count = groups_;
+    data.report_count = static_cast<std::uint32_t>(reports.size());
+    data.tile_pair_capacity = room_.tile_pairs, data.listed_capacity = room_.listed, data.near_capacity = room_.near;
+    data.widest = device_.limits().workgroup_count[0];
+    data.cap = contact_cap * data.slack, data.cap_part = contact_cap;
+    data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
+    data.search_always = search_always ? 1 : 0;
+    data_ = data_arena_.add(std::as_bytes(std::span(&data, 1)));
+    return data_arena_.build(device_, "cloth contact addresses of " + name);
+}
+
+Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
+    PassRecorder passes(device_, programs_, commands, arena_, head_, data_arena_.address(data_));
+    switch (pass.kind) {
+        case PassKind::detect:
+            passes.round(substep);
+            passes.run("contact_begin", 1);
+            record_search(passes, WEFT_SEARCH_MOTION, tiles_, groups_);
+            break;
+        case PassKind::cloth_contact:
+            if (pass.batch > 0) passes.run("contact_clamp", tiles_);
+            record_sweep(passes, pass.batch, tiles_);
+            if (pass.batch + 1 < contact_rounds) break;
+            for (std::uint32_t k = 0; k < WEFT_CONTACT_EXTRA_SWEEPS; ++k)
+                record_sweep(passes, contact_rounds + k, tiles_);
+            break;
+        case PassKind::limit:
+            passes.run("contact_ask", tiles_);
+            record_limit(passes, WEFT_SEARCH_MOTION, tiles_);
+            passes.run("contact_check", tiles_);
+            passes.run("contact_ask_again", tiles_);
+            record_search(passes, WEFT_SEARCH_ANYWHERE, tiles_, groups_);
+            record_limit(passes, WEFT_SEARCH_ANYWHERE, tiles_);
+            passes.run("contact_count", tiles_);
+            break;
+        default:
+            passes.run_near("contact_share_speeds");
+            passes.run_near("contact_take_speeds");
+            passes.run("contact_slow", tiles_);
+            break;
+    }
+    return passes.end();
+}
+
+void ClothContact::record_end(gpu::Commands& commands) const {
+    commands.copy(arena_.buffer(), back_, sizeof(ContactHead), head_.offset, 0);
+}
+
+ClothContactRoom ClothContact::wanted() const {
+    const ContactHead& head = back_.as<ContactHead>()[0];
+    return {head.wanted_tile_pairs, head.wanted_listed, head.wanted_near};
+}
+
+ClothContactCounts ClothContact::counts() const {
+    const ContactHead& head = back_.as<ContactHead>()[0];
+    return {.contacts = head.contacts, .searches = head.searches, .limited = head.limited, .tangled = head.tangled};
+}
+
+}  // namespace weft::vulkan

@@ -1,0 +1,74 @@
+// Contact of cloth with itself and with other cloths on the device (law: physics/cloth_contact/cloth_contact.md). The
+// device searches for pairs when it must, within the recorded commands of a frame. The lists outlive frames.
+#pragma once
+
+#include "gpu/commands.h"
+#include "solver/plan/world_plan.h"
+#include "solver/state/cloth_contact_counts.h"
+#include "vulkan/arena.h"
+#include "vulkan/cloth_contact/args.data.h"
+#include "vulkan/cloth_state.h"
+#include "vulkan/programs.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace weft::vulkan {
+
+/// Numbers of elements that the lists have room for.
+struct ClothContactRoom {
+    std::uint32_t tile_pairs = 0, listed = 0, near = 0;
+
+    /// The room to begin with, for cloths of these sizes. `list_capacity`: see StepInput.
+    static ClothContactRoom for_cloths(std::uint64_t tiles, std::uint64_t particles, std::uint32_t list_capacity);
+    /// The larger of both, by element.
+    ClothContactRoom with(const ClothContactRoom& other) const;
+    /// Room after a frame that needed `wanted`, if that was too much.
+    ClothContactRoom grown(const ClothContactRoom& wanted) const;
+    bool holds(const ClothContactRoom& wanted) const {
+        return wanted.tile_pairs <= tile_pairs && wanted.listed <= listed && wanted.near <= near;
+    }
+};
+
+class ClothContact {
+  public:
+    /// A cloth of the frame, with the addresses of its frame inputs and its report.
+    struct Member {
+        const ClothState* cloth = nullptr;
+        std::uint64_t frame = 0, report = 0;
+    };
+
+    /// `members`: all cloths of the frame. Those without contact between cloths do not take part.
+    static Result<std::unique_ptr<ClothContact>> create(gpu::Device& device, Programs& programs,
+                                                        std::span<const Member> members, const ClothContactRoom& room,
+                                                        std::uint32_t list_capacity, bool search_always,
+                                                        const std::string& name);
+
+    /// Records a pass of contact between cloths, for all cloths.
+    Result<void> record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const;
+    /// Call at the end of a frame. Copies the counts back.
+    void record_end(gpu::Commands& commands) const;
+
+    const ClothContactRoom& room() const { return room_; }
+    // Of the last finished frame:
+    /// Including elements that the lists had no room for.
+    ClothContactRoom wanted() const;
+    ClothContactCounts counts() const;
+
+  private:
+    ClothContact(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
+    Result<void> build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
+                       const std::string& name);
+
+    gpu::Device& device_;
+    Programs& programs_;
+    ClothContactRoom room_;
+    std::uint32_t tiles_ = 0, groups_ = 0;
+    Arena arena_, data_arena_;
+    Slot head_, data_;
+    gpu::Buffer back_;
+};
+
+}  // namespace weft::vulkan

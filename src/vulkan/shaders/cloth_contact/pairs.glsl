@@ -1,0 +1,234 @@
+// Passes over near pairs.
+#ifndef WEFT_CLOTH_CONTACT_PAIRS_GLSL
+#define WEFT_CLOTH_CONTACT_PAIRS_GLSL
+
+#include "vulkan/shaders/cloth_contact/contact.glsl"
+
+// Calls visit(particle, weight) for the four particles.
+#define WEFT_EACH(visit, particle, weight) \
+    visit(particle.x, weight.x);           \
+    visit(particle.y, weight.y);           \
+    visit(particle.z, weight.z);           \
+    visit(particle.w, weight.w);
+
+// The whole vector is read: from reads of three and of the fourth component of one vector, llvmpipe 22.3 makes a wrong
+// one.
+vec3 place_of(uint p)
+{
+    vec4 x = contact.position.at[p];
+    return x.xyz;
+}
+float inverse_mass_of(uint p)
+{
+    vec4 x = contact.position.at[p];
+    return x.w;
+}
+
+// A near pair as it was at the start of the substep.
+struct Pair {
+    uvec4 particle;
+    vec4 weight;
+    vec3 normal;
+    float thickness;
+    float gap;
+    float distance;
+    bool edges;
+};
+
+Pair load_pair(uint i)
+{
+    uint at = near_index(i);
+    vec4 normal = contact.near_normals.at[at], start = contact.near_starts.at[at];
+    return Pair(contact.near_particles.at[at], contact.near_weights.at[at], normal.xyz, normal.w, start.x, start.y,
+                (contact.near_kinds.at[at] & WEFT_PAIR_OF_EDGES) != 0u);
+}
+
+bool pair_comes_near(Pair pair)
+{
+    uvec4 p = pair.particle;
+    vec3 x0 = contact.start.at[p.x].xyz, x1 = contact.start.at[p.y].xyz;
+    vec3 x2 = contact.start.at[p.z].xyz, x3 = contact.start.at[p.w].xyz;
+    return comes_near(pair.edges, x0, x1, x2, x3, place_of(p.x) - x0, place_of(p.y) - x1, place_of(p.z) - x2,
+                      place_of(p.w) - x3, pair.distance, pair.thickness);
+}
+
+// The particles' coordinates along the normal, relative to the first of them.
+vec4 coordinates(Pair pair)
+{
+    vec3 first = place_of(pair.particle.x);
+    return vec4(0.0, dot(place_of(pair.particle.y) - first, pair.normal),
+                dot(place_of(pair.particle.z) - first, pair.normal),
+                dot(place_of(pair.particle.w) - first, pair.normal));
+}
+
+bool loses(Pair pair, vec4 along)
+{
+    float gap = pair.edges ? gap_edge_edge(along.x, along.y, along.z, along.w)
+                           : gap_vertex_triangle(along.x, along.y, along.z, along.w);
+    return loses_gap(gap, pair.gap, pair.thickness * contact.gap_floor) && pair_comes_near(pair);
+}
+
+// Where the limit would have to act, more sweeps follow the last round. Number of such a sweep.
+bool is_extra() { return args.round >= WEFT_CONTACT_ROUNDS; }
+uint extra() { return args.round - WEFT_CONTACT_ROUNDS; }
+
+void add_share(uint p, float weight) { atomicAdd(contact.share.at[p], uint(to_weight_quanta(weight))); }
+
+void run_overlaps(uint i)
+{
+    if (is_extra() && extra() > 0u && head.lost[extra() - 1u] == 0u) return;
+    if (i >= near_count()) return;
+    Pair pair = load_pair(i);
+    vec4 along = coordinates(pair), weight = pair.weight;
+    if (is_extra() && loses(pair, along)) head.lost[extra()] = 1u;
+    float gap = weight.y * along.y + weight.z * along.z + weight.w * along.w;
+    float overlap =
+        cloth_overlap(gap, pair.distance, pair.thickness, contact.recovery_speed * contact.frame.at.h);
+    bool pushes = overlap < 0.0 && pair_comes_near(pair);
+    contact.near_pushes.at[near_index(i)] = vec4(0.0, 0.0, 0.0, pushes ? -overlap : 0.0);
+    if (!pushes) return;
+    WEFT_EACH(add_share, pair.particle, weight)
+}
+
+bool is_skipped() { return is_extra() && head.lost[extra()] == 0u; }
+
+// Mass splitting: see ClothContact::find_pushes() of the CPU backend.
+void run_pushes(uint i)
+{
+    if (is_skipped() || i >= near_count()) return;
+    uint at = near_index(i);
+    vec4 old = contact.near_pushes.at[at];
+    float depth = old.w;
+    if (!(depth > 0.0)) return;
+    contact.near_kinds.at[at] |= WEFT_PAIR_PUSHED;
+    if (args.round + 1u == WEFT_CONTACT_ROUNDS) atomicAdd(head.contacts, 1u);
+    uvec4 particle = contact.near_particles.at[at];
+    vec4 weight = contact.near_weights.at[at], start = contact.near_starts.at[at];
+    vec3 n = contact.near_normals.at[at].xyz, moved = vec3(0.0);
+    float resistance = 0.0;
+    vec4 x;
+#define WEFT_ADD(p, weight)                                         \
+    x = contact.position.at[p];                                     \
+    moved = moved + (x.xyz - contact.start.at[p].xyz) * (weight);   \
+    resistance += contact_resistance(x.w, weight, share_of(p) * contact.split)
+    WEFT_EACH(WEFT_ADD, particle, weight)
+#undef WEFT_ADD
+    vec3 push = vec3(0.0);
+    if (resistance > 1e-12) {
+        vec3 rub = cloth_friction(moved, n, depth, start.z, start.w);
+        push = (n * depth - rub) * (1.0 / resistance);
+    }
+    contact.near_pushes.at[at] = vec4(push, depth);
+#define WEFT_ADD(p, weight) \
+    add_to(contact.sums, p, push * ((weight) * inverse_mass_of(p)), WEFT_PUSH_QUANTA_PER_METER)
+    WEFT_EACH(WEFT_ADD, particle, weight)
+#undef WEFT_ADD
+}
+
+// Pairs that push alike would open too far.
+void run_scale(uint i)
+{
+    if (is_skipped() || i >= near_count()) return;
+    uint at = near_index(i);
+    vec4 pushed = contact.near_pushes.at[at];
+    vec3 push = pushed.xyz;
+    float depth = pushed.w;
+    if (!(depth > 0.0)) return;
+    uvec4 particle = contact.near_particles.at[at];
+    vec4 weight = contact.near_weights.at[at];
+    vec3 n = contact.near_normals.at[at].xyz;
+    float opened = 0.0;
+#define WEFT_ADD(p, weight)                                                  \
+    sum = sum_of(contact.sums, p, WEFT_PUSH_QUANTA_PER_METER);               \
+    opened += (weight) * (n.x * sum.x + n.y * sum.y + n.z * sum.z)
+    vec3 sum;
+    WEFT_EACH(WEFT_ADD, particle, weight)
+#undef WEFT_ADD
+    if (opened > depth) push = push * (depth / opened);
+#define WEFT_ADD(p, weight) \
+    add_to(contact.scaled_sums, p, push * ((weight) * inverse_mass_of(p)), WEFT_PUSH_QUANTA_PER_METER)
+    WEFT_EACH(WEFT_ADD, particle, weight)
+#undef WEFT_ADD
+}
+
+// --- The limit ---
+
+uint slot(uint round) { return args.search * WEFT_LIMIT_ROUNDS + round; }
+bool is_idle() { return args.search == WEFT_SEARCH_ANYWHERE && head.uncovered == 0u; }
+
+bool mark(uint p)
+{
+    vec4 x = contact.position.at[p];
+    if (!(contact.part.at[p] > 0.0) || !(x.w > 0.0)) return false;
+    contact.marks.at[p] = 1u;
+    return true;
+}
+
+// Marks the particles of a pair that has lost its gap. Returns 0 if the pair has its gap, 1 if it sends particles back,
+// 2 if none of them can go back any further.
+uint mark_lost(uint i)
+{
+    Pair pair = load_pair(i);
+    if (!loses(pair, coordinates(pair))) return 0u;
+    uvec4 p = pair.particle;
+    bool helps = mark(p.x);
+    helps = mark(p.y) || helps;
+    helps = mark(p.z) || helps;
+    helps = mark(p.w) || helps;
+    return helps ? 1u : 2u;
+}
+
+void run_find_lost(uint i)
+{
+    if (is_idle() || (args.round > 0u && head.sent_back[slot(args.round - 1u)] == 0u)) return;
+    if (i >= near_count()) return;
+    uint found = mark_lost(i);
+    if (found == 1u) head.sent_back[slot(args.round)] = 1u;
+    if (found == 2u) atomicAdd(head.stuck[slot(args.round)], 1u);
+}
+
+void send_back(uint p)
+{
+    if (contact.marks.at[p] == 0u) return;
+    contact.marks.at[p] = 0u;
+    float part = contact.part.at[p];
+    part = part > 0.2 ? 0.5 * part : 0.0;
+    contact.part.at[p] = part;
+    vec3 from = contact.start.at[p].xyz;
+    contact.position.at[p].xyz = from + (contact.asked.at[p].xyz - from) * part;
+}
+
+// --- Velocities ---
+
+void run_share_speeds(uint i)
+{
+    if (i >= near_count() || (contact.near_kinds.at[near_index(i)] & WEFT_PAIR_PUSHED) == 0u) return;
+    uvec4 particle = contact.near_particles.at[near_index(i)];
+    vec4 weight = contact.near_weights.at[near_index(i)];
+    WEFT_EACH(add_share, particle, weight)
+}
+
+// Takes the velocity with which pushed pairs separate. Masses are split in full, so that one pass never takes too much.
+void run_take_speeds(uint i)
+{
+    if (i >= near_count() || (contact.near_kinds.at[near_index(i)] & WEFT_PAIR_PUSHED) == 0u) return;
+    uvec4 particle = contact.near_particles.at[near_index(i)];
+    vec4 weight = contact.near_weights.at[near_index(i)];
+    vec3 n = contact.near_normals.at[near_index(i)].xyz;
+    float speed = 0.0, resistance = 0.0;
+    vec3 v;
+#define WEFT_ADD(p, weight)                                    \
+    v = contact.velocity.at[p].xyz;                            \
+    speed += (weight) * (n.x * v.x + n.y * v.y + n.z * v.z);   \
+    resistance += contact_resistance(inverse_mass_of(p), weight, share_of(p))
+    WEFT_EACH(WEFT_ADD, particle, weight)
+#undef WEFT_ADD
+    if (!(speed > 0.0) || !(resistance > 1e-12)) return;
+    vec3 change = n * -(speed / resistance);
+#define WEFT_ADD(p, weight) \
+    add_to(contact.sums, p, change * ((weight) * inverse_mass_of(p)), WEFT_SPEED_QUANTA_PER_METER)
+    WEFT_EACH(WEFT_ADD, particle, weight)
+#undef WEFT_ADD
+}
+
+#endif

@@ -1,0 +1,69 @@
+#version 450
+// A pass over the particles of all tiles. One workgroup per tile.
+#extension GL_GOOGLE_include_directive : require
+#include "vulkan/shaders/cloth_contact/pairs.glsl"
+
+// What contact moves stays within what the lists cover.
+vec3 in_reach(uint p, vec3 x)
+{
+    vec3 away = x - contact.reached.at[p].xyz;
+    float length2 = dot(away, away);
+    if (length2 > contact.cap * contact.cap) x = contact.reached.at[p].xyz + away * (contact.cap / sqrt(length2));
+    return x;
+}
+
+void run_clamp(uint p) { contact.position.at[p].xyz = in_reach(p, place_of(p)); }
+
+void run_move(uint p)
+{
+    uint share = contact.share.at[p];
+    contact.share.at[p] = 0u;
+    if (is_skipped()) return;
+    vec3 x = place_of(p);
+    if (share > 0u) {
+        x = x + sum_of(contact.scaled_sums, p, WEFT_PUSH_QUANTA_PER_METER);
+        clear_sum(contact.sums, p);
+        clear_sum(contact.scaled_sums, p);
+    }
+    contact.position.at[p].xyz = in_reach(p, x);
+}
+
+void run_ask(uint p)
+{
+    contact.asked.at[p] = contact.position.at[p];
+    contact.part.at[p] = 1.0;
+}
+
+void run_send_back(uint p)
+{
+    if (is_idle() || head.sent_back[slot(args.round)] == 0u) return;
+    send_back(p);
+}
+
+// The second search covers all places that the limit may choose, so the limit starts again.
+void run_ask_again(uint p)
+{
+    if (head.uncovered == 0u) return;
+    contact.position.at[p].xyz = contact.asked.at[p].xyz;
+    contact.part.at[p] = 1.0;
+}
+
+void run_count(uint p)
+{
+    if (contact.part.at[p] < 1.0) atomicAdd(head.limited, 1u);
+}
+
+void run_slow(uint p)
+{
+    if (contact.share.at[p] == 0u) return;
+    contact.share.at[p] = 0u;
+    contact.velocity.at[p].xyz = contact.velocity.at[p].xyz + sum_of(contact.sums, p, WEFT_SPEED_QUANTA_PER_METER);
+    clear_sum(contact.sums, p);
+}
+
+void main()
+{
+    uint tile = group_index(), i = gl_LocalInvocationID.x;
+    if (tile >= contact.tile_count || i >= contact.tiles.at[tile].own_vertices) return;
+    WEFT_PASS(contact.particles.at[WEFT_TILE_VERTICES * tile + i]);
+}
