@@ -15,9 +15,9 @@ struct Sheet {
 
     /// `x` and `z` in cells from the corner; halves are allowed.
     void add_vertex(TriangleMesh& mesh, float x, float z) const {
-        const Vec2 uv{x / static_cast<float>(cells[0]), z / static_cast<float>(cells[1])};
-        mesh.positions.push_back({(uv.x - 0.5f) * size[0], 0, (uv.y - 0.5f) * size[1]});
-        mesh.uvs.push_back(uv);
+        const float u = x / static_cast<float>(cells[0]), down = z / static_cast<float>(cells[1]);
+        mesh.positions.push_back({(u - 0.5f) * size[0], 0, (down - 0.5f) * size[1]});
+        mesh.uvs.push_back({u, 1 - down});
         mesh.normals.push_back({0, 1, 0});
     }
 };

@@ -9,8 +9,9 @@
 
 namespace weft {
 
-/// A flat sheet centered in the xz plane, facing +y, u along x (the warp) and v along z. Vertex (ix, iz) is
-/// iz·resolution[0] + ix; the middle vertices of `cross` follow, (cx, cz) at cz·(resolution[0]-1) + cx.
+/// A flat sheet centered in the xz plane, facing +y. u grows along +x (the warp) and v along -z, so that an image is
+/// not mirrored on the side that faces +y. Vertex (ix, iz) is iz·resolution[0] + ix; the middle vertices of `cross`
+/// follow, (cx, cz) at cz·(resolution[0]-1) + cx.
 /// `size` in m along x and z, > 0; `resolution` counts vertices along x and z, each at least 2.
 TriangleMesh make_grid(std::array<float, 2> size, std::array<std::uint32_t, 2> resolution, GridDiagonal diagonal);
 

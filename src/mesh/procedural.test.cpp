@@ -39,18 +39,19 @@ TEST(Grid, vertices_row_by_row_and_centered) {
     EXPECT_EQ(mesh.positions[2], (Vec3{1, 0, -3}));
     EXPECT_EQ(mesh.positions[9], (Vec3{-1, 0, 3}));
     EXPECT_EQ(mesh.positions[11], (Vec3{1, 0, 3}));
-    EXPECT_EQ(mesh.uvs[0], (Vec2{0, 0}));
-    EXPECT_EQ(mesh.uvs[1], (Vec2{0.5f, 0}));
-    EXPECT_EQ(mesh.uvs[11], (Vec2{1, 1}));
+    EXPECT_EQ(mesh.uvs[0], (Vec2{0, 1}));
+    EXPECT_EQ(mesh.uvs[1], (Vec2{0.5f, 1}));
+    EXPECT_EQ(mesh.uvs[11], (Vec2{1, 0}));
     for (const Vec3 n : mesh.normals) EXPECT_EQ(n, (Vec3{0, 1, 0}));
 }
 
-TEST(Grid, uv_is_the_place_in_the_sheet) {
+// Seen from +y with -z at the top, u runs to the right and v upward.
+TEST(Grid, an_image_on_it_is_upright_and_not_mirrored) {
     for (const auto diagonal : all_diagonals) {
         const auto mesh = make_grid({0.7f, 1.3f}, {9, 6}, diagonal);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             EXPECT_NEAR(mesh.uvs[i].x * 0.7f - 0.35f, mesh.positions[i].x, 1e-6f);
-            EXPECT_NEAR(mesh.uvs[i].y * 1.3f - 0.65f, mesh.positions[i].z, 1e-6f);
+            EXPECT_NEAR(0.65f - mesh.uvs[i].y * 1.3f, mesh.positions[i].z, 1e-6f);
         }
     }
 }

@@ -17,12 +17,15 @@ Vec3 warp_without_uvs(Vec3 normal) {
     return normalized(dot(along_x, along_x) > 0.01f ? along_x : laid_into({0, 0, 1}, normal));
 }
 
-// Direction in which u increases and v is constant; zero if the UVs span no area.
+// Direction in which u increases and v is constant; zero if the UVs span no area. Where v is constant along a side, the
+// quotient is 0 or 1, and the result is the direction of that side, whatever the rounding of v.
 Vec3 warp_from_uvs(Vec3 e1, Vec3 e2, Vec2 t1, Vec2 t2) {
     const float det = t1.x * t2.y - t2.x * t1.y;
     const float scale = std::abs(t1.x * t2.y) + std::abs(t2.x * t1.y);
     if (!(std::abs(det) > 1e-6f * scale)) return {};
-    return normalized((e1 * t2.y - e2 * t1.y) * (det > 0 ? 1.0f : -1.0f));
+    if (std::abs(t2.y) >= std::abs(t1.y))
+        return normalized((e1 - e2 * (t1.y / t2.y)) * ((det > 0) == (t2.y > 0) ? 1.0f : -1.0f));
+    return normalized((e1 * (t2.y / t1.y) - e2) * ((det > 0) == (t1.y > 0) ? 1.0f : -1.0f));
 }
 
 float cos2_at(const RestShape& rest, const Edge& edge) {

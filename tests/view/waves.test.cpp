@@ -1,4 +1,4 @@
-// Normals and tangents of a waved sheet, against those of the wave.
+// Normals and tangents of a waved sheet, compared with those of the exact wave.
 
 #include "../physics/sheet.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr float height = 0.05f, k = 9;  // m, 1/m
 
-/// The largest angle (in radians, nearly) by which normals and tangents are off, away from the hems.
+/// Largest errors of normals and tangents away from the borders, in radians for small angles.
 struct Off {
     float normal = 0, tangent = 0;
 };
@@ -37,12 +37,12 @@ Off waved(std::uint32_t side, GridDiagonal diagonal) {
         EXPECT_NEAR(length(normals[v]), 1, 1e-5f);
         EXPECT_NEAR(length(tangents[v].xyz()), 1, 1e-5f);
         EXPECT_NEAR(dot(normals[v], tangents[v].xyz()), 0, 1e-5f);
-        EXPECT_EQ(tangents[v].w, -1) << "v runs along z: -1 · normal × tangent";
+        EXPECT_EQ(tangents[v].w, 1) << "v grows toward -z, along normal × tangent";
     }
     return off;
 }
 
-// Half as long edges are a quarter as wrong.
+// The error is of second order in the edge length.
 TEST(Waves, have_the_normals_and_tangents_of_the_wave) {
     for (const GridDiagonal diagonal : {GridDiagonal::alternating, GridDiagonal::uniform, GridDiagonal::cross}) {
         const Off coarse = waved(21, diagonal), fine = waved(41, diagonal), finer = waved(81, diagonal);

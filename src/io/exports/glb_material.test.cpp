@@ -107,8 +107,8 @@ TEST_F(GlbMaterial, OneFrameHasTheTangentsThatNormalMapsNeed) {
         EXPECT_NEAR(length(tangents[i].xyz()), 1, 1e-5);
         EXPECT_NEAR(dot(tangents[i].xyz(), normals[i]), 0, 1e-5);
         EXPECT_GT(tangents[i].x, 0.3f) << "u runs along x";
-        // v runs along z, upward in the image like the green channel of a normal map.
-        EXPECT_GT((tangents[i].w * cross(normals[i], tangents[i].xyz())).z, 0.3f);
+        // v grows toward -z, upward in the image like the green channel of a normal map.
+        EXPECT_LT((tangents[i].w * cross(normals[i], tangents[i].xyz())).z, -0.3f);
     }
     EXPECT_FALSE(export_of(preset("velvet")).meshes[0].primitives[0].attributes.contains("TANGENT"));
 }
