@@ -33,6 +33,47 @@ constexpr FormerName former_names[] = {
     {"occlusion", "ambient_occlusion"},
 };
 
+/// A name that weft does not use, and the name of the key that a user most likely means.
+struct OtherName {
+    std::string_view word, meant;
+};
+
+constexpr OtherName other_names[] = {
+    {"speed", "velocity"},
+    {"mass", "density"},
+    {"weight", "density"},
+    {"fps", "frame_rate"},
+    {"wind", "air"},
+    {"objects", "colliders"},
+    {"obstacles", "colliders"},
+    {"fixed", "pins"},
+    {"self_contact", "self_collision"},
+    {"translation", "position"},
+    {"orientation", "rotation"},
+    {"size", "half_extents"},
+    {"height", "half_height"},
+    {"look_at", "target"},
+    {"eye", "position"},
+    {"field_of_view", "fov"},
+    {"albedo", "color"},
+    {"base_color", "color"},
+    {"texture", "color_map"},
+    {"opacity", "coverage"},
+    {"brightness", "intensity"},
+    {"steps", "substeps"},
+};
+
+char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+// In a short word one error changes much. The first letter is rarely wrong, except that it is swapped with the second.
+bool begin_alike(std::string_view word, std::string_view name) {
+    if (word.empty() || name.empty()) return false;
+    const bool swapped = word.size() > 1 && name.size() > 1 && word[0] == name[1] && word[1] == name[0];
+    return lower(word[0]) == name[0] || swapped;
+}
+
 // Restricted Damerau-Levenshtein distance: no letter takes part in two swaps.
 std::size_t typing_errors(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -69,6 +110,7 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
         const std::size_t longer = std::max(word.size(), name.size());
         const std::size_t shorter = std::min(word.size(), name.size());
         const std::size_t allowed = std::max<std::size_t>(longer / 3, 1);
+        if (longer <= 5 && !begin_alike(word, name)) continue;
         const bool begins = shorter >= 3 && (name.starts_with(word) || word.starts_with(name));
         if (!begins && longer - shorter > allowed) continue;  // also keeps the cost low for very long words
         const std::size_t errors = begins ? 1 : typing_errors(word, name);
@@ -94,6 +136,9 @@ std::string former_name(std::string_view word, std::span<const std::string_view>
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
     if (std::string now = former_name(word, known); !now.empty()) return now;
+    for (const auto& [other, meant] : other_names)
+        if (word == other && std::ranges::find(known, meant) != known.end())
+            return "; did you mean \"" + std::string(meant) + "\"?";
     if (const std::string_view name = nearest_name(word, known); !name.empty())
         return "; did you mean \"" + std::string(name) + "\"?";
     return known.empty() ? "" : "; known are " + listed(known, " and ");

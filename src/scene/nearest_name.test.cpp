@@ -36,6 +36,22 @@ TEST(NearestName, FindsNothingFarAway) {
     EXPECT_EQ(nearest_name(std::string(1 << 20, 'z'), keys), "");
 }
 
+TEST(NearestName, ShortNamesMustBeginAlike) {
+    constexpr std::string_view names[] = {"wind", "a", "b"};
+    EXPECT_EQ(nearest_name("wnd", names), "wind");
+    EXPECT_EQ(nearest_name("iwnd", names), "wind");
+    EXPECT_EQ(nearest_name("Wind", names), "wind");
+    EXPECT_EQ(nearest_name("kind", names), "");
+    EXPECT_EQ(nearest_name("c", names), "");
+}
+
+TEST(NearestName, KnowsOtherWordsForTheSame) {
+    constexpr std::string_view of_wind[] = {"kind", "velocity", "gust", "turbulence", "seed"};
+    EXPECT_EQ(suggestion("speed", of_wind), "; did you mean \"velocity\"?");
+    EXPECT_EQ(suggestion("mass", keys), "; did you mean \"density\"?");
+    EXPECT_EQ(suggestion("mass", of_wind).substr(0, 12), "; known are ") << "there is no density";
+}
+
 TEST(NearestName, SuggestsOrLists) {
     constexpr std::string_view names[] = {"plane", "sphere", "box"};
     EXPECT_EQ(suggestion("shpere", names), "; did you mean \"sphere\"?");
