@@ -11,6 +11,10 @@ namespace weft {
 /// Limit for scene values: at 10⁶ m from the origin floats are 6 cm apart, too coarse for cloth.
 inline constexpr double far_away = 1e6;
 
+/// The `above_hint` of colors.
+inline constexpr std::string_view color_hint =
+    "; colors are linear RGB from 0 to 1: for values from 0 to 255, use (value / 255)^2.2";
+
 enum class ParameterKind {
     number,         ///< `count` floats; one number sets all of them
     flag,           ///< bool
@@ -29,10 +33,11 @@ struct Parameter {
     unsigned count = 1;
     std::size_t offset = 0;  ///< of the first element in the struct that the table describes
     double min = 0, max = std::numeric_limits<float>::max();
-    bool min_excluded = false;      ///< the value must be greater than `min`
-    std::string_view unit = {};     ///< SI; empty for a pure number
-    std::string_view what = {};     ///< one line of documentation
-    std::string_view choices = {};  ///< `choice` only: the names, separated by '|'
+    bool min_excluded = false;         ///< the value must be greater than `min`
+    std::string_view unit = {};        ///< SI; empty for a pure number
+    std::string_view above_hint = {};  ///< end of the message about a value above `max`
+    std::string_view what = {};        ///< one line of documentation
+    std::string_view choices = {};     ///< `choice` only: the names, separated by '|'
     bool required = false;
     bool flag_too = false;  ///< `choice` only: `false` stands for the first name and `true` for the second
 };

@@ -57,7 +57,7 @@ inline constexpr Parameter sun_parameters[] = {
     {.key = "intensity", .offset = offsetof(Sun, intensity), .min = 0, .max = 1000,
      .what = "brightness; 1 shows a white, matte surface that faces the sun as white; 0: no sun"},
     {.key = "color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Sun, color), .min = 0, .max = 1,
-     .what = "linear RGB"},
+     .above_hint = color_hint, .what = "linear RGB"},
     {.key = "angular_diameter", .offset = offsetof(Sun, angular_diameter), .min = 0, .max = 30, .unit = "°",
      .what = "apparent diameter; a larger one gives softer shadows; the real sun has 0.53"},
 };
@@ -66,11 +66,11 @@ inline constexpr Parameter sky_parameters[] = {
     {.key = "intensity", .offset = offsetof(Sky, intensity), .min = 0, .max = 1000,
      .what = "brightness of all three colors; 1, with white in all of them, shows white, matte surfaces as white"},
     {.key = "zenith", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Sky, zenith), .min = 0, .max = 1,
-     .what = "linear RGB of the light from straight above"},
+     .above_hint = color_hint, .what = "linear RGB of the light from straight above"},
     {.key = "horizon", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Sky, horizon), .min = 0, .max = 1,
-     .what = "linear RGB of the light from the horizon; also the background of images"},
+     .above_hint = color_hint, .what = "linear RGB of the light from the horizon; also the background of images"},
     {.key = "ground", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Sky, ground), .min = 0, .max = 1,
-     .what = "linear RGB of the light from below"},
+     .above_hint = color_hint, .what = "linear RGB of the light from below"},
 };
 
 inline constexpr Parameter environment_parameters[] = {

@@ -42,9 +42,11 @@ struct Material {
 // clang-format off
 inline constexpr Parameter material_parameters[] = {
     {.key = "color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Material, color), .min = 0, .max = 1,
+     .above_hint = color_hint,
      .what = "linear RGB, diffuse reflectance of the warp; also of the weft if `weft_color` is not given"},
     {.key = "weft_color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Material, weft_color), .min = 0,
-     .max = 1, .what = "linear RGB, diffuse reflectance of the weft"},
+     .max = 1,
+     .above_hint = color_hint, .what = "linear RGB, diffuse reflectance of the weft"},
     {.key = "diffuse_roughness", .offset = offsetof(Material, diffuse_roughness), .min = 0, .max = 1,
      .what = "diffuse roughness (Oren-Nayar); 0: Lambert; a rough surface looks flatter"},
     {.key = "specular", .offset = offsetof(Material, specular), .min = 0, .max = 1,
@@ -52,7 +54,8 @@ inline constexpr Parameter material_parameters[] = {
     {.key = "roughness", .count = 2, .offset = offsetof(Material, roughness), .min = 0.02, .max = 1,
      .what = "roughness of the highlight, along the threads and across them"},
     {.key = "sheen_color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(Material, sheen_color),
-     .min = 0, .max = 1, .what = "linear RGB of the fuzz (sheen); black: none"},
+     .min = 0, .max = 1,
+     .above_hint = color_hint, .what = "linear RGB of the fuzz (sheen); black: none"},
     {.key = "sheen_roughness", .offset = offsetof(Material, sheen_roughness), .min = 0.05, .max = 1,
      .what = "roughness of the sheen; larger values reach farther from the silhouette"},
     {.key = "velvet", .offset = offsetof(Material, velvet), .min = 0, .max = 100,

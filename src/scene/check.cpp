@@ -209,7 +209,7 @@ std::string range_problem(const Parameter& parameter, double value, std::string_
     std::string bound =
         below ? (parameter.min_excluded ? "> " : "≥ ") + number_text(parameter.min) : "≤ " + number_text(parameter.max);
     if (!parameter.unit.empty()) (bound += ' ') += parameter.unit;
-    return "must be " + bound + ", got " + text;
+    return "must be " + bound + ", got " + text + std::string(below ? "" : parameter.above_hint);
 }
 
 std::vector<std::string_view> choice_names(const Parameter& parameter) {

@@ -79,6 +79,18 @@ TEST(Materials, are_checked_where_they_are_given) {
     EXPECT_EQ(errors[1].message(), "/colliders/1/material/coverage: must be ≥ 0.05, got -1");
 }
 
+TEST(Materials, colors_from_0_to_255_are_answered_with_the_conversion) {
+    SceneDesc scene = small_scene();
+    scene.cloths[0].material = {.preset = "silk", .values = {.color = {200, 0.5f, -1}}};
+    scene.light.sky.zenith = {0, 0, 255};
+    const Errors errors = check_scene(scene);
+    ASSERT_EQ(errors.size(), 3u);
+    const std::string hint = "; colors are linear RGB from 0 to 1: for values from 0 to 255, use (value / 255)^2.2";
+    EXPECT_EQ(errors[0].message(), "/cloths/0/material/color/0: must be ≤ 1, got 200" + hint);
+    EXPECT_EQ(errors[1].message(), "/cloths/0/material/color/2: must be ≥ 0, got -1");
+    EXPECT_EQ(errors[2].message(), "/light/sky/zenith/2: must be ≤ 1, got 255" + hint);
+}
+
 TEST(CheckCamera, LooksSomewhere) {
     SceneDesc scene = small_scene();
     scene.camera = Camera{.position = {1, 1, 1}, .target = {1, 1, 1}};

@@ -228,7 +228,8 @@ inline constexpr Parameter offset_key_keys[] = {
 
 inline constexpr Parameter color_pin_keys[] = {
     {.key = "color", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(ColorPins, color), .min = 0,
-     .max = 1, .what = "all particles whose vertex color (linear RGB) is near this one"},
+     .max = 1,
+     .above_hint = color_hint, .what = "all particles whose vertex color (linear RGB) is near this one"},
     {.key = "threshold", .offset = offsetof(ColorPins, threshold), .min = 0, .max = 1,
      .what = "largest difference from `color`, per channel; with `color`"},
 };

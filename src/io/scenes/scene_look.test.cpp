@@ -148,7 +148,7 @@ TEST(SceneLook, NamesWhatIsWrongWithTheLight) {
                 ElementsAre("s.json: /light/sun: must be an object, got true"));
     EXPECT_THAT(draped_errors(R"("light": {"exposure": 30, "sun": {"color": [1, 2, 1]}, "sky": {"intensity": -1}})"),
                 ElementsAre("s.json: /light/exposure: must be ≤ 20 stops, got 30",
-                            "s.json: /light/sun/color/1: must be ≤ 1, got 2",
+                            "s.json: /light/sun/color/1: must be ≤ 1, got 2" + std::string(color_hint),
                             "s.json: /light/sky/intensity: must be ≥ 0, got -1"));
     EXPECT_THAT(draped_errors(R"("light": {"environment": {"file": 3, "visible": 1}})"),
                 ElementsAre("s.json: /light/environment/file: must be a text in quotes, got 3",
@@ -173,7 +173,7 @@ TEST(SceneLook, NamesWhatIsWrongWithMaterials) {
                 ElementsAre("s.json: /cloths/0/material/colr: unknown key \"colr\"; did you mean \"color\"?"));
     // An invalid color for both warp and weft is reported once.
     EXPECT_THAT(sheet_errors(R"({"color": [1, 2, 0]})"),
-                ElementsAre("s.json: /cloths/0/material/color/1: must be ≤ 1, got 2"));
+                ElementsAre("s.json: /cloths/0/material/color/1: must be ≤ 1, got 2" + std::string(color_hint)));
     EXPECT_THAT(sheet_errors(R"({"roughness": 0, "weave": "linen", "thread_spacing": 0})"),
                 ElementsAre(HasSubstr("/cloths/0/material/weave: must be \"smooth\", \"plain\", \"twill\""),
                             "s.json: /cloths/0/material/roughness: must be ≥ 0.02, got 0",
