@@ -214,6 +214,8 @@ TEST_F(Cli, cloth_falls_on_cloth_without_crossings) {
           R"({ "weft": 1, "cloths": [{ )" + sheet + R"( }, { )" + sheet +
               R"(, "transform": { "position": [0, 0.1, 0], "rotation": [4, 10, 0] }, "velocity": [0, -3, 0] }],
                            "colliders": [{ "plane": { "offset": -0.1 } }] })");
+    EXPECT_TRUE(outcome.out.ends_with("big.json: ok, 1 warning\n")) << outcome.out;
+    EXPECT_TRUE(weft("check sheet.json").out.ends_with("sheet.json: ok\n"));
     const Outcome outcome = weft("run fall.json --frames 30 --crossings every --stats fall_stats.json --quiet");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const nlohmann::json stats = nlohmann::json::parse(read_file(folder_ / "fall_stats.json"));
@@ -262,6 +264,7 @@ TEST_F(Cli, pins_and_meshes_are_checked_against_the_mesh) {
 }
 
 TEST_F(Cli, a_failed_export_is_status_1_and_leaves_nothing) {
+    EXPECT_TRUE(outcome.out.ends_with("looks.json: ok, 2 warnings\n")) << outcome.out;
     const Outcome full = weft("run sheet.json --frames 20 --quiet --out film.glb", "ulimit -f 20;");
     EXPECT_EQ(full.status, 1);
     EXPECT_EQ(full.err.rfind("weft: error: ", 0), 0u) << full.err;

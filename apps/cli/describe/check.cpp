@@ -13,11 +13,34 @@
 namespace weft::cli {
 namespace {
 
+/// Prints warnings about one scene file and counts them.
+class Warnings {
+  public:
+    explicit Warnings(std::string scene_file) : scene_file_(std::move(scene_file)) {}
+
+    /// For texts that name the file themselves.
+    void print(const std::string& text) {
+        print_warning(text);
+        ++count_;
+    }
+    void add(const std::string& text) { print(scene_file_ + ": " + text); }
+
+    /// `, 2 warnings`; empty if there were none.
+    std::string count_text() const {
+        if (count_ == 0) return "";
+        return ", " + std::to_string(count_) + (count_ == 1 ? " warning" : " warnings");
+    }
+
+  private:
+    std::string scene_file_;
+    unsigned count_ = 0;
+};
+
 // A missing image is a warning: it does not affect the simulation, and rendering marks the surface.
-void warn_of_missing_pictures(const SceneDesc& scene, const std::string& scene_file) {
+void warn_of_missing_pictures(const SceneDesc& scene, const std::string& scene_file, Warnings& warnings) {
     for (const PictureFile& picture : picture_files(scene)) {
         const auto found = find_asset(picture.file, std::filesystem::path(scene_file).parent_path());
-        if (!found) print_warning(scene_file + ": " + picture.place + ": " + found.error().message());
+        if (!found) warnings.add(picture.place + ": " + found.error().message());
     }
 }
 
@@ -35,15 +58,15 @@ std::string rounded(double value) {
 }
 
 // Most cloths of these sizes come from files in centimeters or millimeters.
-void warn_of_size(const std::string& cloth, double largest, const std::string& scene_file) {
+void warn_of_size(const std::string& cloth, double largest, Warnings& warnings) {
     constexpr double large = 20, small = 0.02;  // m
     if (largest >= small && largest <= large) return;
-    print_warning(scene_file + ": cloth '" + cloth + "' is " + rounded(largest) +
-                  " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
+    warnings.add("cloth '" + cloth + "' is " + rounded(largest) +
+                 " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
 }
 
 // Contact between cloths keeps each pair of features on the sides on which it starts.
-void warn_of_crossings(const Frame& frame, const std::string& scene_file) {
+void warn_of_crossings(const Frame& frame, Warnings& warnings) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
     for (const ClothFrame& cloth : frame.cloths) {
@@ -54,8 +77,8 @@ void warn_of_crossings(const Frame& frame, const std::string& scene_file) {
     }
     const std::uint64_t crossings = count_crossings(positions, triangles).triangles;
     if (crossings == 0) return;
-    print_warning(scene_file + ": cloth with self_collision crosses itself or other cloth at the start, at " +
-                  std::to_string(crossings) + " pairs of triangles; it will stay crossed there");
+    warnings.add("cloth with self_collision crosses itself or other cloth at the start, at " +
+                 std::to_string(crossings) + " pairs of triangles; it will stay crossed there");
 }
 
 }  // namespace
@@ -71,8 +94,9 @@ Command add_check(Program& program) {
             print_errors(session.errors());
             return exit_usage;
         }
-        for (const std::string& note : session->notes()) print_warning(note);
-        warn_of_missing_pictures(session->scene(), *scene);
+        Warnings warnings(*scene);
+        for (const std::string& note : session->notes()) warnings.print(note);
+        warn_of_missing_pictures(session->scene(), *scene, warnings);
         for (const ClothFrame& cloth : session->world().frame().cloths) {
             const ClothModel& model = *cloth.model;
             const Vec3 size = size_of(cloth);
@@ -80,7 +104,7 @@ Command add_check(Program& program) {
                       << model.pinned_count << " pinned), " << cloth.triangles.size() << " triangles, "
                       << rounded(size.x) << " × " << rounded(size.y) << " × " << rounded(size.z) << " m, mean edge "
                       << rounded(1000 * model.mean_edge) << " mm";
-            warn_of_size(model.name, std::max({size.x, size.y, size.z}), *scene);
+            warn_of_size(model.name, std::max({size.x, size.y, size.z}), warnings);
             if (!model.binding.empty()) std::cout << ", drawn with " << cloth.render_mesh().triangles.size();
             for (const ConstraintTable& table : model.constraints) {
                 if (table.rows == 0) continue;
@@ -88,8 +112,8 @@ Command add_check(Program& program) {
             }
             std::cout << '\n';
         }
-        warn_of_crossings(session->world().frame(), *scene);
-        std::cout << *scene << ": ok\n";
+        warn_of_crossings(session->world().frame(), warnings);
+        std::cout << *scene << ": ok" << warnings.count_text() << '\n';
         return exit_done;
     };
 }
