@@ -48,6 +48,8 @@ TEST_F(Cli, stats_have_every_figure) {
         EXPECT_GT(s[key]["mean"], 0);
         EXPECT_LE(s[key]["mean"], s[key]["max"]);
     }
+    EXPECT_GT(s["stretch"]["p99"], 0);
+    EXPECT_LE(s["stretch"]["p99"], s["stretch"]["max"]);
     EXPECT_GT(s["kinetic_energy"], 0);
     EXPECT_GT(s["mean_speed"], 0.01);
     EXPECT_GT(s["max_speed"], 0);
@@ -59,6 +61,30 @@ TEST_F(Cli, stats_have_every_figure) {
     EXPECT_EQ(s["state_hash"].get<std::string>().size(), 16u);
     EXPECT_EQ(s["finite"], true);
     EXPECT_TRUE(s.contains("device"));
+}
+
+TEST_F(Cli, no_frames_export_and_measure_the_start) {
+    const Outcome outcome = weft(
+        "run sheet.json --frames 0 --out a.glb --out b.obj --out c.ply --out d.pc2 --out seq/%03d.obj --stats s.json "
+        "--crossings every");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "") << "no progress";
+    EXPECT_TRUE(outcome.out.starts_with("0 frames of 120 particles")) << outcome.out;
+    for (const char* absent : {"nan", "ms per frame", "mean speed"})
+        EXPECT_EQ(outcome.out.find(absent), std::string::npos) << outcome.out;
+    for (const char* file : {"a.glb", "b.obj", "c.ply", "d.pc2", "seq/000.obj"})
+        EXPECT_GT(fs::file_size(folder_ / file), 100u) << file;
+    EXPECT_FALSE(fs::exists(folder_ / "seq/001.obj"));
+
+    const Json s = Json::parse(read_file(folder_ / "s.json"));
+    EXPECT_EQ(s["frames"], 0);
+    for (const char* key : {"ms_per_frame", "stage_ms", "mean_speed"}) EXPECT_TRUE(s[key].is_null()) << key;
+    for (const char* key : {"mean", "p99", "max"}) EXPECT_EQ(s["stretch"][key], 0) << key;
+    EXPECT_EQ(s["max_speed"], 0);
+    EXPECT_EQ(s["intersections"]["triangles"], 0);
+    EXPECT_EQ(s["state_hash"].get<std::string>().size(), 16u);
+    EXPECT_EQ(stats("--seconds 0")["state_hash"], s["state_hash"]);
+    expect_usage_error("run sheet.json --frames 0 --contact-forces", "--contact-forces: gives the forces in the last");
 }
 
 TEST_F(Cli, contact_forces_are_the_force_on_each_collider) {
@@ -136,8 +162,7 @@ TEST_F(Cli, wrong_usage_is_one_line_and_status_2) {
     expect_usage_error("", "subcommand");
     expect_usage_error("run", "scene");
     expect_usage_error("fly sheet.json", "fly");
-    expect_usage_error("run sheet.json --frames 0", "--frames: must give 1 to 1000000 frames, got 0");
-    expect_usage_error("run sheet.json --frames -3", "--frames");
+    expect_usage_error("run sheet.json --frames -3", "--frames: must give 0 to 1000000 frames, got -3");
     expect_usage_error("run sheet.json --frames 1.5", "whole number");
     expect_usage_error("run sheet.json --seconds nan", "--seconds");
     expect_usage_error("run sheet.json --seconds 1e9", "--seconds");

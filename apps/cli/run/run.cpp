@@ -110,8 +110,10 @@ int run(const RunOptions& options) {
     common.stage_timings = !options.stats.empty();
     auto session = open_scene(options.scene, common);
     if (!session) return wrong(session.errors());
-    const auto frames = frame_count(options.length, session->frame_seconds());
+    const auto frames = frame_count(options.length, session->frame_seconds(), 0);
     if (!frames) return wrong(frames.errors());
+    if (*frames == 0 && options.common.contact_forces)
+        return wrong({{"--contact-forces", "gives the forces in the last frame, and 0 frames have none"}});
     const auto estimates = plan(*exporters, *session, *frames);
     if (!estimates) return wrong(estimates.errors());
     if (!options.stats.empty()) {  // creates and removes the file, to report a wrong name before the run
@@ -162,7 +164,7 @@ Command add_run(Program& program) {
     Arguments arguments = program.add_command("run", "Simulate a scene, export and measure it");
     auto options = std::make_shared<RunOptions>();
     arguments.add("scene", options->scene, "scene file").called("FILE").required();
-    add_length_options(arguments, options->length, "simulate");
+    add_length_options(arguments, options->length, "simulate; 0 exports and measures the start");
     arguments
         .add("--out", options->outputs,
              "FILE.glb or FILE.pc2: animated; FILE.obj or FILE.ply: the last frame; DIR/%04d.obj: every frame; may be "

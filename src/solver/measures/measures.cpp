@@ -9,13 +9,15 @@ double speed2(const Vec4& v) {
     return static_cast<double>(v.x) * v.x + static_cast<double>(v.y) * v.y + static_cast<double>(v.z) * v.z;
 }
 
-void add_strain(const ClothModel& model, std::span<const Vec4> positions, Tally& stretch, Tally& shear) {
+// Calls visit(strain, axial) for each edge; `axial`: along warp or weft.
+template <class Visit>
+void for_each_strain(const ClothModel& model, std::span<const Vec4> positions, Visit&& visit) {
     for_each_edge(model, [&](const EdgeEnds& ends, bool axial) {
         const auto [a, b] = ends;
         const double rest = distance(model.rest_position(a), model.rest_position(b));
         if (rest <= 0) return;
         const double now = distance(positions[a].xyz(), positions[b].xyz());
-        (axial ? stretch : shear).add(std::abs(now / rest - 1));
+        visit(std::abs(now / rest - 1), axial);
     });
 }
 
@@ -27,8 +29,14 @@ double distance(Vec3 a, Vec3 b) {
     return std::sqrt(x * x + y * y + z * z);
 }
 
+void collect_stretch(const ClothModel& model, std::span<const Vec4> positions, std::vector<double>& out) {
+    for_each_strain(model, positions, [&](double strain, bool axial) {
+        if (axial) out.push_back(strain);
+    });
+}
+
 void MeasureSums::add(const ClothModel& model, std::span<const Vec4> positions, std::span<const Vec4> velocities) {
-    add_strain(model, positions, stretch, shear);
+    for_each_strain(model, positions, [&](double strain, bool axial) { (axial ? stretch : shear).add(strain); });
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
         const double v2 = speed2(velocities[p]);
         if (positions[p].w > 0) kinetic_energy += 0.5 * model.mass[p] * v2;

@@ -5,6 +5,7 @@
 #include "solver/model/cloth_model.h"
 
 #include <span>
+#include <vector>
 
 namespace weft {
 
@@ -26,6 +27,9 @@ struct ClothMeasures {
     /// No position or velocity is NaN or infinite. If one is, the values computed from it are not finite either.
     bool finite = true;
 };
+
+/// Appends what Strain::stretch is the mean and maximum of: one value per edge along warp or weft.
+void collect_stretch(const ClothModel& model, std::span<const Vec4> positions, std::vector<double>& out);
 
 /// Distance of two float positions, computed in double.
 double distance(Vec3 a, Vec3 b);

@@ -65,6 +65,9 @@ TEST(Measures, are_those_of_a_cloth_on_the_host) {
     const ClothMeasures stretched = measured();
     EXPECT_DOUBLE_EQ(stretched.strain.stretch.mean, 0.5);
     EXPECT_DOUBLE_EQ(stretched.strain.shear.max, 0.5);
+    std::vector<double> edges;
+    collect_stretch(*model, positions, edges);
+    EXPECT_EQ(edges, std::vector<double>(4, 0.5)) << "the sides, without the diagonal";
     EXPECT_NEAR(stretched.kinetic_energy, 2 * model->mass[3], 1e-9);
     EXPECT_DOUBLE_EQ(stretched.max_speed, 5);
 
