@@ -1,4 +1,4 @@
-// weft bench: what it writes, what it compares, what it refuses. How long anything takes is no matter of a test.
+// weft bench: reports, comparisons and errors. Times are not tested.
 
 #include "cli_fixture.h"
 
@@ -75,7 +75,7 @@ TEST_F(CliBench, averages_quality_over_the_last_two_seconds) {
     ASSERT_EQ(weft("bench sheet.json --quiet --substeps 1 --warmup 2 --seconds 3 --repeat 1 --json b.json").status, 0);
     const Json once = Json::parse(read_file(folder_ / "b.json"))["scenes"][0];
     EXPECT_NEAR(once["quality_seconds"], 2, 1e-9);
-    // A longer warmup and fewer frames after it: the same run, and the same end of it.
+    // A longer warmup with fewer frames after it ends in the same state.
     const Outcome outcome =
         weft("bench sheet.json --substeps 1 --warmup 170 --frames 12 --repeat 1 --json b.json --compare b.json");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -83,7 +83,7 @@ TEST_F(CliBench, averages_quality_over_the_last_two_seconds) {
     const Json again = Json::parse(read_file(folder_ / "b.json"))["scenes"][0];
     for (const char* key : {"stretch", "shear", "residual", "quality_seconds"}) EXPECT_EQ(again[key], once[key]) << key;
 
-    // A report from before there was a choice.
+    // A report of an older version, which lacks this key.
     Json former = bench("sheet.json --substeps 1");
     former["scenes"][0].erase("quality_seconds");
     write("b.json", former.dump());
@@ -229,7 +229,7 @@ TEST_F(CliBench, compares_with_a_former_report) {
     EXPECT_NE(finer.find("settings differ: substeps 40 (before 20)\n"), std::string::npos) << finer;
     EXPECT_NE(finer.find("sheet.json: the result differs: state "), std::string::npos) << finer;
 
-    // Written over the very file that it is compared with.
+    // The report replaces the file that it is compared with.
     EXPECT_EQ(compare("--json b.json").status, 0);
     fs::rename(folder_ / "sheet.json", folder_ / "new.json");
     const Outcome other = weft("bench new.json --quiet --frames 1 --compare b.json");

@@ -34,7 +34,7 @@ std::string replaced(const std::string& text, const char* pattern, const std::st
     return std::regex_replace(text, std::regex(pattern), by);
 }
 
-/// The same with few frames and small images; empty where it needs what a test does not have.
+/// The command with few frames and small images; empty if it needs a display or files that a test does not have.
 std::string shortened(std::string arguments) {
     for (const char* absent : {"--window", "nvidia", "COMMAND", "--backend vulkan"})
         if (arguments.find(absent) != std::string::npos) return {};

@@ -38,7 +38,7 @@ class CliVulkanPictureFiles : public weft::Cli {
         EXPECT_TRUE(image.ok());
         return image ? *image : Image8{};
     }
-    /// Nothing but what was there before.
+    /// Expects that the command left no new file.
     void expect_nothing_written(const fs::path& folder) {
         for (const auto& entry : fs::recursive_directory_iterator(folder)) {
             const std::string name = entry.path().filename();
@@ -174,13 +174,13 @@ TEST_F(CliVulkanPictureFiles, what_cannot_be_put_in_its_place_leaves_nothing) {
     expect_nothing_written(folder_);
 }
 
-// /dev/full takes nothing.
+// Every write to /dev/full fails.
 TEST_F(CliVulkanPictureFiles, a_full_device_is_an_error) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
     write_scene(R"("cotton")");
     fs::create_symlink("/dev/full", folder_ / "full.png");
     const Outcome full = weft("render sheet.json --quiet --frames 0 --size 64x36 --samples 1 --out full.png");
-    if (full.status == 0) {  // the picture took the link's place, as a file of its own
+    if (full.status == 0) {  // the image replaced the link
         EXPECT_TRUE(weft::read_image(folder_ / "full.png").ok());
         EXPECT_FALSE(fs::is_symlink(folder_ / "full.png"));
     } else {

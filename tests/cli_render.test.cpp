@@ -1,4 +1,4 @@
-// `weft render` as a user runs it: what it refuses before anything runs, and what pictures come of it.
+// `weft render` as a user runs it: errors before the run, and the images that it writes.
 
 #include "cli_fixture.h"
 
@@ -96,7 +96,7 @@ TEST_F(CliRender, without_ffmpeg_it_says_what_to_install) {
     expect_no_pictures();
 }
 
-/// On whatever device there is, lavapipe at the least.
+/// Uses the default device; without a GPU it is lavapipe.
 class CliPictures : public CliRender {
   protected:
     Outcome render(const std::string& options) {
@@ -252,7 +252,7 @@ TEST_F(CliPictures, ended_early_it_leaves_what_was_whole) {
     }
 }
 
-#if !defined(__SANITIZE_THREAD__)  // which writes a file of its own, and dies of the limit
+#if !defined(__SANITIZE_THREAD__)  // the sanitizer writes a file of its own, which the limit forbids
 TEST_F(CliPictures, a_full_disk_is_status_1_and_leaves_nothing) {
     const Outcome full = weft("render sheet.json --quiet --frames 1 --size 640x360 --out a.png", "ulimit -f 1;");
     EXPECT_EQ(full.status, 1);

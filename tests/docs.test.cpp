@@ -131,7 +131,7 @@ TEST(Docs, every_sample_of_code_is_part_of_an_example) {
         for (const Block& block : blocks_of(text_of(root / page))) {
             if (block.language != "cpp\n") continue;
             std::istringstream lines(block.text);
-            std::string code;  // the includes stand elsewhere
+            std::string code;  // without the includes
             for (std::string line; std::getline(lines, line);)
                 if (!line.starts_with("#include")) code += without_space(line);
             EXPECT_NE(examples.find(code), examples.npos) << page << ":\n" << block.text;

@@ -1,4 +1,4 @@
-// The same text of the physics compiles as GLSL: a compute shader is made for every kernel and given to glslc.
+// Each kernel compiles as GLSL: the test writes a compute shader around it and runs glslc.
 
 #include "physics/constraint.h"
 

@@ -47,7 +47,7 @@ const std::regex scenes_may_include(
     "(base|look|scene|io/scenes|io/files/temporary_folder\\.test\\.h)(/.*)?|"
     "physics/(contact/shapes\\.def|air/winds\\.def)");
 
-// What the build makes and a folder's own code embeds.
+// Files that the build generates and that the code of the same folder embeds.
 const std::regex made_by_the_build("[a-z_]+_table\\.inc");
 
 // Of physics, the scene knows the parameter tables and the list of constraints, no maths.
@@ -116,7 +116,7 @@ TEST(Layers, public_headers_stand_on_the_standard_library_alone) {
     }
 }
 
-// The test itself must be able to fail.
+// Negative control: a forbidden include is found.
 TEST(Layers, a_wrong_include_is_found) {
     const fs::path root = fs::temp_directory_path() / ("weft_layers_" + std::to_string(::getpid()));
     fs::create_directories(root / "mesh");

@@ -1,5 +1,4 @@
-// Any bytes as a picture: an error that a user can read, or a picture that is whole and is read again as it was
-// written.
+// Reads any bytes as an image: the result is a readable error, or an image that is the same after writing and reading.
 //
 // The first byte chooses: 'h' reads the rest as Radiance, any other as PNG, JPEG, TGA or BMP.
 #include "io/images/image_file.h"
@@ -15,7 +14,7 @@ namespace {
 
 using namespace weft;
 
-// Enough for every path through a decoder, and few enough for thousands of inputs a second.
+// Large enough for every path through a decoder, and small enough for thousands of inputs per second.
 constexpr PictureLimits limits{.side = 512, .pixels = 1 << 14};
 
 void require(bool targets, const char* what) {

@@ -1,4 +1,5 @@
-// Any bytes as a mesh: through topology, model and some frames on the CPU. What is not refused must stay finite.
+// Reads any bytes as a mesh, builds topology and model, and simulates some frames on the CPU. Accepted input must stay
+// finite.
 //
 // The first byte chooses what load_mesh makes of the whole input, see `ending_of`; any other is followed by numbers as
 // `ByteReader` takes them.
@@ -58,10 +59,10 @@ class ByteReader {
     std::span<const std::uint8_t> bytes_;
 };
 
-// Enough for every kind of neighborhood, and few enough for thousands of inputs a second.
+// Large enough for every kind of neighborhood, and small enough for thousands of inputs per second.
 constexpr std::uint32_t most_vertices = 40, most_triangles = 60;
 
-/// Mostly coordinates on a small lattice, where vertices meet and areas vanish; sometimes any float there is.
+/// Mostly coordinates on a small lattice, so that vertices coincide and areas vanish; sometimes any float.
 TriangleMesh take_mesh(ByteReader& in) {
     const std::uint8_t style = in.take<std::uint8_t>();
     const bool any_float = style & 1, any_index = style & 2, uvs = style & 4, far = style & 8;
@@ -151,7 +152,7 @@ void simulate(TriangleMesh mesh, ByteReader& in) {
     }
 }
 
-/// As files of each format begin; null for what is none.
+/// File ending for the first bytes of each format; null if they match none.
 const char* ending_of(std::uint8_t first) {
     switch (first) {
         case 'p':
@@ -192,7 +193,7 @@ std::optional<TriangleMesh> read_as_file(std::span<const std::uint8_t> bytes, co
     return std::nullopt;
 }
 
-/// What load_mesh promises.
+/// Checks the guarantees of load_mesh.
 void check_loaded(const TriangleMesh& mesh) {
     require(!mesh.triangles.empty(), "a mesh without triangles was loaded");
     require(all_finite(mesh.positions), "a position that is not finite was loaded");

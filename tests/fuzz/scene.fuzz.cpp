@@ -1,5 +1,5 @@
-// Any bytes as a scene file: either a scene that passes its own checks, comes back when it is written, builds a world,
-// if its mesh files exist, and stays finite, or errors that a user can read.
+// Reads any bytes as a scene file. The result is either readable errors, or a scene that passes its checks, is the same
+// after writing and reading, and, if its mesh files exist, builds a world that stays finite.
 #include "io/scenes/scene_file.h"
 #include "io/scenes/scene_writer.h"
 #include "scene/check.h"
@@ -49,7 +49,7 @@ bool shrink(MeshDesc& mesh) {
     return !std::holds_alternative<MeshFileDesc>(mesh);
 }
 
-/// Small enough for hundreds of worlds a second; false if it cannot be.
+/// Shrinks the scene for hundreds of worlds per second; false if that is not possible.
 bool shrink(SceneDesc& scene) {
     scene.solver.substeps = std::min(scene.solver.substeps, 3u);
     scene.solver.iterations = std::min(scene.solver.iterations, 2u);

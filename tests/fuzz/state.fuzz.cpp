@@ -1,4 +1,4 @@
-// Any bytes as a saved state: refused with an error that a user can read, or a world that goes on and stays finite.
+// Reads any bytes as a saved state: the result is a readable error, or a world that continues and stays finite.
 //
 // The first byte chooses. 'w': the input as it is. 'b': the rest under a right header and checksum. Any other: a true
 // state, whose words are changed at the places that the input names, under a right checksum again; so everything behind
@@ -39,7 +39,7 @@ bool is_sound(const World& world) {
     });
 }
 
-/// Something of everything that a state holds: anchors, rows of several kinds, a collider that moves.
+/// A world whose state has anchors, several kinds of constraints and a moving collider.
 World make_world() {
     auto backend = make_cpu_backend();
     require(backend.ok(), "no backend");
@@ -62,7 +62,7 @@ World make_world() {
 
 constexpr std::size_t head_size = 16, checksum_at = 8;
 
-/// As snapshot.cpp has it.
+/// The same as in snapshot.cpp.
 void sign(std::vector<std::byte>& bytes) {
     StateHash hash;
     for (std::size_t i = head_size; i + 4 <= bytes.size(); i += 4) {

@@ -1,4 +1,4 @@
-// Somebody else's program that has no use for files.
+// A program outside of weft that links weft::core, without file formats.
 #include <weft/weft.h>
 
 #include <iostream>

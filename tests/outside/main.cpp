@@ -1,4 +1,4 @@
-// Somebody else's program: the installed headers and library are all it knows.
+// A program outside of weft that uses the installed package.
 #include <weft/weft.h>
 
 #include <iostream>

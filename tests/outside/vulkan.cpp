@@ -1,4 +1,4 @@
-// Somebody else's program that knows Vulkan's headers, and needs no loader to be linked.
+// A program outside of weft that uses <weft/vulkan.h>. It links no Vulkan loader.
 #include <weft/vulkan.h>
 #include <weft/weft.h>
 

@@ -1,4 +1,4 @@
-// Spheres that stick to the nearest points of a falling sheet: which points those are is found anew in every frame.
+// Spheres that stick to the nearest points of a falling sheet. The points are searched in every frame.
 
 #include "sheet.h"
 
@@ -33,7 +33,7 @@ Fall make_fall(World world, float compliance = 0, std::uint32_t side = 33) {
     return fall;
 }
 
-// From positions as they are, by the double-precision distance: rows that the next frame has to find.
+// The constraints that the next frame must find, from distances in double precision.
 std::uint64_t expected_rows(const World& world) {
     std::uint64_t rows = 0;
     for (const ClothFrame& cloth : world.frame().cloths) {
@@ -106,7 +106,7 @@ TEST(Adhesion, leaves_pinned_particles_alone) {
     EXPECT_EQ(world.frame().lists.rows, 0u);
 }
 
-// A list that is full costs time: no row is lost, and no bit of the result depends on it.
+// A full list costs time, but loses no constraint and changes no bit of the result.
 TEST(Adhesion, has_the_same_bits_however_long_the_list_is) {
     std::string expected;
     for (const Projection projection : {Projection::automatic, Projection::jacobi}) {

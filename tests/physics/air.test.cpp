@@ -34,7 +34,7 @@ TEST(TerminalVelocity, does_not_depend_on_the_time_step) {
         run(world, 3);
         const double h = 1.0 / 60 / substeps, v = -world.frame().cloths[0].velocities[40].y;
         const double expected = std::sqrt(2 * 0.14 * 9.81 / (1.225 * 1.28));
-        // After gravity's and before the air's turn it is faster by what gravity adds in between.
+        // Gravity acts before the air does, so the speed is larger by the gain of one substep.
         EXPECT_NEAR(v, expected + 0.5 * 9.81 * h, 0.01 * expected) << substeps;
     }
 }
@@ -46,7 +46,7 @@ TEST(Air, of_no_density_is_a_vacuum) {
     EXPECT_EQ(with.state_hash(), without.state_hash());
 }
 
-// A hanging sheet of no thickness to speak of takes the speed of the wind when let go, and none other.
+// A thin sheet takes exactly the speed of the wind when it is released.
 TEST(Wind, carries_along_and_never_overtakes) {
     SheetDesc sheet{.rotation_degrees = {90, 0, 0}};
     sheet.fabric.body.density = 0.01f;

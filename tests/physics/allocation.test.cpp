@@ -1,5 +1,5 @@
-// A step that has run before asks for no memory: counted, for every way to project, with air, pins and colliders. Where
-// an account of contacts grows, the calling thread asks for it.
+// Repeated steps allocate no memory, for every projection, with air, pins and colliders. Only a growing contact log
+// allocates, on the calling thread.
 
 #include "sheet.h"
 
@@ -8,7 +8,7 @@
 #include <new>
 #include <thread>
 
-// The sanitizers have an operator new of their own, and keep books about it.
+// The sanitizers replace operator new themselves.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WEFT_COUNTS 0
 #elif defined(__has_feature)
@@ -36,8 +36,8 @@ void* counted(std::size_t size, std::size_t alignment) {
 
 #if WEFT_COUNTS
 
-// The whole program's, this being the only place to count at. Not inlined: GCC would see free() of what it knows as
-// operator new's.
+// Replaces operator new of the whole program to count allocations. Not inlined, because GCC would warn of free() of
+// memory from operator new.
 void* operator new(std::size_t size) {
     return counted(size, 0);
 }

@@ -1,4 +1,4 @@
-// What cloth does to colliders: forces against weights, momentum against momentum, and when it is known.
+// Forces of cloth on colliders: weights, conservation of momentum, and when results are available.
 
 #include "solver/state/contact_forces.test.h"
 #include "sheet.h"
@@ -146,9 +146,9 @@ TEST(ContactForces, of_a_weight_on_a_lever_is_a_torque) {
     expect_near(torque, {static_cast<float>(0.5 * weight), 0, static_cast<float>(-weight)}, 1e-3 * weight, "torque");
 }
 
-// Whatever the cloth gains beyond what gravity gives it, the colliders lose, frame by frame: falling, landing, dragged
-// along and turned about. Within what rounding costs: an ulp of a position, 3e-8 m, is 1.4e-5 m/s in such a substep,
-// and rows give one side an ulp more than the other.
+// In each frame the momentum that the cloth gains, without that from gravity, is the opposite of what the colliders
+// gain: falling, landing, dragged along and turned. The tolerance is rounding: one ulp of a position, 3e-8 m, is
+// 1.4e-5 m/s in such a substep.
 TEST(ContactForces, balances_the_momentum_of_the_cloth) {
     for (const Projection projection : {Projection::lines, Projection::jacobi}) {
         World world =
@@ -361,7 +361,7 @@ TEST(ContactForces, is_forgotten_where_another_state_is_restored) {
     EXPECT_EQ(bits_of(world.contact_forces()), forces) << "and comes again to the bit";
 }
 
-// Every shape, several cloths: large ones together, small ones side by side.
+// Each shape with several cloths. All threads share large cloths; small ones run side by side.
 TEST(ContactForces, has_the_same_bits_on_any_number_of_threads_and_lanes) {
     const auto forces = [](const CpuOptions& options) {
         World world = make_world({.solver = {.substeps = 4, .iterations = 2}, .contact_forces = true}, options);

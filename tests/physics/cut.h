@@ -1,4 +1,4 @@
-// Cuts a sheet along a column of particles: what a tear has to change.
+// Cuts a sheet along a column of particles, as a tear would.
 #pragma once
 
 #include "solver/model/cloth_edit.h"
@@ -8,8 +8,7 @@
 
 namespace weft::physical {
 
-/// Of a sheet that lies flat before it is turned: `is_right(particle)` says on which side of the cut a particle lies,
-/// and `is_cut(particle)` whether it lies on it.
+/// `is_right(particle)` says on which side of the cut a particle lies, `is_cut(particle)` whether it lies on the cut.
 template <class IsCut, class IsRight>
 ClothEdit cut(const ClothModel& model, IsCut&& is_cut, IsRight&& is_right) {
     ClothEdit edit;

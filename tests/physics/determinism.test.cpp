@@ -49,7 +49,7 @@ TEST(Determinism, holds_with_iterations_too) {
     }
 }
 
-// Which particles stick is found by all threads, each its own.
+// All threads search for sticking particles, each in its own part.
 TEST(Determinism, holds_where_cloth_sticks_to_colliders) {
     const auto fall = [](unsigned workers, std::uint32_t capacity) {
         World world = make_world({.solver = {.substeps = 5}, .list_capacity = capacity}, CpuOptions{workers});
@@ -99,7 +99,7 @@ TEST(Determinism, does_not_tell_how_many_cloths_there_are) {
     }
 }
 
-// The smallest cloths have a thread each, whether they are enough for all threads or not.
+// The smallest cloths run on one thread each, also if there are fewer cloths than threads.
 TEST(Determinism, does_not_tell_which_cloths_are_shared) {
     const auto bits = [](std::uint32_t smallest_shared, unsigned workers) {
         const WorldSettings settings{.solver = {.substeps = 4, .hierarchy = true}};

@@ -45,7 +45,7 @@ TEST(SwingingSheet, has_the_period_of_a_hanging_chain) {
     EXPECT_NEAR(exact, 1.6684, 5e-5);
     for (const double h : {1.0 / 1200, 1.0 / 4800}) {
         const double omega = 2 * std::numbers::pi / exact;
-        // What implicit Euler makes of a period.
+        // The period under implicit Euler.
         const double expected = 2 * std::numbers::pi * h / std::atan(omega * h);
         const double period = swinging_period(32, h);
         std::printf("  swing  h 1/%4.0f s  T %.5f s, %+.3f %%\n", 1 / h, period, 100 * (period / expected - 1));
@@ -53,9 +53,8 @@ TEST(SwingingSheet, has_the_period_of_a_hanging_chain) {
     }
 }
 
-// All that a cloth has: height, motion, stretch and bend. The scheme is implicit Euler, under which the sum can only
-// fall. Where one projection a substep does not solve the rows (K = 4000 N/m), the step is not quite that, and the
-// bound is what was measured.
+// The sum of potential, kinetic, stretch and bend energy. Under implicit Euler it can only fall. With K = 4000 N/m one
+// iteration per substep does not solve the constraints exactly, and the bound is a measured value.
 TEST(Energy, of_motion_height_stretch_and_bend_never_rises_together) {
     struct Case {
         float stiffness;

@@ -57,7 +57,7 @@ Halves halves(const World& world) {
     return sum;
 }
 
-// Rows and triangles of an edited cloth join particles of one half alone.
+// After the cut no constraint and no triangle joins particles of both halves.
 void expect_two_pieces(const ClothModel& model) {
     const auto half_of = [&](std::uint32_t p) { return p >= side * side || model.rest_position(p).x > 0.01f; };
     for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
@@ -277,7 +277,7 @@ TEST(Edits, that_cannot_be_are_refused_and_change_nothing) {
     EXPECT_FALSE(world.restore(snapshot).ok());
     EXPECT_EQ(world.state_hash(), before);
 
-    // Of a batch that is projected side by side, no two may share a particle.
+    // Constraints of one batch are projected in parallel, so no two may share a particle.
     const auto plain = make_cuttable({});
     const ConstraintTable& batch = plain->table(ConstraintKind::stretch);
     const std::uint32_t second = batch.particles[1];

@@ -1,4 +1,4 @@
-// Coarse levels: what they must bring, and what they must not change.
+// Coarse levels: they reduce stretch and do not change the equilibrium.
 
 #include "sheet.h"
 
@@ -34,7 +34,7 @@ TEST(HierarchyOf, a_large_sheet_leaves_a_fraction_of_the_stretch) {
     }
 }
 
-// Where the rows are solved, levels have nothing to say: the sheet hangs as far as its fabric lets it.
+// If the constraints are solved, levels have no effect: the sheet sags by the stretch of its fabric.
 // Labels: slow no-asan
 TEST(HierarchyOf, an_elastic_sheet_leaves_its_elasticity_alone) {
     for (const float stiffness : {300.0f, 4000.0f}) {
@@ -74,14 +74,14 @@ TEST(HierarchyOf, a_sheet_that_gives_way_along_the_bias_leaves_it_hanging) {
     for (const Tethers tethers : {Tethers::off, Tethers::on}) {
         const double off = mean_displacement(exact, hang(tethers, {.solver = {.substeps = 5, .hierarchy = true}}));
         std::printf("  off by %.1f mm, without levels and tethers %.1f mm\n", 1e3 * off, 1e3 * plain);
-        // What is left is the corners' own: the pull there is many times that elsewhere.
+        // The remaining stretch is at the corners, where the tension is many times that elsewhere.
         EXPECT_LT(off, 0.0045);
         EXPECT_LT(off, plain / 3);
     }
 }
 
-// Taut between its pins, where every level has work to do at all times. Levels whose nodes follow other particles than
-// those they move shake such a sheet at 0.2 to 0.7 m/s for ever.
+// Taut between its pins, so that every level is active all the time. If the nodes of a level followed other particles
+// than those that they move, such a sheet would vibrate at 0.2 to 0.7 m/s.
 // Labels: slow no-asan
 TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
     constexpr std::uint32_t side = 32;
@@ -110,8 +110,8 @@ TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
     }
 }
 
-// Of an interlock T-shirt, which its own weight would stretch by a fifth. Fine rows alone leave it a quarter of a meter
-// too long with so few substeps, and shake it.
+// Interlock, a T-shirt fabric that its own weight stretches by a fifth. With so few substeps and no coarse levels it is
+// 0.25 m too long and vibrates.
 // Labels: slow no-asan
 TEST(HierarchyOf, a_soft_sheet_between_four_corners_bounds_what_it_stretches_by) {
     constexpr std::uint32_t side = 65;

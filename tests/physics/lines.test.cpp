@@ -1,4 +1,4 @@
-// Lines: what they must bring, and what they must not change.
+// Lines: they reduce stretch and do not change the equilibrium.
 
 #include "sheet.h"
 
@@ -44,7 +44,7 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
     }
 }
 
-// Solved or not solved by lines, the sheet hangs as far as its fabric lets it: ρ g L²/2K (docs/validation.md).
+// With lines and without, the sheet sags by the stretch of its fabric: ρ g L²/2K (docs/validation.md).
 // Labels: slow no-asan
 TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
     SheetDesc sheet = hanging_strip({9, 33}, 300, 40);
@@ -63,7 +63,7 @@ TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
     EXPECT_NEAR(sags[1] / law, 1, 0.03);
 }
 
-// Two edges held 2 % too far apart: rigid cloth has no shape that fits, cotton one that is flat.
+// Two edges are held 2 % too far apart: no shape of rigid cloth fits; cotton becomes flat.
 double fastest_when_taut(const Fabric& fabric, double& mean_stretch) {
     const WorldSettings settings{.solver = {.substeps = 20, .hierarchy = true}};
     const auto at_edge = [](Vec3 p) { return std::abs(p.x) > 0.49f; };
@@ -109,7 +109,7 @@ TEST(LinesOf, a_falling_sheet_do_not_disturb_its_fall) {
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y / (-0.5 * 9.81 * (1 + h)), 1, 1e-5);
 }
 
-// Short steps turn what rounding leaves of lengths into speed; nothing may feed on that.
+// With short substeps, rounding errors of lengths become velocities. They must not grow.
 // Labels: slow no-asan
 TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
     World world = make_world({.solver = {.substeps = 200, .projection = Projection::lines, .hierarchy = true}},
@@ -122,7 +122,7 @@ TEST(LinesOf, a_flat_sheet_keep_it_flat_in_the_shortest_steps) {
     EXPECT_LT(measure_strain(world.frame()).stretch.max, 1e-4);
 }
 
-// Rows laid out along lines serve the other projections too, as before a change of settings builds new ones.
+// The other projections can use constraints that are stored along lines, until a change of settings rebuilds them.
 TEST(LinesOf, a_model_serve_every_projection) {
     for (const Projection projection : {Projection::gauss_seidel, Projection::jacobi}) {
         World lines = hung_sheet(24, {.solver = {.substeps = 10, .hierarchy = false}}, GridDiagonal::alternating);

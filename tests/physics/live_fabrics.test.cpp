@@ -111,7 +111,7 @@ TEST(LiveFabrics, of_every_part_show_at_once) {
     EXPECT_TRUE(differs([](Fabric& f) { f.contact.thickness = 0.1f; }));
 }
 
-// Nobody builds the levels anew here: a cloth must hang quietly by those of any other fabric.
+// The levels are not rebuilt here: a cloth must hang still with the levels of any other fabric.
 TEST(LiveFabrics, hang_quietly_by_coarse_levels_of_another_fabric) {
     Fabric soft = heavy_and_soft(), rigid;
     rigid.stretch.inextensible = true;

@@ -1,5 +1,5 @@
-// Input that no cloth could follow: the result is finite, the report says what happened.
-// What files can do of that kind is in src/weft/malformed.test.cpp.
+// Input without a valid solution: the result is finite, and the report names the cause.
+// src/files/malformed.test.cpp tests malformed files.
 
 #include "sheet.h"
 
@@ -109,8 +109,8 @@ TEST_F(Malformed, extreme_fabrics) {
     }
 }
 
-// Three leaves on one spine, a triangle given twice and once more the other way round, one that is a point, one that is
-// a line, a vertex that nothing uses, and a triangle that hangs on a single corner.
+// Three triangles at one edge, a triangle given twice and once more with the opposite winding, one that is a point, one
+// that is a line, an unused vertex, and a triangle that is attached at a single corner.
 TriangleMesh messy_mesh() {
     return {.positions = {{0, 0, 0},
                           {0, 1, 0},
@@ -125,13 +125,13 @@ TriangleMesh messy_mesh() {
                 {0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 2, 0}, {2, 1, 0}, {3, 3, 3}, {0, 1, 6}, {6, 7, 8}, {1, 2, 6}}};
 }
 
-/// Folded onto itself, so that two triangles lie in one place and turn their backs to each other.
+/// Two triangles folded onto each other, with opposite normals.
 TriangleMesh folded_mesh() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1e-7f, 0, 1}, {1, 1e-7f, 0.1f}},
             .triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}}};
 }
 
-/// Two needles and a crumb between them.
+/// Two very thin triangles and a very small one between them.
 TriangleMesh needle_mesh() {
     return {.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 1e-6f, 0}, {0.5f, -1e-6f, 1e-6f}, {0.5f, 0, 100}},
             .triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {1, 4, 2}}};
@@ -158,7 +158,7 @@ TEST_F(Malformed, meshes_by_every_method) {
             fabric.bend.model = models[static_cast<std::size_t>(choice / 4)];
             fabric.tether.use = Tethers::on;
             auto topology = build_topology(mesh);
-            if (!topology) continue;  // far out nothing is left of the grid
+            if (!topology) continue;  // far from the origin all vertices round to the same position
             auto model = build_cloth_model({.name = "malformed",
                                             .mesh = mesh,
                                             .fabric = fabric,
@@ -216,7 +216,7 @@ TEST_F(Malformed, cloth_held_by_springs_alone_however_soft) {
     }
 }
 
-// Each has a right checksum, so nothing but its numbers can tell.
+// Each has a correct checksum; only its values are wrong.
 TEST_F(Malformed, saved_states_of_no_world) {
     World world = make_world({.solver = {.substeps = 5}}, hung_by_edge);
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}}));
@@ -247,7 +247,7 @@ TEST_F(Malformed, saved_states_of_no_world) {
     EXPECT_EQ(refusal([](Snapshot& s) { s.colliders[0].position.x = nan; }), collider);
     EXPECT_EQ(refusal([](Snapshot& s) { s.colliders[0].rotation.y = {}; }), collider);
 
-    Snapshot far = good;  // as far as it may be
+    Snapshot far = good;  // at the limit of the range
     for (Vec4& p : far.cloths[0].position) p = {1e18f, -p.y, 1e18f * p.z, 0};
     for (Vec4& v : far.cloths[0].velocity) v = {-1e18f, 1e18f, 0, 1e18f};
     ASSERT_TRUE(world.restore(far).ok());

@@ -20,8 +20,8 @@ double sag_after(const WorldSettings& settings, const SheetDesc& sheet, double r
     return sag(world);
 }
 
-// The negative control of TimeStep: where stiffness is a matter of how often one projects, a finer step makes another
-// cloth.
+// Negative control of TimeStep: with position-based dynamics the stiffness depends on the number of projections, and so
+// on the time step.
 TEST(PlainDynamics, stretches_by_the_time_step) {
     SheetDesc sheet = hanging(60);
     sheet.fabric.body.stiffness[0] = sheet.fabric.body.stiffness[1] = 0.02f;
@@ -60,7 +60,7 @@ TEST(PlainDynamics, with_full_stiffness_is_the_inextensible_cloth) {
     World plain = make_world({.solver = {.method = Method::pbd}}, sheet);
     sheet.fabric.stretch.inextensible = true;
     World hard = make_world({}, sheet);
-    // Without shear and bend the rows are not the same: the plain cloth leaves the diagonals out.
+    // Without shear and bend the constraints differ: the plain cloth has no diagonals.
     EXPECT_GT(hard.frame().cloths[0].model->table(ConstraintKind::stretch).rows,
               plain.frame().cloths[0].model->table(ConstraintKind::stretch).rows);
     run(plain, 2);
@@ -102,8 +102,8 @@ TEST(Jacobi, is_further_from_the_goal_than_gauss_seidel_after_as_many_iterations
     EXPECT_GT(sag_after(settings, sheet, 60, 3), 1.2 * one_by_one);
 }
 
-// Rows that take the same part at all their particles keep the sum of momenta; a mean at each particle by its own count
-// does not, at the borders, where counts differ.
+// A correction that has the same weight at all particles of a constraint conserves momentum. Averaging by the count of
+// each particle does not conserve it at the borders, where the counts differ.
 TEST(Jacobi, keeps_momentum_where_stiffness_is_in_newtons_per_meter) {
     const auto drift = [](Method method) {
         SheetDesc sheet;
@@ -139,7 +139,7 @@ TEST(Attachment, gives_way_by_its_compliance) {
         sheet.fabric.stretch.inextensible = true;
         World world = make_world({.solver = {.substeps = 10, .iterations = iterations}}, sheet);
         run(world, 6);
-        // All nine together carry the sheet, whoever carries most.
+        // The nine forces add up to the weight of the sheet.
         const double weight = 0.25 * 0.14 * 9.81;
         double carried = 0;
         for (const Vec4& p : world.frame().cloths[0].positions) carried -= p.y / compliance;

@@ -1,4 +1,4 @@
-// Free motion: what no constraint may change.
+// Free motion: constraints conserve momentum.
 
 #include "physics/testing.h"
 #include "sheet.h"
@@ -74,7 +74,7 @@ Momentum momentum(const LoneCloth& cloth) {
     return sum;
 }
 
-// A sheet thrown with a spin, a crease and strong damping, without gravity: its momentum is its own.
+// A creased sheet is thrown with a spin and strong damping, without gravity. Its momentum is conserved.
 TEST(FreeFall, constraints_and_damping_keep_momentum) {
     Fabric fabric;
     fabric.body.damping = 5;
@@ -114,7 +114,7 @@ TEST(Energy, never_rises_without_something_that_drives) {
     const double start = highest;
     for (int i = 0; i < 240; ++i) {
         world.step(1.0 / 60);
-        // What the constraints hold elastically is not counted, so energy may come back from there; it is small.
+        // Elastic energy is not counted; it may become kinetic energy, but it is small.
         EXPECT_LT(energy(), highest + 2e-3 * std::abs(start)) << "frame " << i;
     }
     EXPECT_LT(energy(), start);

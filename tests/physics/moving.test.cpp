@@ -1,4 +1,4 @@
-// Things that move by keys: colliders, pins, pins on colliders; and tethers, which reach across the sheet.
+// Keyed motion of colliders, pins and pins on colliders; and tethers.
 
 #include "sheet.h"
 
@@ -36,7 +36,8 @@ TEST(Shapes, signed_distance_is_that_of_the_true_surface) {
     EXPECT_NEAR(at(capsule, {0, 0.2f, 0}), -0.5, 1e-6);
 }
 
-// A sheet lying on a table that speeds off at a walk: static friction takes it along, without it the table slips away.
+// A sheet on a table that starts to move at walking speed. Static friction moves it along; without friction it stays
+// behind.
 double carried(float friction) {
     Fabric fabric;
     fabric.contact.friction[0] = fabric.contact.friction[1] = friction;

@@ -30,7 +30,7 @@ struct SheetDesc {
     Fabric fabric = {};
     ClothLayout layout = {};
     SelfCollision self_collision = SelfCollision::off;
-    // Of the sheet as it lies flat around the origin:
+    // Called with positions in the flat sheet, before rotation and translation:
     std::function<bool(Vec3 at_rest)> pinned = {};
     std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
 };
@@ -92,14 +92,14 @@ inline SheetDesc hanging_strip(std::array<std::uint32_t, 2> resolution, float st
     return sheet;
 }
 
-/// How far such a strip reaches below its place at rest, m.
+/// Sag of the lower edge of such a strip, m.
 inline double sag(const World& world) {
     double lowest = 0;
     for (const Vec4& p : world.frame().cloths[0].positions) lowest = std::min(lowest, double{p.y});
     return -1 - lowest;
 }
 
-/// Threads share small sheets too, so that tests need no large ones to see what comes of it.
+/// All threads share small sheets too, so that tests of sharing need no large ones.
 inline World make_world(const WorldSettings& settings, CpuOptions options) {
     options.smallest_shared = 0;
     auto backend = make_cpu_backend(options);
@@ -107,7 +107,7 @@ inline World make_world(const WorldSettings& settings, CpuOptions options) {
     return World(std::move(*backend), settings);
 }
 
-/// On the CPU, or on Vulkan where WEFT_TEST_BACKEND says so: what a test says of cloth holds on both.
+/// On the CPU, or on the backend that the environment variable WEFT_TEST_BACKEND names.
 inline World make_world(const WorldSettings& settings) {
     const char* backend = std::getenv("WEFT_TEST_BACKEND");
     if (!backend || std::string_view(backend) != "vulkan") return make_world(settings, CpuOptions{});

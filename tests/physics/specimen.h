@@ -1,4 +1,4 @@
-// A cloth without a World, for tests that choose where it starts, how it comes to rest and what it stores.
+// A cloth without a World, for tests that set its state and measure its energy.
 #pragma once
 
 #include "cpu/cloth_state.h"
@@ -11,7 +11,7 @@
 
 namespace weft::physical {
 
-/// A cloth that is a world of its own on one thread, with its state in reach.
+/// A single cloth on one thread, with access to its state.
 class LoneCloth {
   public:
     LoneCloth(std::shared_ptr<const ClothModel> model, const StepSettings& settings)
@@ -70,7 +70,7 @@ class Specimen {
     Vec3 position(std::uint32_t p) const { return cloth_.now().position[p].xyz(); }
     Vec3 velocity(std::uint32_t p) const { return cloth_.now().velocity[p].xyz(); }
 
-    /// Puts every particle, pinned ones too, where `pose` maps its place at rest. Velocities stay.
+    /// Moves each particle, also pinned ones, to `pose(rest position)`. Keeps velocities.
     template <class Pose>
     void place(Pose&& pose) {
         for (std::uint32_t p = 0; p < size(); ++p) {
@@ -83,8 +83,8 @@ class Specimen {
     void step() { reports_ |= cloth_.step(dt_, {0, -gravity, 0}); }
     std::uint32_t reports() const { return reports_; }
 
-    /// Lets a drag of `rate` 1/s bring the cloth to rest. Drag acts on velocities alone, so what it leaves is the
-    /// equilibrium of the constraints. True once no particle is faster than `slow` m/s.
+    /// Brings the cloth to rest by a drag of `rate` 1/s. Drag acts on velocities only, so the end is the equilibrium of
+    /// the constraints. True once no particle is faster than `slow` m/s.
     bool settle(double rate, double slow, double seconds) {
         const auto keep = static_cast<float>(std::exp(-rate * dt_));
         for (int frame = 0; frame * dt_ < seconds; ++frame) {
@@ -108,7 +108,7 @@ class Specimen {
     std::uint32_t reports_ = report_none;
 };
 
-/// J. What one row of the plate holds with particle p at `at(p)`.
+/// Energy of one plate constraint with particle p at `at(p)`, J.
 template <class At>
 double plate_energy(const ConstraintTable& plate, std::uint32_t row, At&& at) {
     reference::vec3 x[6];
@@ -121,7 +121,7 @@ double plate_energy(const ConstraintTable& plate, std::uint32_t row, At&& at) {
     return 0.5 * reference::dot(strain, strain);
 }
 
-/// J. What a cloth holds: by its height over y = 0, by its motion, and in its stretch and bend rows, of whatever model.
+/// Energy of a cloth, J: potential above y = 0, kinetic, and of stretch and bend constraints of any model.
 struct Energy {
     double height = 0, motion = 0, stretch = 0, bend = 0;
     double total() const { return height + motion + stretch + bend; }

@@ -1,4 +1,4 @@
-// Equilibria that must not depend on how they were reached.
+// Equilibria that must not depend on the time step.
 
 #include "specimen.h"
 
@@ -47,14 +47,14 @@ void expect_same_sag(std::uint32_t substeps, std::uint32_t iterations) {
     }
 }
 
-// The plain method of positions fails this: there, stiffness is a matter of how often one projects.
+// Position-based dynamics fails this test: its stiffness depends on the number of projections.
 TEST(TimeStep, does_not_decide_how_far_a_sheet_stretches) {
     expect_same_sag(2, 40);
 }
 
-// In 1/19200 s gravity moves a particle by 2.6e-8 m, half of what a float keeps of a position near 1 m. What moves a
-// particle freely is carried over to the next substep; what a projection does to it is rounded away, so that the
-// sheet hangs 13 % too deep.
+// In 1/19200 s gravity moves a particle by 2.6e-8 m, half the spacing of floats near 1 m. Compensated summation keeps
+// the free motion of particles, but the corrections of a projection are rounded to nothing: the sheet sags 13 % too
+// far.
 TEST(TimeStep, DISABLED_does_not_matter_when_it_is_very_short_either) {
     expect_same_sag(20, 4);
 }
@@ -100,8 +100,8 @@ double asymmetry(GridDiagonal diagonal, bool by_x, std::uint32_t substeps, std::
     return worst;
 }
 
-// Rows are projected one color after another, and the mirror image of a row may have another color. That matters as far
-// as a projection is left unfinished, and no further.
+// Constraints are projected one color after another, and the mirror image of a constraint may have another color. The
+// effect is no larger than the residual.
 // Labels: slow no-asan
 TEST(Symmetry, a_sheet_hung_by_two_corners_is_its_own_mirror_image) {
     for (const GridDiagonal diagonal : {GridDiagonal::alternating, GridDiagonal::cross}) {

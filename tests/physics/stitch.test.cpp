@@ -1,4 +1,4 @@
-// Cloths that stitches tie together: they hang as one, are stepped as one, and part when the stitches go.
+// Stitched cloths hang like one cloth, are stepped together, and separate when the stitches are removed.
 
 #include "sheet.h"
 
@@ -82,7 +82,7 @@ TEST(Stitches, make_a_patchwork_hang_as_one) {
     ASSERT_EQ(work.world.island_count(), 1u);
     for (int i = 0; i < 120; ++i) work.world.step(1.0 / 60);
     EXPECT_LT(widest_gap(work), 1e-4);
-    // One sheet of a meter sags by as much, but for the seams: 0.5 % of its length.
+    // Within 0.5 % of its length, a single sheet of one meter sags by as much.
     EXPECT_NEAR(lowest(work.world), -0.5f, 0.01f);
     EXPECT_LT(work.world.measure().strain.stretch.mean, 0.005);
     EXPECT_EQ(work.world.frame().reports, 0u);

@@ -1,4 +1,4 @@
-// Strips for the cantilever, and the curve that it must follow.
+// Strips for the cantilever test, and its reference curve.
 #pragma once
 
 #include "specimen.h"
@@ -26,9 +26,9 @@ struct StripMesh {
     double along(Vec3 p) const { return along_z ? p.z : p.x; }
 };
 
-// A row of particles across the strip turns as a whole, so a tangent belongs to the middle of a cell. A clamp of two
-// rows therefore holds place and slope halfway between them, and that is where the free length begins: reckoned from
-// the second row, the result would be off by twice the cell over the length.
+// Tangents belong to the middles of cells. A clamp of two rows of particles therefore fixes position and slope halfway
+// between them, and the free length begins there. Measured from the second row, the relative error would be twice the
+// cell length over the length.
 inline StripMesh make_strip(Cut cut, GridDiagonal diagonal, std::uint32_t cells, std::uint32_t across) {
     const double s = 1 / (cells - 0.5), length = cells * s;
     StripMesh strip{.mesh = {},

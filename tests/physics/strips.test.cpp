@@ -1,4 +1,4 @@
-// Strips that bend and hang: the cantilever, the catenary, and what a rolled sheet stores.
+// Strips that bend and hang: the cantilever, the catenary, and the energy of a rolled sheet.
 
 #include "strips.h"
 
@@ -80,8 +80,8 @@ struct Case {
     CurvePoint point;
     Resolution resolution;
 };
-// A stiff strip of fine cells is beyond single precision: a substep short enough for it moves particles by less than a
-// float can hold. So Γ = 1 has coarse cells only.
+// A stiff strip with fine cells needs substeps so short that particles move by less than the spacing of floats. So
+// Γ = 1 has coarse cells only.
 constexpr Case cases[] = {
     {cantilever_curve[0], {7, medium, 4}},   {cantilever_curve[0], {10, medium, 4}},
     {cantilever_curve[1], {10, coarse, 10}}, {cantilever_curve[1], {14, coarse, 15}},
@@ -91,10 +91,9 @@ constexpr Case cases[] = {
 
 class Cantilever : public testing::TestWithParam<Strip> {};
 
-// Hinges give B exactly if a sheet is rolled, but a sheet that is free does better than a cylinder: it dimples (with
-// alternating diagonals, every second vertex lifts) or twists (with uniform ones), and then needs 4/5 of the energy. So
-// the strip sags too far, and most where stiffness decides. The bounds are what was measured, so that nothing gets
-// worse unnoticed.
+// Hinges give B exactly if a sheet is rolled. A free sheet finds a shape with 4/5 of the energy of a cylinder: it
+// dimples (with alternating diagonals every second vertex lifts) or twists (with uniform ones). So the strip sags too
+// far, most of all if it is stiff. The bounds are measured values.
 // Labels: slow no-asan
 TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
     for (const Case& one : cases) {
@@ -104,9 +103,8 @@ TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
     }
 }
 
-// A strip as limp as Γ = 50 turns by its 90° close to the clamp, which ten cells are too few for: they measure chords,
-// and 3 % less of the drop.
-// Labels: slow no-asan
+// With Γ = 50 the strip bends by nearly 90° close to the clamp. Ten cells are too few for this curve: the drop is 3 %
+// too small. Labels: slow no-asan
 TEST_P(Cantilever, of_plate_follows_the_curve_within_two_percent) {
     for (const Case& one : cases) {
         const bool too_coarse = one.point.gamma > 20 && one.resolution.cells < 14;
@@ -121,9 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Strips, Cantilever,
                                          Strip{Cut::weft, GridDiagonal::uniform},
                                          Strip{Cut::weft, GridDiagonal::alternating}));
 
-// Neither model promises anything on these meshes. What they were measured to be off by, with 14 cells, at Γ = 10 and
-// Γ = 50, is in docs/validation.md; one percent either side lets a solver that converges a little better or worse pass,
-// and nothing that the table would have to say differently.
+// The models have no specified accuracy on these meshes. docs/validation.md lists the measured errors with 14 cells at
+// Γ = 10 and Γ = 50; the test allows one percent more or less.
 struct Elsewhere {
     Strip strip;
     double hinges[2], plate[2];
@@ -162,7 +159,7 @@ double rolled_energy(GridDiagonal diagonal, BendModel bend_model, double turn) {
         const double x = radius * std::sin(u / radius), y = radius * std::cos(u / radius);
         return reference::vec3(c * x - s * v, y, s * x + c * v);
     };
-    // Whatever lies on the border of this square counts half, as its other half belongs to the next square.
+    // Hinges on the border of this square count half; the other half belongs to the next square.
     const auto share = [](float x) { return std::abs(x) < 0.2499f ? 1.0 : std::abs(x) < 0.2501f ? 0.5 : 0.0; };
     double energy = 0;
     const ConstraintTable& bend = model->table(ConstraintKind::bend);
@@ -223,7 +220,7 @@ double sag_over_span(double ratio) {
                     static_cast<float>(radius * (std::cos(a) - std::cos(at))), p.z};
     });
     cloth.settle(8, 0, 4);
-    // A limp strip is a mechanism that rounding keeps stirring, so the depth is a mean over a second.
+    // Rounding keeps a limp strip in slight motion, so the depth is a mean over a second.
     double depth = 0, count = 0;
     for (int i = 0; i < 100; ++i) {
         cloth.settle(8, 0, 0.01);

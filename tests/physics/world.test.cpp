@@ -1,4 +1,4 @@
-// Adding, removing and changing while the world runs; saving it and coming back.
+// Adding, removing and changing objects while the world runs; saving and restoring it.
 
 #include "sheet.h"
 
@@ -41,7 +41,7 @@ TEST(Snapshot, brings_back_the_same_bits) {
         run(*target, 0.5);
         EXPECT_EQ(target->state_hash(), later);
     }
-    // In another world of the same making, on other threads.
+    // In another world with the same settings and other threads.
     World other = lively_world(2);
     ASSERT_TRUE(other.restore(kept).ok());
     run(other, 0.5);

@@ -1,4 +1,4 @@
-// Scenes without a camera: how much of the picture cloth and colliders cover, in stills and along a film.
+// Scenes without a camera: the share of the image that cloth and colliders cover, in images and in videos.
 
 #include "scenes.h"
 

@@ -1,5 +1,5 @@
-// Scenes as pictures, held against those that somebody has looked at (tests/golden). Where one differs, what came out
-// and where they differ are left in golden/ of the build. scripts/golden makes them anew.
+// Compares images of scenes with the reviewed ones in tests/golden. If one differs, the test writes the new image and
+// the difference to golden/ in the build folder. scripts/golden writes all of them again.
 
 #include "measure.h"
 #include "scenes.h"
@@ -57,8 +57,7 @@ TEST_P(Golden, looks_as_it_did) {
                   << "\nIf it is right, scripts/golden makes all of them anew";
 }
 
-// All of them run the same code but for their values: under a sanitizer, where a picture takes long, one in five will
-// do.
+// All scenes run the same code. Under a sanitizer an image takes long, so only one in five is tested.
 std::vector<PictureScene> compared_scenes() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     std::vector<PictureScene> some;
@@ -72,7 +71,7 @@ std::vector<PictureScene> compared_scenes() {
 INSTANTIATE_TEST_SUITE_P(Vulkan, Golden, testing::ValuesIn(compared_scenes()),
                          [](const auto& one) { return one.param.name; });
 
-// What is compared above must be able to fail: changes of the scene that somebody would complain of.
+// Negative controls: visible changes of a scene exceed the tolerance.
 class VulkanGoldenCatches : public PictureTest {
   protected:
     void expect_caught(const PictureScene& good, const PictureScene& changed) {

@@ -12,7 +12,7 @@ float decoded(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-/// Linear light, on a background of that light.
+/// Linear RGB over a background.
 std::vector<Color> laid_on(const Image8& image, float behind) {
     std::vector<Color> colors(std::size_t{image.width} * image.height);
     for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -42,7 +42,7 @@ std::vector<Color> blurred(const std::vector<Color>& from, std::uint32_t width, 
     return to;
 }
 
-/// Of linear sRGB, D65.
+/// From linear sRGB, white point D65.
 Color lab(const Color& rgb) {
     const float x = (0.4124564f * rgb[0] + 0.3575761f * rgb[1] + 0.1804375f * rgb[2]) / 0.95047f,
                 y = 0.2126729f * rgb[0] + 0.7151522f * rgb[1] + 0.0721750f * rgb[2],

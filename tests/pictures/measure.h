@@ -1,4 +1,4 @@
-// How different two pictures look.
+// The perceived difference of two images.
 #pragma once
 
 #include "base/image.h"
@@ -9,26 +9,26 @@
 
 namespace weft {
 
-/// CIELAB distances (ΔE, 1976) between both pictures, each blurred over 3 by 3 pixels first: noise and the place of an
-/// edge within its pixel count little, what an eye sees counts. Pictures that are not opaque are laid on black and on
-/// white, and the larger distance counts.
+/// CIELAB distances (ΔE, 1976) between two images. Both are blurred over 3 by 3 pixels first, so that noise and the
+/// position of an edge within its pixel count little. Images with transparency are compared on black and on white, and
+/// the larger distance counts.
 struct PictureDistance {
     std::uint32_t width = 0, height = 0;
     std::vector<float> pixels;
     double mean = 0, worst = 0;  ///< `worst`: one pixel in a hundred is beyond it
 };
 
-/// Sizes that differ are as far away as anything can be.
+/// Images of different sizes have the largest distance.
 PictureDistance distance_of(const Image8& a, const Image8& b);
 
-/// What golden pictures may differ by. 5 % of brightness, of a picture half as bright as paper, is four times
-/// that.
+/// Tolerance for golden images. A change of brightness by 5 % is four times as much, in an image half as bright as
+/// paper.
 inline constexpr double mean_allowed = 0.25, worst_allowed = 1.5;
 inline bool alike(const PictureDistance& d) {
     return d.mean <= mean_allowed && d.worst <= worst_allowed;
 }
 
-/// The picture in dim gray, distances from black (none) to red and yellow (10 and more).
+/// The image in dim gray, with distances from black (0) over red to yellow (10 and more).
 Image8 picture_of(const PictureDistance& distance, const Image8& under);
 
 }  // namespace weft

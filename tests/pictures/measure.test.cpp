@@ -1,4 +1,4 @@
-// The measure by which pictures are compared must see what an eye sees, and nothing else.
+// The image distance responds to visible changes and ignores invisible ones.
 
 #include "measure.h"
 
@@ -27,7 +27,7 @@ struct Scene {
     float shift = 0;  // pixels
 };
 
-/// A red ball on gray paper, with its shadow: as a renderer would make it.
+/// A synthetic image: a red ball with its shadow on gray paper.
 Image8 drawn(const Scene& scene) {
     Image8 image{width, height, {}};
     for (std::uint32_t y = 0; y < height; ++y) {

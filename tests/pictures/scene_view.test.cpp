@@ -1,4 +1,4 @@
-// What a view keeps of a world: nothing of the scene's owner, and nothing of what has left.
+// A view keeps no reference to the scene and no memory of removed cloths.
 
 #include "scenes.h"
 
@@ -61,7 +61,7 @@ TEST_F(SceneViewTest, frees_what_has_left_the_world) {
         EXPECT_TRUE(image.ok()) << image.error().message();
         return device->memory().used();
     };
-    // The frames' own buffers grow with the largest picture, and stay.
+    // The buffers of the frames grow with the largest image and are kept.
     std::vector<std::uint64_t> empty, full;
     for (int round = 0; round < 3; ++round) {
         std::vector<ClothId> ids;

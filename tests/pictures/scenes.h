@@ -1,4 +1,4 @@
-// Small scenes for pictures: a cloth laid over a ball, in every material, with every overlay, in every light.
+// Small scenes for images: a cloth on a ball with each material, overlay and light.
 #pragma once
 
 #include "base/image.h"
@@ -20,25 +20,25 @@ struct PictureScene {
     std::string look = "\"cotton\"", light = "{}";  ///< JSON, of the cloth and of the scene
     std::vector<std::string> overlays = {};
     bool transparent = false;
-    bool environment = false;  ///< surroundings made in code
-    bool hung = false;         ///< by two corners in a wind, against the ball
+    bool environment = false;  ///< window_light() in place of a file
+    bool hung = false;         ///< hangs by two corners; wind blows it against the ball
     std::uint32_t samples = 4;
 };
 void PrintTo(const PictureScene& scene, std::ostream* out);
 
 const std::vector<PictureScene>& picture_scenes();
 
-/// As scene files have it; left in golden/ of the build, so that `weft render` can show it.
+/// The scene file. The test also writes it to golden/ in the build folder, for `weft render`.
 std::string scene_text(const PictureScene& scene);
 
-/// Blue above, dark below, a warm window on one side: what is seen in it can be told.
+/// Blue above, dark below, with a warm window on one side, so that orientation is visible.
 ImageF window_light();
 
-/// A device under the validation layers, and scenes drawn on it.
+/// Draws scenes on a device with validation layers.
 class PictureTest : public gpu::OnDevice {
   protected:
     void SetUp() override;
-    /// Simulated by the CPU, whose results have the same bits everywhere; 160 by 90 pixels, 320 by 180 where it hangs.
+    /// Simulates on the CPU, which gives the same bits on every machine. 160 by 90 pixels, or 320 by 180 if `hung`.
     Image8 drawn(const PictureScene& scene);
 };
 

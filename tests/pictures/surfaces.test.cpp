@@ -1,4 +1,4 @@
-// What is drawn from buffers of the simulating device, and from the host's copy of them, is one picture.
+// Drawing from buffers of the simulating device and from host copies gives the same image.
 
 #include "measure.h"
 #include "scenes.h"
@@ -14,7 +14,7 @@ namespace {
 
 class VulkanPicturesOfSurfaces : public testing::Test {
   protected:
-    /// A scene on that backend, after some frames.
+    /// Opens a scene on `backend` and simulates some frames.
     void open(const std::string& backend) {
         const std::filesystem::path file = std::filesystem::path(WEFT_BINARY_DIR) / ("surfaces_" + backend + ".json");
         std::ofstream(file) << scene_text({.name = "surfaces", .look = "\"denim\"", .hung = true});

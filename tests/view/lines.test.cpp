@@ -1,4 +1,4 @@
-// Overlays of lines and points, against counts that are known.
+// Overlays of lines and points, compared with known counts.
 
 #include "shown.h"
 
@@ -43,7 +43,7 @@ TEST(WireframeOverlay, is_that_of_the_mesh_that_is_drawn) {
     world.add(make_bound_sheet({9, 9}, make_grid({1, 1}, {5, 5}, GridDiagonal::uniform)));
     EXPECT_EQ(Shown(world).draw("wireframe").lines.size(), 2 * (2 * 20 + 16u));
 
-    // Along seams, where every triangle has corners of its own, too.
+    // Also along seams, where triangles do not share vertices.
     TriangleMesh torn;
     const TriangleMesh whole = make_grid({1, 1}, {5, 5}, GridDiagonal::uniform);
     for (const Triangle& triangle : whole.triangles) {
@@ -112,7 +112,7 @@ TEST(PinsOverlay, tells_what_a_collider_carries_and_what_springs_hold) {
     EXPECT_EQ(output.points[0].color, output.points[1].color);
     EXPECT_NE(output.points[1].color, output.points[2].color);
     ASSERT_EQ(output.lines_on_top.size(), 9u);
-    // The anchor that the collider carries has gone up with it, the others are where they were.
+    // The anchor on the collider has moved up with it; the others have not moved.
     std::size_t up = 0;
     for (const render::Line& line : output.lines_on_top) {
         up += std::abs(line.to.y - 0.5f) < 1e-5f;
@@ -172,7 +172,7 @@ TEST(ConstraintsOverlay, shows_plates_springs_and_rows_along_lines) {
     ASSERT_FALSE(model.table(ConstraintKind::stretch).blocks.empty());
     const std::uint32_t plates = model.table(ConstraintKind::plate).rows;
     ASSERT_GE(plates, 128u);
-    // Three sides of a plate; a spring that is at ease has no length, but is there.
+    // Three sides of a plate. A spring at rest is a line of length 0.
     EXPECT_EQ(shown.draw("constraints").lines.size(), 2 * (208u + 9 + 3 * plates));
 }
 

@@ -1,4 +1,4 @@
-// Overlays that color the cloth, against shapes whose strain and curvature are known.
+// Overlays that color the cloth, on shapes with known strain and curvature.
 
 #include "shown.h"
 
@@ -62,7 +62,7 @@ TEST(StrainOverlay, goes_to_the_vertices_of_another_mesh_that_is_drawn) {
     const OverlayOutput output = shown.draw("strain");
     EXPECT_EQ(output.scalars[0].values.size(), shown.positions().size());
     expect_all(output.scalars[0].values, 2, 1e-3f);
-    // One side stretched, the other not: in between lies what is between.
+    // One side is stretched, the other is not; values in between are interpolated.
     shown.place([](Vec3 p) { return Vec3{p.x > 0 ? p.x * 1.1f : p.x, p.y, p.z}; });
     const std::vector<float> values = shown.draw("strain").scalars[0].values;
     EXPECT_LT(values[5 * 13], 0.01f);
@@ -133,11 +133,11 @@ TEST(BendingOverlay, counts_from_the_angles_at_rest) {
     round.add(*model);
     Shown shown(round);
     expect_all(shown.draw("bending").scalars[0].values, 0, 1e-3f);
-    // Inflated without a change of angles it is not either.
+    // Scaling keeps the angles, so there is no bending either.
     shown.place([](Vec3 p) { return p * 2; });
     expect_all(shown.draw("bending").scalars[0].values, 0, 1e-3f);
 
-    // A fabric that says how it is bent at rest has it its own way: 3° for every hinge.
+    // `rest_angle` of a fabric replaces the angles of the mesh: 3° for every hinge.
     desc.fabric.bend.rest_angle = 3;
     World curled = make_world({}, desc);
     const std::vector<float> values = Shown(curled).draw("bending").scalars[0].values;

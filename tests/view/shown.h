@@ -1,4 +1,4 @@
-// A world as overlays see it, with its particles where a test wants them.
+// A world for overlays, with particle positions that a test chooses.
 #pragma once
 
 #include "../physics/sheet.h"
@@ -23,7 +23,7 @@ class Shown {
     Shown(const Shown&) = delete;
     Shown& operator=(const Shown&) = delete;
 
-    /// Puts every particle of all cloths where `pose` maps its place at rest.
+    /// Moves each particle of all cloths to `pose(rest position)`.
     template <class Pose>
     void place(Pose&& pose) {
         for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -73,7 +73,7 @@ inline std::string entry(const OverlayOutput& output, std::size_t number) {
     return output.legends.at(0).entries.at(number).text;
 }
 
-/// A sheet with another mesh drawn in its place.
+/// A sheet with a render mesh.
 inline std::shared_ptr<const ClothModel> make_bound_sheet(std::array<std::uint32_t, 2> simulated, TriangleMesh drawn) {
     TriangleMesh mesh = make_grid({1, 1}, simulated, GridDiagonal::alternating);
     auto topology = build_topology(mesh, {.reorder = false});

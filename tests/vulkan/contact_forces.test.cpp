@@ -1,5 +1,5 @@
-// What is read back of contacts: the CPU's bits, however a frame is executed; lists that are too short; frames that are
-// still under way.
+// Contacts that are read back: the CPU's bits for every way to execute a frame; lists that are too short; frames that
+// have not finished.
 
 #include "losing_device.h"
 #include "vulkan_fixture.h"
@@ -46,7 +46,7 @@ Collider ground(float height) {
     return make_collider({.name = "ground", .shape = PlaneDesc{{0, 1, 0}, height}});
 }
 
-// Every shape, at rest and moving and turning.
+// Each shape: at rest, moving and turning.
 void add_colliders(World& world) {
     world.add(ground(0.07f));
     world.add(make_collider({.shape = SphereDesc{0.1f}}));
@@ -106,7 +106,7 @@ TEST(VulkanContactForces, has_the_bits_of_the_cpu_however_a_frame_is_executed) {
                 {"streamed", "fused"});
 }
 
-// More particles than a workgroup has, so that sums of several come together.
+// More particles than one workgroup, so that sums of several workgroups are added.
 TEST(VulkanContactForces, adds_up_what_many_workgroups_find) {
     const auto force = [](std::unique_ptr<Backend> backend) {
         World world(std::move(backend), {.solver = {.substeps = 2}, .contact_forces = true});
@@ -139,7 +139,7 @@ TEST(VulkanContactForces, says_when_the_list_is_full_and_has_room_in_the_next_fr
         const std::size_t most = 3 * (169 + 144);
         reference.step(frame_seconds);
         ASSERT_EQ(reference.contact_forces().contacts.size(), most);
-        // Streamed cloths have a list each, fused ones one together.
+        // Streamed cloths have one list each, fused ones share a list.
         const std::uint32_t reports = world.step(frame_seconds).reports;
         EXPECT_EQ(reports, report_contacts_full);
         EXPECT_EQ(report_names(reports), std::vector<std::string_view>{"ContactsFull"});
@@ -163,7 +163,7 @@ TEST(VulkanContactForces, says_when_the_list_is_full_and_has_room_in_the_next_fr
     }
 }
 
-// While the device is at the next frame, what is read is in another buffer than what it writes.
+// The device writes the next frame to another buffer than the one that is read.
 TEST(VulkanContactForces, is_read_while_the_next_frame_runs) {
     World world(checked_vulkan_backend(), {.solver = {.substeps = 3}, .contact_forces = true});
     World reference(cpu_backend(), world.settings());
@@ -182,7 +182,7 @@ TEST(VulkanContactForces, is_read_while_the_next_frame_runs) {
     EXPECT_GT(world.contact_forces().contacts.size(), 0u);
     (void)world.summary();
     EXPECT_EQ(world.contact_forces().frame, 12u);
-    // Not asked for before what it lies in is gone.
+    // The first query comes after the removal of the cloth.
     world.advance(frame_seconds);
     reference.advance(frame_seconds);
     world.remove(world.summary().cloths[0].id);
@@ -194,7 +194,7 @@ TEST(VulkanContactForces, is_read_while_the_next_frame_runs) {
     }
 }
 
-// Whatever comes between an advance and its end: nothing of it is lost, nothing touches what the device is at.
+// Edits and queries between advance() and the end of the frame lose nothing and do not touch buffers in use.
 TEST(VulkanContactForces, of_a_world_that_changes_while_a_frame_runs_is_sound) {
     const auto play = [](std::unique_ptr<Backend> backend) {
         World world(std::move(backend), {.solver = {.substeps = 3}, .contact_forces = true});
@@ -230,7 +230,7 @@ TEST(VulkanContactForces, of_a_world_that_changes_while_a_frame_runs_is_sound) {
         const bool exact = is_exact(world);
         std::vector<std::uint32_t> bits = bits_of(world.contact_forces());
         hash += world.state_hash();
-        world.advance(frame_seconds);  // and goes while that is under way
+        world.advance(frame_seconds);  // the world is destroyed before this frame has finished
         return std::tuple(exact, hash, bits);
     };
     const auto [unused, hash, bits] = play(cpu_backend());

@@ -1,4 +1,4 @@
-// A device that counts what is recorded for it and how often something is submitted.
+// A device that counts recorded commands and submits.
 #pragma once
 
 #include "vulkan/vulkan_backend.h"

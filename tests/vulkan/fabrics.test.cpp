@@ -1,4 +1,4 @@
-// Fabrics that change while cloth moves do on the device what they do on the CPU.
+// A change of fabric of a moving cloth gives the CPU's bits on the device.
 
 #include "vulkan_fixture.h"
 
@@ -27,7 +27,7 @@ std::shared_ptr<const ClothModel> hung_sheet(const ClothLayout& layout, BendMode
     return *model;
 }
 
-// Of the first cloth of two that share a model, which changes; the second one keeps its fabric.
+// Two cloths share a model; the fabric of the first one changes, the second one keeps its fabric.
 std::array<std::vector<Vec4>, 2> run(std::unique_ptr<Backend> backend, const WorldSettings& settings, BendModel bend) {
     World world(std::move(backend), settings);
     const auto model = hung_sheet(settings.layout(), bend);

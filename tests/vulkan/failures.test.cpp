@@ -1,4 +1,4 @@
-// What a device can do to a cloth: too little memory, a device that is lost in mid-run.
+// Failures of a device: too little memory, and loss during a run.
 
 #include "losing_device.h"
 #include "vulkan_fixture.h"

@@ -1,4 +1,4 @@
-// <weft/vulkan.h>, as a host uses it: with an instance, device and queue of its own, under the validation layers.
+// <weft/vulkan.h> in a host with its own instance, device and queue, with validation layers.
 
 #include "gpu/device.h"
 #include "gpu/host_device.test.h"
@@ -36,7 +36,7 @@ class VulkanHosts : public testing::Test {
         volkLoadDeviceTable(&vk_, host.device);
         vk_.vkGetDeviceQueue(host.device, 0, 0, &host.queue);
     }
-    // Fails where weft has left anything of its own on the device, or has destroyed it.
+    // Fails if weft has leaked an object or has destroyed the device.
     void TearDown() override {
         if (host.device != VK_NULL_HANDLE) vk_.vkDestroyDevice(host.device, nullptr);
         instance_.reset();
@@ -168,7 +168,7 @@ TEST_F(VulkanHosts, are_asked_for_their_queue) {
     {
         Simulation simulation = make();
         const ClothId id = *simulation.add(sheet());
-        simulation.step();  // the first prepares the others
+        simulation.step();  // the first step prepares the later ones
         const int before_step = times;
         EXPECT_GT(before_step, 0);
         simulation.step();
@@ -207,7 +207,7 @@ TEST_F(VulkanHosts, are_told_what_does_not_fit_together) {
     wrong.queue_family = 77;
     EXPECT_THAT(refusal(wrong), ElementsAre(HasSubstr("queue family 77 does not compute")));
     wrong = host;
-    wrong.physical_device = reinterpret_cast<VkPhysicalDevice>(&wrong);  // somebody else's
+    wrong.physical_device = reinterpret_cast<VkPhysicalDevice>(&wrong);  // not of this instance
     EXPECT_THAT(refusal(wrong), ElementsAre(HasSubstr("does not belong to the instance")));
 }
 

@@ -1,4 +1,4 @@
-// A device that is lost after as many submits as a test says.
+// A device that is lost after a given number of submits.
 #pragma once
 
 #include "vulkan/vulkan_backend.h"
@@ -19,7 +19,7 @@ inline VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSu
     return healthy_submit(queue, count, info, fence);
 }
 
-/// For VulkanOptions::intercept. Begins healthy.
+/// For VulkanOptions::intercept. The device is not lost at first.
 inline void intercept(VolkDeviceTable& table) {
     submits_left = never;
     healthy_submit = table.vkQueueSubmit;

@@ -1,5 +1,5 @@
-// Many cloths in one frame: as many dispatches as for one cloth, one submit, and the same bits however passes become
-// dispatches.
+// Many cloths in one frame: as many dispatches as for one cloth, one submit, and the same bits for every way to execute
+// a frame.
 
 #include "counting_device.h"
 #include "vulkan_fixture.h"
@@ -64,7 +64,7 @@ std::unique_ptr<Backend> vulkan_backend(const char* execution) {
     return checked_vulkan_backend({.execution = execution, .intercept = counting_device::intercept});
 }
 
-// Cloths of one model: their number, and what takes a frame of them.
+// Several cloths of one model.
 void expect_as_many_dispatches(std::uint32_t side, std::span<const char* const> executions) {
     const WorldSettings settings{.solver = {.substeps = 3, .hierarchy = true}};
     const auto model = sheet(side, settings.layout(), true);
@@ -94,12 +94,12 @@ TEST(ManyCloths, take_no_more_dispatches_than_one) {
     expect_as_many_dispatches(32, std::array{"streamed", "grouped"});
 }
 
-// Small ones: a workgroup to a cloth is what software plays slowest.
+// Small cloths: software devices run one workgroup per cloth slowly.
 TEST(ManyCloths, take_one_dispatch_when_fused) {
     expect_as_many_dispatches(6, std::array{"streamed", "fused"});
 }
 
-// Of other sizes, with other constraints, with and without coarse levels, lines and pins: none notices the others.
+// Cloths of different sizes and constraints, with and without coarse levels, lines and pins, do not affect each other.
 TEST(ManyCloths, that_differ_do_what_each_does_alone) {
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
         const WorldSettings settings{

@@ -1,4 +1,4 @@
-// What the device finds of a cloth, against the same in double on the host.
+// Measures that the device computes, compared with the same in double precision on the host.
 
 #include "vulkan_fixture.h"
 
@@ -46,7 +46,7 @@ TriangleMesh irregular(std::uint32_t side) {
     return mesh;
 }
 
-// The same on the host: of the state that is saved, so that nothing is said of how the cloth came there.
+// The same on the host, from the saved state.
 MeasureSums on_host(const ClothModel& model, const ClothSnapshot& state) {
     MeasureSums sums;
     std::vector<Vec4> positions(state.position.begin(), state.position.begin() + model.particle_count);
@@ -146,7 +146,7 @@ TEST_P(VulkanMeasures, are_the_same_bits_every_time_and_after_coming_back) {
 
 INSTANTIATE_TEST_SUITE_P(, VulkanMeasures, testing::Values("streamed", "grouped", "fused"));
 
-// A cloth in a state of its own, without a step.
+// A cloth with a given state, without a step.
 struct Placed {
     explicit Placed(std::shared_ptr<const ClothModel> of, VulkanOptions options = {})
         : model(std::move(of)),
@@ -168,7 +168,7 @@ struct Placed {
     ClothSnapshot state;
 };
 
-// Multipliers that leave about a ten-thousandth of what the row is off by.
+// Multipliers that leave a residual of about 1e-4 of the error of the constraint.
 void nearly_solve(const ClothModel& model, ClothSnapshot& state) {
     const ConstraintTable& table = model.table(ConstraintKind::stretch);
     for (std::uint32_t row = 0; row < table.stride; ++row) {
@@ -181,8 +181,8 @@ void nearly_solve(const ClothModel& model, ClothSnapshot& state) {
     }
 }
 
-// Some 100 000 particles, 49 tiles of them and some 150 of edges; far from the origin; strains from what one rounding
-// leaves to large ones.
+// About 100 000 particles in 49 tiles, with about 150 tiles of edges, far from the origin. Strains range from one
+// rounding error to large ones.
 TEST(VulkanMeasuring, of_many_particles_keep_their_digits) {
     Placed placed(model_of({grid(317), {0, 316}}));
     const std::vector<Vec4> rest = placed.state.position;
@@ -239,7 +239,7 @@ TEST(VulkanMeasuring, see_a_single_number_that_is_not_finite) {
     }
 }
 
-// Finite, and no float holds its square.
+// Finite, but its square overflows a float.
 TEST(VulkanMeasuring, of_what_floats_cannot_square_are_those_of_the_host) {
     Placed placed(model_of({grid(5), {}}));
     placed.state.velocity[3].x = 1e25f;
@@ -274,7 +274,7 @@ TEST(VulkanMeasuring, are_nothing_where_there_is_nothing_to_measure) {
         ClothEdges{.axial_rows = {}, .without_row = {{0, 1}, {1, 2}}, .axial_without_row = 2});
 
     Placed one(three_loose_particles());
-    one.state.velocity[0] = {0, 4, 0, 0};  // held, and so without energy
+    one.state.velocity[0] = {0, 4, 0, 0};  // pinned, so it has no energy
     one.state.velocity[1] = {0, 0, 2, 0};
     one.put();
     const ClothMeasures free = one.measure();

@@ -1,9 +1,8 @@
 // The Vulkan backend against the CPU's, constraint by constraint, on random and degenerate input.
 //
-// One text of the maths, the same order of operations: what may differ is how a device divides and takes roots, which
-// Vulkan leaves free by 2.5 and 3 units in the last place. Where it rounds them as IEEE 754 says (as a GPU that
-// software plays does), results are the same to the bit; elsewhere ordinary input must agree within the tolerances
-// below.
+// Both backends compile the same source in the same order of operations. Only division and square root may differ:
+// Vulkan allows errors of 2.5 and 3 units in the last place. A device that rounds them as IEEE 754 says (software
+// devices do) must give the same bits. On other devices ordinary input must agree within the tolerances below.
 
 #include "vulkan_fixture.h"
 
@@ -20,7 +19,7 @@ namespace {
 
 using namespace random_rows;
 
-// Of what a row moves its particles by in these tests, some tenths of a meter.
+// Relative to the movement by a constraint in these tests, some tenths of a meter.
 double tolerance(ConstraintKind kind) {
     switch (kind) {
         case ConstraintKind::bend:
@@ -52,7 +51,7 @@ std::shared_ptr<const ClothModel> model_of(const RandomState& state) {
 
 enum class Way { project, plain, side_by_side, fixed_point, damp };
 
-// Whether there is a loop for it: constraints.def.
+// Whether constraints.def lists a loop for it.
 bool exists(const ConstraintInfo& info, Way way) {
     switch (way) {
         case Way::project:
@@ -172,13 +171,13 @@ class Parity : public testing::TestWithParam<const char*> {
             for (std::size_t i = 0; i < cpu.state.lambda.size(); ++i) {
                 if (!state.is_row(i)) continue;
                 const float ours = cpu.state.lambda[i], theirs = vulkan.state.lambda[i];
-                // Apart by what is subnormal.
+                // The distance is subnormal.
                 ASSERT_TRUE(std::bit_cast<std::uint32_t>(ours) == std::bit_cast<std::uint32_t>(theirs) ||
                             std::abs(ours - theirs) < 1e-30f)
                     << what << ", lambda " << i << ": " << ours << " and " << theirs;
             }
         }
-        // Rows that are stiff: what soft ones of a plate do in a millisecond is rounded away.
+        // Stiff constraints: the movement by a soft plate within a millisecond is less than a rounding error.
         if (way == Way::plain && !degenerate) {
             EXPECT_NE(cpu.state.position, positions) << what << " moves something";
         }
@@ -196,7 +195,7 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
                                                     {Way::fixed_point, "fixed point"},
                                                     {Way::damp, "damp"}};
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    constexpr unsigned seeds = 2;  // a degenerate one and one that is not: the same code, and minutes for more
+    constexpr unsigned seeds = 2;  // a degenerate and an ordinary one; more would take minutes
 #else
     constexpr unsigned seeds = 4;
 #endif
@@ -217,7 +216,7 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
 
 TEST_P(Parity, of_rows_that_run_one_after_another) {
     ASSERT_TRUE(vulkan_);
-    // All on one particle: no two rows of a color.
+    // All constraints share one particle, so each has its own color.
     RandomState state = random_points(7, false);
     RowList rows = make_rows(ConstraintKind::stretch);
     for (std::uint32_t r = 1; r < 200; ++r) rows.add({0, r}, {0.5f, 1e-6f, 1e-6f});

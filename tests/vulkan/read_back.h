@@ -1,5 +1,5 @@
-// Reads buffers as a host does: with handles alone, its own commands, and a wait for the moment at which they are
-// valid.
+// Reads buffers as a host does: by their handles, with its own commands, after waiting for the timeline point of the
+// buffers.
 #pragma once
 
 #include "gpu/vulkan.h"

@@ -1,4 +1,4 @@
-// Every scene of the library on both backends: the same invariants, and the same bits twice on the same device.
+// Each scene in scenes/ on both backends: the same invariants, and the same bits in two runs on one device.
 
 #include "vulkan_fixture.h"
 
@@ -61,7 +61,7 @@ TEST(VulkanScenes, are_as_on_the_cpu) {
     EXPECT_GE(scenes, 9);
 }
 
-// However passes become dispatches, the order of the arithmetic is the same.
+// The order of the arithmetic does not depend on the grouping of passes into dispatches.
 TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / "sheet_on_sphere.json";
     const auto run = [&](const char* execution, std::uint32_t substeps) {
@@ -81,7 +81,7 @@ TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     EXPECT_NE(run("streamed", 4), expected);
 }
 
-// Shared memory may have room for a cloth's particles and none for its lines, for both, or for the lines alone.
+// Shared memory may hold the particles of a cloth, its lines, or both.
 TEST(VulkanScenes, do_not_depend_on_what_fits_into_shared_memory) {
     for (const std::uint32_t side : {20u, 40u, 50u}) {
         const auto run = [&](const char* execution) {
@@ -102,7 +102,7 @@ TEST(VulkanScenes, do_not_depend_on_what_fits_into_shared_memory) {
     }
 }
 
-// The substeps between the first and the last one are the same commands again: those that move with keys among them.
+// All substeps between the first and the last one run the same commands, also with keyed motion.
 TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
     for (const char* name : {"turning_drum", "curtain"}) {
         const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");
@@ -122,7 +122,7 @@ TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
     }
 }
 
-// Averaged Jacobi, with contacts, tethers and holds around it.
+// Averaged Jacobi with contacts, tethers and attachments.
 // Labels: slow no-asan
 TEST(VulkanScenes, do_not_tell_how_averages_are_executed) {
     struct Way {

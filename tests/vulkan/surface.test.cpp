@@ -1,5 +1,4 @@
-// The surface that the device makes against those of a frame: to the bit where the device rounds
-// as IEEE 754 says.
+// Compares surfaces that the device computes with those of a frame: bit for bit if the device rounds as IEEE 754 says.
 
 #include "losing_device.h"
 #include "read_back.h"
@@ -37,7 +36,7 @@ TriangleMesh sheet(std::array<std::uint32_t, 2> resolution = {9, 7}) {
     return make_grid({1, 1}, resolution, GridDiagonal::alternating);
 }
 
-/// Rolled into a tube; both sides of its seam are in the same place and have UVs of their own.
+/// A sheet rolled into a tube. Both sides of its seam have the same positions and different UVs.
 TriangleMesh tube() {
     TriangleMesh mesh = sheet({13, 6});
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -48,7 +47,7 @@ TriangleMesh tube() {
     return mesh;
 }
 
-/// UVs of all kinds: without an area, mirrored, huge, tiny.
+/// Degenerate, mirrored, huge and tiny UVs.
 TriangleMesh with_odd_uvs() {
     TriangleMesh mesh = sheet();
     std::mt19937 random(3);
@@ -61,7 +60,7 @@ TriangleMesh with_odd_uvs() {
     return mesh;
 }
 
-/// Vertices that nothing uses, triangles without an area, and triangles given twice.
+/// Unused vertices, triangles without area and duplicate triangles.
 TriangleMesh messy() {
     TriangleMesh mesh = sheet();
     mesh.positions.insert(mesh.positions.begin() + 5, Vec3{3, 4, 5});
@@ -105,7 +104,7 @@ class VulkanSurfaces : public testing::Test {
         EXPECT_TRUE(surface.ok()) << surface.error().message();
         return surface.ok() ? *surface : gpu::SurfaceBuffers{};
     }
-    /// A semaphore as a host has one. The test destroys it.
+    /// A semaphore of the host. The test destroys it.
     VkSemaphore make_timeline() {
         VkSemaphoreTypeCreateInfo type{};
         type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
@@ -135,7 +134,7 @@ class VulkanSurfaces : public testing::Test {
         }
     }
 
-    /// Of the cloth as it is now.
+    /// Compares the current state.
     void expect_surface_of_cpu(ClothId id) {
         const gpu::SurfaceBuffers buffers = surface(id);
         const Frame& frame = world().frame();
@@ -212,7 +211,7 @@ TEST_F(VulkanSurfaces, that_follow_another_mesh) {
     expect_surfaces_of_cpu({.mesh = make_sphere(0.3f, 1), .render_mesh = ball});
 }
 
-// As crumpled as cloth never is: frames without a direction among them.
+// Random positions, some of them with normals and tangents of zero.
 TEST_F(VulkanSurfaces, of_particles_that_are_anywhere) {
     TriangleMesh fine = make_grid({1, 1}, {20, 20}, GridDiagonal::uniform);
     const ClothId bound = add({.mesh = sheet(), .render_mesh = fine}), welded = add({.mesh = with_odd_uvs()});

@@ -1,4 +1,4 @@
-// A Vulkan backend under the validation layers: whatever they say fails the test.
+// A Vulkan backend with validation layers; each of their messages fails the test.
 #pragma once
 
 #include "vulkan/vulkan_backend.h"

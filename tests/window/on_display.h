@@ -1,4 +1,4 @@
-// For tests of windows: a display without a screen, and a device under the eyes of the validation layers.
+// For tests of windows: a display without a screen, and a device with validation layers.
 #pragma once
 
 #include "gpu/test_device.h"
@@ -26,7 +26,7 @@ class OnDisplay : public gpu::OnDevice {
         ASSERT_FALSE(surface_extensions.empty());
         OnDevice::SetUp();
         if (!instance) return;
-        // A GPU's driver may have no way to a display without a screen.
+        // The driver of a GPU may not support a display without a screen.
         for (const gpu::DeviceInfo& one : instance->devices())
             if (one.type == gpu::DeviceType::cpu && one.usable()) info = one;
         open(device_options);
@@ -55,7 +55,7 @@ class OnDisplay : public gpu::OnDevice {
         return image ? *image : gpu::SwapchainImage{};
     }
 
-    /// Hears events until it is so; what comes of them takes a moment. False after far too long.
+    /// Processes events until the condition holds. False after a timeout.
     bool until(const std::function<bool()>& so) {
         for (int i = 0; i < 1000; ++i) {
             if (so()) return true;
@@ -63,7 +63,7 @@ class OnDisplay : public gpu::OnDevice {
         }
         return false;
     }
-    /// Whether the screen comes to show that color, give or take one, at a place of the window.
+    /// Whether this pixel of the window takes this color, ± 1 per channel, before a timeout.
     bool shown(const std::array<int, 3>& bytes, int x, int y) {
         return until([&] {
             const auto color = input->color(x, y);

@@ -1,4 +1,4 @@
-// A picture in a window is that of a file.
+// A window shows the same image as a file.
 #include "render/renderer.h"
 #include "render/host_mesh.h"
 #include "render/orbit.h"
@@ -57,7 +57,7 @@ class RendererInWindow : public OnDisplay {
         ASSERT_TRUE(done.ok()) << done.error().message();
         EXPECT_TRUE(window->show(image, *done).ok());
     }
-    /// What the window shows is what a file would have, wherever one looks.
+    /// Compares the pixels of the window with an image that is written to a file.
     void expect_same_picture() {
         const VkExtent2D size = window->extent();
         const auto picture = renderer->picture(drawing, size.width, size.height);

@@ -1,4 +1,4 @@
-// `weft render --window`, and somebody before it.
+// `weft render --window` with simulated user input.
 #include "user_input.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@
 namespace weft {
 namespace {
 
-/// The program, at work.
+/// The running program.
 class Program {
   public:
     explicit Program(std::vector<std::string> arguments) {

@@ -11,7 +11,7 @@ namespace weft {
 struct UserInput::Impl {
     Display* display = nullptr;
     Window root = 0, window = 0;
-    Time now = 1000;  // ms; each event comes after the one before
+    Time now = 1000;  // ms; grows with each event
 
     Atom atom(const char* name) const { return XInternAtom(display, name, False); }
     std::string title_of(Window one) const {
@@ -30,7 +30,7 @@ struct UserInput::Impl {
         if (children) XFree(children);
         if (!window) throw std::runtime_error("there is no window '" + title + "'");
     }
-    // What a key and a button have in common.
+    // Fields that key and button events share.
     template <class Event>
     void fill(Event& event, int type) {
         event.type = type;

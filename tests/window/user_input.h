@@ -1,4 +1,4 @@
-// The other side of a window: who sits before the screen, and the window manager, by X11.
+// Simulates the user and the window manager through X11.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@ namespace weft {
 
 class UserInput {
   public:
-    /// At the window whose title begins so. Throws std::runtime_error if there is none.
+    /// Finds the window whose title begins with this text. Throws std::runtime_error if there is none.
     explicit UserInput(const std::string& title);
     ~UserInput();
 
     /// Red, green and blue of a pixel of the screen.
     std::array<int, 3> color(int x, int y) const;
-    /// As it is now.
+    /// Current value.
     std::string title() const;
     void resize(unsigned width, unsigned height);
     void set_minimized(bool minimized);
@@ -23,7 +23,7 @@ class UserInput {
     void point_at(int x, int y);
     /// 1 left, 2 middle, 3 right, 4 and 5 the wheel.
     void button(unsigned number, bool down);
-    /// By its name in X11: "w", "space", "Escape".
+    /// `name`: the name in X11, such as "w", "space", "Escape".
     void key(const std::string& name, bool down);
 
   private:

@@ -1,4 +1,4 @@
-// Windows on a display without a screen (Xvfb), drawn by a GPU in software, under the eyes of the validation layers.
+// Windows on a display without a screen (Xvfb), drawn by a software device with validation layers.
 #include "render/window.h"
 
 #include "gpu/commands.h"
@@ -24,12 +24,12 @@ using testing::HasSubstr;
 constexpr float red[] = {0.5f, 0, 0}, green[] = {0, 0.25f, 0}, blue[] = {0, 0, 1};
 using Linear = const float (&)[3];
 
-// What a system does that no test can make it do: the next call of each fails once that way.
+// Injected failures: the next call of each function returns this once.
 VolkDeviceTable healthy;
 VkResult acquire_says, present_says, create_says;
-int swapchains;        // that there are
-VkSwapchainKHR asked;  // for the last image
-std::uint64_t waited;  // for that value of the timeline
+int swapchains;        // that exist
+VkSwapchainKHR asked;  // of the last acquire
+std::uint64_t waited;  // timeline value of the last wait
 
 VkResult once(VkResult& says) {
     return std::exchange(says, VK_SUCCESS);
@@ -40,7 +40,7 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR chain, st
     asked = chain;
     return healthy.vkAcquireNextImageKHR(device, chain, timeout, semaphore, fence, index);
 }
-// Semaphores are waited for even where nothing can be shown.
+// Semaphores are waited for even if the window shows nothing.
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     const VkResult result = healthy.vkQueuePresentKHR(queue, info);
     const VkResult failed = once(present_says);
@@ -91,7 +91,7 @@ class WindowTest : public OnDisplay {
         if (made) pass = std::move(*made);
         return made.ok();
     }
-    /// The value of the submit that fills it.
+    /// Timeline value of the submit that fills the image.
     std::uint64_t fill(const gpu::SwapchainImage& image, Linear color) {
         auto framebuffer =
             gpu::Framebuffer::create(*device, pass, {&image.view, 1}, image.extent.width, image.extent.height);
@@ -115,7 +115,7 @@ class WindowTest : public OnDisplay {
     }
     void draw(Linear color) { show(next(), color); }
 
-    /// Whether the screen comes to show that color at a place of the window.
+    /// Whether this pixel of the window takes this color before a timeout.
     bool seen(Linear color, int x = 160, int y = 100) {
         std::array<int, 3> bytes{};
         for (int i = 0; i < 3; ++i) {
@@ -184,7 +184,7 @@ TEST_F(WindowTest, every_image_has_a_semaphore_of_its_own) {
         show(image, red);
     };
     for (int i = 0; i < 5; ++i) frame();
-    // A screen shows one for a while; this one has to be kept away.
+    // A display shows an image for a while; this test has to keep it back.
     VkFenceCreateInfo info_of_fence{};
     info_of_fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     VkFence fence = VK_NULL_HANDLE;
@@ -321,7 +321,7 @@ TEST_F(WindowTest, an_image_that_was_not_shown_is_given_back) {
     (void)fill(next(), red);  // drawn, but not shown
     draw(green);
     EXPECT_TRUE(seen(green));
-    EXPECT_EQ(next().state, Acquired::image);  // and taken along when it closes
+    EXPECT_EQ(next().state, Acquired::image);  // released when the window closes
 }
 
 TEST_F(WindowTest, a_device_that_is_lost_is_an_error) {
@@ -361,7 +361,7 @@ TEST_F(WindowTest, is_closed_by_the_program) {
 TEST_F(WindowTest, hears_what_hands_do) {
     if (!show_window()) return;
     draw(red);
-    WindowInput all;  // of several askings
+    WindowInput all;  // of several polls
     const auto hear = [&](const std::function<bool()>& so) {
         for (int i = 0; i < 1000 && !so(); ++i) {
             const WindowInput now = window->input(0.02);
