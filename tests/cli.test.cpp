@@ -458,14 +458,16 @@ TEST_F(Cli, stats_say_the_same_on_vulkan) {
         EXPECT_EQ(on_vulkan[key], on_cpu[key]) << key;
 }
 
-TEST_F(Cli, names_a_cloth_that_vulkan_cannot_simulate) {
-    write("sheet.json", R"({ "weft": 1, "cloths": [{}, { "name": "scarf", "self_collision": true }] })");
-    const Outcome outcome = weft("run sheet.json --frames 2 --quiet --backend vulkan");
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_EQ(outcome.err,
-              "weft: error: sheet.json: /cloths/1/self_collision: must be \"off\" on the Vulkan backend, got \"exact\" "
-              "for cloth 'scarf'; use --backend cpu\n");
-    EXPECT_EQ(stats("--frames 2")["backend"], "cpu");
+TEST_F(Cli, counts_contacts_of_cloth_with_cloth_on_vulkan) {
+    write("sheet.json", R"({ "weft": 1, "solver": { "substeps": 2 }, "cloths": [
+        { "mesh": { "grid": { "size": [0.2, 0.2], "resolution": [6, 6] } }, "self_collision": true,
+          "pins": [{ "box": { "min": [-1, -1, -1], "max": [1, 1, 1] } }] },
+        { "mesh": { "grid": { "size": [0.2, 0.2], "resolution": [6, 6] } }, "self_collision": true,
+          "transform": { "position": [0.01, 0.01, 0.02] } }] })");
+    const Json on_cpu = stats("--frames 6 --backend cpu"), on_vulkan = stats("--frames 6 --backend vulkan");
+    EXPECT_GT(on_cpu["self_contacts"], 0);
+    for (const char* key : {"self_contacts", "limited", "tangled", "intersections"})
+        EXPECT_EQ(on_vulkan[key], on_cpu[key]) << key;
 }
 
 TEST_F(Cli, names_what_vulkan_lacks_with_status_1) {

@@ -47,7 +47,7 @@ struct SolverDesc {
 enum class Tethers { automatic, on, off };
 
 /// Contact of a cloth with itself and with the other cloths that have it. `exact`: the cloth passes neither through
-/// itself nor through such a cloth; on the CPU backend only.
+/// itself nor through such a cloth.
 enum class SelfCollision { off, exact };
 
 /// `directional`: the same velocity everywhere.

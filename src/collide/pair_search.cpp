@@ -96,6 +96,14 @@ std::int64_t PairSearch::remaining(const TileState& tile) const {
     return tile.moving ? tile.lifetime - (tick_ - tile.listed) : never;
 }
 
+void PairSearch::check_start(const Vec4* positions) {
+    for (TileState& tile : tiles_) {
+        if (tile.listed < 0) continue;
+        tile.strays[0] = loops_->deviation(tile, &positions->x, static_cast<float>(tick_ - tile.listed));
+        if (!(tile.strays[0] <= slack(tile))) tile.listed = -1;
+    }
+}
+
 bool PairSearch::find_outdated(const Vec4* positions, float part, bool all) {
     bool any = false;
     for (std::size_t i = 0; i < tiles_.size(); ++i) {

@@ -129,6 +129,10 @@ class PairSearch {
     /// Starts anew with these cloths, whose particles must not overlap. Keeps all lists if nothing differs.
     void set_cloths(const SearchLoops& loops, std::vector<SearchedCloth> cloths);
 
+    /// Drops the lists of tiles with a vertex farther than its slack from its listed trajectory at the start of the
+    /// current tick. Call where positions may have changed from outside.
+    void check_start(const Vec4* positions);
+
     /// Marks the tiles with a vertex farther than `part` of its slack from its listed trajectory at the end of the
     /// current tick, or all tiles. Returns whether there is anything to search.
     bool find_outdated(const Vec4* positions, float part, bool all = false);

@@ -143,8 +143,7 @@ inline constexpr Parameter cloth_keys[] = {
     {.key = "tether_slack", .offset = offsetof(SceneCloth, tether_slack), .min = 0, .max = 100,
      .what = "fraction by which a particle may exceed that distance; with `tethers`"},
     {.key = "self_collision", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, self_collision),
-     .what = "contact with itself and with the other cloths that have it; `true`: `exact`; `false`: `off`; on the CPU "
-             "backend only",
+     .what = "contact with itself and with the other cloths that have it; `true`: `exact`; `false`: `off`",
      .choices = "off|exact", .flag_too = true},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose positions are given"},
     {.key = "material", .kind = ParameterKind::object,

@@ -29,14 +29,6 @@ WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, Worl
     return now;
 }
 
-/// The options, with the CPU in place of `auto` if the scene needs it. A named device remains: it is one of Vulkan.
-Options for_scene(Options options, const SceneDesc& scene) {
-    const auto collides = [](const SceneCloth& cloth) { return cloth.self_collision != SelfCollision::off; };
-    if (options.backend == "auto" && options.device.empty() && std::ranges::any_of(scene.cloths, collides))
-        options.backend = "cpu";
-    return options;
-}
-
 /// Puts the place of an object before the places of its values.
 Errors placed_at(const std::string& pointer, Errors errors) {
     for (Error& error : errors)
@@ -88,9 +80,8 @@ SceneWorld::SceneWorld(SceneWorld&&) noexcept = default;
 SceneWorld& SceneWorld::operator=(SceneWorld&&) noexcept = default;
 SceneWorld::~SceneWorld() = default;
 
-Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& wanted, const std::filesystem::path& folder,
+Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
                                       const MakeBackend& make) {
-    const Options options = for_scene(wanted, scene);
     if (Errors errors = apply(options, scene.solver); !errors.empty()) return errors;
     auto backend = make ? make(options) : make_backend(options);
     if (!backend) return backend.errors();

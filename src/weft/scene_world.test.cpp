@@ -214,24 +214,6 @@ TEST(SceneWorld, changes_self_collision_of_a_moving_cloth) {
     expect_document_says_all(world);
 }
 
-TEST(SceneWorld, with_self_collision_selects_the_cpu_for_auto) {
-    const auto selected = [](const SceneDesc& scene, const Options& options) {
-        std::string backend;
-        const auto world = SceneWorld::create(scene, options, {}, [&](const Options& made) {
-            backend = made.backend;
-            return make_backend({.backend = "cpu"});
-        });
-        EXPECT_TRUE(world.ok()) << world.error().message();
-        return backend;
-    };
-    SceneDesc scene = two_sheets();
-    EXPECT_EQ(selected(scene, {}), "auto");
-    scene.cloths[1].self_collision = SelfCollision::exact;
-    EXPECT_EQ(selected(scene, {}), "cpu");
-    EXPECT_EQ(selected(scene, {.backend = "vulkan"}), "vulkan") << "the backend reports an error then";
-    EXPECT_EQ(selected(scene, {.device = "some"}), "auto") << "who names a device wants that one";
-}
-
 TEST(SceneWorld, keeps_to_its_document_where_another_is_wrong) {
     SceneWorld world = open(two_sheets());
     const SceneDesc before = world.scene();

@@ -41,26 +41,6 @@ TEST(VulkanFailures, of_memory_are_errors_and_leave_what_there_was) {
     EXPECT_TRUE(refused.ok()) << "room for one more of these";
 }
 
-TEST(VulkanFailures, of_self_collision_name_the_cloth_and_the_cpu) {
-    World world(checked_vulkan_backend(), {});
-    const auto there = world.try_add(sheet(8));
-    ASSERT_TRUE(there.ok());
-    auto exact = std::make_shared<ClothModel>(*sheet(8));
-    exact->self_collision = SelfCollision::exact;
-    const std::string message =
-        "/self_collision: must be \"off\" on the Vulkan backend, got \"exact\" for cloth 'sheet'; use --backend cpu";
-    const auto added = world.try_add(exact);
-    ASSERT_FALSE(added.ok());
-    EXPECT_EQ(added.error().message(), message);
-    EXPECT_EQ(added.error().fault, Fault::input);
-    const auto set = world.set_model(*there, exact, {});
-    ASSERT_FALSE(set.ok());
-    EXPECT_EQ(set.error().message(), message);
-    EXPECT_EQ(world.step(1.0 / 60).reports, report_none);
-    EXPECT_EQ(world.frame().cloths.size(), 1u);
-    EXPECT_LT(world.frame().cloths[0].positions.back().y, 0) << "it falls";
-}
-
 TEST(VulkanFailures, of_the_device_in_mid_run_keep_the_last_frame) {
     World world(checked_vulkan_backend({.intercept = losing_device::intercept}), {});
     ASSERT_TRUE(world.try_add(sheet(16)).ok());

@@ -42,9 +42,7 @@ Argument add_solver_option(Arguments arguments, const Parameter& option, Paramet
 
 void add_common_options(Arguments arguments, Options& options) {
     arguments
-        .add("--backend", options.backend,
-             "where to simulate; auto takes a Vulkan GPU if there is one, else the CPU; for a scene with "
-             "self_collision, the CPU")
+        .add("--backend", options.backend, "where to simulate; auto takes a Vulkan GPU if there is one, else the CPU")
         .called("auto|cpu|vulkan")
         .with_default();
     arguments.add("--device", options.device, "Vulkan device: part of a name that `weft info` prints").called("NAME");

@@ -60,6 +60,7 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
                                 std::max(model.fabric.contact.thickness, least_contact_thickness), slack_});
     }
     search_.set_cloths(loops_->search, std::move(searched));
+    search_.check_start(x_);
 
     const std::size_t size = world.size();
     if (part_.size() < size) {

@@ -1,0 +1,169 @@
+// Contact between cloths on Vulkan: the same bits as on the CPU.
+
+#ifdef WEFT_VULKAN
+
+#include "falling_cloth.h"
+
+namespace weft::physical {
+namespace {
+
+struct RunOfFrames {
+    std::string hash;
+    ClothContactCounts counts;  ///< of all frames
+    std::uint64_t repeats = 0;  ///< frames that ran again because a list was full
+};
+
+RunOfFrames run_frames(World& world, int frames) {
+    RunOfFrames result;
+    for (int i = 0; i < frames; ++i) {
+        world.step(1.0 / 60);
+        result.counts.add(world.frame().cloth_contacts);
+        result.repeats += world.frame().lists.repeats;
+    }
+    result.hash = world.state_hash();
+    return result;
+}
+
+World on_cpu(const WorldSettings& settings) {
+    return make_world(settings, CpuOptions{});
+}
+World on_vulkan(const WorldSettings& settings, const VulkanOptions& options = {}) {
+    return World(checked_vulkan_backend(options), settings);
+}
+
+bool rounds_like_the_cpu(const World& world) {
+    return world.backend().device().find("llvmpipe") != std::string::npos;
+}
+
+/// Adds the same cloths to a world on either backend and compares the runs. Devices that round divisions differently
+/// are tested for crossings only.
+template <class Add>
+RunOfFrames expect_equal(const WorldSettings& settings, Add&& add, int frames) {
+    World cpu = on_cpu(settings), vulkan = on_vulkan(settings);
+    add(cpu);
+    add(vulkan);
+    const RunOfFrames expected = run_frames(cpu, frames), result = run_frames(vulkan, frames);
+    EXPECT_EQ(crossings(vulkan), 0u);
+    if (!rounds_like_the_cpu(vulkan)) return result;
+    EXPECT_EQ(result.hash, expected.hash);
+    EXPECT_EQ(result.counts.contacts, expected.counts.contacts);
+    EXPECT_EQ(result.counts.limited, expected.counts.limited);
+    EXPECT_EQ(result.counts.tangled, expected.counts.tangled);
+    return result;
+}
+
+WorldSettings with_substeps(std::uint32_t substeps) {
+    return {.solver = {.substeps = substeps}};
+}
+
+void add_dropped(World& world, SheetDesc sheet) {
+    world.add(make_sheet(sheet));
+    add_ground(world);
+}
+
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, a_fallen_sheet_is_the_same_as_on_the_cpu) {
+    SheetDesc sheet = falling(14);
+    sheet.position = {0, 0.62f, 0};
+    sheet.velocity = {0, -2, 0};
+    const RunOfFrames result = expect_equal(
+        with_substeps(5), [&](World& world) { add_dropped(world, sheet); }, 25);
+    EXPECT_GT(result.counts.contacts, 0u);
+}
+
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, a_fallen_stack_is_the_same_as_on_the_cpu) {
+    const RunOfFrames result = expect_equal(
+        with_substeps(4), [](World& world) { add_stack(world, -5, 4); }, 12);
+    EXPECT_GT(result.counts.contacts, 0u);
+}
+
+// The limit sends back particles that move by more than lists allow for, so it searches a second time.
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, a_sheet_thrown_down_is_the_same_as_on_the_cpu) {
+    SheetDesc sheet = falling(14);
+    sheet.position = {0, 0.8f, 0};
+    sheet.velocity = {0, -15, 0};
+    const RunOfFrames result = expect_equal(
+        with_substeps(4), [&](World& world) { add_dropped(world, sheet); }, 8);
+    EXPECT_GT(result.counts.limited, 0u);
+}
+
+// Labels: slow
+TEST(ClothContactOnVulkan, pins_that_press_cloth_together_are_counted_as_on_the_cpu) {
+    const auto add = [](World& world) {
+        SheetDesc lower = falling(6, {0, 0, 0}), upper = falling(6, {3, 10, 0});
+        lower.pinned = upper.pinned = [](Vec3) { return true; };
+        lower.position = {};
+        upper.position = {0, 0.1f, 0};
+        world.add(make_sheet(lower));
+        const auto model = make_sheet(upper);
+        KinematicTargets targets;
+        targets.motions.push_back({.collider = {}, .offsets = {{0, {}}, {0.1f, {0, -0.3f, 0}}}});
+        for (std::uint32_t p = 0; p < model->particle_count; ++p)
+            targets.particles.push_back({.particle = p, .motion = 0, .local = model->start[p].xyz()});
+        world.add(model, targets);
+    };
+    const RunOfFrames result = expect_equal(with_substeps(3), add, 10);
+    EXPECT_GT(result.counts.tangled, 0u);
+}
+
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, bits_depend_neither_on_when_lists_are_made_nor_on_their_room) {
+    const auto drop = [](const WorldSettings& settings, const VulkanOptions& options) {
+        World world = on_vulkan(settings, options);
+        add_stack(world, -5, 3);
+        return run_frames(world, 12);
+    };
+    const RunOfFrames expected = drop(with_substeps(4), {});
+    EXPECT_GT(expected.counts.contacts, 0u);
+    const RunOfFrames always = drop(with_substeps(4), {.search_always = true});
+    EXPECT_EQ(always.hash, expected.hash);
+    EXPECT_EQ(always.counts.searches, 4 * 12u);
+    EXPECT_LT(expected.counts.searches, always.counts.searches);
+    WorldSettings short_lists = with_substeps(4);
+    short_lists.list_capacity = 1;
+    const RunOfFrames again = drop(short_lists, {});
+    EXPECT_GT(again.repeats, 0u);
+    EXPECT_EQ(again.hash, expected.hash);
+    EXPECT_EQ(again.counts, expected.counts);
+    for (const char* execution : {"streamed", "grouped", "fused"})
+        EXPECT_EQ(drop(with_substeps(4), {.execution = execution}).hash, expected.hash) << execution;
+}
+
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, a_restored_world_goes_on_with_the_same_bits) {
+    const auto make = [] {
+        World world = on_vulkan(with_substeps(4));
+        add_stack(world, -5, 3);
+        return world;
+    };
+    World world = make();
+    (void)hash_after(world, 8);
+    const Snapshot saved = world.save();
+    const std::string expected = hash_after(world, 4);
+    ASSERT_TRUE(world.restore(saved).ok());
+    EXPECT_EQ(hash_after(world, 4), expected);
+    World other = make();
+    ASSERT_TRUE(other.restore(saved).ok());
+    EXPECT_EQ(hash_after(other, 4), expected);
+}
+
+// Labels: slow
+TEST(ClothContactOnVulkan, cloths_without_contact_do_not_take_part) {
+    const auto add = [](World& world) {
+        SheetDesc plain = falling(8, {0, 0, 0});
+        plain.self_collision = SelfCollision::off;
+        plain.position = {0, 0.503f, 0};
+        world.add(make_sheet(plain));
+        add_stack(world, -5, 2);
+        plain.position = {3, 0.5f, 0};
+        world.add(make_sheet(plain));
+    };
+    (void)expect_equal(with_substeps(3), add, 8);
+}
+
+}  // namespace
+}  // namespace weft::physical
+
+#endif

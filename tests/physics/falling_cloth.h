@@ -1,0 +1,110 @@
+// Worlds in which cloth falls on itself and on other cloth.
+#pragma once
+
+#include "sheet.h"
+
+#include "collide/crossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace weft::physical {
+
+/// Crossing pairs of triangles, over all cloths of the world.
+inline std::uint64_t crossings(const World& world) {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec4& x : cloth.positions) positions.push_back(x.xyz());
+        for (const Triangle t : cloth.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    return count_crossings(positions, triangles).triangles;
+}
+
+inline double mean_speed(const World& world) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        for (const Vec4& v : cloth.velocities) sum += std::hypot(v.x, v.y, v.z);
+        count += cloth.velocities.size();
+    }
+    return sum / static_cast<double>(count);
+}
+
+inline bool all_finite(const World& world) {
+    for (const ClothFrame& cloth : world.frame().cloths)
+        for (const Vec4& x : cloth.positions)
+            if (!(std::abs(x.x) + std::abs(x.y) + std::abs(x.z) < 1e3)) return false;
+    return true;
+}
+
+struct Outcome {
+    std::uint64_t worst = 0;    ///< crossings of any frame
+    std::uint64_t limited = 0;  ///< particles sent back in the last second
+    double speed = 0;           ///< m/s, mean at the end
+    double highest = 0;         ///< m, of any particle at the end
+};
+
+inline Outcome fall(World& world, double seconds) {
+    Outcome result;
+    const int frames = static_cast<int>(std::lround(seconds * 60));
+    for (int i = 0; i < frames; ++i) {
+        world.step(1.0 / 60);
+        result.worst = std::max(result.worst, crossings(world));
+        if (i + 60 >= frames) result.limited += world.frame().cloth_contacts.limited;
+    }
+    result.speed = mean_speed(world);
+    for (const ClothFrame& cloth : world.frame().cloths)
+        for (const Vec4& x : cloth.positions) result.highest = std::max(result.highest, double{x.y});
+    return result;
+}
+
+inline void add_ground(World& world) {
+    world.add(make_collider({.name = "ground", .shape = PlaneDesc{}, .friction = {0.6f, 0.5f}}));
+}
+
+/// A square meter that falls by one corner.
+inline SheetDesc falling(std::uint32_t side, Vec3 rotation = {80, 20, 45}) {
+    SheetDesc sheet{.resolution = {side, side},
+                    .rotation_degrees = rotation,
+                    .position = {0, 0.75f, 0},
+                    .fabric = find_fabric("cotton")->fabric,
+                    .layout = {.lines = true, .hierarchy = true},
+                    .self_collision = SelfCollision::exact};
+    sheet.fabric.contact.thickness = 0.2f / static_cast<float>(side - 1);
+    return sheet;
+}
+
+inline World falling_world(const SheetDesc& sheet, std::uint32_t substeps = 20, CpuOptions options = {}) {
+    World world = make_world({.solver = {.substeps = substeps}}, sheet, options);
+    add_ground(world);
+    return world;
+}
+
+/// Sheets one above the other, half a meter above the ground.
+inline void add_stack(World& world, float speed, std::uint32_t sheets) {
+    for (std::uint32_t i = 0; i < sheets; ++i) {
+        SheetDesc sheet = falling(8, {0, 0, 0});
+        sheet.fabric.contact.thickness = 0.004f;
+        sheet.position = {0, 0.5f + 0.006f * static_cast<float>(i), 0};
+        sheet.velocity = {0, speed, 0};
+        world.add(make_sheet(sheet));
+    }
+    add_ground(world);
+}
+
+inline World stack(float speed, std::uint32_t sheets, CpuOptions options = {}) {
+    World world = make_world({.solver = {.substeps = 20}}, options);
+    add_stack(world, speed, sheets);
+    return world;
+}
+
+inline std::string hash_after(World& world, int frames) {
+    for (int i = 0; i < frames; ++i) world.step(1.0 / 60);
+    return world.state_hash();
+}
+
+}  // namespace weft::physical
