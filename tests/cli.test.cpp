@@ -470,6 +470,26 @@ TEST_F(Cli, counts_contacts_of_cloth_with_cloth_on_vulkan) {
         EXPECT_EQ(on_vulkan[key], on_cpu[key]) << key;
 }
 
+TEST_F(Cli, tells_where_pins_press_cloth_through_cloth) {
+    const auto sheet = [](const std::string& rest) {
+        return R"({ "mesh": { "grid": { "size": [0.2, 0.2], "resolution": [6, 6] } }, "self_collision": true, )" +
+               rest + " }";
+    };
+    const std::string all = R"("pins": [{ "box": { "min": [-1, -1, -1], "max": [1, 1, 1] })";
+    write("press.json", R"({ "weft": 1, "solver": { "substeps": 2 }, "cloths": [)" +
+                            sheet(R"("name": "below", )" + all + "}]") + "," +
+                            sheet(R"("name": "above", "transform": { "position": [0.01, 0.05, 0.02] }, )" + all +
+                                  R"(, "motion": [{ "time": 0 }, { "time": 0.1, "offset": [0, -0.1, 0] }] }])") +
+                            "] }");
+    const Outcome outcome = weft("run press.json --frames 9 --stats press-stats.json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("  tangled       first in frame "), std::string::npos) << outcome.out;
+    const Json first = Json::parse(std::ifstream(folder_ / "press-stats.json"))["tangled_first"];
+    EXPECT_GT(first["frame"], 0);
+    EXPECT_EQ(first["cloth"], "below") << "its particles come first";
+    EXPECT_EQ(stats("--frames 1")["tangled_first"], nullptr);
+}
+
 TEST_F(Cli, names_what_vulkan_lacks_with_status_1) {
     const auto expect_failure = [&](const std::string& arguments, const std::string& before, const std::string& says) {
         const Outcome outcome = weft("run sheet.json --frames 2 --quiet " + arguments, before);

@@ -175,6 +175,8 @@ class CpuBackend final : public Backend {
         contact_counts_.searches += island.searches;
         contact_counts_.limited += island.limited;
         contact_counts_.tangled += island.tangled;
+        if (island.tangled == 0) return;
+        contact_counts_.tangled_particle = std::min(contact_counts_.tangled_particle, island.tangled_particle);
     }
 
     // Collects the reports and contacts of an island. If one of its cloths is not finite, rolls all of them back.

@@ -55,7 +55,7 @@ Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view
     return programs.get(name, constants);
 }
 
-std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t first, const PointsAtHand& points,
+std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t first, const SharedPoints& points,
                                 const LineRows& lines, const Repeat& repeat) {
     lists_.push_back({.first = first,
                       .count = static_cast<std::uint32_t>(commands.size()),

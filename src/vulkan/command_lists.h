@@ -11,7 +11,7 @@ namespace weft::vulkan {
 
 /// Particles that a workgroup keeps in shared memory while it runs a list. The list's commands refer to them by
 /// `position`, their address in device memory.
-struct PointsAtHand {
+struct SharedPoints {
     std::uint64_t position = 0;  ///< address of the first particle
     std::uint32_t count = 0;     ///< 0: they stay in device memory
     std::uint64_t sums = 0;      ///< fixed-point sums in shared memory, initially 0; 0: none, or in device memory
@@ -33,7 +33,7 @@ Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view
 class CommandLists {
   public:
     /// `first` is the number of the first command in the memory that build() gets. Returns the list's number.
-    std::uint32_t add(std::span<const Command> commands, std::uint32_t first, const PointsAtHand& points = {},
+    std::uint32_t add(std::span<const Command> commands, std::uint32_t first, const SharedPoints& points = {},
                       const LineRows& lines = {}, const Repeat& repeat = {});
     Result<void> build(gpu::Device& device, Programs& programs, const CommandMemory& memory, const std::string& name);
 
@@ -45,7 +45,7 @@ class CommandLists {
     struct List {
         std::uint32_t first = 0, count = 0;
         Repeat repeat;
-        PointsAtHand points;
+        SharedPoints points;
         LineRows lines;
     };
     Result<void> choose_pipeline(const gpu::Device& device, Programs& programs);

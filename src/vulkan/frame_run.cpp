@@ -170,7 +170,7 @@ Result<void> FrameRun::end_recording() {
 Result<void> FrameRun::record_fused(bool timings) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Cloth& cloth = *members_[i].cloth;
-        PointsAtHand points;
+        SharedPoints points;
         // Padding of constraint tables acts on dummies, which are the last of the capacity.
         if (const std::uint32_t count = cloth.model().capacity(); fits_fused(device_, cloth.model())) {
             const std::uint64_t position = cloth.state().address(PointArray::position);

@@ -252,6 +252,10 @@ TEST(ClothContact, pins_that_press_cloth_together_are_counted) {
     for (int i = 0; i < 60; ++i) {
         world.step(1.0 / 60);
         tangled = std::max(tangled, world.frame().cloth_contacts.tangled);
+        EXPECT_EQ(world.frame().tangled_at.has_value(), world.frame().cloth_contacts.tangled > 0);
+        if (!world.frame().tangled_at) continue;
+        EXPECT_LT(world.frame().tangled_at->cloth, 2u);
+        EXPECT_LT(world.frame().tangled_at->particle, model->particle_count);
     }
     EXPECT_GT(tangled, 0u);
     EXPECT_TRUE(all_finite(world));

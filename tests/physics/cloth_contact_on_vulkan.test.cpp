@@ -49,6 +49,7 @@ RunOfFrames expect_equal(const WorldSettings& settings, Add&& add, int frames) {
     EXPECT_EQ(result.counts.contacts, expected.counts.contacts);
     EXPECT_EQ(result.counts.limited, expected.counts.limited);
     EXPECT_EQ(result.counts.tangled, expected.counts.tangled);
+    EXPECT_EQ(result.counts.tangled_particle, expected.counts.tangled_particle);
     return result;
 }
 
@@ -106,6 +107,7 @@ TEST(ClothContactOnVulkan, pins_that_press_cloth_together_are_counted_as_on_the_
     };
     const RunOfFrames result = expect_equal(with_substeps(3), add, 10);
     EXPECT_GT(result.counts.tangled, 0u);
+    EXPECT_NE(result.counts.tangled_particle, no_particle);
 }
 
 // Labels: slow no-asan

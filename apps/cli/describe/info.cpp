@@ -111,7 +111,7 @@ Json gather() {
         info["export_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
     }
     for (const PictureFormat& format : picture_formats()) {
-        info["picture_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
+        info["image_formats"].push_back({{"ending", format.ending}, {"what", format.what}});
     }
     const auto add_units = [&](const char* to, std::span<const Parameter> table) {
         for (const Parameter& parameter : table) {
@@ -198,7 +198,7 @@ void print_text(const Json& info) {
     }
     if (info["vulkan_devices"].empty()) std::printf("  none: no loader, no driver, or a build without Vulkan\n");
     std::cout << "reads meshes      " << joined(info["mesh_formats"]) << '\n' << "writes\n";
-    for (const char* kind : {"export_formats", "picture_formats"}) {
+    for (const char* kind : {"export_formats", "image_formats"}) {
         for (const Json& format : info[kind]) {
             std::printf("  %-6s %s\n", format["ending"].get<std::string>().c_str(),
                         format["what"].get<std::string>().c_str());

@@ -87,6 +87,10 @@ void RunStatistics::add(const World& world) {
     for (std::uint32_t stage = 0; stage < stage_count; ++stage) stage_ms_[stage] += frame.stage_ms[stage];
     reports_ |= frame.reports;
     cloth_contacts_.add(frame.cloth_contacts);
+    if (!tangled_at_ && frame.tangled_at) {
+        tangled_at_ = frame.tangled_at;
+        tangled_frame_ = frame.index;
+    }
     if (count_crossings_ == CountCrossings::every) {
         crossings_ = count_intersections(world.frame());
         worst_crossings_ = std::max(worst_crossings_, crossings_->triangles);
@@ -160,6 +164,12 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["searches"] = cloth_contacts_.searches;
     stats["limited"] = cloth_contacts_.limited;
     stats["tangled"] = cloth_contacts_.tangled;
+    stats["tangled_first"] = nullptr;
+    if (tangled_at_) {
+        stats["tangled_first"] = {{"frame", tangled_frame_},
+                                  {"cloth", frame.cloths[tangled_at_->cloth].model->name},
+                                  {"particle", tangled_at_->particle}};
+    }
     stats["intersections"] = {{"triangles", crossings.triangles},
                               {"edges", crossings.edges},
                               {"worst", std::max(worst_crossings_, crossings.triangles)}};
@@ -207,6 +217,10 @@ void print_summary(const Json& s) {
     if (count("searches") > 0)
         std::printf("  self contact  %llu contacts, %llu searches, %llu limited, %llu tangled\n",
                     count("self_contacts"), count("searches"), count("limited"), count("tangled"));
+    if (const Json& first = s["tangled_first"]; !first.is_null())
+        std::printf("  tangled       first in frame %llu, at particle %u of cloth '%s'\n",
+                    first["frame"].get<unsigned long long>(), first["particle"].get<unsigned>(),
+                    first["cloth"].get<std::string>().c_str());
     if (const auto worst = s["intersections"]["worst"].get<unsigned long long>(); worst > 0)
         std::printf("  crossings     %llu pairs of triangles, at most %llu in a counted frame\n",
                     s["intersections"]["triangles"].get<unsigned long long>(), worst);

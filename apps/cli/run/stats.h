@@ -49,6 +49,8 @@ class RunStatistics {
     std::array<double, stage_count> stage_ms_{};
     std::uint32_t reports_ = report_none;
     ClothContactCounts cloth_contacts_;
+    std::optional<ParticlePlace> tangled_at_;  ///< where cloth was tangled first
+    std::uint64_t tangled_frame_ = 0;
     CountCrossings count_crossings_;
     std::optional<Intersections> crossings_;  ///< of the last frame; nullopt: not counted
     std::uint64_t worst_crossings_ = 0;       ///< most pairs of triangles in a counted frame

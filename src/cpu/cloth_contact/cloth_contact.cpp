@@ -355,7 +355,10 @@ void ClothContact::send_back() {
                     sent_back_[p] = 1;
                     to_send_back_.push_back(p);
                 }
-                stuck += !helps;
+                if (helps) continue;
+                ++stuck;
+                counts_.tangled_particle =
+                    std::min(counts_.tangled_particle, std::ranges::min(particles_of(near_[kind], pair)));
             }
         }
         if (to_send_back_.empty()) break;

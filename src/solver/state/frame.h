@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -67,6 +68,12 @@ struct ClothFrame {
     mutable bool has_render_mesh_ = false, has_tangents_ = false;
 };
 
+/// A particle of a cloth in a frame.
+struct ParticlePlace {
+    std::uint32_t cloth = 0, particle = 0;
+    friend bool operator==(const ParticlePlace&, const ParticlePlace&) = default;
+};
+
 struct Frame {
     std::uint64_t index = 0;  ///< 0: the start
     double time = 0;          ///< s
@@ -75,8 +82,10 @@ struct Frame {
     /// Time in ms that the caller spent on the frame: to submit it, and to wait for the device. Time between the two is
     /// not included.
     double step_ms = 0;
-    ListCounts lists;                     ///< of the dynamic lists of this frame
-    ClothContactCounts cloth_contacts;    ///< of cloth against cloth in this frame
+    ListCounts lists;                   ///< of the dynamic lists of this frame
+    ClothContactCounts cloth_contacts;  ///< of cloth against cloth in this frame
+    /// Where cloth is tangled in this frame: the particle of `cloth_contacts.tangled_particle`.
+    std::optional<ParticlePlace> tangled_at;
     std::uint32_t reports = report_none;  ///< bits of all cloths
 };
 

@@ -406,10 +406,20 @@ void World::complete() const {
     backend_->finish(frame_.stage_ms);
     frame_.lists = backend_->list_counts();
     frame_.cloth_contacts = backend_->cloth_contact_counts();
+    frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
     unread_ = true;
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());
     frame_.step_ms += ms_since(begin);
+}
+
+std::optional<ParticlePlace> World::place_of(std::uint32_t particle) const {
+    for (std::uint32_t i = 0; i < cloths_.size(); ++i) {
+        const Cloth& cloth = cloths_[i];
+        if (particle >= cloth.base && particle - cloth.base < cloth.model->particle_count)
+            return ParticlePlace{i, particle - cloth.base};
+    }
+    return {};
 }
 
 // Lists the cloths and colliders of the new frame in its contact log.

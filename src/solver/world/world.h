@@ -175,6 +175,7 @@ class World {
                                const std::shared_ptr<const ClothModel>& model);
     Result<void> check_fits(const Snapshot& snapshot) const;
     void list_cloths();
+    std::optional<ParticlePlace> place_of(std::uint32_t particle) const;
     void complete() const;        ///< waits for the frame that runs on a device
     void complete_and_resolve();  ///< complete(), and resolves the contact log before its memory is freed
     ContactLog& begin_contact_forces(double dt);

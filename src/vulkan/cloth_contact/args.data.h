@@ -103,11 +103,11 @@ struct ContactHead {
     uint lost[WEFT_CONTACT_EXTRA_SWEEPS];  // 1: some pair loses its gap before this extra sweep
     uint sent_back[2 * WEFT_LIMIT_ROUNDS];  // 1: the round sends particles back; [search · rounds + round]
     uint stuck[2 * WEFT_LIMIT_ROUNDS];      // pairs that sending back does not separate
-    uint finally_stuck[2];
     // Of the frame.
     uint searches;
     uint limited;
     uint tangled;
+    uint tangled_particle;  // the lowest number of a particle in a tangled pair
     // Largest numbers in the frame, including those without room.
     uint wanted_tile_pairs;
     uint wanted_listed;

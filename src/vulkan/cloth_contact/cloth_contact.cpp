@@ -278,7 +278,11 @@ ClothContactRoom ClothContact::wanted() const {
 
 ClothContactCounts ClothContact::counts() const {
     const ContactHead& head = back_.as<ContactHead>()[0];
-    return {.contacts = head.contacts, .searches = head.searches, .limited = head.limited, .tangled = head.tangled};
+    return {.contacts = head.contacts,
+            .searches = head.searches,
+            .limited = head.limited,
+            .tangled = head.tangled,
+            .tangled_particle = head.tangled > 0 ? head.tangled_particle : no_particle};
 }
 
 }  // namespace weft::vulkan

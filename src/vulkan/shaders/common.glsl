@@ -20,7 +20,7 @@ bool is_none(uvec2 address) { return address == uvec2(0u); }
 
 // Access to a particle or node with its inverse mass. If one workgroup runs a whole frame, it may keep its particles in
 // shared memory.
-#ifdef WEFT_POINTS_AT_HAND
+#ifdef WEFT_SHARED_POINTS
 layout(constant_id = 3) const uint shared_points = 1u;   // 1: none
 shared vec4 points[shared_points];
 uvec2 home_of_points = uvec2(0u);

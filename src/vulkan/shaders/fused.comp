@@ -2,7 +2,7 @@
 // Runs lists of commands in one dispatch, one list per workgroup: whole frames of small cloths, or passes of coarse
 // levels that are too small for a dispatch each. The commands of a list are contiguous in memory.
 #extension GL_GOOGLE_include_directive : require
-#define WEFT_POINTS_AT_HAND
+#define WEFT_SHARED_POINTS
 #define WEFT_LINE_ROWS_ID 5
 #include "vulkan/shaders/workgroup_barrier.glsl"
 #include "vulkan/shaders/common.glsl"

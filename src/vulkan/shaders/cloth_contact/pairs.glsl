@@ -175,6 +175,7 @@ uint mark_lost(uint i)
     helps = mark(p.y) || helps;
     helps = mark(p.z) || helps;
     helps = mark(p.w) || helps;
+    if (!helps) atomicMin(head.tangled_particle, min(min(p.x, p.y), min(p.z, p.w)));
     return helps ? 1u : 2u;
 }
 

@@ -37,6 +37,7 @@ void run_begin()
     head.searches = 0u;
     head.limited = 0u;
     head.tangled = 0u;
+    head.tangled_particle = 0xffffffffu;
     head.wanted_tile_pairs = 0u;
     head.wanted_listed = 0u;
     head.wanted_near = 0u;
