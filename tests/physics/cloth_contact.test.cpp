@@ -237,17 +237,7 @@ TEST(ClothContact, pinned_cloth_and_cloth_without_gravity_do_not_move) {
 
 TEST(ClothContact, pins_that_press_cloth_together_are_counted) {
     World world = make_world({.solver = {.substeps = 5}}, CpuOptions{});
-    SheetDesc lower = falling(6, {0, 0, 0}), upper = falling(6, {3, 10, 0});
-    lower.pinned = upper.pinned = [](Vec3) { return true; };
-    lower.position = {};
-    upper.position = {0, 0.1f, 0};
-    world.add(make_sheet(lower));
-    const auto model = make_sheet(upper);
-    KinematicTargets targets;
-    targets.motions.push_back({.collider = {}, .offsets = {{0, {}}, {0.5f, {0, -0.3f, 0}}}});
-    for (std::uint32_t p = 0; p < model->particle_count; ++p)
-        targets.particles.push_back({.particle = p, .motion = 0, .local = model->start[p].xyz()});
-    world.add(model, targets);
+    const auto model = add_pressed_sheets(world, 0.5f);
     std::uint64_t tangled = 0;
     for (int i = 0; i < 60; ++i) {
         world.step(1.0 / 60);

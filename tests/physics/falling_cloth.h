@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,22 @@ inline void add_stack(World& world, float speed, std::uint32_t sheets) {
         world.add(make_sheet(sheet));
     }
     add_ground(world);
+}
+
+/// Pins press a sheet through the one below within `seconds`. Returns the model of the upper one.
+inline std::shared_ptr<const ClothModel> add_pressed_sheets(World& world, float seconds) {
+    SheetDesc lower = falling(6, {0, 0, 0}), upper = falling(6, {3, 10, 0});
+    lower.pinned = upper.pinned = [](Vec3) { return true; };
+    lower.position = {};
+    upper.position = {0, 0.1f, 0};
+    world.add(make_sheet(lower));
+    auto model = make_sheet(upper);
+    KinematicTargets targets;
+    targets.motions.push_back({.collider = {}, .offsets = {{0, {}}, {seconds, {0, -0.3f, 0}}}});
+    for (std::uint32_t p = 0; p < model->particle_count; ++p)
+        targets.particles.push_back({.particle = p, .motion = 0, .local = model->start[p].xyz()});
+    world.add(model, targets);
+    return model;
 }
 
 inline World stack(float speed, std::uint32_t sheets, CpuOptions options = {}) {
