@@ -112,15 +112,13 @@ bool line_meets(Point from, Point to, const Face& face) {
     return left[0] == left[1] && left[1] == left[2];
 }
 
-struct EdgeHits {
-    bool any = false;
-    std::uint64_t owned = 0;
-};
-
-EdgeHits edges_through(const Face& edges, const Face& face) {
-    EdgeHits hits;
+/// Calls visit(side) for each edge through the face that no earlier triangle has. Returns whether any edge is through
+/// it.
+template <class Visit>
+bool visit_edges_through(const Face& edges, const Face& face, Visit&& visit) {
     const std::array<bool, 3> front = in_front(face, edges);
-    if (front[0] == front[1] && front[1] == front[2]) return hits;
+    if (front[0] == front[1] && front[1] == front[2]) return false;
+    bool any = false;
     for (std::size_t s = 0; s < 3; ++s) {
         const Side side = sides[s];
         if (front[side.a] == front[side.b]) continue;
@@ -130,15 +128,17 @@ EdgeHits edges_through(const Face& edges, const Face& face) {
         const Point from = edges.points[turned ? side.b : side.a];
         const Point to = edges.points[turned ? side.a : side.b];
         if (!line_meets(from, to, face)) continue;
-        hits.any = true;
-        hits.owned += edges.owns[s];
+        any = true;
+        if (edges.owns[s]) visit(side);
     }
-    return hits;
+    return any;
 }
 
-}  // namespace
-
-Crossings count_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+/// Calls on_edge(triangle of the edge, side, triangle) for every edge through a triangle, and on_triangles() for every
+/// two triangles without a common corner that intersect.
+template <class OnEdge, class OnTriangles>
+void visit_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles, OnEdge&& on_edge,
+                     OnTriangles&& on_triangles) {
     std::vector<Face> faces;
     std::vector<bool> usable;
     std::vector<Bounds> boxes;
@@ -152,18 +152,38 @@ Crossings count_crossings(std::span<const Vec3> positions, std::span<const Trian
     }
     assign_edges(faces, usable);
 
-    Crossings crossings;
     Bvh(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
         const Face& a = faces[i];
         const Face& b = faces[j];
         const int shared = shared_corners(a, b);
         if (shared >= 2) return;  // every edge of one triangle shares a particle with the other
-        const EdgeHits ab = edges_through(a, b);
-        const EdgeHits ba = edges_through(b, a);
-        crossings.edges += ab.owned + ba.owned;
-        crossings.triangles += shared == 0 && (ab.any || ba.any);
+        const bool ab = visit_edges_through(a, b, [&](const Side& side) { on_edge(i, side, j); });
+        const bool ba = visit_edges_through(b, a, [&](const Side& side) { on_edge(j, side, i); });
+        if (shared == 0 && (ab || ba)) on_triangles();
     });
+}
+
+}  // namespace
+
+Crossings count_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    Crossings crossings;
+    visit_crossings(
+        positions, triangles, [&](std::uint32_t, const Side&, std::uint32_t) { ++crossings.edges; },
+        [&] { ++crossings.triangles; });
     return crossings;
+}
+
+std::vector<EdgeCrossing> find_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    std::vector<EdgeCrossing> found;
+    visit_crossings(
+        positions, triangles,
+        [&](std::uint32_t of, const Side& side, std::uint32_t triangle) {
+            const auto [a, b] = std::minmax(triangles[of][side.a], triangles[of][side.b]);
+            found.push_back({{a, b}, triangle});
+        },
+        [] {});
+    std::ranges::sort(found, {}, [](const EdgeCrossing& one) { return std::pair(one.edge, one.triangle); });
+    return found;
 }
 
 }  // namespace weft

@@ -1,10 +1,12 @@
-// Counts where surfaces pass through each other. This is the ground truth for collision handling, not part of the step.
+// Finds where surfaces pass through each other. This is the ground truth for collision handling.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace weft {
 
@@ -20,5 +22,15 @@ struct Crossings {
 /// not cross. Degenerate triangles and those with a non-finite position cross nothing. Deterministic. Expected time O(n
 /// log n) for a cloth of n triangles.
 Crossings count_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+
+/// An edge, the particle of the lower number first, that intersects a triangle.
+struct EdgeCrossing {
+    std::array<std::uint32_t, 2> edge;
+    std::uint32_t triangle;
+    friend bool operator==(const EdgeCrossing&, const EdgeCrossing&) = default;
+};
+
+/// The crossings that `Crossings::edges` counts, sorted.
+std::vector<EdgeCrossing> find_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
 }  // namespace weft

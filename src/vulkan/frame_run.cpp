@@ -155,6 +155,7 @@ Result<void> FrameRun::begin_recording(bool timings, std::size_t stages) {
     commands_ = std::move(*commands);
     if (auto begun = commands_->begin(); !begun) return begun;
     buffers_.record_begin(*commands_);
+    if (cloth_contact_) cloth_contact_->record_begin(*commands_);
     return {};
 }
 
@@ -240,6 +241,7 @@ Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const C
     if (contacts_) {
         if (auto prepared = contacts_->prepare(); !prepared) return prepared.errors();
     }
+    if (cloth_contact_) cloth_contact_->set_tangle(input.tangle);
     seconds_.clear();
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];

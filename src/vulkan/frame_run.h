@@ -54,7 +54,10 @@ class FrameRun {
                                                     std::uint64_t serial, std::span<const Member> members,
                                                     Execution execution, bool timings, const Lists& lists);
 
-    bool is_for(std::uint64_t serial, std::span<const Member> members, Execution execution) const {
+    /// Whether it was recorded for such a frame. `tangle`: see StepInput.
+    bool is_for(std::uint64_t serial, std::span<const Member> members, Execution execution,
+                const Tangle* tangle) const {
+        if (cloth_contact_ && !cloth_contact_->room().holds(tangle)) return false;
         const auto same = [](const Member& a, const Member& b) {
             return a.cloth == b.cloth && a.shape == b.shape && a.island == b.island;
         };

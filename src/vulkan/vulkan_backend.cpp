@@ -332,8 +332,9 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     // Returns the run that was recorded for the same frame, or records a new one in place of the cloths' other runs.
     Result<FrameRun*> find_run(const WorldStep& step, const Group& group) {
         for (const auto& run : runs_) {
-            if (run->is_for(step.plan_serial, group.members, group.execution)) return run.get();
+            if (run->is_for(step.plan_serial, group.members, group.execution, step.input.tangle)) return run.get();
         }
+        contact_room_ = contact_room_.for_tangle(step.input.tangle);
         for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
         auto run = FrameRun::create(
             *device_, programs_, *step.plan, step.plan_serial, group.members, group.execution, timings_,

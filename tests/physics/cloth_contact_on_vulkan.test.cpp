@@ -141,6 +141,13 @@ TEST(ClothContactOnVulkan, a_restored_world_goes_on_with_the_same_bits) {
 }
 
 // Labels: slow
+TEST(ClothContactOnVulkan, tangled_cloth_comes_apart_as_on_the_cpu) {
+    const auto add = [](World& world) { add_crossed_sheets(world, 6, {70, 30, 0}, {0.4f, 0.3f, 0}); };
+    const RunOfFrames result = expect_equal(with_substeps(4), add, 16);
+    EXPECT_GT(result.counts.tangled, 4u);
+}
+
+// Labels: slow
 TEST(ClothContactOnVulkan, cloths_without_contact_do_not_take_part) {
     const auto add = [](World& world) {
         SheetDesc plain = falling(8, {0, 0, 0});

@@ -97,6 +97,44 @@ inline void add_stack(World& world, float speed, std::uint32_t sheets) {
     add_ground(world);
 }
 
+// --- Cloth that passes through cloth at the start ---
+
+/// Two sheets that pass through each other in their middle, the second one turned by `rotation`.
+inline void add_crossed_sheets(World& world, std::uint32_t side, Vec3 rotation, Vec3 offset = {}) {
+    SheetDesc one = falling(side, {0, 0, 0}), two = falling(side, rotation);
+    one.position = {0, 0.6f, 0};
+    two.position = one.position + Vec3{0.013f, 0.03f, 0.017f} + offset;
+    world.add(make_sheet(one));
+    world.add(make_sheet(two));
+}
+
+/// A sheet whose profile is a loop: it crosses itself along a line from rim to rim.
+inline SheetDesc looped(std::uint32_t side) {
+    SheetDesc sheet = falling(side, {0, 0, 0});
+    sheet.position = {0, 0.6f, 0};
+    sheet.shape = [](Vec3 p) {
+        const float t = 2.8f * p.x;
+        return Vec3{0.25f * t * t - 0.2f, 0.16f * (t * t * t - t), p.z};
+    };
+    return sheet;
+}
+
+/// A sheet, part of which is rolled by more than half a turn about an oblique axis, and passes through the rest.
+inline SheetDesc folded_through_itself(std::uint32_t side) {
+    SheetDesc sheet = falling(side, {0, 0, 0});
+    sheet.position = {0, 0.6f, 0};
+    sheet.shape = [](Vec3 p) {
+        const float c = std::cos(0.3f), s = std::sin(0.3f), radius = 0.04f, turn = 3.6f;
+        const float across = -s * p.x + c * p.z, along = c * p.x + s * p.z;
+        const float rolled = std::max(0.0f, along + 0.1f), angle = std::min(rolled / radius, turn);
+        const float straight = std::max(0.0f, rolled - radius * turn);
+        const float x = std::min(along, -0.1f) + radius * std::sin(angle) + straight * std::cos(angle);
+        const float y = radius * (1 - std::cos(angle)) + straight * std::sin(angle);
+        return Vec3{c * x - s * across, y, s * x + c * across};
+    };
+    return sheet;
+}
+
 /// Pins press a sheet through the one below within `seconds`. Returns the model of the upper one.
 inline std::shared_ptr<const ClothModel> add_pressed_sheets(World& world, float seconds) {
     SheetDesc lower = falling(6, {0, 0, 0}), upper = falling(6, {3, 10, 0});

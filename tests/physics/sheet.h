@@ -33,13 +33,14 @@ struct SheetDesc {
     // Called with positions in the flat sheet, before rotation and translation:
     std::function<bool(Vec3 at_rest)> pinned = {};
     std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
+    std::function<Vec3(Vec3 at_rest)> shape = {};    ///< bends the sheet at rest
 };
 
 inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
     TriangleMesh mesh = make_grid(desc.size, desc.resolution, desc.diagonal);
     const auto flat = mesh.positions;
     const Mat3 turn = rotation_from_degrees(desc.rotation_degrees);
-    for (Vec3& p : mesh.positions) p = turn * p + desc.position;
+    for (Vec3& p : mesh.positions) p = turn * (desc.shape ? desc.shape(p) : p) + desc.position;
     auto topology = build_topology(mesh, {.reorder = false});
     EXPECT_TRUE(topology.ok());
     ClothModelDesc model{.name = "sheet",

@@ -65,7 +65,7 @@ void warn_of_size(const std::string& cloth, double largest, Warnings& warnings) 
                  " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
 }
 
-// Contact between cloths keeps each pair of features on the sides on which it starts.
+// Contact between cloths takes crossings apart within a second or two, which looks odd at the start of a film.
 void warn_of_crossings(const Frame& frame, Warnings& warnings) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -78,7 +78,7 @@ void warn_of_crossings(const Frame& frame, Warnings& warnings) {
     const std::uint64_t crossings = count_crossings(positions, triangles).triangles;
     if (crossings == 0) return;
     warnings.add("cloth with self_collision crosses itself or other cloth at the start, at " +
-                 std::to_string(crossings) + " pairs of triangles; it will stay crossed there");
+                 std::to_string(crossings) + " pairs of triangles; it is taken apart within seconds");
 }
 
 }  // namespace

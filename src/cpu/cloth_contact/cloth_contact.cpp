@@ -40,6 +40,7 @@ Vec3 normal_of(const NearPairs& near, std::uint32_t i) {
 
 void ClothContact::prepare(const Passes& passes, const ClothContactContext& context) {
     cloths_ = context.cloths;
+    tangle_ = context.step.input.tangle;
     counts_ = {};
     WorldArrays& world = cloths_.front()->world;
     x_ = world.position.data(), velocity_ = world.velocity.data(), start_ = world.start.data();
@@ -73,14 +74,6 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
                     std::array{cloth->model->fabric.contact.friction[0], cloth->model->fabric.contact.friction[1]});
 }
 
-template <class Visit>
-void ClothContact::for_each_particle(Visit&& visit) const {
-    for (const ClothState* cloth : cloths_) {
-        if (!cloth->model->tiles) continue;
-        for (std::uint32_t p = cloth->base, end = p + cloth->model->particle_count; p < end; ++p) visit(p);
-    }
-}
-
 // One thread runs these passes.
 void ClothContact::run(const ClothContactContext& context, const Pass& pass, Worker worker) {
     if (worker.number != 0) return;
@@ -98,6 +91,7 @@ void ClothContact::run(const ClothContactContext& context, const Pass& pass, Wor
 }
 
 void ClothContact::detect() {
+    untangle();
     for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
     if (search_.find_outdated(x_, 1 - contact_cap, search_always_)) {
         search_.follow(start_, x_, velocity_, h_, false);
@@ -148,6 +142,7 @@ void ClothContact::find_near() {
     for (int kind = 0; kind < 2; ++kind) {
         candidates_[kind].pairs.pad(cloths_.front()->base);
         loops_->find_near[kind](candidates_[kind], input, near_[kind]);
+        drop_pairs_without_side(kind);
         near_[kind].pad(cloths_.front()->base);
     }
 }
@@ -195,8 +190,8 @@ void ClothContact::find_overlaps() {
     }
 }
 
-void ClothContact::add_shares(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights) {
-    for (int k = 0; k < 4; ++k)
+void ClothContact::add_shares(std::span<const std::uint32_t> particles, std::span<const float> weights) {
+    for (std::size_t k = 0; k < particles.size(); ++k)
         share_[particles[k]] += static_cast<std::uint32_t>(scalar::to_weight_quanta(weights[k]));
 }
 
@@ -206,9 +201,9 @@ float ClothContact::share(std::uint32_t p) const {
 }
 
 // Adds `change` times the weight and the inverse mass of each particle to the sums.
-void ClothContact::add_to_sums(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights,
-                               Vec3 change, double quanta) {
-    for (int k = 0; k < 4; ++k) {
+void ClothContact::add_to_sums(std::span<const std::uint32_t> particles, std::span<const float> weights, Vec3 change,
+                               double quanta) {
+    for (std::size_t k = 0; k < particles.size(); ++k) {
         const std::uint32_t p = particles[k];
         const Vec3 part = change * (weights[k] * x_[p].w);
         const auto scale = static_cast<float>(quanta);

@@ -44,16 +44,24 @@ class ClothContact {
     bool any_lost();
     bool comes_near(int kind, std::uint32_t pair) const;
     bool any_uncovered();
-    void add_shares(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights);
+    void add_shares(std::span<const std::uint32_t> particles, std::span<const float> weights);
     float share(std::uint32_t p) const;
-    void add_to_sums(const std::array<std::uint32_t, 4>& particles, const std::array<float, 4>& weights, Vec3 change,
+    void add_to_sums(std::span<const std::uint32_t> particles, std::span<const float> weights, Vec3 change,
                      double quanta);
     Vec3 sum(std::uint32_t p, double quanta) const;
     void limit();
+    // untangle.cpp
+    void untangle();
+    void drop_pairs_without_side(int kind);
     void send_back();
     void separate();
     template <class Visit>
-    void for_each_particle(Visit&& visit) const;
+    void for_each_particle(Visit&& visit) const {
+        for (const ClothState* cloth : cloths_) {
+            if (!cloth->model->tiles) continue;
+            for (std::uint32_t p = cloth->base, end = p + cloth->model->particle_count; p < end; ++p) visit(p);
+        }
+    }
 
     bool search_always_;
     const ContactLoops* loops_ = nullptr;
@@ -74,6 +82,7 @@ class ClothContact {
 
     // Of the frame.
     std::span<ClothState* const> cloths_;
+    const Tangle* tangle_ = nullptr;  // null if nothing is tangled
     Vec4 *x_ = nullptr, *velocity_ = nullptr;
     const Vec4* start_ = nullptr;
     float h_ = 0;      // s

@@ -29,6 +29,7 @@ struct NearPairs {
     std::uint32_t count = 0;
 
     void reserve(std::uint32_t pairs);
+    void move(std::uint32_t from, std::uint32_t to);
     void pad(std::uint32_t with_particle);
 };
 

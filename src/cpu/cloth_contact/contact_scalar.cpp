@@ -34,6 +34,14 @@ void NearPairs::reserve(std::uint32_t pairs) {
     source.resize(room);
 }
 
+void NearPairs::move(std::uint32_t from, std::uint32_t to) {
+    for (auto& array : particle) array[to] = array[from];
+    for (auto& array : weight) array[to] = array[from];
+    for (auto& array : normal) array[to] = array[from];
+    for (auto* array : {&thickness, &gap, &distance}) (*array)[to] = (*array)[from];
+    source[to] = source[from];
+}
+
 void NearPairs::pad(std::uint32_t with_particle) {
     reserve(count);
     for (auto& array : particle) std::fill_n(&array[count], 16, with_particle);

@@ -23,6 +23,9 @@ inline constexpr float contact_recovery_speed = 1;
 inline constexpr float least_contact_thickness = 1e-4f;
 /// Part of the mass splitting that a sweep uses; 1 would be stable for any number of pairs, and slower.
 inline constexpr float contact_split = 0.3f;
+/// m/s: relative speed of an edge and a triangle that untangling takes apart, and the most that it adds to the speed of
+/// a particle.
+inline constexpr float untangling_speed = 0.6f;
 /// How often the limit may start again because a particle left its listed trajectory.
 inline constexpr int contact_most_attempts = 20;
 

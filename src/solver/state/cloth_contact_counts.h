@@ -13,7 +13,9 @@ struct ClothContactCounts {
     std::uint64_t contacts = 0;  ///< pairs that pushed in the last substep
     std::uint64_t searches = 0;  ///< substeps in which lists of pairs were searched
     std::uint64_t limited = 0;   ///< particles that were sent back, summed over the substeps
-    std::uint64_t tangled = 0;   ///< pairs that the frame could not separate
+    /// Edges that pass through triangles at the end of the frame; in the frame in which pins press cloth through cloth,
+    /// at least the pairs that it could not separate.
+    std::uint64_t tangled = 0;
     /// The lowest number of a particle in such a pair: as an index into the world's particles; `no_particle` without
     /// one.
     std::uint32_t tangled_particle = no_particle;

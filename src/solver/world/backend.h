@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/hash.h"
+#include "collide/tangle.h"
 #include "solver/measures/measures.h"
 #include "solver/plan/island_plan.h"
 #include "solver/state/cloth_contact_counts.h"
@@ -39,6 +40,9 @@ struct StepInput {
     std::span<const Pose> poses = {};
     bool contact_forces = false;                          ///< record contacts
     std::uint32_t list_capacity = default_list_capacity;  ///< initial capacity of dynamic lists
+    /// Of the cloths that collide with cloth, at the start of the frame; particles are numbered over the world. Null if
+    /// nothing is tangled.
+    const Tangle* tangle = nullptr;
 };
 
 /// One cloth's part of a frame.

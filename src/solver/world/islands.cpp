@@ -1,29 +1,21 @@
 #include "solver/world/islands.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
-#include <numeric>
 
 namespace weft {
 
 std::vector<std::vector<std::uint32_t>> group_islands(std::uint32_t count,
                                                       std::span<const std::array<std::uint32_t, 2>> ties) {
-    std::vector<std::uint32_t> parent(count);
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root_of = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    // The smaller root wins, so that a group's root is its first number.
-    for (const auto& [a, b] : ties) {
-        const std::uint32_t ra = root_of(a), rb = root_of(b);
-        parent[std::max(ra, rb)] = std::min(ra, rb);
-    }
+    DisjointSets sets(count);
+    for (const auto& [a, b] : ties) sets.merge(a, b);
     std::vector<std::vector<std::uint32_t>> groups;
     std::vector<std::uint32_t> group_of(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t root = root_of(i);
-        if (root == i) group_of[i] = static_cast<std::uint32_t>(groups.size()), groups.emplace_back();
-        groups[group_of[root]].push_back(i);
+        const std::uint32_t first = sets.first_of(i);
+        if (first == i) group_of[i] = static_cast<std::uint32_t>(groups.size()), groups.emplace_back();
+        groups[group_of[first]].push_back(i);
     }
     return groups;
 }

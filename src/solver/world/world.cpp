@@ -349,6 +349,8 @@ void World::advance(double dt) {
     complete();
     while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
     if (settings_.background) pending_.start_next();
+    if (watched_serial_ != plan_serial_) watch_tangle();
+    watched_serial_ = plan_serial_;
     place_colliders(dt);
     for (Cloth& cloth : cloths_) place_motions(cloth, dt);
     for (std::size_t i = 0; i < winds_.size(); ++i) {
@@ -388,7 +390,8 @@ void World::advance(double dt) {
                        .colliders = colliders_.values(),
                        .poses = poses_,
                        .contact_forces = settings_.contact_forces,
-                       .list_capacity = settings_.list_capacity},
+                       .list_capacity = settings_.list_capacity,
+                       .tangle = tangle_.tangle()},
              .islands = steps_};
     backend_->step(step_);
     running_ = true;
@@ -406,11 +409,26 @@ void World::complete() const {
     backend_->finish(frame_.stage_ms);
     frame_.lists = backend_->list_counts();
     frame_.cloth_contacts = backend_->cloth_contact_counts();
-    frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
     unread_ = true;
+    if (tangle_.tangle() || frame_.cloth_contacts.tangled > 0) watch_tangle();
+    tangle_.count(frame_.cloth_contacts);
+    frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());
     frame_.step_ms += ms_since(begin);
+}
+
+// Looks for crossings of cloths that collide with cloth. A frame that starts without any ends without any, except where
+// pins leave no room, which the backend reports; so one search at the start and after changes is enough.
+void World::watch_tangle() const {
+    std::vector<WatchedCloth> watched;
+    for (const Cloth& cloth : cloths_)
+        if (cloth.model->tiles) watched.push_back({cloth.model.get(), cloth.base, {}});
+    if (watched.empty()) return tangle_.search(watched);
+    auto next = watched.begin();
+    for (const ClothFrame& cloth : frame().cloths)
+        if (cloth.model->tiles) (next++)->positions = cloth.positions;
+    tangle_.search(watched);
 }
 
 std::optional<ParticlePlace> World::place_of(std::uint32_t particle) const {

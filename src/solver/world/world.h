@@ -7,6 +7,7 @@
 #include "solver/world/backend.h"
 #include "solver/world/islands.h"
 #include "solver/world/pending_models.h"
+#include "solver/world/tangle_watch.h"
 
 #include <memory>
 #include <optional>
@@ -176,6 +177,7 @@ class World {
     Result<void> check_fits(const Snapshot& snapshot) const;
     void list_cloths();
     std::optional<ParticlePlace> place_of(std::uint32_t particle) const;
+    void watch_tangle() const;
     void complete() const;        ///< waits for the frame that runs on a device
     void complete_and_resolve();  ///< complete(), and resolves the contact log before its memory is freed
     ContactLog& begin_contact_forces(double dt);
@@ -196,6 +198,8 @@ class World {
     std::vector<Island> islands_;
     std::vector<IslandStep> steps_;  // scratch of a frame
     WorldStep step_;                 // scratch of a frame
+    mutable TangleWatch tangle_;
+    std::uint64_t watched_serial_ = 0;  ///< `plan_serial_` at the last step: what changes positions changes it
     mutable Frame frame_;
     mutable bool unread_ = false;   ///< the arrays of frame_ are out of date
     mutable bool running_ = false;  ///< the backend has not finished the frame

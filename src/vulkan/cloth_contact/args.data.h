@@ -29,6 +29,7 @@ using ContactDataRef = std::uint64_t;
 using ContactTileRef = std::uint64_t;
 using TrackedTileRef = std::uint64_t;
 using ListedPairRef = std::uint64_t;
+using TangledPairRef = std::uint64_t;
 using Uvec4s = std::uint64_t;
 using ContactHeadRef = std::uint64_t;
 using ReportsRef = std::uint64_t;
@@ -40,6 +41,7 @@ layout(buffer_reference) buffer ContactDataRef;
 layout(buffer_reference) buffer ContactTileRef;
 layout(buffer_reference) buffer TrackedTileRef;
 layout(buffer_reference) buffer ListedPairRef;
+layout(buffer_reference) buffer TangledPairRef;
 layout(buffer_reference) buffer Uvec4s;
 layout(buffer_reference) buffer ContactHeadRef;
 layout(buffer_reference) buffer ReportsRef;
@@ -74,6 +76,18 @@ struct ListedPair {
     uint two;  // tile of side two
     float thickness;  // m
     float spare;      // m: by how much the distance exceeded the thickness when it was listed
+};
+
+// An edge and a triangle that pass through each other (TangledPair of collide/tangle.h).
+struct TangledPairIn {
+    uint a;
+    uint b;
+    uint c;
+    uint d;
+    uint e;
+    float x;  // direction
+    float y;
+    float z;
 };
 
 // Workgroups of an indirect dispatch.
@@ -146,6 +160,11 @@ struct ContactData {
     ContactHeadRef head;
     FrameRef frame;  // of any of the cloths
     ReportsRef reports;
+    Uints tangled_count;  // one number; this and the following: see Tangle of collide/tangle.h
+    TangledPairRef tangled;
+    Uints tangle_first;
+    Uints tangle_near;
+    uint untangles;  // 1: the four arrays exist
     uint tile_count;
     uint group_count;
     uint report_count;
@@ -160,6 +179,7 @@ struct ContactData {
     float recovery_speed;  // m/s
     float gap_floor;
     float split;
+    float untangling_speed;  // m/s
     uint search_always;
 };
 
@@ -183,6 +203,9 @@ layout(buffer_reference, std430, buffer_reference_align = 16) buffer TrackedTile
 };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer ListedPairRef {
     ListedPair at[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TangledPairRef {
+    TangledPairIn at[];
 };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Uvec4s {
     uvec4 at[];

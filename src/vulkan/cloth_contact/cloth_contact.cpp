@@ -8,13 +8,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ContactTileIn) == 32 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32);
+static_assert(sizeof(ContactTileIn) == 32 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
+              sizeof(TangledPairIn) == 32);
 static_assert(sizeof(ClothContactArgs) == 16);
 static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edges &&
               WEFT_TILE_TRIANGLES == tile_triangles);
@@ -108,6 +110,12 @@ void record_search(PassRecorder& passes, std::uint32_t search, std::uint32_t til
     passes.run("contact_end_near", 1);
 }
 
+void record_untangle(PassRecorder& passes, std::uint32_t pairs, std::uint32_t tiles) {
+    passes.run("contact_share_untangling", tiles_of(pairs));
+    passes.run("contact_push_untangling", tiles_of(pairs));
+    passes.run("contact_untangle", tiles);
+}
+
 void record_sweep(PassRecorder& passes, std::uint32_t round, std::uint32_t tiles) {
     passes.round(round);
     passes.run_near("contact_overlaps");
@@ -135,14 +143,24 @@ ClothContactRoom ClothContactRoom::for_cloths(std::uint64_t tiles, std::uint64_t
 }
 
 ClothContactRoom ClothContactRoom::with(const ClothContactRoom& other) const {
-    return {std::max(tile_pairs, other.tile_pairs), std::max(listed, other.listed), std::max(near, other.near)};
+    return {std::max(tile_pairs, other.tile_pairs), std::max(listed, other.listed), std::max(near, other.near),
+            std::max(tangled, other.tangled), std::max(tangle_near, other.tangle_near)};
 }
 
 ClothContactRoom ClothContactRoom::grown(const ClothContactRoom& wanted) const {
     const auto grow = [](std::uint32_t room, std::uint32_t more) {
         return more <= room ? room : grown_list_capacity(more);
     };
-    return {grow(tile_pairs, wanted.tile_pairs), grow(listed, wanted.listed), grow(near, wanted.near)};
+    return {grow(tile_pairs, wanted.tile_pairs), grow(listed, wanted.listed), grow(near, wanted.near), tangled,
+            tangle_near};
+}
+
+ClothContactRoom ClothContactRoom::for_tangle(const Tangle* tangle) const {
+    ClothContactRoom room = *this;
+    const auto capacity = [](std::size_t count) { return grown_list_capacity(static_cast<std::uint32_t>(count)); };
+    room.tangled = tangle ? std::max(tangled, capacity(tangle->pairs.size())) : 0;
+    room.tangle_near = tangle ? std::max(tangle_near, capacity(tangle->near.size())) : 0;
+    return room;
 }
 
 Result<std::unique_ptr<ClothContact>> ClothContact::create(gpu::Device& device, Programs& programs,
@@ -230,8 +248,48 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.cap = contact_cap * data.slack, data.cap_part = contact_cap;
     data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
     data.search_always = search_always ? 1 : 0;
+    if (auto made = make_tangle(data, end, name); !made) return made;
     data_ = data_arena_.add(std::as_bytes(std::span(&data, 1)));
     return data_arena_.build(device_, "cloth contact addresses of " + name);
+}
+
+Result<void> ClothContact::make_tangle(ContactData& data, std::uint64_t particles, const std::string& name) {
+    data.untangles = room_.tangled > 0 ? 1 : 0;
+    data.untangling_speed = untangling_speed;
+    if (room_.tangled == 0) return {};
+    constexpr std::uint64_t pairs = 16;  // the count before them takes as much, for the alignment
+    tangle_first_ = pairs + std::uint64_t{room_.tangled} * sizeof(TangledPairIn);
+    tangle_near_ = tangle_first_ + (particles + 1) * sizeof(std::uint32_t);
+    const std::uint64_t bytes = tangle_near_ + std::uint64_t{room_.tangle_near} * sizeof(std::uint32_t);
+    auto upload = device_.memory().buffer(bytes, gpu::MemoryKind::upload, "upload of the tangle of " + name);
+    if (!upload) return upload.errors();
+    tangle_upload_ = std::move(*upload);
+    auto buffer = device_.memory().buffer(bytes, gpu::MemoryKind::device, "tangle of " + name);
+    if (!buffer) return buffer.errors();
+    tangle_ = std::move(*buffer);
+    data.tangled_count = tangle_.address(), data.tangled = tangle_.address() + pairs;
+    data.tangle_first = tangle_.address() + tangle_first_, data.tangle_near = tangle_.address() + tangle_near_;
+    return {};
+}
+
+void ClothContact::set_tangle(const Tangle* tangle) {
+    if (room_.tangled == 0) return;
+    std::byte* to = tangle_upload_.mapped().data();
+    const auto count = static_cast<std::uint32_t>(tangle->pairs.size());
+    std::memcpy(to, &count, sizeof(count));
+    std::vector<TangledPairIn> pairs;
+    for (const TangledPair& pair : tangle->pairs) {
+        const auto [a, b, c, d, e] = pair.particle;
+        pairs.push_back({a, b, c, d, e, pair.direction.x, pair.direction.y, pair.direction.z});
+    }
+    const auto copy = [&](std::uint64_t offset, const auto& array) {
+        std::memcpy(to + offset, array.data(), array.size() * sizeof(array[0]));
+    };
+    copy(16, pairs), copy(tangle_first_, tangle->first), copy(tangle_near_, tangle->near);
+}
+
+void ClothContact::record_begin(gpu::Commands& commands) const {
+    if (room_.tangled > 0) commands.copy(tangle_upload_, tangle_, tangle_.size());
 }
 
 Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
@@ -240,6 +298,7 @@ Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std
         case PassKind::detect:
             passes.round(substep);
             passes.run("contact_begin", 1);
+            if (room_.tangled > 0) record_untangle(passes, room_.tangled, tiles_);
             record_search(passes, WEFT_SEARCH_MOTION, tiles_, groups_);
             break;
         case PassKind::cloth_contact:
@@ -273,7 +332,7 @@ void ClothContact::record_end(gpu::Commands& commands) const {
 
 ClothContactRoom ClothContact::wanted() const {
     const ContactHead& head = back_.as<ContactHead>()[0];
-    return {head.wanted_tile_pairs, head.wanted_listed, head.wanted_near};
+    return {.tile_pairs = head.wanted_tile_pairs, .listed = head.wanted_listed, .near = head.wanted_near};
 }
 
 ClothContactCounts ClothContact::counts() const {

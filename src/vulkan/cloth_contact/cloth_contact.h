@@ -2,6 +2,7 @@
 // device searches for pairs when it must, within the recorded commands of a frame. The lists outlive frames.
 #pragma once
 
+#include "collide/tangle.h"
 #include "gpu/commands.h"
 #include "solver/plan/world_plan.h"
 #include "solver/state/cloth_contact_counts.h"
@@ -20,6 +21,7 @@ namespace weft::vulkan {
 /// Numbers of elements that the lists have room for.
 struct ClothContactRoom {
     std::uint32_t tile_pairs = 0, listed = 0, near = 0;
+    std::uint32_t tangled = 0, tangle_near = 0;  ///< both are 0 while nothing is tangled
 
     /// The room to begin with, for cloths of these sizes. `list_capacity`: see StepInput.
     static ClothContactRoom for_cloths(std::uint64_t tiles, std::uint64_t particles, std::uint32_t list_capacity);
@@ -27,6 +29,12 @@ struct ClothContactRoom {
     ClothContactRoom with(const ClothContactRoom& other) const;
     /// Room after a frame that needed `wanted`, if that was too much.
     ClothContactRoom grown(const ClothContactRoom& wanted) const;
+    /// The same room otherwise, for this tangle; null: for none.
+    ClothContactRoom for_tangle(const Tangle* tangle) const;
+    bool holds(const Tangle* tangle) const {
+        if (!tangle) return tangled == 0;
+        return tangle->pairs.size() <= tangled && tangle->near.size() <= tangle_near;
+    }
     bool holds(const ClothContactRoom& wanted) const {
         return wanted.tile_pairs <= tile_pairs && wanted.listed <= listed && wanted.near <= near;
     }
@@ -46,6 +54,10 @@ class ClothContact {
                                                         std::uint32_t list_capacity, bool search_always,
                                                         const std::string& name);
 
+    /// Call before a frame is submitted. The room must hold the tangle.
+    void set_tangle(const Tangle* tangle);
+    /// Call at the start of a frame. Uploads the tangle.
+    void record_begin(gpu::Commands& commands) const;
     /// Records a pass of contact between cloths, for all cloths.
     Result<void> record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const;
     /// Call at the end of a frame. Copies the counts back.
@@ -59,6 +71,7 @@ class ClothContact {
 
   private:
     ClothContact(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
+    Result<void> make_tangle(ContactData& data, std::uint64_t particles, const std::string& name);
     Result<void> build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
                        const std::string& name);
 
@@ -69,6 +82,9 @@ class ClothContact {
     Arena arena_, data_arena_;
     Slot head_, data_;
     gpu::Buffer back_;
+    // The tangle of a frame: its number of pairs, the pairs, `first` and `near`.
+    gpu::Buffer tangle_upload_, tangle_;
+    std::uint64_t tangle_first_ = 0, tangle_near_ = 0;  // offsets
 };
 
 }  // namespace weft::vulkan

@@ -23,6 +23,30 @@ float approach_of(uint a, uint b)
     return ticks * relative + contact.tracked.at[a].extent.w + contact.tracked.at[b].extent.w;
 }
 
+// See Tangle::joins() of collide/tangle.h.
+bool tangle_joins(uint p, uint q)
+{
+    uint i = contact.tangle_first.at[p], j = contact.tangle_first.at[q];
+    uint i_end = contact.tangle_first.at[p + 1u], j_end = contact.tangle_first.at[q + 1u];
+    bool joins = false;
+    while (!joins && i < i_end && j < j_end) {
+        uint of_p = contact.tangle_near.at[i], of_q = contact.tangle_near.at[j];
+        joins = of_p / 2u == of_q / 2u && of_p != of_q;
+        if (of_p < of_q) ++i;
+        else ++j;
+    }
+    return joins;
+}
+
+// Features near a pair that passes through each other do so freely.
+bool has_side(uvec4 p, bool edges)
+{
+    if (contact.untangles == 0u) return true;
+    if (tangle_joins(p.x, p.z) || tangle_joins(p.x, p.w)) return false;
+    if (edges) return !(tangle_joins(p.y, p.z) || tangle_joins(p.y, p.w));
+    return !tangle_joins(p.x, p.y);
+}
+
 // Selects the pairs that contact or the limit may have to act on.
 void run_near(uint i)
 {
@@ -52,7 +76,7 @@ void run_near(uint i)
     vec4 weight = vec4(points.w0, points.w1, points.w2, points.w3);
     bool is_near = dot(weight, reached) < pair.thickness + 2.0 * reach ||
                    worst < pair.thickness * contact.gap_floor + 4.0 * reach;
-    if (!is_near) return;
+    if (!is_near || !has_side(pair.particle, edges)) return;
     uint at = args.search == 0u ? atomicAdd(head.near0, 1u) : atomicAdd(head.near1, 1u);
     if (at >= contact.near_capacity) return;
     float rest = sqrt(contact.tiles.at[one].static_friction * contact.tiles.at[pair.two].static_friction);

@@ -28,6 +28,17 @@ void run_move(uint p)
     contact.position.at[p].xyz = in_reach(p, x);
 }
 
+void run_untangle(uint p)
+{
+    if (contact.share.at[p] == 0u) return;
+    contact.share.at[p] = 0u;
+    vec3 moved = sum_of(contact.sums, p, WEFT_PUSH_QUANTA_PER_METER);
+    clear_sum(contact.sums, p);
+    float most = contact.untangling_speed * contact.frame.at.h, length2 = dot(moved, moved);
+    if (length2 > most * most) moved = moved * (most / sqrt(length2));
+    contact.position.at[p].xyz = place_of(p) + moved;
+}
+
 void run_ask(uint p)
 {
     contact.asked.at[p] = contact.position.at[p];

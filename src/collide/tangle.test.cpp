@@ -1,0 +1,105 @@
+#include "collide/tangle.h"
+
+#include "collide/crossings.h"
+#include "mesh/procedural.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace weft {
+namespace {
+
+struct Surfaces {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+
+    std::uint32_t add(const TriangleMesh& mesh, Vec3 (*place)(Vec3)) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        for (const Vec3 p : mesh.positions) positions.push_back(place(p));
+        for (const Triangle& t : mesh.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        return first;
+    }
+};
+
+TriangleMesh grid(std::array<float, 2> size, std::array<std::uint32_t, 2> resolution) {
+    return make_grid(size, resolution, GridDiagonal::alternating);
+}
+
+/// A small sheet stands upright in a large flat one; less than half of it, x > 0, is below.
+Surfaces small_through_large() {
+    Surfaces surfaces;
+    surfaces.add(grid({2, 2}, {9, 9}), [](Vec3 p) { return p; });
+    surfaces.add(grid({0.5f, 0.5f}, {6, 6}), [](Vec3 p) { return Vec3{p.z + 0.03f, 0.08f - p.x, 0.01f}; });
+    return surfaces;
+}
+
+TEST(Tangle, surfaces_that_do_not_meet_are_not_tangled) {
+    Surfaces surfaces;
+    surfaces.add(grid({1, 1}, {5, 5}), [](Vec3 p) { return p; });
+    surfaces.add(grid({1, 1}, {5, 5}), [](Vec3 p) { return p + Vec3{0, 0.1f, 0}; });
+    const Tangle tangle = find_tangle(surfaces.positions, surfaces.triangles);
+    EXPECT_TRUE(tangle.pairs.empty());
+    EXPECT_TRUE(tangle.first.empty());
+    EXPECT_TRUE(find_tangle({}, {}).pairs.empty());
+}
+
+TEST(Tangle, all_crossings_are_found) {
+    const Surfaces surfaces = small_through_large();
+    const Tangle tangle = find_tangle(surfaces.positions, surfaces.triangles);
+    EXPECT_GT(tangle.pairs.size(), 5u);
+    EXPECT_EQ(tangle.pairs.size(), count_crossings(surfaces.positions, surfaces.triangles).edges);
+}
+
+TEST(Tangle, the_smaller_part_is_drawn_back) {
+    const Surfaces surfaces = small_through_large();
+    const auto first_of_small = static_cast<std::uint32_t>(81);
+    for (const TangledPair& pair : find_tangle(surfaces.positions, surfaces.triangles).pairs) {
+        // Relative to the large sheet, the small one has to go up.
+        const float up = pair.particle[0] >= first_of_small ? 1.0f : -1.0f;
+        EXPECT_NEAR(pair.direction.y, up, 1e-5);
+    }
+}
+
+TEST(Tangle, two_corners_go_the_shortest_way) {
+    Surfaces surfaces;
+    surfaces.add(grid({1, 1}, {11, 11}), [](Vec3 p) { return p; });
+    // Its front corner is below the other sheet, near that sheet's middle.
+    surfaces.add(grid({1, 1}, {11, 11}), [](Vec3 p) {
+        const float along = (p.x + p.z) * 0.7071f, across = (p.x - p.z) * 0.7071f;
+        return Vec3{0.02f + 0.6f * along, 0.35f - 0.8f * along, across + 0.01f};
+    });
+    const Tangle tangle = find_tangle(surfaces.positions, surfaces.triangles);
+    ASSERT_FALSE(tangle.pairs.empty());
+    for (const TangledPair& pair : tangle.pairs)
+        EXPECT_GT(pair.direction.y * (pair.particle[0] >= 121 ? 1.0f : -1.0f), 0.9f);
+}
+
+TEST(Tangle, only_features_on_both_sides_of_a_crossing_are_joined) {
+    const Surfaces surfaces = small_through_large();
+    const Tangle tangle = find_tangle(surfaces.positions, surfaces.triangles);
+    for (const TangledPair& pair : tangle.pairs) {
+        for (int i = 0; i < 2; ++i)
+            for (int k = 2; k < 5; ++k) {
+                EXPECT_TRUE(tangle.joins(pair.particle[i], pair.particle[k]));
+                EXPECT_TRUE(tangle.joins(pair.particle[k], pair.particle[i]));
+            }
+    }
+    EXPECT_FALSE(tangle.joins(0, 100)) << "a corner of the large sheet is far from the small one";
+    for (std::uint32_t p = 0; p < 81; ++p)
+        for (std::uint32_t q = 0; q < 81; ++q) EXPECT_FALSE(tangle.joins(p, q)) << "both are in the large sheet";
+}
+
+TEST(Tangle, degenerate_triangles_and_numbers_without_particles_are_left_out) {
+    Surfaces surfaces = small_through_large();
+    const std::size_t pairs = find_tangle(surfaces.positions, surfaces.triangles).pairs.size();
+    surfaces.positions.resize(surfaces.positions.size() + 7);
+    surfaces.triangles.push_back({3, 3, 4});
+    surfaces.triangles.push_back({100, 100, 100});
+    const Tangle tangle = find_tangle(surfaces.positions, surfaces.triangles);
+    EXPECT_EQ(tangle.pairs.size(), pairs);
+    for (const TangledPair& pair : tangle.pairs) EXPECT_TRUE(finite(pair.direction));
+}
+
+}  // namespace
+}  // namespace weft
