@@ -39,7 +39,7 @@ struct Parameter {
     std::string_view what = {};        ///< one line of documentation
     std::string_view choices = {};     ///< `choice` only: the names, separated by '|'
     bool required = false;
-    bool flag_too = false;  ///< `choice` only: `false` stands for the first name and `true` for the second
+    bool flag_too = false;  ///< `choice` only: `false` stands for the first name and `true` for the last
 };
 
 }  // namespace weft

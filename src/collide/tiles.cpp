@@ -28,27 +28,32 @@ bool is_whole(Triangle t) {
     return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
 }
 
-std::vector<std::uint32_t> along_curve(TriangleView triangles, std::span<const Vec4> positions) {
-    const auto centroid = [&](Triangle t) {
-        return (positions[t[0]].xyz() + positions[t[1]].xyz() + positions[t[2]].xyz()) * (1.0f / 3);
-    };
+// The indices of the points, ordered along a space-filling curve.
+std::vector<std::uint32_t> sort_along_curve(std::span<const Vec3> points) {
     Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-    for (const Triangle t : triangles) {
-        const Vec3 c = centroid(t);
-        low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-        high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    for (const Vec3 p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     const float extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-30f});
     const auto cell = [&](float v) { return static_cast<std::uint64_t>(v / extent * 0x1fffff); };
     std::vector<std::uint64_t> codes;
-    for (const Triangle t : triangles) {
-        const Vec3 c = centroid(t) - low;
-        codes.push_back(every_third_bit(cell(c.x)) | every_third_bit(cell(c.y)) << 1 | every_third_bit(cell(c.z)) << 2);
-    }
     std::vector<std::uint32_t> order;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        if (is_whole(triangles[t])) order.push_back(t);
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t t) { return codes[t]; });
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const Vec3 p = points[i] - low;
+        codes.push_back(every_third_bit(cell(p.x)) | every_third_bit(cell(p.y)) << 1 | every_third_bit(cell(p.z)) << 2);
+        order.push_back(i);
+    }
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return codes[i]; });
+    return order;
+}
+
+std::vector<std::uint32_t> along_curve(TriangleView triangles, std::span<const Vec4> positions) {
+    std::vector<Vec3> centroids;
+    for (const Triangle t : triangles)
+        centroids.push_back((positions[t[0]].xyz() + positions[t[1]].xyz() + positions[t[2]].xyz()) * (1.0f / 3));
+    std::vector<std::uint32_t> order = sort_along_curve(centroids);
+    std::erase_if(order, [&](std::uint32_t t) { return !is_whole(triangles[t]); });
     return order;
 }
 
@@ -137,6 +142,12 @@ std::vector<Tile> make_tiles(TriangleView triangles, std::span<const Vec4> posit
     }
     if (!builder.is_empty()) tiles.push_back(builder.finish());
     return tiles;
+}
+
+std::vector<std::uint32_t> order_along_curve(std::span<const Vec4> particles) {
+    std::vector<Vec3> places;
+    for (const Vec4& x : particles) places.push_back(x.xyz());
+    return sort_along_curve(places);
 }
 
 }  // namespace weft

@@ -34,4 +34,7 @@ struct Tile {
 /// equal corners.
 std::vector<Tile> make_tiles(TriangleView triangles, std::span<const Vec4> positions);
 
+/// The numbers of the particles, ordered along a space-filling curve. Deterministic.
+std::vector<std::uint32_t> order_along_curve(std::span<const Vec4> particles);
+
 }  // namespace weft

@@ -87,6 +87,7 @@ class CpuBackend final : public Backend {
         counts_ = {};
         contact_counts_ = {};
         while (cloth_contact_.size() < step.islands.size()) cloth_contact_.emplace_back(search_always_);
+        while (particle_contact_.size() < step.islands.size()) particle_contact_.emplace_back(search_always_);
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             cpu::Executor::Job& job = jobs_[i];
             job.step = &step.islands[i];
@@ -97,11 +98,15 @@ class CpuBackend final : public Backend {
             for (const ClothStep& one : job.step->cloths) job.cloths.push_back(&cloth(one.cloth));
             const auto collides = [](const cpu::ClothState* state) { return state->model->tiles != nullptr; };
             job.cloth_contact = std::ranges::any_of(job.cloths, collides) ? &cloth_contact_[i] : nullptr;
+            const auto has_spheres = [](const cpu::ClothState* state) { return state->model->along_curve != nullptr; };
+            const bool spheres = has_particle_contact(*step.plan) && std::ranges::any_of(job.cloths, has_spheres);
+            job.particle_contact = spheres ? &particle_contact_[i] : nullptr;
         }
         executor_.run(step, jobs_, stage_ms_);
         for (cpu::Executor::Job& job : jobs_) {
             if (job.adhesion) complete_lists(step, job);
             if (job.cloth_contact) add_counts(job.cloth_contact->counts());
+            if (job.particle_contact) add_counts(job.particle_contact->counts());
             end_island(step, job);
         }
     }
@@ -209,10 +214,11 @@ class CpuBackend final : public Backend {
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
-    std::vector<cpu::Executor::Job> jobs_;          // of the current frame
-    std::vector<cpu::LinkState> links_;             // by island
-    std::vector<cpu::AdhesionList> adhesion_;       // by island; empty if nothing sticks
-    std::vector<cpu::ClothContact> cloth_contact_;  // by island
+    std::vector<cpu::Executor::Job> jobs_;                // of the current frame
+    std::vector<cpu::LinkState> links_;                   // by island
+    std::vector<cpu::AdhesionList> adhesion_;             // by island; empty if nothing sticks
+    std::vector<cpu::ClothContact> cloth_contact_;        // by island
+    std::vector<cpu::ParticleContact> particle_contact_;  // by island
     bool search_always_;
     ListCounts counts_;                  // of the last frame
     ClothContactCounts contact_counts_;  // of the last frame

@@ -73,6 +73,7 @@ void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
     if (job.links) job.links->prepare(*job.step->links, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
     if (job.cloth_contact) job.cloth_contact->prepare(passes_, {step, job.cloths});
+    if (job.particle_contact) job.particle_contact->prepare(passes_, {step, job.cloths}, workers);
     job.reports.assign(job.cloths.size(), report_none);
     for (WorkerScratch& scratch : scratch_) {
         if (scratch.reports.size() < job.cloths.size()) scratch.reports.resize(job.cloths.size());
@@ -171,6 +172,7 @@ void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint3
     }
     if (is_cloth_contact(pass.pass.kind))
         return island.job.cloth_contact->run({island.step, island.job.cloths}, pass.pass, worker);
+    if (is_particle_contact(pass.pass.kind)) return island.job.particle_contact->run(pass.pass, worker);
     if (pass.pass.source == RowSource::dynamic)
         return island.job.adhesion->run({passes_, island.step, island.job.cloths}, pass.pass, substep, worker);
     for (std::size_t i = 0; i < island.runs.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "cpu/cloth_contact/cloth_contact.h"
 #include "cpu/cloth_run.h"
 #include "cpu/links.h"
+#include "cpu/particle_contact/particle_contact.h"
 
 #include <array>
 #include <string>
@@ -22,12 +23,13 @@ class Executor {
     /// An island in a frame.
     struct Job {
         const IslandStep* step = nullptr;
-        std::vector<ClothState*> cloths = {};     ///< as in the step
-        LinkState* links = nullptr;               ///< null if the step has none
-        AdhesionList* adhesion = nullptr;         ///< null if nothing sticks
-        ClothContact* cloth_contact = nullptr;    ///< null if no cloth collides with cloth
-        bool again = false;                       ///< the frame is repeated from the same state
-        std::vector<std::uint32_t> reports = {};  ///< out: per cloth; run() does not roll back non-finite ones
+        std::vector<ClothState*> cloths = {};         ///< as in the step
+        LinkState* links = nullptr;                   ///< null if the step has none
+        AdhesionList* adhesion = nullptr;             ///< null if nothing sticks
+        ClothContact* cloth_contact = nullptr;        ///< null if no cloth collides exactly
+        ParticleContact* particle_contact = nullptr;  ///< null if no cloth collides by particles
+        bool again = false;                           ///< the frame is repeated from the same state
+        std::vector<std::uint32_t> reports = {};      ///< out: per cloth; run() does not roll back non-finite ones
     };
 
     /// Runs islands that are too small to be worth the team's barriers on one thread each: those below

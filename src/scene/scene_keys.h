@@ -144,7 +144,7 @@ inline constexpr Parameter cloth_keys[] = {
      .what = "fraction by which a particle may exceed that distance; with `tethers`"},
     {.key = "self_collision", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, self_collision),
      .what = "contact with itself and with the other cloths that have it; `true`: `exact`; `false`: `off`",
-     .choices = "off|exact", .flag_too = true},
+     .choices = "off|fast|exact", .flag_too = true},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose positions are given"},
     {.key = "material", .kind = ParameterKind::object,
      .what = "a material's name, or its values; for images and exports"},

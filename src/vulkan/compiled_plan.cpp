@@ -150,6 +150,14 @@ class Compiler {
             case PassKind::cloth_contact:
             case PassKind::limit:
             case PassKind::separate:
+            case PassKind::track_particles:
+            case PassKind::search_particles:
+            case PassKind::list_particles:
+            case PassKind::overlap_particles:
+            case PassKind::push_particles:
+            case PassKind::move_particles:
+            case PassKind::hold_particles:
+            case PassKind::settle_particles:
                 break;  // for all cloths only
             case PassKind::targets:
                 add_targets(list, pass, substep);

@@ -230,6 +230,9 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
     Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) {
+        if (model->self_collision == SelfCollision::fast)
+            return Error{"cloth '" + model->name + "'",
+                         "self_collision \"fast\" runs on the CPU backend only so far (--backend cpu)"};
         if (auto room = make_room(std::uint64_t{base} + model->capacity()); !room) return room.errors();
         auto buffers = buffers_of(std::move(model));
         if (!buffers) return buffers.errors();

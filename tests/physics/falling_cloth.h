@@ -35,6 +35,19 @@ inline double mean_speed(const World& world) {
     return sum / static_cast<double>(count);
 }
 
+/// Sum of the momenta in kg·m/s, and the sum of their lengths.
+inline std::array<double, 4> momentum(const World& world) {
+    std::array<double, 4> sum{};
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+            const double m = cloth.model->mass[p];
+            const Vec4 v = cloth.velocities[p];
+            sum[0] += m * v.x, sum[1] += m * v.y, sum[2] += m * v.z, sum[3] += m * std::hypot(v.x, v.y, v.z);
+        }
+    }
+    return sum;
+}
+
 inline bool all_finite(const World& world) {
     for (const ClothFrame& cloth : world.frame().cloths)
         for (const Vec4& x : cloth.positions)

@@ -141,6 +141,14 @@ class TrafficCounter {
             case PassKind::cloth_contact:
             case PassKind::limit:
             case PassKind::separate:
+            case PassKind::track_particles:
+            case PassKind::search_particles:
+            case PassKind::list_particles:
+            case PassKind::overlap_particles:
+            case PassKind::push_particles:
+            case PassKind::move_particles:
+            case PassKind::hold_particles:
+            case PassKind::settle_particles:
                 return {};           // the number of pairs is known only during the run
             case PassKind::predict:  // four arrays read, four written
                 return {.own = 0, .shared = 8 * block * points};

@@ -65,7 +65,8 @@ void warn_of_size(const std::string& cloth, double largest, Warnings& warnings) 
                  " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
 }
 
-// Contact between cloths takes crossings apart within a second or two, which looks odd at the start of a film.
+// Contact between cloths takes crossings apart, which looks odd at the start of a film. Particles that push each other
+// apart resolve some crossings and not others.
 void warn_of_crossings(const Frame& frame, Warnings& warnings) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -75,10 +76,13 @@ void warn_of_crossings(const Frame& frame, Warnings& warnings) {
         for (const Vec4& position : cloth.positions) positions.push_back(position.xyz());
         for (const Triangle t : cloth.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
+    const bool exact = std::ranges::any_of(
+        frame.cloths, [](const ClothFrame& cloth) { return cloth.model->self_collision == SelfCollision::exact; });
     const std::uint64_t crossings = count_crossings(positions, triangles).triangles;
     if (crossings == 0) return;
     warnings.add("cloth with self_collision crosses itself or other cloth at the start, at " +
-                 std::to_string(crossings) + " pairs of triangles; it is taken apart within seconds");
+                 std::to_string(crossings) + " pairs of triangles; " +
+                 (exact ? "it is taken apart within seconds" : "it may stay crossed there"));
 }
 
 }  // namespace

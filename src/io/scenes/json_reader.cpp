@@ -238,7 +238,8 @@ void ObjectReader::choice(const Parameter& p, const json& value, void* base) {
         const auto it = std::ranges::find(names, value.get_ref<const std::string&>());
         if (it != names.end()) return store(p, base, 0, static_cast<int>(it - names.begin()));
     }
-    if (value.is_boolean() && p.flag_too) return store(p, base, 0, value.get<bool>() ? 1 : 0);
+    if (value.is_boolean() && p.flag_too)
+        return store(p, base, 0, value.get<bool>() ? static_cast<int>(names.size()) - 1 : 0);
     problems_.add(at(pointer_, p.key),
                   "must be " + alternatives(names) + (p.flag_too ? ", or true or false" : "") + ", got " +
                       json_text(value) +

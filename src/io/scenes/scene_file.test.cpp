@@ -372,16 +372,18 @@ TEST(SceneFile, ReadsWhatMoves) {
 
 TEST(SceneFile, ReadsSelfCollision) {
     const auto read = parse_scene(R"({"weft": 1, "cloths": [{}, {"self_collision": "off"}, {"self_collision": false},
-                                      {"self_collision": "exact"}, {"self_collision": true}]})",
+                                      {"self_collision": "exact"}, {"self_collision": true},
+                                      {"self_collision": "fast"}]})",
                                   "s.json");
     ASSERT_TRUE(read.ok()) << read.error().message();
     for (std::size_t i = 0; i < 5; ++i)
         EXPECT_EQ(read->cloths[i].self_collision, i < 3 ? SelfCollision::off : SelfCollision::exact) << i;
+    EXPECT_EQ(read->cloths[5].self_collision, SelfCollision::fast);
     expect_each({
         {cloth(R"("self_collision": "exakt")"),
-         {"s.json: /cloths/0/self_collision: must be \"off\" or \"exact\", or true or false, got \"exakt\""}},
+         {"s.json: /cloths/0/self_collision: must be \"off\", \"fast\" or \"exact\", or true or false, got \"exakt\""}},
         {cloth(R"("self_collision": 1)"),
-         {"s.json: /cloths/0/self_collision: must be \"off\" or \"exact\", or true or false, got 1"}},
+         {"s.json: /cloths/0/self_collision: must be \"off\", \"fast\" or \"exact\", or true or false, got 1"}},
         {cloth(R"("tethers": true)"), {"s.json: /cloths/0/tethers: must be \"auto\", \"on\" or \"off\", got true"}},
     });
 }

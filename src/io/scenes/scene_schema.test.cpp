@@ -134,6 +134,7 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
              with_cloth(R"("mesh": { "grid": { "resolution": [2, 4096] } }, "transform": { "rotation": [1e9, 0, 0] })"),
              with_cloth(R"("pins": [ { "box": { "min": [-1, -1, -1], "max": [1, 1, 1] } } ])"),
              with_cloth(R"("velocity": [0, -15, 0], "self_collision": "exact")"),
+             with_cloth(R"("self_collision": "fast")"),
              with_cloth(R"("self_collision": true)"),
              with_cloth(R"("self_collision": false)"),
              with_collider(R"("plane": {}, "friction": 0)"),

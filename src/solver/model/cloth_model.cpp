@@ -303,7 +303,11 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
 
 void ClothModel::make_tiles_if_needed() {
     tiles = nullptr;
+    along_curve = nullptr;
     if (self_collision == SelfCollision::off) return;
+    const std::span<const Vec4> particles{start.data(), particle_count};
+    along_curve = std::make_shared<const std::vector<std::uint32_t>>(order_along_curve(particles));
+    if (self_collision != SelfCollision::exact) return;
     tiles = std::make_shared<const std::vector<Tile>>(make_tiles(triangles(), {start.data(), start.size()}));
 }
 

@@ -98,7 +98,9 @@ struct ClothModel {
     std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< its `nothing` is face_stride
     std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();
     float mean_edge = 0;                             ///< m
-    std::shared_ptr<const std::vector<Tile>> tiles;  ///< null if the cloth does not collide with cloth
+    std::shared_ptr<const std::vector<Tile>> tiles;  ///< null if the cloth has no exact contact with cloth
+    /// Particles along a curve through the cloth; null if the cloth does not collide with cloth.
+    std::shared_ptr<const std::vector<std::uint32_t>> along_curve;
     std::uint64_t topology_version = first_topology_version;
 
     BuildTimes build_times;
@@ -110,7 +112,7 @@ struct ClothModel {
     /// mesh(), on any thread.
     void set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors);
 
-    /// Sets `tiles` for the current triangles.
+    /// Sets `tiles` and `along_curve` for the current triangles and particles.
     void make_tiles_if_needed();
 
     /// Whether the render mesh is the simulated one, vertex by vertex.

@@ -1,6 +1,7 @@
 #include "solver/plan/world_plan.h"
 
 #include "solver/plan/cloth_contact_numbers.h"
+#include "solver/plan/particle_contact_numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,16 +34,21 @@ class Planner {
         plan.substep.push_back({.kind = PassKind::predict});
         if (std::ranges::any_of(cloths_, &PlannedCloth::kinematic)) plan.substep.push_back({.kind = PassKind::targets});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
+        const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
+        const bool exact = std::ranges::any_of(cloths_, collides);
         for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) {
             if (settings_.solver.hierarchy) add_hierarchy(i == 0, plan.substep);
             add_constraints(i == 0, plan.substep);
+            if (i + 1 == settings_.solver.iterations) add_particle_contact(plan.substep);
             add_contact(i == 0, plan.substep);
         }
-        const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
-        const bool exact = std::ranges::any_of(cloths_, collides);
         if (exact) {
             add_cloth_contact(plan.substep);
             plan.iterations += contact_rounds - 1;
+        }
+        if (has_particle_contact(cloths_)) {
+            plan.substep.push_back({.kind = PassKind::hold_particles});
+            plan.substep.push_back({.kind = PassKind::settle_particles});
         }
         plan.substep.push_back({.kind = PassKind::velocities});
         if (exact) plan.substep.push_back({.kind = PassKind::separate});
@@ -116,11 +122,25 @@ class Planner {
     void add_cloth_contact(Passes& passes) const {
         passes.push_back({.kind = PassKind::detect});
         for (std::uint32_t round = 0; round < contact_rounds; ++round) {
-            if (round > 0) add_constraints(false, passes);
+            if (round > 0) {
+                add_constraints(false, passes);
+                add_particle_contact(passes);
+            }
             passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
             add_contact(false, passes);
         }
         passes.push_back({.kind = PassKind::limit});
+    }
+
+    // Each sweep checks the lists, because the one before it has moved particles.
+    void add_particle_contact(Passes& passes) const {
+        if (!has_particle_contact(cloths_)) return;
+        for (std::uint32_t sweep = 0; sweep < particle_sweeps; ++sweep) {
+            for (const PassKind kind :
+                 {PassKind::track_particles, PassKind::search_particles, PassKind::list_particles,
+                  PassKind::overlap_particles, PassKind::push_particles, PassKind::move_particles})
+                passes.push_back({.kind = kind});
+        }
     }
 
     // Contacts come last in an iteration, so that no particle is inside a collider after it.
@@ -226,6 +246,15 @@ WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth>
     return Planner(settings, cloths, links).run();
 }
 
+bool has_particle_contact(std::span<const PlannedCloth> cloths) {
+    return std::ranges::any_of(
+        cloths, [](const PlannedCloth& cloth) { return cloth.model->self_collision == SelfCollision::fast; });
+}
+
+bool has_particle_contact(const WorldPlan& plan) {
+    return std::ranges::any_of(plan.substep, [](const Pass& pass) { return is_particle_contact(pass.kind); });
+}
+
 bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     const ClothModel& model = *cloth.model;
     if (pass.source == RowSource::links) return false;
@@ -253,6 +282,15 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
         case PassKind::limit:
         case PassKind::separate:
             return model.tiles != nullptr;
+        case PassKind::track_particles:
+        case PassKind::search_particles:
+        case PassKind::list_particles:
+        case PassKind::overlap_particles:
+        case PassKind::push_particles:
+        case PassKind::move_particles:
+        case PassKind::hold_particles:
+        case PassKind::settle_particles:
+            return model.along_curve != nullptr;
         default:
             return true;
     }

@@ -61,6 +61,14 @@ constexpr bool is_cloth_contact(PassKind kind) {
            kind == PassKind::separate;
 }
 
+/// Whether any of the cloths collides by particles.
+bool has_particle_contact(std::span<const PlannedCloth> cloths);
+bool has_particle_contact(const WorldPlan& plan);
+/// Whether a pass is one of contact between particles.
+constexpr bool is_particle_contact(PassKind kind) {
+    return kind >= PassKind::track_particles && kind <= PassKind::settle_particles;
+}
+
 /// Whether a cloth has work in a pass.
 bool takes_part(const PlannedCloth& cloth, const Pass& pass);
 /// Whether the links of an island have work in a pass.

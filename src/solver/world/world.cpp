@@ -288,7 +288,7 @@ void World::make_islands() {
         for (const Stitch& stitch : group) ties.push_back({place_of(stitch.a), place_of(stitch.b)});
     std::optional<std::uint32_t> colliding;
     for (std::uint32_t place = 0; place < cloths_.size(); ++place) {
-        if (!cloths_[place].model->tiles) continue;
+        if (cloths_[place].model->self_collision == SelfCollision::off) continue;
         if (colliding) ties.push_back({*colliding, place});
         colliding = place;
     }

@@ -1,0 +1,333 @@
+#include "collide/particle_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft {
+namespace {
+
+// Part of a tile's margin that a particle may stray from the motion of its tile before the tile is listed anew. The
+// rest of the margins is for the motion of tiles relative to each other.
+constexpr float most_strayed = 0.3f;
+// How far a tile may leave the common motion before tiles near each other are searched again, in margins.
+constexpr float tile_reach = 3;
+// Listed pairs may be this much farther apart, because rounding makes distances inexact: a part of the margin, and of
+// the largest coordinate.
+constexpr float rounding_of_margin = 1e-3f, rounding_of_place = 1e-6f;
+
+Vec3 middle(const ParticleBox& box) {
+    return {0.5f * (box.low[0] + box.high[0]), 0.5f * (box.low[1] + box.high[1]), 0.5f * (box.low[2] + box.high[2])};
+}
+ParticleBox empty_box() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {{infinity, infinity, infinity, infinity}, {-infinity, -infinity, -infinity, -infinity}};
+}
+// Written so that compilers make one vector operation of each line.
+void extend(ParticleBox& box, const std::array<float, 4>& place) {
+    for (int k = 0; k < 4; ++k) box.low[k] = place[k] < box.low[k] ? place[k] : box.low[k];
+    for (int k = 0; k < 4; ++k) box.high[k] = place[k] > box.high[k] ? place[k] : box.high[k];
+}
+float largest_coordinate(const ParticleBox& box) {
+    float largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::fabs(box.low[k]), std::fabs(box.high[k])});
+    return largest;
+}
+// Distance between two boxes, the second one moved by `shift`.
+float gap_between(const ParticleBox& a, const ParticleBox& b, Vec3 shift) {
+    const std::array<float, 3> moved{shift.x, shift.y, shift.z};
+    float sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        const float gap = std::max({0.0f, b.low[k] + moved[k] - a.high[k], a.low[k] - b.high[k] - moved[k]});
+        sum += gap * gap;
+    }
+    return std::sqrt(sum);
+}
+bool overlap(const ParticleBox& a, const ParticleBox& b) {
+    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
+           a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
+}
+
+}  // namespace
+
+void ParticlePairs::reserve(std::size_t pairs) {
+    const std::size_t needed = pairs + 16;
+    if (one.size() >= needed) return;
+    const std::size_t room = needed + needed / 2;
+    one.resize(room), two.resize(room), diameter.resize(room);
+}
+
+void ParticlePairs::append(const ParticlePairs& other, std::uint32_t begin, std::uint32_t pairs) {
+    reserve(count + pairs);
+    std::copy_n(&other.one[begin], pairs, &one[count]);
+    std::copy_n(&other.two[begin], pairs, &two[count]);
+    std::copy_n(&other.diameter[begin], pairs, &diameter[count]);
+    count += pairs;
+}
+
+void ParticlePairs::pad(std::uint32_t with_particle) {
+    reserve(count);
+    std::fill_n(&one[count], 16, with_particle), std::fill_n(&two[count], 16, with_particle);
+    std::fill_n(&diameter[count], 16, 0.0f);
+}
+
+void ParticleSearch::set_cloths(const ParticleSearchLoops& loops, std::vector<SearchedParticles> cloths,
+                                unsigned workers) {
+    loops_ = &loops;
+    if (scratch_.size() < workers) scratch_.resize(workers);
+    if (cloths == cloths_) return;
+    cloths_ = std::move(cloths);
+    tiles_.clear(), listed_.clear();
+    for (std::uint32_t c = 0; c < cloths_.size(); ++c) {
+        const SearchedParticles& cloth = cloths_[c];
+        const auto size = static_cast<std::uint32_t>(cloth.order->size());
+        for (std::uint32_t begin = 0; begin < size; begin += particle_tile) {
+            ListedTile& listed = listed_.emplace_back();
+            const std::uint32_t count = std::min(particle_tile, size - begin);
+            listed.rest_box = empty_box();
+            for (std::uint32_t i = 0; i < particle_tile; ++i) {
+                const std::uint32_t p = (*cloth.order)[begin + std::min(i, count - 1)];
+                const Vec4 x = cloth.rest[p];
+                listed.particle[i] = cloth.base + p;
+                listed.rest[0][i] = x.x, listed.rest[1][i] = x.y, listed.rest[2][i] = x.z;
+                extend(listed.rest_box, {x.x, x.y, x.z, 0});
+            }
+            tiles_.push_back({.cloth = c, .count = count, .now = {}, .reach = {}});
+        }
+    }
+    motions_.assign(tiles_.size(), {});
+    listed_places_.assign(tiles_.size() * particle_tile, {});
+    rows_.assign(tiles_.size(), {});
+    near_.assign(tiles_.size(), {}), fresh_near_.assign(tiles_.size(), {});
+    reached_ = false;
+}
+
+// The box around the motions of all particles bounds how far any of them strays from its center. Comparisons leave out
+// what is not a number; the sum does not.
+void ParticleSearch::track(std::uint32_t tile, const Vec4* positions) {
+    const ListedTile& listed = listed_[tile];
+    const Vec4* places = &listed_places_[std::size_t{tile} * particle_tile];
+    ParticleBox now = empty_box(), motions = empty_box();
+    std::array<float, 4> sum{};
+    for (std::uint32_t i = 0; i < particle_tile; ++i) {
+        const Vec4 x = positions[listed.particle[i]], y = places[i];
+        const std::array<float, 4> moved{x.x - y.x, x.y - y.y, x.z - y.z, 0};
+        extend(now, {x.x, x.y, x.z, 0});
+        extend(motions, moved);
+        for (int k = 0; k < 4; ++k) sum[k] += moved[k];
+    }
+    tiles_[tile].now = now;
+    const Vec3 extent{motions.high[0] - motions.low[0], motions.high[1] - motions.low[1],
+                      motions.high[2] - motions.low[2]};
+    const bool finite = std::isfinite(sum[0] + sum[1] + sum[2]);
+    motions_[tile] = {middle(motions), finite ? 0.5f * length(extent) : std::numeric_limits<float>::infinity()};
+}
+
+void ParticleSearch::list_tile_anew(std::uint32_t tile, const Vec4* positions) {
+    ListedTile& listed = listed_[tile];
+    for (std::uint32_t i = 0; i < particle_tile; ++i) {
+        const Vec4 x = positions[listed.particle[i]];
+        const bool used = i < tiles_[tile].count;
+        listed.place[0][i] = used ? x.x : 1e18f, listed.place[1][i] = x.y, listed.place[2][i] = x.z;
+        listed_places_[std::size_t{tile} * particle_tile + i] = x;
+    }
+    listed.box = tiles_[tile].now;
+    motions_[tile] = {};
+}
+
+void ParticleSearch::find_outdated(const Vec4* positions, bool always) {
+    const bool finite = std::ranges::all_of(motions_, [](const Motion& one) { return std::isfinite(one.strayed); });
+    for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
+        Tile& tile = tiles_[t];
+        tile.outdated = always || !reached_ || !(motions_[t].strayed <= most_strayed * margin(tile));
+        if (tile.outdated) list_tile_anew(t, positions);
+    }
+    if (always || any_out_of_reach()) find_near_tiles();
+    reached_ = finite;  // lists made for positions that are not finite say nothing about the next ones
+}
+
+// Whether the particles of two tiles may have approached each other by more than a distance since their block was
+// listed.
+bool ParticleSearch::approached(std::uint32_t tile, const Block& block, float distance) const {
+    const Motion &a = motions_[tile], &b = motions_[block.other];
+    const Vec3 relative = b.moved - a.moved - block.shift;
+    const float left = distance - a.strayed - b.strayed;
+    return !(left >= 0 && dot(relative, relative) <= left * left);
+}
+
+bool ParticleSearch::any_out_of_reach() const {
+    if (!reached_) return true;
+    ParticleBox drifts = empty_box();
+    for (const Tile& tile : tiles_) {
+        const Vec3 drift = middle(tile.now) - middle(tile.reach);
+        extend(drifts, {drift.x, drift.y, drift.z, 0});
+    }
+    const Vec3 common = middle(drifts);
+    const std::array<float, 3> drift{common.x, common.y, common.z};
+    return std::ranges::any_of(tiles_, [&](const Tile& tile) {
+        bool inside = true;
+        for (int k = 0; k < 3; ++k)
+            inside = inside && tile.now.low[k] - drift[k] >= tile.reach.low[k] &&
+                     tile.now.high[k] - drift[k] <= tile.reach.high[k];
+        return !inside;
+    });
+}
+
+// Tiles sorted by strips along one axis, and along another axis within each strip.
+void ParticleSearch::sort_tiles() {
+    std::array<float, 3> spread{}, largest{};
+    ParticleBox centers = empty_box();
+    for (const Tile& tile : tiles_) {
+        const Vec3 c = middle(tile.reach);
+        extend(centers, {c.x, c.y, c.z, 0});
+        for (int k = 0; k < 3; ++k) largest[k] = std::max(largest[k], tile.reach.high[k] - tile.reach.low[k]);
+    }
+    for (int k = 0; k < 3; ++k) spread[k] = centers.high[k] - centers.low[k];
+    axes_[0] = static_cast<int>(std::ranges::max_element(spread) - spread.begin());
+    axes_[1] = spread[(axes_[0] + 1) % 3] > spread[(axes_[0] + 2) % 3] ? (axes_[0] + 1) % 3 : (axes_[0] + 2) % 3;
+    strip_width_ = std::max(largest[axes_[0]], 1e-3f * spread[axes_[0]]) + 1e-30f;
+    sorted_.clear();
+    for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
+        const Vec3 c = middle(tiles_[t].reach);
+        const std::array<float, 3> center{c.x, c.y, c.z};
+        // Not a number if a position is not; such a tile is near nothing.
+        const float along = (center[axes_[0]] - centers.low[axes_[0]]) / strip_width_;
+        if (!(along >= 0 && along < 1e6f) || !(std::fabs(center[axes_[1]]) < 1e30f)) continue;
+        sorted_.push_back({static_cast<std::int32_t>(along), center[axes_[1]], t});
+    }
+    std::ranges::sort(sorted_, [](const Sorted& a, const Sorted& b) {
+        if (a.strip != b.strip) return a.strip < b.strip;
+        return a.center != b.center ? a.center < b.center : a.tile < b.tile;
+    });
+}
+
+// Calls visit(tile) for the tiles whose centers are in the window along the second axis, in strips near that of `at`.
+template <class Visit>
+void ParticleSearch::for_each_in_window(const Sorted& at, float window, Visit&& visit) const {
+    float thickest = 0;
+    for (const SearchedParticles& cloth : cloths_) thickest = std::max(thickest, cloth.diameter + cloth.margin);
+    const auto strips = 1 + static_cast<std::int32_t>(std::min(1e6f, std::ceil(thickest / strip_width_)));
+    const auto before = [](const Sorted& a, const Sorted& b) {
+        return a.strip != b.strip ? a.strip < b.strip : a.center < b.center;
+    };
+    auto it = sorted_.begin();
+    for (std::int32_t strip = at.strip - strips; strip <= at.strip + strips; ++strip) {
+        it = std::lower_bound(it, sorted_.end(), Sorted{strip, at.center - window, 0}, before);
+        if (it == sorted_.end()) return;
+        if (it->strip > strip) {
+            strip = it->strip - 1;  // skips strips without tiles
+            continue;
+        }
+        for (; it != sorted_.end() && it->strip == strip && it->center <= at.center + window; ++it) visit(it->tile);
+    }
+}
+
+// For each tile, those that can come near while all tiles stay within their reach, apart from a common motion.
+void ParticleSearch::find_near_tiles() {
+    for (Tile& tile : tiles_) {
+        const float reach = tile_reach * margin(tile);
+        tile.reach = tile.now;
+        for (int k = 0; k < 3; ++k) tile.reach.low[k] -= reach, tile.reach.high[k] += reach;
+    }
+    reached_ = true;
+    sort_tiles();
+    // Half of what pairs of the tile's cloth may be apart, and a little for rounding.
+    const auto half = [&](const Tile& tile) {
+        return 0.505f * (cloths_[tile.cloth].diameter + cloths_[tile.cloth].margin);
+    };
+    const auto widened = [&](const Tile& tile) {
+        ParticleBox box = tile.reach;
+        for (int k = 0; k < 3; ++k) box.low[k] -= half(tile), box.high[k] += half(tile);
+        return box;
+    };
+    const auto half_length = [&](const Tile& tile) {
+        return half(tile) + 0.5f * (tile.reach.high[axes_[1]] - tile.reach.low[axes_[1]]);
+    };
+    float longest = 0;
+    for (const Tile& tile : tiles_) longest = std::max(longest, half_length(tile));
+    for (auto& list : fresh_near_) list.clear();
+    for (const Sorted& at : sorted_) {
+        const Tile& a = tiles_[at.tile];
+        const ParticleBox box = widened(a);
+        for_each_in_window(at, half_length(a) + longest, [&](std::uint32_t other) {
+            if (other < at.tile) return;
+            const Tile& b = tiles_[other];
+            if (!cloths_[a.cloth].with_alike && !cloths_[b.cloth].with_alike) return;
+            if (overlap(box, widened(b))) fresh_near_[at.tile].push_back(other);
+        });
+        std::ranges::sort(fresh_near_[at.tile]);
+    }
+    for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
+        if (near_[t] == fresh_near_[t]) continue;
+        std::swap(near_[t], fresh_near_[t]);
+        tiles_[t].renewed = true;
+    }
+}
+
+ParticleSearch::Block ParticleSearch::list_block(std::uint32_t tile, std::uint32_t other, ParticlePairs& pairs) const {
+    const ListedTile &a = listed_[tile], &b = listed_[other];
+    const SearchedParticles &of_a = cloths_[tiles_[tile].cloth], &of_b = cloths_[tiles_[other].cloth];
+    Block block{.other = other, .begin = pairs.count, .shift = motions_[other].moved - motions_[tile].moved};
+    const float margin = 0.5f * (of_a.margin + of_b.margin), diameter = 0.5f * (of_a.diameter + of_b.diameter);
+    const float rounding = rounding_of_margin * margin + rounding_of_place * (largest_coordinate(tiles_[tile].now) +
+                                                                              largest_coordinate(tiles_[other].now));
+    const float gap = gap_between(a.box, b.box, block.shift);
+    block.allowed = std::max(margin, gap - diameter - rounding);
+    if (gap > diameter + margin + rounding) return block;
+    const bool by_rest = &of_a == &of_b && gap_between(a.rest_box, b.rest_box, {}) * of_a.part_at_rest < diameter;
+    const TilesToList tiles{.one = &a,
+                            .two = &b,
+                            .shift = block.shift,
+                            .diameter = diameter,
+                            .margin = margin + rounding,
+                            .part_at_rest = of_a.part_at_rest,
+                            .by_rest = by_rest};
+    block.spare = loops_->list(tiles, pairs) - rounding;
+    block.count = pairs.count - block.begin;
+    return block;
+}
+
+// Keeps the valid blocks and lists the others anew.
+void ParticleSearch::relist(std::uint32_t tile, Scratch& scratch) {
+    Row& row = rows_[tile];
+    scratch.pairs.count = 0;
+    scratch.blocks.clear();
+    auto kept = row.blocks.begin();
+    for (const std::uint32_t other : near_[tile]) {
+        while (kept != row.blocks.end() && kept->other < other) ++kept;
+        const bool known = kept != row.blocks.end() && kept->other == other;
+        if (!known || tiles_[tile].outdated || tiles_[other].outdated || approached(tile, *kept, kept->allowed)) {
+            scratch.blocks.push_back(list_block(tile, other, scratch.pairs));
+            continue;
+        }
+        Block block = *kept;
+        block.begin = scratch.pairs.count;
+        if (block.count > 0) scratch.pairs.append(row.pairs, kept->begin, kept->count);
+        scratch.blocks.push_back(block);
+    }
+    scratch.pairs.pad(listed_[tile].particle[0]);
+    std::swap(scratch.pairs, row.pairs);
+    std::swap(scratch.blocks, row.blocks);
+}
+
+bool ParticleSearch::list(std::uint32_t tile, unsigned worker) {
+    Row& row = rows_[tile];
+    const bool outdated =
+        tiles_[tile].outdated || tiles_[tile].renewed || std::ranges::any_of(row.blocks, [&](const Block& block) {
+            return tiles_[block.other].outdated || approached(tile, block, block.allowed);
+        });
+    if (outdated) relist(tile, scratch_[worker]);
+    tiles_[tile].renewed = false;
+    row.runs.clear();
+    for (const Block& block : row.blocks) {
+        if (block.count == 0 || !approached(tile, block, block.spare)) continue;
+        if (!row.runs.empty() && row.runs.back()[1] == block.begin) {
+            row.runs.back()[1] += block.count;
+        } else {
+            row.runs.push_back({block.begin, block.begin + block.count});
+        }
+    }
+    return outdated;
+}
+
+}  // namespace weft

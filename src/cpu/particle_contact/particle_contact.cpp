@@ -1,0 +1,154 @@
+#include "cpu/particle_contact/particle_contact.h"
+
+#include "physics/scalar.h"
+#include "solver/plan/particle_contact_numbers.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace weft::cpu {
+namespace {
+
+float to_meters(std::uint32_t quanta) {
+    return static_cast<float>(static_cast<std::int32_t>(quanta)) * static_cast<float>(1 / WEFT_PUSH_QUANTA_PER_METER);
+}
+
+}  // namespace
+
+void ParticleContact::prepare(const Passes& passes, const ParticleContactContext& context, unsigned workers) {
+    WorldArrays& world = context.cloths.front()->world;
+    x_ = world.position.data(), start_ = world.start.data();
+    loops_ = &particle_loops_of(passes.isa);
+    h_ = frame_numbers(*context.cloths.front()->model, *context.step.plan, context.step.input.dt).h;
+    searches_ = 0;
+
+    const std::size_t size = world.size(), blocks = size / particle_block + 1;
+    std::vector<SearchedParticles> searched;
+    particles_.clear();
+    friction_.resize(blocks);
+    for (const ClothState* cloth : context.cloths) {
+        const ClothModel& model = *cloth->model;
+        if (!model.along_curve) continue;
+        searched.push_back({.order = model.along_curve,
+                            .base = cloth->base,
+                            .rest = model.start.data(),
+                            .diameter = particle_diameter(model),
+                            .margin = particle_margin(model),
+                            .part_at_rest = particle_part_at_rest,
+                            .with_alike = model.self_collision == SelfCollision::fast});
+        assert(cloth->base % particle_block == 0);
+        const std::uint32_t end = cloth->base + model.particle_count;
+        particles_.push_back({cloth->base, end});
+        const auto& [of_rest, of_motion] = model.fabric.contact.friction;
+        for (std::uint32_t block = cloth->base / particle_block; block * particle_block < end; ++block)
+            friction_[block] = {std::sqrt(of_rest), std::sqrt(of_motion), 0, 0};
+    }
+    search_.set_cloths(loops_->search, std::move(searched), workers);
+    parts_.resize(workers);
+    pushes_.clear();
+    for (Part& part : parts_) {
+        part.pushes.resize(size), part.sums.resize(size), part.touched.resize(blocks);
+        pushes_.push_back(part.pushes.data());
+    }
+}
+
+ClothContactCounts ParticleContact::counts() const {
+    ClothContactCounts counts{.searches = searches_};
+    for (const Part& part : parts_) counts.contacts += part.overlaps.count;
+    return counts;
+}
+
+// Each worker owns the same tiles in every pass, interleaved: neighboring tiles have similar work.
+template <class Visit>
+void ParticleContact::for_each_tile(Worker worker, Visit&& visit) const {
+    for (std::uint32_t tile = worker.number; tile < search_.tile_count(); tile += worker.count) visit(tile);
+}
+
+void ParticleContact::run(const Pass& pass, Worker worker) {
+    Part& part = parts_[worker.number];
+    switch (pass.kind) {
+        case PassKind::track_particles:
+            return for_each_tile(worker, [&](std::uint32_t tile) { search_.track(tile, x_); });
+        case PassKind::search_particles:
+            if (worker.number == 0) search_.find_outdated(x_, search_always_);
+            return;
+        case PassKind::list_particles:
+            part.searched = false;
+            return for_each_tile(worker,
+                                 [&](std::uint32_t tile) { part.searched |= search_.list(tile, worker.number); });
+        case PassKind::overlap_particles:
+            return find_overlaps(worker);
+        case PassKind::push_particles:
+            return loops_->push(input(), part.overlaps, part.sums.data());
+        case PassKind::move_particles:
+            return move(worker, x_);
+        case PassKind::hold_particles:
+            return loops_->hold(input(), part.overlaps, part.sums.data());
+        default:
+            // The velocity follows from the motion since the start of the substep. With the start moved, pushes do not
+            // make cloth bounce.
+            return move(worker, start_);
+    }
+}
+
+ParticleInput ParticleContact::input() const {
+    return {.position = &x_->x,
+            .start = &start_->x,
+            .friction = &friction_.data()->x,
+            .pushes = pushes_.data(),
+            .workers = static_cast<unsigned>(parts_.size()),
+            .recovery = particle_recovery_speed * h_,
+            .split = particle_split};
+}
+
+void ParticleContact::find_overlaps(Worker worker) {
+    Part& part = parts_[worker.number];
+    if (worker.number == 0) searches_ += std::ranges::any_of(parts_, &Part::searched);
+    for (const Range& particles : particles_) {
+        for (std::uint32_t p = particles.begin; p < particles.end; p += particle_block) {
+            if (!part.touched[p / particle_block]) continue;
+            part.touched[p / particle_block] = 0;
+            std::fill_n(&part.pushes[p], particle_block, 0u);
+        }
+    }
+    part.overlaps.count = 0;
+    for_each_tile(worker, [&](std::uint32_t tile) {
+        search_.for_each_run(tile, [&](const ParticlePairs& pairs, std::uint32_t begin, std::uint32_t end) {
+            part.overlaps.reserve(std::size_t{part.overlaps.count} + (end - begin));
+            loops_->find_overlaps(pairs, begin, end, &x_->x, part.overlaps, part.pushes.data());
+        });
+    });
+    part.overlaps.pad(particles_.front().begin);
+    if (part.overlaps.depth.size() < part.overlaps.one.size()) part.overlaps.depth.resize(part.overlaps.one.size());
+    for (std::uint32_t i = 0; i < part.overlaps.count; ++i) {
+        part.touched[part.overlaps.one[i] / particle_block] = 1;
+        part.touched[part.overlaps.two[i] / particle_block] = 1;
+    }
+}
+
+// Moves the worker's particles by the sums of all workers, and clears the sums.
+void ParticleContact::move(Worker worker, Vec4* places) {
+    for (const Range& particles : particles_) {
+        const Share share = worker.of(particles.end - particles.begin);
+        for (std::uint32_t p = particles.begin + share.begin; p < particles.begin + share.end; p += particle_block) {
+            const auto touched = [&](const Part& part) { return part.touched[p / particle_block] != 0; };
+            if (std::ranges::any_of(parts_, touched)) move_block(p, places);
+        }
+    }
+}
+
+void ParticleContact::move_block(std::uint32_t first, Vec4* places) {
+    for (std::uint32_t p = first; p < first + particle_block; ++p) {
+        ParticleSum sum{};
+        for (Part& part : parts_) {
+            for (int k = 0; k < 3; ++k) sum[k] += part.sums[p][k];
+            part.sums[p] = {};
+        }
+        if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0) continue;
+        Vec4& x = places[p];
+        x = {x.x + to_meters(sum[0]), x.y + to_meters(sum[1]), x.z + to_meters(sum[2]), x.w};
+    }
+}
+
+}  // namespace weft::cpu
