@@ -274,7 +274,8 @@ ParticleSearch::Block ParticleSearch::list_block(std::uint32_t tile, std::uint32
     const float gap = gap_between(a.box, b.box, block.shift);
     block.allowed = std::max(margin, gap - diameter - rounding);
     if (gap > diameter + margin + rounding) return block;
-    const bool by_rest = &of_a == &of_b && gap_between(a.rest_box, b.rest_box, {}) * of_a.part_at_rest < diameter;
+    const bool by_rest =
+        &of_a == &of_b && gap_between(a.rest_box, b.rest_box, {}) * of_a.part_at_rest < 1.001f * diameter;
     const TilesToList tiles{.one = &a,
                             .two = &b,
                             .shift = block.shift,

@@ -92,7 +92,8 @@ Result<void> FrameRun::compile_members() {
 
 Result<void> FrameRun::make_lists(const Lists& lists) {
     if (auto made = make_adhesion(lists.adhesion); !made) return made;
-    return make_cloth_contact(lists);
+    if (auto made = make_cloth_contact(lists); !made) return made;
+    return make_particle_contact(lists);
 }
 
 Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
@@ -111,11 +112,30 @@ Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
     return {};
 }
 
+Result<void> FrameRun::make_particle_contact(const Lists& lists) {
+    if (!has_particle_contact(plan_)) return {};
+    std::vector<ParticleContact::Member> members;
+    bool any = false;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const FrameInput& input = buffers_.input(i);
+        members.push_back({&members_[i].cloth->state(), input.frame(), input.report()});
+        any = any || members_[i].cloth->model().along_curve;
+    }
+    if (!any) return {};
+    auto made = ParticleContact::create(device_, programs_, members, lists.particle_pairs, lists.first_capacity,
+                                        lists.search_always, name());
+    if (!made) return made.errors();
+    particle_contact_ = std::move(*made);
+    return {};
+}
+
 Result<void> FrameRun::record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
                                       std::uint32_t member) const {
-    if (!is_cloth_contact(pass.kind)) return adhesion_->record(commands, pass, substep, member);
+    if (pass.source == RowSource::dynamic) return adhesion_->record(commands, pass, substep, member);
     // A replay of one cloth alone leaves contact out, whose results are always finite for finite positions.
-    return member == none ? cloth_contact_->record(commands, pass, substep) : Result<void>{};
+    if (member != none) return {};
+    if (is_particle_contact(pass.kind)) return particle_contact_->record(commands, pass, substep);
+    return cloth_contact_->record(commands, pass, substep);
 }
 
 Result<void> FrameRun::make_adhesion(std::uint32_t capacity) {
@@ -164,7 +184,8 @@ Result<void> FrameRun::end_recording() {
     buffers_.record_end(*commands_);
     if (adhesion_) adhesion_->record_end(*commands_);
     if (cloth_contact_) cloth_contact_->record_end(*commands_);
-    if (adhesion_ || cloth_contact_) commands_->host_barrier();
+    if (particle_contact_) particle_contact_->record_end(*commands_);
+    if (adhesion_ || cloth_contact_ || particle_contact_) commands_->host_barrier();
     return commands_->end();
 }
 

@@ -9,6 +9,7 @@
 #include "vulkan/dispatches.h"
 #include "vulkan/frame_input.h"
 #include "vulkan/lists/adhesion_list.h"
+#include "vulkan/particle_contact/particle_contact.h"
 
 #include <array>
 #include <memory>
@@ -45,6 +46,7 @@ class FrameRun {
         std::uint32_t first_capacity = 0;  ///< StepInput::list_capacity
         std::uint32_t adhesion = 0;        ///< constraints
         ClothContactRoom cloth_contact{};
+        std::uint32_t particle_pairs = 0;
         bool search_always = false;  ///< see VulkanOptions
     };
 
@@ -73,8 +75,10 @@ class FrameRun {
     const AdhesionList* adhesion() const { return adhesion_.get(); }
     /// Likewise for contact between cloths.
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
+    const ParticleContact* particle_contact() const { return particle_contact_.get(); }
     bool list_was_full() const {
         return (adhesion_ && adhesion_->wanted() > adhesion_->capacity()) ||
+               (particle_contact_ && particle_contact_->wanted() > particle_contact_->capacity()) ||
                (cloth_contact_ && !cloth_contact_->room().holds(cloth_contact_->wanted()));
     }
     /// Call when the device has finished the frame. Adds the stages' times to `stage_ms`.
@@ -98,6 +102,7 @@ class FrameRun {
     Result<void> make_lists(const Lists& lists);
     Result<void> make_adhesion(std::uint32_t capacity);
     Result<void> make_cloth_contact(const Lists& lists);
+    Result<void> make_particle_contact(const Lists& lists);
     Result<void> record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
                                 std::uint32_t member = none) const;
     Result<void> prepare_contact_forces();
@@ -122,9 +127,10 @@ class FrameRun {
     std::vector<LinkBuffers> links_;
     std::vector<CompiledPlan> plans_;
     CommandMemory memory_;
-    std::vector<std::uint32_t> first_command_;     ///< number in `memory_`, by member
-    std::unique_ptr<AdhesionList> adhesion_;       ///< null if nothing sticks
-    std::unique_ptr<ClothContact> cloth_contact_;  ///< null if no cloth collides with cloth
+    std::vector<std::uint32_t> first_command_;           ///< number in `memory_`, by member
+    std::unique_ptr<AdhesionList> adhesion_;             ///< null if nothing sticks
+    std::unique_ptr<ClothContact> cloth_contact_;        ///< null if no cloth collides exactly
+    std::unique_ptr<ParticleContact> particle_contact_;  ///< null if no cloth collides by particles
     CommandLists lists_;
     Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;

@@ -126,6 +126,16 @@ foreach(pass untangle clamp move ask send_back ask_again count slow)
     weft_shader(contact_${pass} cloth_contact/particles.comp WEFT_PASS=run_${pass})
 endforeach()
 
+weft_shader(spheres_bound particle_contact/bound.comp)
+weft_shader(spheres_list particle_contact/list.comp)
+weft_shader(spheres_overlap particle_contact/pairs.comp WEFT_CHECKS_ROOM WEFT_PASS=run_overlap)
+foreach(pass push hold)
+    weft_shader(spheres_${pass} particle_contact/pairs.comp WEFT_PASS=run_${pass})
+endforeach()
+foreach(pass track move settle)
+    weft_shader(spheres_${pass} particle_contact/particles.comp WEFT_PASS=run_${pass})
+endforeach()
+
 # One table of all, for shaders.cpp.
 weft_embed_shaders(${shader_output} vulkan_shaders ${shader_names})
 set_source_files_properties(${folder}/shaders.cpp PROPERTIES OBJECT_DEPENDS "${vulkan_shaders_depends}")

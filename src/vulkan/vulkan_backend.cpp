@@ -230,9 +230,6 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
     Result<std::unique_ptr<Cloth>> make_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) {
-        if (model->self_collision == SelfCollision::fast)
-            return Error{"cloth '" + model->name + "'",
-                         "self_collision \"fast\" runs on the CPU backend only so far (--backend cpu)"};
         if (auto room = make_room(std::uint64_t{base} + model->capacity()); !room) return room.errors();
         auto buffers = buffers_of(std::move(model));
         if (!buffers) return buffers.errors();
@@ -278,7 +275,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     // only one in its island, and there must be no dynamic lists and no contact between cloths, which all cloths share.
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
         const bool single_cloth = island.cloths.size() == 1 && !island.links && !has_lists(step) &&
-                                  !cloth(island.cloths.front().cloth).model().tiles;
+                                  !cloth(island.cloths.front().cloth).model().along_curve;
         if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
         return single_cloth && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model())
@@ -344,6 +341,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             {.first_capacity = step.input.list_capacity,
              .adhesion = std::max(list_capacity_, first_list_capacity(step.input.list_capacity)),
              .cloth_contact = contact_room_,
+             .particle_pairs = particle_pairs_,
              .search_always = search_always_});
         if (!run) return run.errors();
         runs_.push_back(std::move(*run));
@@ -359,15 +357,19 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     bool complete_lists(Group& group) {
         while (group.run->list_was_full()) {
             ++counts_.repeats;
-            const auto before = std::pair(list_capacity_, contact_room_);
+            const auto before = std::tuple(list_capacity_, contact_room_, particle_pairs_);
             if (const auto* list = group.run->adhesion(); list && list->wanted() > list->capacity())
                 list_capacity_ = grown_list_capacity(list->wanted());
             if (const auto* contact = group.run->cloth_contact())
                 contact_room_ = contact_room_.with(contact->room().grown(contact->wanted()));
+            if (const auto* particles = group.run->particle_contact();
+                particles && particles->wanted() > particles->capacity())
+                particle_pairs_ = grown_list_capacity(particles->wanted());
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
             auto run = find_run(*step_, group);
-            if (!run) std::tie(list_capacity_, contact_room_) = before;  // the next frame may need less
+            if (!run)
+                std::tie(list_capacity_, contact_room_, particle_pairs_) = before;  // the next frame may need less
             if (!run) return fail(group, run.error()), false;
             const auto value = (*run)->submit(step_->input, group.steps, true);
             if (!value) return fail(group, value.error()), false;
@@ -380,6 +382,11 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             counts_.capacity += list->capacity();
         }
         if (const auto* contact = group.run->cloth_contact()) contact_counts_ = contact->counts();
+        if (const auto* particles = group.run->particle_contact()) {
+            if (!group.run->cloth_contact()) contact_counts_ = {};
+            contact_counts_.contacts += particles->counts().contacts;
+            contact_counts_.searches += particles->counts().searches;
+        }
         return true;
     }
 
@@ -435,6 +442,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     ListCounts counts_;                      ///< of the last frame
     std::uint32_t list_capacity_ = 0;        ///< grown capacity of dynamic lists, in constraints
     vulkan::ClothContactRoom contact_room_;  ///< the same for contact between cloths
+    std::uint32_t particle_pairs_ = 0;       ///< the same for contact between particles
     ClothContactCounts contact_counts_;      ///< of the last frame
 };
 

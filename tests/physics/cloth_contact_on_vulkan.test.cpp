@@ -2,65 +2,10 @@
 
 #ifdef WEFT_VULKAN
 
-#include "falling_cloth.h"
+#include "backend_runs.h"
 
 namespace weft::physical {
 namespace {
-
-struct RunOfFrames {
-    std::string hash;
-    ClothContactCounts counts;  ///< of all frames
-    std::uint64_t repeats = 0;  ///< frames that ran again because a list was full
-};
-
-RunOfFrames run_frames(World& world, int frames) {
-    RunOfFrames result;
-    for (int i = 0; i < frames; ++i) {
-        world.step(1.0 / 60);
-        result.counts.add(world.frame().cloth_contacts);
-        result.repeats += world.frame().lists.repeats;
-    }
-    result.hash = world.state_hash();
-    return result;
-}
-
-World on_cpu(const WorldSettings& settings) {
-    return make_world(settings, CpuOptions{});
-}
-World on_vulkan(const WorldSettings& settings, const VulkanOptions& options = {}) {
-    return World(checked_vulkan_backend(options), settings);
-}
-
-bool rounds_like_the_cpu(const World& world) {
-    return world.backend().device().find("llvmpipe") != std::string::npos;
-}
-
-/// Adds the same cloths to a world on either backend and compares the runs. Devices that round divisions differently
-/// are tested for crossings only.
-template <class Add>
-RunOfFrames expect_equal(const WorldSettings& settings, Add&& add, int frames) {
-    World cpu = on_cpu(settings), vulkan = on_vulkan(settings);
-    add(cpu);
-    add(vulkan);
-    const RunOfFrames expected = run_frames(cpu, frames), result = run_frames(vulkan, frames);
-    EXPECT_EQ(crossings(vulkan), 0u);
-    if (!rounds_like_the_cpu(vulkan)) return result;
-    EXPECT_EQ(result.hash, expected.hash);
-    EXPECT_EQ(result.counts.contacts, expected.counts.contacts);
-    EXPECT_EQ(result.counts.limited, expected.counts.limited);
-    EXPECT_EQ(result.counts.tangled, expected.counts.tangled);
-    EXPECT_EQ(result.counts.tangled_particle, expected.counts.tangled_particle);
-    return result;
-}
-
-WorldSettings with_substeps(std::uint32_t substeps) {
-    return {.solver = {.substeps = substeps}};
-}
-
-void add_dropped(World& world, SheetDesc sheet) {
-    world.add(make_sheet(sheet));
-    add_ground(world);
-}
 
 // Labels: slow no-asan
 TEST(ClothContactOnVulkan, a_fallen_sheet_is_the_same_as_on_the_cpu) {

@@ -2,13 +2,15 @@
 
 #include "physics/scalar.h"
 #include "solver/plan/particle_contact_numbers.h"
+#include "solver/state/address_space.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace weft::cpu {
 namespace {
+
+static_assert(AddressSpace::reserved % particle_block == 0 && lane_padding % particle_block == 0);
 
 float to_meters(std::uint32_t quanta) {
     return static_cast<float>(static_cast<std::int32_t>(quanta)) * static_cast<float>(1 / WEFT_PUSH_QUANTA_PER_METER);
@@ -37,7 +39,6 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
                             .margin = particle_margin(model),
                             .part_at_rest = particle_part_at_rest,
                             .with_alike = model.self_collision == SelfCollision::fast});
-        assert(cloth->base % particle_block == 0);
         const std::uint32_t end = cloth->base + model.particle_count;
         particles_.push_back({cloth->base, end});
         const auto& [of_rest, of_motion] = model.fabric.contact.friction;

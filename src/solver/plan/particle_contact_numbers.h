@@ -8,6 +8,8 @@
 
 namespace weft {
 
+// A substep has one sweep of pushes. A second one costs as much as the first and leaves no fewer crossings.
+
 /// Diameter of a particle in mean edges. With 1, edges pass between particles.
 inline constexpr float particle_diameter_in_edges = 1.4f;
 /// Part of their distance at rest that two particles of one cloth keep at most. More hinders bending, and lists of
@@ -15,8 +17,6 @@ inline constexpr float particle_diameter_in_edges = 1.4f;
 inline constexpr float particle_part_at_rest = 0.5f;
 /// m/s at which an overlap from before the substep is removed at most.
 inline constexpr float particle_recovery_speed = 1;
-/// Sweeps of pushes in a substep. A second one costs as much as the first and leaves no fewer crossings.
-inline constexpr std::uint32_t particle_sweeps = 1;
 /// Part of the mass splitting that a push uses. In full, folded cloth is pushed apart too slowly and crosses itself.
 inline constexpr float particle_split = 0.35f;
 

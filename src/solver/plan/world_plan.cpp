@@ -122,25 +122,20 @@ class Planner {
     void add_cloth_contact(Passes& passes) const {
         passes.push_back({.kind = PassKind::detect});
         for (std::uint32_t round = 0; round < contact_rounds; ++round) {
-            if (round > 0) {
-                add_constraints(false, passes);
-                add_particle_contact(passes);
-            }
+            if (round > 0) add_constraints(false, passes);
             passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
             add_contact(false, passes);
         }
         passes.push_back({.kind = PassKind::limit});
     }
 
-    // Each sweep checks the lists, because the one before it has moved particles.
+    // One sweep in a substep. It comes before the rounds of exact contact, which limit how far particles move after
+    // them.
     void add_particle_contact(Passes& passes) const {
         if (!has_particle_contact(cloths_)) return;
-        for (std::uint32_t sweep = 0; sweep < particle_sweeps; ++sweep) {
-            for (const PassKind kind :
-                 {PassKind::track_particles, PassKind::search_particles, PassKind::list_particles,
-                  PassKind::overlap_particles, PassKind::push_particles, PassKind::move_particles})
-                passes.push_back({.kind = kind});
-        }
+        for (const PassKind kind : {PassKind::track_particles, PassKind::search_particles, PassKind::list_particles,
+                                    PassKind::overlap_particles, PassKind::push_particles, PassKind::move_particles})
+            passes.push_back({.kind = kind});
     }
 
     // Contacts come last in an iteration, so that no particle is inside a collider after it.
