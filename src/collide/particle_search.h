@@ -17,8 +17,8 @@
 
 namespace weft {
 
-/// Particles in a tile. A multiple of 16, the largest number of SIMD lanes.
-inline constexpr std::uint32_t particle_tile = 32;
+/// Particles in a tile: as many as a word of flags has. With fewer, handling tiles takes longer than handling pairs.
+inline constexpr std::uint32_t particle_tile = 64;
 
 /// A cloth as the search needs it.
 struct SearchedParticles {

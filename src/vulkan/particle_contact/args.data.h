@@ -4,7 +4,7 @@
 
 #include "vulkan/args.data.h"
 
-#define WEFT_PARTICLE_TILE 32   // particle_tile
+#define WEFT_PARTICLE_TILE 32   // particles in a tile
 #define WEFT_PARTICLE_BLOCK 16  // particles that share friction
 #define WEFT_PARTICLE_GROUP 128 // invocations of a workgroup
 

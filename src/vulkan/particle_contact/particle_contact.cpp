@@ -1,6 +1,5 @@
 #include "vulkan/particle_contact/particle_contact.h"
 
-#include "collide/particle_search.h"
 #include "solver/plan/particle_contact_numbers.h"
 #include "solver/state/list_counts.h"
 #include "vulkan/primitives/recorder.h"
@@ -13,7 +12,7 @@ namespace weft::vulkan {
 namespace {
 
 static_assert(sizeof(SphereTileIn) == 20 && sizeof(SpherePairIn) == 16 && sizeof(ParticleContactArgs) == 16);
-static_assert(WEFT_PARTICLE_TILE == particle_tile && WEFT_PARTICLE_GROUP == WEFT_GROUP);
+static_assert(WEFT_PARTICLE_GROUP == WEFT_GROUP);
 
 // Workgroups of a pass over the listed pairs at most: enough to fill a device.
 constexpr std::uint32_t most_pair_groups = 4096;
@@ -27,13 +26,13 @@ struct SphereArrays {
     void add(const ClothModel& model, std::uint32_t cloth, std::uint32_t base) {
         const std::vector<std::uint32_t>& order = *model.along_curve;
         const auto size = static_cast<std::uint32_t>(order.size());
-        for (std::uint32_t begin = 0; begin < size; begin += particle_tile) {
-            tiles.push_back({.count = std::min(particle_tile, size - begin),
+        for (std::uint32_t begin = 0; begin < size; begin += WEFT_PARTICLE_TILE) {
+            tiles.push_back({.count = std::min<std::uint32_t>(WEFT_PARTICLE_TILE, size - begin),
                              .cloth = cloth,
                              .with_alike = model.self_collision == SelfCollision::fast,
                              .diameter = particle_diameter(model),
                              .margin = particle_margin(model)});
-            for (std::uint32_t i = begin; i < begin + particle_tile; ++i) {
+            for (std::uint32_t i = begin; i < begin + WEFT_PARTICLE_TILE; ++i) {
                 const std::uint32_t p = order[std::min(i, size - 1)];
                 particles.push_back(base + p);
                 rest.push_back(model.start[p]);
@@ -74,7 +73,7 @@ Result<void> ParticleContact::build(std::span<const Member> members, std::uint32
         end = std::max(end, std::uint64_t{cloth.base()} + cloth.model().capacity());
     }
     tiles_ = static_cast<std::uint32_t>(arrays.tiles.size());
-    const double pairs = 8.0 * particle_tile * tiles_ * first_capacity / default_list_capacity;
+    const double pairs = 8.0 * WEFT_PARTICLE_TILE * tiles_ * first_capacity / default_list_capacity;
     capacity_ = std::max(capacity_, static_cast<std::uint32_t>(std::min(64 + pairs, double{most_list_rows})));
 
     constexpr std::uint64_t word = sizeof(std::uint32_t);
@@ -111,7 +110,7 @@ Result<void> ParticleContact::record(gpu::Commands& commands, const Pass& pass, 
     Recorder passes(device_, programs_, commands);
     const ParticleContactArgs args{
         .data = data_arena_.address(data_), .first_of_frame = substep == 0 ? 1u : 0u, .unused = 0};
-    const std::uint32_t of_particles = groups_of(tiles_ * particle_tile, WEFT_PARTICLE_GROUP);
+    const std::uint32_t of_particles = groups_of(tiles_ * WEFT_PARTICLE_TILE, WEFT_PARTICLE_GROUP);
     const std::uint32_t of_pairs = std::min(groups_of(capacity_, WEFT_PARTICLE_GROUP), most_pair_groups);
     switch (pass.kind) {
         case PassKind::track_particles:
