@@ -231,23 +231,28 @@ TEST_F(Cli, check_warns_of_cloth_that_crosses_at_the_start) {
     };
     EXPECT_TRUE(check("0.01", "true"));
     EXPECT_FALSE(check("1", "true"));
+    EXPECT_TRUE(check("0.01", R"("fast")"));
+    EXPECT_FALSE(check("1", R"("fast")"));
     EXPECT_FALSE(check("0.01", "false"));
 }
 
 // The statistics must show it.
 TEST_F(Cli, cloth_falls_on_cloth_without_crossings) {
-    const std::string sheet = R"("mesh": { "grid": { "resolution": [8, 8] } }, "self_collision": "exact")";
-    write("fall.json",
-          R"({ "weft": 1, "cloths": [{ )" + sheet + R"( }, { )" + sheet +
-              R"(, "transform": { "position": [0, 0.1, 0], "rotation": [4, 10, 0] }, "velocity": [0, -3, 0] }],
-                           "colliders": [{ "plane": { "offset": -0.1 } }] })");
-    const Outcome outcome = weft("run fall.json --frames 30 --crossings every --stats fall_stats.json --quiet");
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const nlohmann::json stats = nlohmann::json::parse(read_file(folder_ / "fall_stats.json"));
-    EXPECT_EQ(stats["intersections"]["worst"], 0);
-    EXPECT_GT(stats["searches"], 0);
-    EXPECT_GT(stats["self_contacts"], 0);
-    EXPECT_GT(stats["stage_ms"]["cloth contact"], 0);
+    for (const std::string self_collision : {"exact", "fast"}) {
+        const std::string sheet =
+            R"("mesh": { "grid": { "resolution": [8, 8] } }, "self_collision": ")" + self_collision + '"';
+        write("fall.json",
+              R"({ "weft": 1, "cloths": [{ )" + sheet + R"( }, { )" + sheet +
+                  R"(, "transform": { "position": [0, 0.25, 0], "rotation": [4, 10, 0] }, "velocity": [0, -3, 0] }],
+                               "colliders": [{ "plane": { "offset": -0.1 } }] })");
+        const Outcome outcome = weft("run fall.json --frames 30 --crossings every --stats fall_stats.json --quiet");
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const nlohmann::json stats = nlohmann::json::parse(read_file(folder_ / "fall_stats.json"));
+        EXPECT_EQ(stats["intersections"]["worst"], 0);
+        EXPECT_GT(stats["searches"], 0);
+        EXPECT_GT(stats["self_contacts"], 0);
+        EXPECT_GT(stats["stage_ms"]["cloth contact"], 0);
+    }
 }
 
 TEST_F(Cli, check_warns_of_pictures_that_are_not_found) {

@@ -77,9 +77,11 @@ TEST(SceneWriter, NoKeyIsForgotten) {
 }
 
 TEST(SceneWriter, WritesSelfCollisionAsAWord) {
-    EXPECT_EQ(rewritten(R"({"weft": 1, "cloths": [{"self_collision": true}, {"self_collision": false}]})"), R"({
+    EXPECT_EQ(rewritten(R"({"weft": 1, "cloths": [{"self_collision": true}, {"self_collision": "fast"},
+                                                {"self_collision": false}]})"),
+              R"({
     "weft": 1,
-    "cloths": [{ "self_collision": "exact" }, {}]
+    "cloths": [{ "self_collision": "exact" }, { "self_collision": "fast" }, {}]
 }
 )");
 }
