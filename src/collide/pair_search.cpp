@@ -132,7 +132,7 @@ void PairSearch::follow(const Vec4* from, const Vec4* to, const Vec4* velocity, 
 void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h,
                         bool anywhere) {
     const std::uint32_t count = tile.tile->vertex_count;
-    float fastest = 0, farthest = 0;
+    float fastest = 0, farthest = 0, most_off = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t p = tile.particle[i];
         const Vec3 v = velocity[p].xyz() * h, moved = to[p].xyz() - from[p].xyz();
@@ -158,6 +158,7 @@ void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const
         }
         tile.place[0][i] = place.x, tile.place[1][i] = place.y, tile.place[2][i] = place.z;
         tile.velocity[0][i] = v.x, tile.velocity[1][i] = v.y, tile.velocity[2][i] = v.z;
+        most_off = std::max(most_off, squared(moved - v));
         if (i < count) mean = mean + v;
     }
     tile.mean_velocity = mean * (1.0f / static_cast<float>(count));
@@ -169,9 +170,9 @@ void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const
                                               : tile.moving   ? std::min<std::int64_t>(longest_lifetime, adapted)
                                                               : longest_lifetime);
     tile.listed = tick_;
-    tile.bounded = -1;
+    tile.bounded = tile.gathered = -1;
     tile.spread = 0;
-    tile.strays.fill(slack_here);
+    tile.strays.fill(std::min(slack_here, 0.5f * std::sqrt(most_off) + 0.01f * slack_here));
     if (!tile.moving) return;
     if (anywhere) {
         tile.lifetime = 1;
@@ -193,6 +194,12 @@ void PairSearch::bound(TileState& tile) {
     tile.bounded = tick_;
     loops_->bound(tile, static_cast<float>(tick_ - tile.listed),
                   tile.moving ? static_cast<float>(tile.lifetime) : 0.0f);
+}
+
+void PairSearch::gather(TileState& tile) {
+    if (tile.gathered == tile.bounded) return;
+    tile.gathered = tile.bounded;
+    loops_->gather(tile);
 }
 
 // For each outdated tile, the tiles whose boxes come near while the list can last.
@@ -295,7 +302,8 @@ void PairSearch::list_block(std::uint32_t a, std::uint32_t b, TilePairs& row) {
     TilePairs::Block block{.other = b, .listed = tick_};
     const TileReach how = reach(tiles_[a], tiles_[b], block.until);
     for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
-    loops_->list_pairs(tiles_[a], tiles_[b], how, scratch_, row.lists);
+    gather(tiles_[a]), gather(tiles_[b]);
+    loops_->list_pairs(tiles_[a], tiles_[b], how, *scratch_, row.lists);
     for (int kind = 0; kind < 2; ++kind) block.count[kind] = row.lists[kind].count - block.begin[kind];
     for (int kind = 0; kind < 2; ++kind) {
         const auto spare = std::span(row.lists[kind].spare).subspan(block.begin[kind], block.count[kind]);

@@ -21,6 +21,16 @@ struct BoxArrays {
     alignas(cache_line) std::array<std::array<float, Count>, 3> center, half;
 };
 
+/// Features of one kind of a tile, as arrays. Neighboring features form groups, which have boxes too.
+template <std::size_t Count, std::size_t Corners>
+struct FeatureArrays {
+    alignas(cache_line) std::array<std::array<std::array<float, Count>, 3>, Corners> corner;  ///< m, [corner][axis][feature]
+    std::array<std::array<float, Count>, Corners> number;  ///< of the corners' particles: equal for equal particles
+    alignas(cache_line) std::array<float, Count> away;     ///< m: how far a corner may be from its place
+    BoxArrays<Count> boxes;
+    BoxArrays<16> groups;
+};
+
 /// A cloth as the search needs it.
 struct SearchedCloth {
     std::shared_ptr<const std::vector<Tile>> tiles;
@@ -46,13 +56,16 @@ struct TileState {
     /// m: bound on the distance of its vertices from their trajectories, at the start and at the end of the tick.
     std::array<float, 2> strays{};
 
-    // At the current tick.
-    std::int64_t bounded = -1;                                ///< the tick that the following is valid for
+    // At the tick `bounded`.
+    std::int64_t bounded = -1;
     alignas(cache_line) std::array<Vec4, tile_vertices> now;  ///< w: farthest deviation from the mean motion
-    BoxArrays<tile_vertices> vertex_boxes;
-    BoxArrays<tile_edges> edge_boxes;
-    BoxArrays<tile_triangles> triangle_boxes;
-    std::array<float, 3> center, half;  ///< of all boxes
+    std::array<float, 3> center, half;                        ///< of the box around all vertices
+
+    // At the tick `gathered`.
+    std::int64_t gathered = -1;
+    FeatureArrays<tile_vertices, 1> vertices;  ///< that it owns
+    FeatureArrays<tile_edges, 2> edges;
+    FeatureArrays<tile_triangles, 3> triangles;
 
     std::uint32_t base() const { return particle[0] - tile->particle[0]; }  ///< of the cloth
 };
@@ -97,28 +110,27 @@ struct TileReach {
 
 /// Working memory of SearchLoops::list_pairs.
 struct SearchScratch {
-    /// Features whose boxes come near the other tile.
-    template <std::size_t Count>
-    struct Culled {
-        std::array<std::uint32_t, Count + 16> feature;
-        alignas(cache_line) std::array<std::array<float, Count + 16>, 3> center, half;
-        std::uint32_t count = 0;
-    };
-    Culled<tile_edges> a, b;
-    // Of the candidates, the pairs whose boxes meet.
-    std::array<AlignedVector<std::uint32_t>, 4> vertex;    ///< in their tiles
+    static constexpr std::size_t most_pairs = std::size_t{tile_edges} * tile_edges;
+    // Packets of pairs whose boxes meet: one feature, and those of as many following ones that have a bit.
+    std::array<std::uint32_t, most_pairs + 1> one, first_of_two, bits;
+    alignas(cache_line) std::array<float, most_pairs> packet_distance;  ///< m, by packet and lane
+    std::uint32_t packets = 0;
+
+    // Pairs that come within the thickness of their tiles.
     std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in their cloths
-    AlignedVector<float> least;                            ///< m: least thickness that makes the pair worth listing
-    AlignedVector<float> distance;                         ///< m
-    std::uint32_t candidates = 0;
+    AlignedVector<float> far;       ///< m: how much farther than their thickness the pairs to be listed may be apart
+    AlignedVector<float> distance;  ///< m
+    std::uint32_t count = 0;
 };
 
 /// The inner loops, one table per instruction set.
 struct SearchLoops {
     /// Largest distance of a vertex from its listed trajectory, m. Not a number if a position is not.
     float (*deviation)(const TileState&, const float* positions, float ticks);
-    /// Boxes of all features at a tick, `ticks` after the list was made, for the next `lifetime` ticks.
+    /// Vertices at a tick, `ticks` after the list was made, and their box for the next `lifetime` ticks.
     void (*bound)(TileState&, float ticks, float lifetime);
+    /// Features of a tile whose vertices are bounded.
+    void (*gather)(TileState&);
     /// Appends the pairs of features of both tiles to `lists`.
     void (*list_pairs)(const TileState& a, const TileState& b, const TileReach&, SearchScratch&,
                        std::array<PairList, 2>& lists);
@@ -161,6 +173,7 @@ class PairSearch {
     std::int64_t remaining(const TileState& tile) const;
     void follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere);
     void bound(TileState& tile);
+    void gather(TileState& tile);
     void find_near_tiles();
     int sort_tiles();
     float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
@@ -180,7 +193,7 @@ class PairSearch {
     std::uint64_t searched_ = 0;
     float thickest_ = 0, most_slack_ = 0;
     TilePairs fresh_;
-    SearchScratch scratch_;
+    std::unique_ptr<SearchScratch> scratch_ = std::make_unique<SearchScratch>();
 };
 
 }  // namespace weft

@@ -19,105 +19,147 @@ inline float tile_deviation(const TileState& tile, const float* positions, float
     return farthest;
 }
 
-template <std::size_t Count>
-WEFT_FN void store_box(BoxArrays<Count>& boxes, std::uint32_t i, int axis, real low, real high, real widen) {
-    store((low + high) * real(0.5f), &boxes.center[axis][i]);
-    store((high - low) * real(0.5f) + widen, &boxes.half[axis][i]);
-}
-
 inline void bound_tile(TileState& tile, float ticks, float lifetime) {
-    const Tile& mesh = *tile.tile;
     const vec3 mean(real(tile.mean_velocity.x), real(tile.mean_velocity.y), real(tile.mean_velocity.z));
-    for (std::uint32_t i = 0; i < tile_vertices; i += lane_count) {
+    const real far(std::numeric_limits<float>::infinity());
+    real low[3] = {far, far, far}, high[3] = {-far, -far, -far};
+    for (std::uint32_t i = 0; i < tile_vertices; i += lane_count) {  // unused places repeat the first vertex
         const vec3 place(load(&tile.place[0][i]), load(&tile.place[1][i]), load(&tile.place[2][i]));
         const vec3 velocity(load(&tile.velocity[0][i]), load(&tile.velocity[1][i]), load(&tile.velocity[2][i]));
         const vec3 x = place + velocity * real(ticks), relative = velocity - mean;
         const real away = sqrt(dot(relative, relative)) * real(lifetime) + load(&tile.around[i]);
         store_blocks(x, away, &tile.now[i].x);
         const real axes[3] = {x.x, x.y, x.z};
-        for (int k = 0; k < 3; ++k) store(axes[k], &tile.vertex_boxes.center[k][i]), store(away, &tile.vertex_boxes.half[k][i]);
-    }
-    const float* now = &tile.now[0].x;
-    for (std::uint32_t i = 0; i < mesh.edge_count; i += lane_count) {
-        real away0, away1;
-        const vec3 p = gather_blocks(now, &mesh.edge[0][i], away0), q = gather_blocks(now, &mesh.edge[1][i], away1);
-        const real away = max(away0, away1);
-        store_box(tile.edge_boxes, i, 0, min(p.x, q.x), max(p.x, q.x), away);
-        store_box(tile.edge_boxes, i, 1, min(p.y, q.y), max(p.y, q.y), away);
-        store_box(tile.edge_boxes, i, 2, min(p.z, q.z), max(p.z, q.z), away);
-    }
-    for (std::uint32_t i = 0; i < mesh.triangle_count; i += lane_count) {
-        real away0, away1, away2;
-        const vec3 p = gather_blocks(now, &mesh.triangle[0][i], away0), q = gather_blocks(now, &mesh.triangle[1][i], away1),
-                   r = gather_blocks(now, &mesh.triangle[2][i], away2);
-        const real away = max(away0, max(away1, away2));
-        const auto box = [&](int axis, real a, real b, real c) {
-            store_box(tile.triangle_boxes, i, axis, min(a, min(b, c)), max(a, max(b, c)), away);
-        };
-        box(0, p.x, q.x, r.x), box(1, p.y, q.y, r.y), box(2, p.z, q.z, r.z);
+        for (int k = 0; k < 3; ++k) low[k] = min(low[k], axes[k] - away), high[k] = max(high[k], axes[k] + away);
     }
     for (int k = 0; k < 3; ++k) {
-        float low = std::numeric_limits<float>::infinity(), high = -low;
-        for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
-            const float center = tile.triangle_boxes.center[k][i], half = tile.triangle_boxes.half[k][i];
-            low = std::min(low, center - half), high = std::max(high, center + half);
-        }
-        tile.center[k] = 0.5f * (low + high);
-        tile.half[k] = 0.5f * (high - low);
+        alignas(64) float lows[16], highs[16];
+        store(low[k], lows), store(high[k], highs);
+        const float lowest = *std::min_element(lows, lows + lane_count);
+        const float highest = *std::max_element(highs, highs + lane_count);
+        tile.center[k] = 0.5f * (lowest + highest);
+        tile.half[k] = 0.5f * (highest - lowest);
     }
 }
 
-// Features of a tile whose boxes, displaced by `sign` times half of the tiles' relative motion, meet the other tile's.
+// Features in a group: whole packets of lanes, and at most 16 groups of each kind.
+constexpr std::uint32_t feature_group = lane_count < 8 ? 8 : lane_count;
+
+// Boxes around groups of features. Groups without features are far away.
 template <std::size_t Count>
-WEFT_FN void cull(SearchScratch::Culled<tile_edges>& out, std::uint32_t count, const BoxArrays<Count>& boxes,
-                  const TileState& other, const TileReach& reach, float sign) {
-    out.count = 0;
-    for (std::uint32_t i = 0; i < count; i += lane_count) {
-        mask meet = real(0.0f) < real(1.0f);
+WEFT_FN void bound_groups(const BoxArrays<Count>& boxes, std::uint32_t count, BoxArrays<16>& groups) {
+    for (std::uint32_t group = 0; group < 16; ++group) {
+        const std::uint32_t begin = group * feature_group, end = std::min(begin + feature_group, count);
         for (int k = 0; k < 3; ++k) {
-            const real distance = abs(load(&boxes.center[k][i]) - real(other.center[k] + sign * reach.shift[k]));
-            meet = meet && distance < load(&boxes.half[k][i]) + real(other.half[k] + reach.widen[k]);
+            float low = std::numeric_limits<float>::infinity(), high = -low;
+            for (std::uint32_t i = begin; i < end; ++i) {
+                low = std::min(low, boxes.center[k][i] - boxes.half[k][i]);
+                high = std::max(high, boxes.center[k][i] + boxes.half[k][i]);
+            }
+            groups.center[k][group] = begin < end ? 0.5f * (low + high) : 1e18f;
+            groups.half[k][group] = begin < end ? 0.5f * (high - low) : 0;
         }
-        for_each_bit(bits_of(meet) & lanes_before(i, count), [&](std::uint32_t lane) {
-            const std::uint32_t at = out.count++;
-            out.feature[at] = i + lane;
+    }
+}
+
+// A float for each particle's number. Not the number itself, which a float holds up to 2^24 only.
+WEFT_FN float distinct_float(std::uint32_t particle) { return std::bit_cast<float>(0x3f800000u + particle); }
+
+// `vertex`: by corner, the vertices of the features.
+template <std::size_t Count, std::size_t Corners>
+WEFT_FN void gather_features(const float* now, const std::array<const std::uint32_t*, Corners>& vertex,
+                             std::uint32_t count, const std::uint32_t* particle,
+                             FeatureArrays<Count, Corners>& features) {
+    for (std::uint32_t i = 0; i < count; i += lane_count) {
+        real low[3], high[3], away(0.0f);
+        for (std::size_t c = 0; c < Corners; ++c) {
+            real away_here;
+            const vec3 x = gather_blocks(now, vertex[c] + i, away_here);
+            away = max(away, away_here);
+            const real axes[3] = {x.x, x.y, x.z};
             for (int k = 0; k < 3; ++k) {
-                out.center[k][at] = boxes.center[k][i + lane];
-                out.half[k][at] = boxes.half[k][i + lane];
+                store(axes[k], &features.corner[c][k][i]);
+                low[k] = c == 0 ? axes[k] : min(low[k], axes[k]);
+                high[k] = c == 0 ? axes[k] : max(high[k], axes[k]);
+            }
+        }
+        store(away, &features.away[i]);
+        for (int k = 0; k < 3; ++k) {
+            store((low[k] + high[k]) * real(0.5f), &features.boxes.center[k][i]);
+            store((high[k] - low[k]) * real(0.5f) + away, &features.boxes.half[k][i]);
+        }
+    }
+    for (std::size_t c = 0; c < Corners; ++c)
+        for (std::uint32_t i = 0; i < count; ++i) features.number[c][i] = distinct_float(particle[vertex[c][i]]);
+    bound_groups(features.boxes, count, features.groups);
+}
+
+inline void gather_tile(TileState& tile) {
+    static constexpr auto itself = [] {
+        std::array<std::uint32_t, tile_vertices> number{};
+        for (std::uint32_t i = 0; i < tile_vertices; ++i) number[i] = i;
+        return number;
+    }();
+    const Tile& mesh = *tile.tile;
+    const float* now = &tile.now[0].x;
+    gather_features<tile_vertices, 1>(now, {itself.data()}, mesh.own_vertices, tile.particle.data(), tile.vertices);
+    gather_features<tile_edges, 2>(now, {mesh.edge[0].data(), mesh.edge[1].data()}, mesh.edge_count, tile.particle.data(), tile.edges);
+    gather_features<tile_triangles, 3>(now, {mesh.triangle[0].data(), mesh.triangle[1].data(), mesh.triangle[2].data()},
+                                       mesh.triangle_count, tile.particle.data(), tile.triangles);
+}
+
+// A box, and whether others meet it.
+struct BoxTest {
+    real center[3], half[3];
+
+    WEFT_FN BoxTest(const float* of_center, const float* of_half, std::size_t stride, const TileReach& reach, float sign) {
+        for (int k = 0; k < 3; ++k) {
+            center[k] = real(of_center[k * stride] + sign * reach.shift[k]);
+            half[k] = real(of_half[k * stride] + reach.widen[k]);
+        }
+    }
+    template <std::size_t Count>
+    WEFT_FN std::uint32_t meets(const BoxArrays<Count>& boxes, std::uint32_t i) const {
+        return bits_of(abs(center[0] - load(&boxes.center[0][i])) < half[0] + load(&boxes.half[0][i]) &&
+                       abs(center[1] - load(&boxes.center[1][i])) < half[1] + load(&boxes.half[1][i]) &&
+                       abs(center[2] - load(&boxes.center[2][i])) < half[2] + load(&boxes.half[2][i]));
+    }
+    // Of 16 groups.
+    WEFT_FN std::uint32_t meets_groups(const BoxArrays<16>& groups) const {
+        std::uint32_t bits = 0;
+        for (std::uint32_t g = 0; g < 16; g += lane_count) bits |= meets(groups, g) << g;
+        return bits;
+    }
+};
+
+// Finds the pairs of features whose boxes meet. `b` is displaced by twice `sign` times the shift: both go half of the
+// way. `same`: finds each pair of features of one kind once. Without branches that depend on the outcome of a test.
+template <class A, class B>
+WEFT_FN void find_meeting_boxes(const TileState& b, const A& of_a, std::uint32_t count_a, const B& of_b, std::uint32_t count_b,
+                                bool same, const TileReach& reach, float sign, SearchScratch& scratch) {
+    constexpr std::size_t stride_a = sizeof of_a.boxes.center[0] / sizeof(float);
+    std::uint32_t packets = 0;
+    const BoxTest all(b.center.data(), b.half.data(), 1, reach, sign);
+    for_each_bit(all.meets_groups(of_a.groups), [&](std::uint32_t group_a) {
+        const BoxTest group(&of_a.groups.center[0][group_a], &of_a.groups.half[0][group_a], 16, reach, -sign);
+        std::uint32_t groups_b = group.meets_groups(of_b.groups);
+        if (same) groups_b &= ~0u << group_a;
+        const std::uint32_t begin = group_a * feature_group, end = std::min(begin + feature_group, count_a);
+        for_each_bit(groups_b, [&](std::uint32_t group_b) {
+            const std::uint32_t first = group_b * feature_group, last = std::min(first + feature_group, count_b);
+            for (std::uint32_t j = first; j < last; j += lane_count) {
+                const std::uint32_t used = lanes_before(j, count_b);
+                for (std::uint32_t i = begin; i < end; ++i) {
+                    const BoxTest one(&of_a.boxes.center[0][i], &of_a.boxes.half[0][i], stride_a, reach, -sign);
+                    std::uint32_t bits = one.meets(of_b.boxes, j) & used;
+                    if (same) bits = i < j ? bits : i - j < lane_count - 1 ? bits & (~1u << (i - j)) : 0;
+                    scratch.one[packets] = i, scratch.first_of_two[packets] = j, scratch.bits[packets] = bits;
+                    packets += bits != 0;
+                }
             }
         });
-    }
-    for (int k = 0; k < 3; ++k) std::fill_n(&out.center[k][out.count], 16, 1e9f), std::fill_n(&out.half[k][out.count], 16, 0.0f);
-}
-
-// Calls visit(feature of a, feature of b) where their boxes meet.
-template <class Visit>
-WEFT_FN void for_each_meeting(const SearchScratch::Culled<tile_edges>& a, const SearchScratch::Culled<tile_edges>& b,
-                              bool same, const TileReach& reach, float sign, Visit&& visit) {
-    for (std::uint32_t i = 0; i < a.count; ++i) {
-        real center[3], half[3];
-        for (int k = 0; k < 3; ++k) {
-            center[k] = real(a.center[k][i] - sign * reach.shift[k]);
-            half[k] = real(a.half[k][i] + reach.widen[k]);
-        }
-        for (std::uint32_t j = same ? (i + 1) / lane_count * lane_count : 0; j < b.count; j += lane_count) {
-            const mask meet = abs(center[0] - load(&b.center[0][j])) < half[0] + load(&b.half[0][j]) &&
-                              abs(center[1] - load(&b.center[1][j])) < half[1] + load(&b.half[1][j]) &&
-                              abs(center[2] - load(&b.center[2][j])) < half[2] + load(&b.half[2][j]);
-            for_each_bit(bits_of(meet), [&](std::uint32_t lane) {
-                if (!same || j + lane > i) visit(a.feature[i], b.feature[j + lane]);
-            });
-        }
-    }
-}
-
-// Makes room for one more candidate and a padded packet after it.
-inline void reserve_candidates(SearchScratch& scratch, std::size_t count) {
-    if (scratch.least.size() >= count + 32) return;
-    const std::size_t room = 2 * count + 256;
-    for (auto* arrays : {&scratch.vertex, &scratch.particle})
-        for (auto& array : *arrays) array.resize(room);
-    scratch.least.resize(room), scratch.distance.resize(room);
+    });
+    scratch.packets = packets;
 }
 
 template <PairKind kind>
@@ -126,114 +168,124 @@ WEFT_FN ClosestPoints closest(const vec3* x) {
     else return closest_edge_edge(x[0], x[1], x[2], x[3]);
 }
 
-// Appends the candidates that come within their thickness.
-template <PairKind kind>
-inline void list_candidates(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
-                            PairList& list) {
+// Keeps, of the packets, the pairs without common particles that come within the thickness.
+template <PairKind kind, class A, class B>
+WEFT_FN void keep_near_pairs(const A& of_a, const B& of_b, const TileReach& reach, SearchScratch& scratch) {
     constexpr int side_one = kind == PairKind::vertex_triangle ? 1 : 2;
-    const std::uint32_t count = scratch.candidates;
-    if (count == 0) return;
-    for (int k = 0; k < 4; ++k)
-        for (std::uint32_t i = count; i < count + 16; ++i) scratch.vertex[k][i] = scratch.particle[k][i] = 0;
-    // Distances at the start of the list, less all that the features can approach. Those that pass move to the front.
-    std::uint32_t passed = 0;
-    for (std::uint32_t i = 0; i < count; i += lane_count) {
+    for (std::uint32_t packet = 0; packet < scratch.packets; ++packet) {
+        const std::uint32_t i = scratch.one[packet], j = scratch.first_of_two[packet];
         vec3 x[4];
-        real away[4];
-        for (int k = 0; k < 4; ++k)
-            x[k] = gather_blocks(&(k < side_one ? a : b).now[0].x, &scratch.vertex[k][i], away[k]);
-        const real side_a = side_one == 1 ? away[0] : max(away[0], away[1]);
-        const real side_b = side_one == 1 ? max(away[1], max(away[2], away[3])) : max(away[2], away[3]);
+        mask apart = real(0.0f) < real(1.0f);
+        for (int c = 0; c < 4; ++c) {
+            if (c < side_one) {
+                const auto& at = of_a.corner[c];
+                x[c] = vec3(real(at[0][i]), real(at[1][i]), real(at[2][i]));
+                for (int d = 0; d < 4 - side_one; ++d) {
+                    const real p(of_a.number[c][i]), q = load(&of_b.number[d][j]);
+                    apart = apart && (p < q || p > q);
+                }
+            } else {
+                const auto& at = of_b.corner[c - side_one];
+                x[c] = vec3(load(&at[0][j]), load(&at[1][j]), load(&at[2][j]));
+            }
+        }
         const real distance = closest<kind>(x).distance;
-        const real least = distance - side_a - side_b - real(reach.add);
-        alignas(64) float lanes[16], distances[16];
-        store(least, lanes), store(distance, distances);
-        for_each_bit(bits_of(least < real(reach.thickness)) & lanes_before(i, count), [&](std::uint32_t lane) {
-            for (int k = 0; k < 4; ++k) scratch.particle[k][passed] = scratch.particle[k][i + lane];
-            scratch.distance[passed] = distances[lane];
-            scratch.least[passed++] = lanes[lane];
+        const real far = real(of_a.away[i] + reach.add) + load(&of_b.away[j]);
+        scratch.bits[packet] &= bits_of(distance < far + real(reach.thickness) && apart);
+        store(distance, &scratch.packet_distance[packet * lane_count]);
+    }
+}
+
+// Finds the pairs of a feature of `a` and a feature of `b`, without common particles, that come within the thickness.
+// `vertices_of(i, j)`: their vertices in the tiles.
+template <PairKind kind, class A, class B, class Vertices>
+WEFT_FN void find_pairs(const TileState& a, const TileState& b, const A& of_a, std::uint32_t count_a, const B& of_b,
+                        std::uint32_t count_b, bool same, const TileReach& reach, float sign, SearchScratch& scratch,
+                        Vertices&& vertices_of) {
+    constexpr int side_one = kind == PairKind::vertex_triangle ? 1 : 2;
+    find_meeting_boxes(b, of_a, count_a, of_b, count_b, same, reach, sign, scratch);
+    keep_near_pairs<kind>(of_a, of_b, reach, scratch);
+    const std::size_t most = std::size_t{scratch.packets} * lane_count + 16;
+    if (scratch.far.size() < most) {
+        for (auto& array : scratch.particle) array.resize(most);
+        scratch.far.resize(most), scratch.distance.resize(most);
+    }
+    std::uint32_t count = 0;
+    for (std::uint32_t packet = 0; packet < scratch.packets; ++packet) {
+        const std::uint32_t i = scratch.one[packet], j = scratch.first_of_two[packet];
+        for_each_bit(scratch.bits[packet], [&](std::uint32_t lane) {
+            const std::array<std::uint32_t, 4> vertex = vertices_of(i, j + lane);
+            for (int c = 0; c < 4; ++c)
+                scratch.particle[c][count] = (c < side_one ? a : b).tile->particle[vertex[c]];
+            scratch.far[count] = of_a.away[i] + reach.add + of_b.away[j + lane];
+            scratch.distance[count++] = scratch.packet_distance[packet * lane_count + lane];
         });
     }
-    list.reserve(list.count + passed);
+    scratch.count = count;
+}
+
+// Appends the pairs that were found and come within their own thickness.
+template <PairKind kind>
+inline void append_pairs(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
+                         PairList& list) {
+    constexpr int side_one = kind == PairKind::vertex_triangle ? 1 : 2;
+    const std::uint32_t count = scratch.count;
+    if (count == 0) return;
+    list.reserve(list.count + count);
     const auto add = [&](std::uint32_t i, float thickness) {
-        const auto in_world = [&](int k) {
-            return (k < side_one ? a : b).base() + scratch.particle[k][i];
-        };
-        list.add({in_world(0), in_world(1), in_world(2), in_world(3)}, thickness, scratch.distance[i] - thickness);
+        const std::uint32_t at = list.count++;
+        for (int c = 0; c < 4; ++c)
+            list.particle[c][at] = (c < side_one ? a : b).base() + scratch.particle[c][i];
+        list.thickness[at] = thickness, list.spare[at] = scratch.distance[i] - thickness;
     };
     if (!reach.rest) {
-        for (std::uint32_t i = 0; i < passed; ++i) add(i, reach.thickness);
+        for (std::uint32_t i = 0; i < count; ++i) add(i, reach.thickness);
         return;
     }
     // Neighbors on one cloth keep at most half of their distance at rest, or a thickness above the edge length would
     // push them apart. Features that coincide at rest have no side, so they are left out.
-    for (int k = 0; k < 4; ++k)
-        for (std::uint32_t i = passed; i < passed + 16; ++i) scratch.particle[k][i] = 0;
-    for (std::uint32_t i = 0; i < passed; i += lane_count) {
+    for (int c = 0; c < 4; ++c) std::fill_n(&scratch.particle[c][count], 16, 0u);
+    for (std::uint32_t i = 0; i < count; i += lane_count) {
         vec3 x[4];
         real w;
-        for (int k = 0; k < 4; ++k) x[k] = gather_blocks(&reach.rest->x, &scratch.particle[k][i], w);
+        for (int c = 0; c < 4; ++c) x[c] = gather_blocks(&reach.rest->x, &scratch.particle[c][i], w);
         const real at_rest = closest<kind>(x).distance;
         const real thickness = min(real(reach.thickness), at_rest * real(0.5f));
-        const mask listed = load(&scratch.least[i]) < thickness && at_rest > real(0.0f);
+        const mask listed = load(&scratch.distance[i]) < thickness + load(&scratch.far[i]) && at_rest > real(0.0f);
         alignas(64) float lanes[16];
         store(thickness, lanes);
-        for_each_bit(bits_of(listed) & lanes_before(i, passed), [&](std::uint32_t lane) { add(i + lane, lanes[lane]); });
+        for_each_bit(bits_of(listed) & lanes_before(i, count), [&](std::uint32_t lane) { add(i + lane, lanes[lane]); });
     }
 }
 
 // Pairs of the vertices of `a` and the triangles of `b`, which moves by twice `sign` times the shift.
 inline void list_vertex_triangle(const TileState& a, const TileState& b, const TileReach& reach, float sign,
                                  SearchScratch& scratch, PairList& list) {
-    cull(scratch.a, a.tile->own_vertices, a.vertex_boxes, b, reach, sign);
-    if (scratch.a.count == 0) return;
-    cull(scratch.b, b.tile->triangle_count, b.triangle_boxes, a, reach, -sign);
-    scratch.candidates = 0;
-    for_each_meeting(scratch.a, scratch.b, false, reach, sign, [&](std::uint32_t vertex, std::uint32_t triangle) {
-        const std::uint32_t p = a.particle[vertex];
-        const std::uint32_t corner[3] = {b.tile->triangle[0][triangle], b.tile->triangle[1][triangle],
-                                         b.tile->triangle[2][triangle]};
-        if (p == b.particle[corner[0]] || p == b.particle[corner[1]] || p == b.particle[corner[2]]) return;
-        const std::uint32_t at = scratch.candidates++;
-        reserve_candidates(scratch, at);
-        scratch.vertex[0][at] = vertex;
-        scratch.particle[0][at] = a.tile->particle[vertex];
-        for (int k = 0; k < 3; ++k) {
-            scratch.vertex[1 + k][at] = corner[k];
-            scratch.particle[1 + k][at] = b.tile->particle[corner[k]];
-        }
-    });
-    list_candidates<PairKind::vertex_triangle>(a, b, reach, scratch, list);
+    const Tile& of_b = *b.tile;
+    find_pairs<PairKind::vertex_triangle>(
+        a, b, a.vertices, a.tile->own_vertices, b.triangles, of_b.triangle_count, false, reach, sign, scratch,
+        [&](std::uint32_t i, std::uint32_t j) {
+            return std::array{i, of_b.triangle[0][j], of_b.triangle[1][j], of_b.triangle[2][j]};
+        });
+    append_pairs<PairKind::vertex_triangle>(a, b, reach, scratch, list);
 }
 
 inline void list_edge_edge(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
                            PairList& list) {
-    cull(scratch.a, a.tile->edge_count, a.edge_boxes, b, reach, 1);
-    if (scratch.a.count == 0) return;
-    cull(scratch.b, b.tile->edge_count, b.edge_boxes, a, reach, -1);
-    scratch.candidates = 0;
-    for_each_meeting(scratch.a, scratch.b, &a == &b, reach, 1, [&](std::uint32_t of_a, std::uint32_t of_b) {
-        const std::uint32_t end[4] = {a.tile->edge[0][of_a], a.tile->edge[1][of_a], b.tile->edge[0][of_b],
-                                      b.tile->edge[1][of_b]};
-        const std::uint32_t p = a.particle[end[0]], q = a.particle[end[1]];
-        const std::uint32_t r = b.particle[end[2]], s = b.particle[end[3]];
-        if (p == r || p == s || q == r || q == s) return;
-        const std::uint32_t at = scratch.candidates++;
-        reserve_candidates(scratch, at);
-        for (int k = 0; k < 4; ++k) {
-            scratch.vertex[k][at] = end[k];
-            scratch.particle[k][at] = (k < 2 ? a : b).tile->particle[end[k]];
-        }
-    });
-    list_candidates<PairKind::edge_edge>(a, b, reach, scratch, list);
+    const Tile &of_a = *a.tile, &of_b = *b.tile;
+    find_pairs<PairKind::edge_edge>(
+        a, b, a.edges, of_a.edge_count, b.edges, of_b.edge_count, &a == &b, reach, 1, scratch,
+        [&](std::uint32_t i, std::uint32_t j) {
+            return std::array{of_a.edge[0][i], of_a.edge[1][i], of_b.edge[0][j], of_b.edge[1][j]};
+        });
+    append_pairs<PairKind::edge_edge>(a, b, reach, scratch, list);
 }
 
 inline void list_pairs_of_tiles(const TileState& a, const TileState& b, const TileReach& reach,
                                 SearchScratch& scratch, std::array<PairList, 2>& lists) {
-    reserve_candidates(scratch, 0);
     list_vertex_triangle(a, b, reach, 1, scratch, lists[0]);
     if (&a != &b) list_vertex_triangle(b, a, reach, -1, scratch, lists[0]);
     list_edge_edge(a, b, reach, scratch, lists[1]);
 }
 
-constexpr SearchLoops search_loops{tile_deviation, bound_tile, list_pairs_of_tiles};
+constexpr SearchLoops search_loops{tile_deviation, bound_tile, gather_tile, list_pairs_of_tiles};
