@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 
 namespace weft {
 namespace {
@@ -19,6 +20,8 @@ constexpr float most_approach = 0.5f;
 constexpr float resting = 0.1f;
 // How far, in slacks, the motion within a tick may differ from the velocity for the list to follow the velocity.
 constexpr float follows_velocity = 0.48f;
+// Part of the slack by which rounding may change a distance.
+constexpr float rounding_of_slack = 0.01f;
 
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
@@ -45,13 +48,6 @@ void PairList::append(const PairList& other, std::uint32_t begin, std::uint32_t 
     std::copy_n(&other.thickness[begin], pairs, &thickness[count]);
     std::copy_n(&other.spare[begin], pairs, &spare[count]);
     count += pairs;
-}
-
-void PairList::add(const std::array<std::uint32_t, 4>& particles, float of_pair, float spare_of_pair) {
-    if (thickness.size() < count + std::size_t{17}) reserve(count + 1);
-    for (int k = 0; k < 4; ++k) particle[k][count] = particles[k];
-    spare[count] = spare_of_pair;
-    thickness[count++] = of_pair;
 }
 
 void PairList::pad(std::uint32_t with_particle) {
@@ -86,9 +82,24 @@ void PairSearch::set_cloths(const SearchLoops& loops, std::vector<SearchedCloth>
             for (std::uint32_t i = 0; i < tile_vertices; ++i) state.particle[i] = cloths_[c].base + tile.particle[i];
         }
     }
+    find_owners();
     for (TilePairs& row : pairs_) {
         row.until = never;
         for (PairList& list : row.lists) list.pad(cloths_.front().base);
+    }
+}
+
+void PairSearch::find_owners() {
+    std::unordered_map<std::uint32_t, std::uint32_t> owner;  // by particle
+    for (std::uint32_t i = 0; i < tiles_.size(); ++i)
+        for (std::uint32_t k = 0; k < tiles_[i].tile->own_vertices; ++k) owner[tiles_[i].particle[k]] = i;
+    owners_.assign(tiles_.size(), {});
+    for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
+        std::vector<std::uint32_t>& owners = owners_[i];
+        for (std::uint32_t k = tiles_[i].tile->own_vertices; k < tiles_[i].tile->vertex_count; ++k) {
+            const std::uint32_t of_vertex = owner.at(tiles_[i].particle[k]);
+            if (std::ranges::find(owners, of_vertex) == owners.end()) owners.push_back(of_vertex);
+        }
     }
 }
 
@@ -99,12 +110,24 @@ std::int64_t PairSearch::remaining(const TileState& tile) const {
 void PairSearch::check_start(const Vec4* positions) {
     for (TileState& tile : tiles_) {
         if (tile.listed < 0) continue;
-        tile.strays[0] = loops_->deviation(tile, &positions->x, static_cast<float>(tick_ - tile.listed));
-        if (!(tile.strays[0] <= slack(tile))) tile.listed = -1;
+        const float deviation = loops_->deviation(tile, &positions->x, static_cast<float>(tick_ - tile.listed));
+        tile.strays[0] = deviation + tile.most_around;
+        if (!(deviation <= slack(tile))) tile.listed = -1;
     }
 }
 
-bool PairSearch::find_outdated(const Vec4* positions, float part, bool all) {
+void PairSearch::measure(const Vec4* places, const Vec4* other_places, std::vector<float>& distance) {
+    distance.resize(tiles_.size());
+    of_owned_.resize(tiles_.size());
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        of_owned_[i] = loops_->measure(tiles_[i], &places->x, &other_places->x);
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        distance[i] = of_owned_[i];
+        for (const std::uint32_t owner : owners_[i]) distance[i] = std::max(distance[i], of_owned_[owner]);
+    }
+}
+
+bool PairSearch::find_outdated(const Vec4* positions, std::span<const float> reach, bool all) {
     bool any = false;
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
         TileState& tile = tiles_[i];
@@ -112,8 +135,8 @@ bool PairSearch::find_outdated(const Vec4* positions, float part, bool all) {
         if (!outdated) {
             const auto ticks = static_cast<float>(tick_ + 1 - tile.listed);
             const float deviation = loops_->deviation(tile, &positions->x, ticks);
-            tile.strays[1] = std::max(tile.strays[1], deviation);
-            outdated = !(deviation <= part * slack(tile));
+            tile.strays[1] = std::max(tile.strays[1], deviation + tile.most_around);
+            outdated = !(deviation + (reach.empty() ? 0 : reach[i]) <= slack(tile));
         }
         outdated_[i] = outdated;
         any = any || outdated || pairs_[i].until <= tick_;
@@ -121,16 +144,20 @@ bool PairSearch::find_outdated(const Vec4* positions, float part, bool all) {
     return any;
 }
 
-void PairSearch::follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere) {
+void PairSearch::follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, std::span<const float> reach) {
     for (std::size_t i = 0; i < tiles_.size(); ++i)
-        if (outdated_[i]) follow(tiles_[i], from, to, velocity, h, anywhere);
+        if (outdated_[i]) follow(tiles_[i], from, to, velocity, h, reach.empty() ? 0 : reach[i]);
+}
+
+void PairSearch::cover(const Vec4* from, const Vec4* to) {
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        if (outdated_[i]) cover(tiles_[i], from, to);
 }
 
 // The trajectory follows the velocity rather than the motion of this tick, and runs midway between the two ends: at
 // rest the constraints pull a pile together by the same amount in every tick and contact pushes it back, which is no
 // motion.
-void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h,
-                        bool anywhere) {
+void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, float reach) {
     const std::uint32_t count = tile.tile->vertex_count;
     float fastest = 0, farthest = 0, most_off = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -140,53 +167,62 @@ void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const
         fastest = std::max(fastest, squared(v));
     }
     const float slack_here = slack(tile);
-    const bool along_velocity = !anywhere && std::sqrt(farthest) < follows_velocity * slack_here;
-    tile.moving = !along_velocity || fastest > resting * resting * slack_here * slack_here;
-    Vec3 mean{};
+    const bool along_velocity = std::sqrt(farthest) < follows_velocity * slack_here;
+    const bool moving = !along_velocity || fastest > resting * resting * slack_here * slack_here;
+    tile.most_around = std::max(0.0f, reach - (0.98f - 0.5f * follows_velocity) * slack_here);
+    tile.around.fill(tile.most_around);
     for (std::uint32_t i = 0; i < tile_vertices; ++i) {
         const std::uint32_t p = tile.particle[i];
         const Vec3 start = from[p].xyz(), moved = to[p].xyz() - start;
-        Vec3 v{}, place = start;
-        tile.around[i] = anywhere ? length_of(moved) : 0;
-        if (!anywhere) {
-            if (!along_velocity) {
-                v = moved;
-            } else if (tile.moving) {
-                v = velocity[p].xyz() * h;
-            }
-            place = start + (moved - v) * 0.5f;
-        }
+        const Vec3 v = !along_velocity ? moved : moving ? velocity[p].xyz() * h : Vec3{};
+        const Vec3 place = start + (moved - v) * 0.5f;
         tile.place[0][i] = place.x, tile.place[1][i] = place.y, tile.place[2][i] = place.z;
         tile.velocity[0][i] = v.x, tile.velocity[1][i] = v.y, tile.velocity[2][i] = v.z;
         most_off = std::max(most_off, squared(moved - v));
-        if (i < count) mean = mean + v;
     }
-    tile.mean_velocity = mean * (1.0f / static_cast<float>(count));
+    begin_list(tile, moving);
+    tile.strays.fill(0.5f * std::sqrt(most_off) + rounding_of_slack * slack_here + tile.most_around);
+}
 
-    // A list that outlived its purpose is followed by a longer one, one that failed early by a shorter one.
+void PairSearch::cover(TileState& tile, const Vec4* from, const Vec4* to) {
+    tile.most_around = 0;
+    for (std::uint32_t i = 0; i < tile_vertices; ++i) {
+        const std::uint32_t p = tile.particle[i];
+        const Vec3 place = from[p].xyz();
+        tile.around[i] = length_of(to[p].xyz() - place);
+        tile.most_around = std::max(tile.most_around, tile.around[i]);
+        tile.place[0][i] = place.x, tile.place[1][i] = place.y, tile.place[2][i] = place.z;
+        for (auto& axis : tile.velocity) axis[i] = 0;
+    }
+    begin_list(tile, true);
+    tile.lifetime = 1;
+    tile.strays.fill(tile.most_around + slack(tile));
+}
+
+// Chooses how long the list of a tile lasts at most: a list that outlived its purpose is followed by a longer one, one
+// that failed early by a shorter one.
+void PairSearch::begin_list(TileState& tile, bool moving) {
     const std::int64_t age = tick_ - tile.listed;
     const std::int64_t adapted = std::max<std::int64_t>(1, age >= tile.lifetime ? age + 2 : age);
     tile.lifetime = static_cast<std::int32_t>(tile.listed < 0 ? 4
-                                              : tile.moving   ? std::min<std::int64_t>(longest_lifetime, adapted)
+                                              : moving        ? std::min<std::int64_t>(longest_lifetime, adapted)
                                                               : longest_lifetime);
+    tile.moving = moving;
     tile.listed = tick_;
     tile.bounded = tile.gathered = -1;
-    tile.spread = 0;
-    tile.strays.fill(std::min(slack_here, 0.5f * std::sqrt(most_off) + 0.01f * slack_here));
-    if (!tile.moving) return;
-    if (anywhere) {
-        tile.lifetime = 1;
-        tile.strays.fill(*std::ranges::max_element(tile.around) + slack_here);
-        return;
-    }
+    const std::uint32_t count = tile.tile->vertex_count;
+    const auto velocity = [&](std::uint32_t i) {
+        return Vec3{tile.velocity[0][i], tile.velocity[1][i], tile.velocity[2][i]};
+    };
+    Vec3 mean{};
+    for (std::uint32_t i = 0; i < count; ++i) mean = mean + velocity(i);
+    tile.mean_velocity = mean * (1.0f / static_cast<float>(count));
     float spread = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Vec3 v{tile.velocity[0][i], tile.velocity[1][i], tile.velocity[2][i]};
-        spread = std::max(spread, squared(v - tile.mean_velocity));
-    }
+    for (std::uint32_t i = 0; i < count; ++i) spread = std::max(spread, squared(velocity(i) - tile.mean_velocity));
     tile.spread = std::sqrt(spread);
-    const float ticks = most_spread * slack_here / (tile.spread + 1e-9f);
-    if (ticks < static_cast<float>(tile.lifetime)) tile.lifetime = std::max(1, static_cast<std::int32_t>(ticks));
+    const float ticks = most_spread * slack(tile) / (tile.spread + 1e-9f);
+    if (moving && ticks < static_cast<float>(tile.lifetime))
+        tile.lifetime = std::max(1, static_cast<std::int32_t>(ticks));
 }
 
 void PairSearch::bound(TileState& tile) {

@@ -24,7 +24,8 @@ struct BoxArrays {
 /// Features of one kind of a tile, as arrays. Neighboring features form groups, which have boxes too.
 template <std::size_t Count, std::size_t Corners>
 struct FeatureArrays {
-    alignas(cache_line) std::array<std::array<std::array<float, Count>, 3>, Corners> corner;  ///< m, [corner][axis][feature]
+    alignas(cache_line)
+        std::array<std::array<std::array<float, Count>, 3>, Corners> corner;  ///< m, [corner][axis][feature]
     std::array<std::array<float, Count>, Corners> number;  ///< of the corners' particles: equal for equal particles
     alignas(cache_line) std::array<float, Count> away;     ///< m: how far a corner may be from its place
     BoxArrays<Count> boxes;
@@ -55,6 +56,7 @@ struct TileState {
     float spread = 0;  ///< m per tick: largest deviation of a vertex's velocity from the mean
     /// m: bound on the distance of its vertices from their trajectories, at the start and at the end of the tick.
     std::array<float, 2> strays{};
+    float most_around = 0;  ///< of all vertices
 
     // At the tick `bounded`.
     std::int64_t bounded = -1;
@@ -79,7 +81,6 @@ struct PairList {
 
     void reserve(std::uint32_t pairs);
     void append(const PairList& other, std::uint32_t begin, std::uint32_t pairs);
-    void add(const std::array<std::uint32_t, 4>& particles, float of_pair, float spare_of_pair);
     void pad(std::uint32_t with_particle);
 };
 
@@ -129,6 +130,8 @@ struct SearchLoops {
     float (*deviation)(const TileState&, const float* positions, float ticks);
     /// Vertices at a tick, `ticks` after the list was made, and their box for the next `lifetime` ticks.
     void (*bound)(TileState&, float ticks, float lifetime);
+    /// Largest distance between two places of a vertex that the tile owns, m. Places as blocks of four.
+    float (*measure)(const TileState&, const float* places, const float* other_places);
     /// Features of a tile whose vertices are bounded.
     void (*gather)(TileState&);
     /// Appends the pairs of features of both tiles to `lists`.
@@ -145,23 +148,29 @@ class PairSearch {
     /// current tick. Call where positions may have changed from outside.
     void check_start(const Vec4* positions);
 
-    /// Marks the tiles with a vertex farther than `part` of its slack from its listed trajectory at the end of the
-    /// current tick, or all tiles. Returns whether there is anything to search.
-    bool find_outdated(const Vec4* positions, float part, bool all = false);
+    /// The largest distance between two places of a vertex of each tile, m.
+    void measure(const Vec4* places, const Vec4* other_places, std::vector<float>& distance);
+    /// Marks the tiles with a vertex that may be farther than its slack from its listed trajectory at the end of the
+    /// current tick: as far as `reach` (m, by tile; empty: 0) from `positions`. Or marks all tiles. Returns whether
+    /// there is anything to search.
+    bool find_outdated(const Vec4* positions, std::span<const float> reach, bool all = false);
     /// Lists the marked tiles for motion from `from` to `to` within this tick, and on along `velocity` (m/s) times `h`
-    /// if that is near. A list made by `anywhere` covers all places between the two, for this tick only.
-    void follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere);
+    /// if that is near. Covers all places within `reach` of `to` in this tick.
+    void follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, std::span<const float> reach);
+    /// Lists the marked tiles for all places between `from` and `to`, for this tick only.
+    void cover(const Vec4* from, const Vec4* to);
     /// Lists all pairs of which a tile is marked or whose list has expired. find_outdated() and follow() come before.
     void search();
     void next_tick();
 
-    /// Calls visit(pairs of a tile, block, approach) for all blocks. `approach`, in m: the distance of a listed pair is
-    /// now at least its distance when it was listed less this, for all places that its particles take in this tick.
+    /// Calls visit(tile, its pairs, block, approach) for all blocks. `approach`, in m: the distance of a listed pair is
+    /// now at least its distance when it was listed less this, for all places that its particles take in this tick up
+    /// to the positions of the last find_outdated().
     template <class Visit>
     void for_each_block(Visit&& visit) const {
         for (std::size_t a = 0; a < pairs_.size(); ++a)
             for (const TilePairs::Block& block : pairs_[a].blocks)
-                visit(pairs_[a], block, approach(tiles_[a], tiles_[block.other], block));
+                visit(a, pairs_[a], block, approach(tiles_[a], tiles_[block.other], block));
     }
     std::span<const SearchedCloth> cloths() const { return cloths_; }
     std::size_t tile_count() const { return tiles_.size(); }
@@ -171,7 +180,10 @@ class PairSearch {
   private:
     float slack(const TileState& tile) const { return cloths_[tile.cloth].slack; }
     std::int64_t remaining(const TileState& tile) const;
-    void follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, bool anywhere);
+    void find_owners();
+    void follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, float reach);
+    void cover(TileState& tile, const Vec4* from, const Vec4* to);
+    void begin_list(TileState& tile, bool moving);
     void bound(TileState& tile);
     void gather(TileState& tile);
     void find_near_tiles();
@@ -185,6 +197,8 @@ class PairSearch {
     std::vector<SearchedCloth> cloths_;
     std::vector<TileState> tiles_;
     std::vector<TilePairs> pairs_;
+    std::vector<std::vector<std::uint32_t>> owners_;  // by tile: other tiles that own some of its vertices
+    std::vector<float> of_owned_;                     // m, by tile: measured distance of the vertices that it owns
     std::vector<std::uint8_t> outdated_;
     std::array<AlignedVector<float>, 9> bounds_;    // of all tiles: center, half, mean velocity
     std::vector<std::uint32_t> sorted_;             // tiles along an axis

@@ -19,6 +19,18 @@ inline float tile_deviation(const TileState& tile, const float* positions, float
     return farthest;
 }
 
+inline float most_moved_of_tile(const TileState& tile, const float* places, const float* other_places) {
+    real most2(0.0f);
+    for (std::uint32_t i = 0; i < tile.tile->own_vertices; i += lane_count) {  // the last packet has some more
+        real w;
+        const vec3 moved = gather_blocks(places, &tile.particle[i], w) - gather_blocks(other_places, &tile.particle[i], w);
+        most2 = max(most2, dot(moved, moved));
+    }
+    alignas(64) float lanes[16];
+    store(most2, lanes);
+    return std::sqrt(*std::max_element(lanes, lanes + lane_count));
+}
+
 inline void bound_tile(TileState& tile, float ticks, float lifetime) {
     const vec3 mean(real(tile.mean_velocity.x), real(tile.mean_velocity.y), real(tile.mean_velocity.z));
     const real far(std::numeric_limits<float>::infinity());
@@ -288,4 +300,4 @@ inline void list_pairs_of_tiles(const TileState& a, const TileState& b, const Ti
     list_edge_edge(a, b, reach, scratch, lists[1]);
 }
 
-constexpr SearchLoops search_loops{tile_deviation, bound_tile, gather_tile, list_pairs_of_tiles};
+constexpr SearchLoops search_loops{tile_deviation, bound_tile, most_moved_of_tile, gather_tile, list_pairs_of_tiles};

@@ -9,6 +9,13 @@
 namespace weft::cpu {
 namespace {
 
+// How far a particle may leave its listed trajectory, per distance that contact may move it. A larger slack makes lists
+// longer, a smaller one makes them fail earlier. The result does not depend on it.
+constexpr float slack_per_cap = 1;
+// Part of the slack by which contact may always move particles beyond where the constraints left them, before near
+// pairs are searched again.
+constexpr float least_reach = 0.1f;
+
 scalar::vec3 on_lane(Vec3 v) {
     return {v.x, v.y, v.z};
 }
@@ -45,12 +52,12 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
     WorldArrays& world = cloths_.front()->world;
     x_ = world.position.data(), velocity_ = world.velocity.data(), start_ = world.start.data();
     loops_ = &contact_loops_of(passes.isa);
-    slack_ = 0;
+    cap_ = 0;
     for (const ClothState* cloth : cloths_) {
-        const float slack = contact_slack(*cloth->model);
-        if (cloth->model->tiles && (slack_ == 0 || slack < slack_)) slack_ = slack;
+        const float cap = contact_cap(*cloth->model);
+        if (cloth->model->tiles && (cap_ == 0 || cap < cap_)) cap_ = cap;
     }
-    cap_ = contact_cap * slack_;
+    slack_ = slack_per_cap * cap_;
     h_ = frame_numbers(*cloths_.front()->model, *context.step.plan, context.step.input.dt).h;
 
     std::vector<SearchedCloth> searched;
@@ -67,7 +74,7 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
     if (part_.size() < size) {
         for (auto* array : {&reached_, &asked_, &farthest_}) array->resize(size);
         sums_.resize(size), share_.resize(size), part_.resize(size);
-        sent_back_.resize(size), friction_.resize(size);
+        sent_back_.resize(size), marked_.resize(size), friction_.resize(size);
     }
     for (const ClothState* cloth : cloths_)
         std::fill_n(friction_.begin() + cloth->base, cloth->model->particle_count,
@@ -93,72 +100,81 @@ void ClothContact::run(const ClothContactContext& context, const Pass& pass, Wor
 void ClothContact::detect() {
     untangle();
     for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
-    if (search_.find_outdated(x_, 1 - contact_cap, search_always_)) {
-        search_.follow(start_, x_, velocity_, h_, false);
+    reach_.resize(search_.tile_count());
+    most_moved_.resize(search_.tile_count());
+    for (std::size_t tile = 0; tile < reach_.size(); ++tile)
+        reach_[tile] = std::min(cap_, std::max(2 * most_moved_[tile], least_reach * slack_));
+    std::ranges::fill(most_moved_, 0.0f);
+    if (search_.find_outdated(x_, reach_, search_always_)) {
+        search_.follow(start_, x_, velocity_, h_, reach_);
         search_.search();
         ++counts_.searches;
     }
-    reach_ = std::min(cap_, std::max(2 * most_moved_, 0.02f * slack_));
-    most_moved_ = 0;
     find_near();
-    for (int kind = 0; kind < 2; ++kind) pushed_[kind].assign(listed_[kind], 0);
+    for (int kind = 0; kind < 2; ++kind) pushed_[kind].assign(near_[kind].count, 0);
     pushes_of_substep_.clear();
 }
 
-// Appends the pairs of a block that may be near to the candidates of their kind. Most listed pairs are too far apart to
-// meet in this substep, which their distance at the time of listing says. `first`: number of the block's first pair.
-void ClothContact::choose(int kind, const PairList& list, const TilePairs::Block& block, float most,
-                          std::uint32_t first) {
-    const std::uint32_t begin = block.begin[kind], count = block.count[kind];
-    if (count == 0 || block.least_spare[kind] > most) return;
-    chosen_.resize(std::max<std::size_t>(chosen_.size(), count));
-    std::uint32_t chosen = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {  // without branches
-        chosen_[chosen] = i;
-        chosen += !(list.spare[begin + i] > most);
-    }
-    auto& [pairs, source] = candidates_[kind];
-    pairs.reserve(pairs.count + chosen);
-    for (std::uint32_t k = 0; k < chosen; ++k) {
-        const std::uint32_t i = begin + chosen_[k];
-        pairs.add(particles_of(list, i), list.thickness[i], list.spare[i]);
-        source.push_back(first + chosen_[k]);
-    }
-}
-
 void ClothContact::find_near() {
-    listed_ = {};
-    for (Candidates& candidates : candidates_) {
-        candidates.pairs.count = 0;
-        candidates.source.clear();
-    }
-    search_.for_each_block([&](const TilePairs& row, const TilePairs::Block& block, float approach) {
+    for (Candidates& candidates : candidates_) candidates.count = 0;
+    search_.for_each_block([&](std::size_t tile, const TilePairs& row, const TilePairs::Block& block, float approach) {
+        const float reach = reach_[tile] + reach_[block.other];
         for (int kind = 0; kind < 2; ++kind) {
-            choose(kind, row.lists[kind], block, approach + 2 * reach_, listed_[kind]);
-            listed_[kind] += block.count[kind];
+            const std::uint32_t count = block.count[kind];
+            if (count > 0 && !(block.least_spare[kind] > approach + reach)) {
+                candidates_[kind].reserve(candidates_[kind].count + count);
+                loops_->choose(row.lists[kind], block.begin[kind], count, approach + reach, reach, candidates_[kind]);
+            }
         }
     });
-    const NearInput input{&start_->x, &reached_.data()->x, reach_, contact_gap_floor};
+    const NearInput input{&start_->x, &reached_.data()->x, contact_gap_floor};
     for (int kind = 0; kind < 2; ++kind) {
-        candidates_[kind].pairs.pad(cloths_.front()->base);
+        candidates_[kind].pad(cloths_.front()->base);
         loops_->find_near[kind](candidates_[kind], input, near_[kind]);
         drop_pairs_without_side(kind);
         near_[kind].pad(cloths_.front()->base);
     }
 }
 
-// Extends the near pairs if a particle has moved farther from where the constraints left it than they allow for.
+// Extends lists and near pairs if a particle has moved farther from where the constraints left it than they allow for.
 // Returns whether it did.
 bool ClothContact::extend_reach() {
-    float farthest = 0;
-    for_each_particle(
-        [&](std::uint32_t p) { farthest = std::max(farthest, squared(x_[p].xyz() - reached_[p].xyz())); });
-    farthest = std::sqrt(farthest);
-    most_moved_ = std::max(most_moved_, farthest);
-    if (farthest <= reach_) return false;
-    reach_ = 2 * farthest;
+    search_.measure(reached_.data(), x_, moved_);
+    bool any = false;
+    for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
+        most_moved_[tile] = std::max(most_moved_[tile], moved_[tile]);
+        if (moved_[tile] <= reach_[tile]) continue;
+        reach_[tile] = 2 * moved_[tile];
+        any = true;
+    }
+    if (!any) return false;
+    const std::array pushed{pushed_pairs(0), pushed_pairs(1)};
+    if (search_.find_outdated(reached_.data(), reach_)) {
+        search_.follow(start_, reached_.data(), velocity_, h_, reach_);
+        search_.search();
+    }
     find_near();
+    for (int kind = 0; kind < 2; ++kind) mark_pushed(kind, pushed[kind]);
     return true;
+}
+
+// The pairs that contact pushed in this substep, in order.
+std::vector<std::array<std::uint32_t, 4>> ClothContact::pushed_pairs(int kind) const {
+    std::vector<std::array<std::uint32_t, 4>> pairs;
+    for (std::uint32_t i = 0; i < pushed_[kind].size(); ++i)
+        if (pushed_[kind][i]) pairs.push_back(particles_of(near_[kind], i));
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+void ClothContact::mark_pushed(int kind, std::span<const std::array<std::uint32_t, 4>> pairs) {
+    const NearPairs& near = near_[kind];
+    pushed_[kind].assign(near.count, 0);
+    if (pairs.empty()) return;
+    for (const auto& pair : pairs) marked_[pair[0]] = 1;
+    for (std::uint32_t i = 0; i < near.count; ++i)
+        pushed_[kind][i] = marked_[near.particle[0][i]] && std::ranges::binary_search(pairs, particles_of(near, i));
+    for (const auto& pair : pairs) marked_[pair[0]] = 0;
 }
 
 bool ClothContact::comes_near(int kind, std::uint32_t pair) const {
@@ -182,7 +198,7 @@ void ClothContact::find_overlaps() {
         loops_->find_overlaps[kind](near, &x_->x, contact_recovery_speed * h_, overlaps);
         std::erase_if(overlaps, [&](const Overlap& overlap) { return !comes_near(kind, overlap.pair); });
         for (const Overlap& overlap : overlaps) {
-            pushed_[kind][near.source[overlap.pair]] = 1;
+            pushed_[kind][overlap.pair] = 1;
             const auto particles = particles_of(near, overlap.pair);
             const auto weights = weights_of(near, overlap.pair);
             add_shares(particles, weights);
@@ -322,9 +338,10 @@ void ClothContact::push(const Pass& pass) {
     for (int kind = 0; kind < 2; ++kind) {
         const NearPairs& near = near_[kind];
         for (std::uint32_t i = 0; i < near.count; ++i) {
-            if (pushed_[kind][near.source[i]])
+            if (pushed_[kind][i])
                 pushes_of_substep_.push_back({particles_of(near, i), weights_of(near, i), normal_of(near, i)});
         }
+        pushed_[kind].clear();
     }
 }
 
@@ -370,7 +387,7 @@ void ClothContact::send_back() {
 // Whether a particle that was sent back may have been beyond what its list covers, on any part of its way.
 bool ClothContact::any_uncovered() {
     for_each_particle([&](std::uint32_t p) { farthest_[p] = part_[p] < 1 ? start_[p] : x_[p]; });
-    return search_.find_outdated(farthest_.data(), 1);
+    return search_.find_outdated(farthest_.data(), {});
 }
 
 void ClothContact::limit() {
@@ -392,7 +409,7 @@ void ClothContact::limit() {
         }
         for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
         if (!extended) {
-            search_.follow(start_, asked_.data(), velocity_, h_, true);
+            search_.cover(start_, asked_.data());
             search_.search();
             find_near();
         }

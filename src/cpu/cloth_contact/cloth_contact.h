@@ -31,9 +31,10 @@ class ClothContact {
 
   private:
     void detect();
-    void choose(int kind, const PairList& list, const TilePairs::Block& block, float most, std::uint32_t first);
     void find_near();
     bool extend_reach();
+    std::vector<std::array<std::uint32_t, 4>> pushed_pairs(int kind) const;
+    void mark_pushed(int kind, std::span<const std::array<std::uint32_t, 4>> pairs);
     void push(const Pass& pass);
     void keep_in_reach();
     void find_overlaps();
@@ -67,12 +68,10 @@ class ClothContact {
     const ContactLoops* loops_ = nullptr;
     PairSearch search_;
     std::array<Candidates, 2> candidates_;             // by kind
-    std::vector<std::uint32_t> chosen_;                // pairs of a block
     std::array<NearPairs, 2> near_;                    // by kind
-    std::array<std::uint32_t, 2> listed_{};            // number of listed pairs, by kind
-    float reach_ = 0;                                  // m: how far near pairs allow particles to move from reached_
-    float most_moved_ = 0;                             // m: how far they did, in this substep
-    std::array<std::vector<std::uint8_t>, 2> pushed_;  // by kind and source: whether contact pushed it in this substep
+    std::array<std::vector<std::uint8_t>, 2> pushed_;  // by kind: whether contact pushed it in this substep
+    // By tile, m: how far lists and near pairs allow particles to move from reached_, and how far they are and were.
+    std::vector<float> reach_, moved_, most_moved_;
     struct Pushed {
         std::array<std::uint32_t, 4> particles;
         std::array<float, 4> weights;
@@ -97,7 +96,7 @@ class ClothContact {
     std::vector<std::array<std::uint32_t, 3>> sums_;  // of pushes or velocities, in quanta
     std::vector<std::uint32_t> share_;                // sum of the weights of all pairs that push, in quanta
     std::vector<float> part_;                         // of its motion that the limit leaves to the particle
-    std::vector<std::uint8_t> sent_back_;
+    std::vector<std::uint8_t> sent_back_, marked_;
     std::vector<std::array<float, 2>> friction_;  // static and kinetic, by particle of the world
 
     std::array<std::vector<Overlap>, 2> overlaps_;

@@ -10,10 +10,16 @@
 
 namespace weft::cpu {
 
-/// Listed pairs of one kind that may be near in this substep.
+/// Listed pairs of one kind that may be near in this substep. Padded to whole packets of lanes.
 struct Candidates {
-    PairList pairs;
-    std::vector<std::uint32_t> source;  ///< number of the pair among all listed ones
+    std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
+    AlignedVector<float> thickness;                        ///< m
+    AlignedVector<float>
+        reach;  ///< m: how far contact may move both sides together from where the constraints left them
+    std::uint32_t count = 0;
+
+    void reserve(std::uint32_t pairs);
+    void pad(std::uint32_t with_particle);
 };
 
 /// Pairs of one kind with their closest points and normal at the start of the substep. Padded to whole packets of
@@ -22,10 +28,9 @@ struct NearPairs {
     std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
     std::array<AlignedVector<float>, 4> weight;            ///< of the closest points
     std::array<AlignedVector<float>, 3> normal;
-    AlignedVector<float> thickness;     ///< m
-    AlignedVector<float> gap;           ///< m: between the sides along the normal, at the start
-    AlignedVector<float> distance;      ///< m, at the start
-    std::vector<std::uint32_t> source;  ///< number of the pair among all listed ones
+    AlignedVector<float> thickness;  ///< m
+    AlignedVector<float> gap;        ///< m: between the sides along the normal, at the start
+    AlignedVector<float> distance;   ///< m, at the start
     std::uint32_t count = 0;
 
     void reserve(std::uint32_t pairs);
@@ -36,7 +41,6 @@ struct NearPairs {
 struct NearInput {
     const float* start;    ///< blocks of four: positions at the start of the substep
     const float* reached;  ///< where the constraints left the particles
-    float reach;           ///< m: how far contact may move a particle from there
     float floor;           ///< least gap that a pair keeps, as a part of its thickness
 };
 
@@ -50,6 +54,8 @@ struct Overlap {
 /// One table per instruction set.
 struct ContactLoops {
     SearchLoops search;
+    /// Appends `count` listed pairs from `begin` on, without those whose spare exceeds `most`.
+    void (*choose)(const PairList&, std::uint32_t begin, std::uint32_t count, float most, float reach, Candidates&);
     /// Replaces `NearPairs` by the candidates that contact or the limit may have to act on.
     std::array<void (*)(const Candidates&, const NearInput&, NearPairs&), 2> find_near;
     /// Appends the pairs that overlap at `positions`, in order. `recovery`: m.

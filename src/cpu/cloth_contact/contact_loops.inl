@@ -6,9 +6,23 @@ WEFT_FN real gap_of(const real* along) {
     else return gap_edge_edge(along[0], along[1], along[2], along[3]);
 }
 
+// Most listed pairs are too far apart to meet in this substep, which their distance at the time of listing says.
+inline void choose_pairs(const PairList& list, std::uint32_t begin, std::uint32_t count, float most, float reach,
+                         Candidates& chosen) {
+    constexpr std::uint32_t all_lanes = (1u << lane_count) - 1;
+    for (std::uint32_t i = 0; i < count; i += lane_count) {
+        const std::uint32_t far = bits_of(load(&list.spare[begin + i]) > real(most));
+        for_each_bit(~far & all_lanes & lanes_before(i, count), [&](std::uint32_t lane) {
+            const std::uint32_t from = begin + i + lane, to = chosen.count++;
+            for (int k = 0; k < 4; ++k) chosen.particle[k][to] = list.particle[k][from];
+            chosen.thickness[to] = list.thickness[from];
+            chosen.reach[to] = reach;
+        });
+    }
+}
+
 template <PairKind kind>
-inline void find_near_pairs(const Candidates& candidates, const NearInput& input, NearPairs& near) {
-    const PairList& list = candidates.pairs;
+inline void find_near_pairs(const Candidates& list, const NearInput& input, NearPairs& near) {
     near.count = 0;
     near.reserve(list.count);
     for (std::uint32_t i = 0; i < list.count; i += lane_count) {
@@ -30,8 +44,8 @@ inline void find_near_pairs(const Candidates& candidates, const NearInput& input
         // The least gap that any positions between start and end can have.
         const real worst = kind == PairKind::vertex_triangle ? low[0] - max(high[1], max(high[2], high[3]))
                                                              : min(low[0], low[1]) - max(high[2], high[3]);
-        const mask is_near = reached < thickness + real(2 * input.reach) ||
-                             worst < thickness * real(input.floor) + real(4 * input.reach);
+        const real reach = load(&list.reach[i]);
+        const mask is_near = reached < thickness + reach || worst < thickness * real(input.floor) + reach * real(2.0f);
         const std::uint32_t bits = bits_of(is_near) & lanes_before(i, list.count);
         if (bits == 0) continue;
         alignas(64) float lanes[9][16];
@@ -43,7 +57,6 @@ inline void find_near_pairs(const Candidates& candidates, const NearInput& input
             for (int k = 0; k < 4; ++k) near.particle[k][at] = list.particle[k][i + lane], near.weight[k][at] = lanes[k][lane];
             for (int k = 0; k < 3; ++k) near.normal[k][at] = lanes[4 + k][lane];
             near.thickness[at] = list.thickness[i + lane];
-            near.source[at] = candidates.source[i + lane];
             near.gap[at] = lanes[7][lane], near.distance[at] = lanes[8][lane];
         });
     }
@@ -87,6 +100,7 @@ inline void find_lost_pairs(const NearPairs& near, const float* positions, float
 
 constexpr ContactLoops contact_loops{
     search_loops,
+    choose_pairs,
     {find_near_pairs<PairKind::vertex_triangle>, find_near_pairs<PairKind::edge_edge>},
     {find_overlapping_pairs, find_overlapping_pairs},
     {find_lost_pairs<PairKind::vertex_triangle>, find_lost_pairs<PairKind::edge_edge>},

@@ -23,6 +23,19 @@ const ContactLoops& scalar_contact_loops() {
     return table;
 }
 
+void Candidates::reserve(std::uint32_t pairs) {
+    const std::size_t needed = std::size_t{pairs} + 16;
+    if (thickness.size() >= needed) return;
+    const std::size_t room = needed + needed / 2;
+    for (auto& array : particle) array.resize(room);
+    thickness.resize(room), reach.resize(room);
+}
+
+void Candidates::pad(std::uint32_t with_particle) {
+    reserve(count);
+    for (auto& array : particle) std::fill_n(&array[count], 16, with_particle);
+}
+
 void NearPairs::reserve(std::uint32_t pairs) {
     const std::size_t needed = std::size_t{pairs} + 16;
     if (thickness.size() >= needed) return;
@@ -31,7 +44,6 @@ void NearPairs::reserve(std::uint32_t pairs) {
     for (auto& array : weight) array.resize(room);
     for (auto& array : normal) array.resize(room);
     for (auto* array : {&thickness, &gap, &distance}) array->resize(room);
-    source.resize(room);
 }
 
 void NearPairs::move(std::uint32_t from, std::uint32_t to) {
@@ -39,7 +51,6 @@ void NearPairs::move(std::uint32_t from, std::uint32_t to) {
     for (auto& array : weight) array[to] = array[from];
     for (auto& array : normal) array[to] = array[from];
     for (auto* array : {&thickness, &gap, &distance}) (*array)[to] = (*array)[from];
-    source[to] = source[from];
 }
 
 void NearPairs::pad(std::uint32_t with_particle) {

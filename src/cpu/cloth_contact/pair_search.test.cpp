@@ -52,9 +52,10 @@ class MovingSheets {
     const Vec4* now() const { return now_.data(); }
     const Vec4* velocity() const { return velocity_.data(); }
 
-    /// Calls visit(pair, edges) for all pairs that come within their thickness at one of some places of the motion.
+    /// Calls visit(pair, edges) for all pairs that come within their thickness at one of some places of the motion, or
+    /// could if their particles went on from its end by `reach`.
     template <class Visit>
-    void for_each_near(Visit&& visit) const {
+    void for_each_near(float reach, Visit&& visit) const {
         std::vector<std::array<std::uint32_t, 2>> edges;
         std::set<std::array<std::uint32_t, 2>> seen;
         std::vector<Triangle> all;
@@ -69,13 +70,13 @@ class MovingSheets {
         }
         for (std::uint32_t v = 0; v < 2 * count_; ++v)
             for (const Triangle& t : all)
-                if (t[0] != v && t[1] != v && t[2] != v && is_near({v, t[0], t[1], t[2]}, false))
+                if (t[0] != v && t[1] != v && t[2] != v && is_near({v, t[0], t[1], t[2]}, false, reach))
                     visit(Pair{v, t[0], t[1], t[2]}, false);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             for (std::size_t j = i + 1; j < edges.size(); ++j) {
                 const Pair pair{edges[i][0], edges[i][1], edges[j][0], edges[j][1]};
                 if (pair[0] == pair[2] || pair[0] == pair[3] || pair[1] == pair[2] || pair[1] == pair[3]) continue;
-                if (is_near(pair, true)) visit(pair, true);
+                if (is_near(pair, true, reach)) visit(pair, true);
             }
         }
     }
@@ -98,7 +99,7 @@ class MovingSheets {
         return edges ? scalar::closest_edge_edge(y[0], y[1], y[2], y[3]).distance
                      : scalar::closest_vertex_triangle(y[0], y[1], y[2], y[3]).distance;
     }
-    bool is_near(const Pair& pair, bool edges) const {
+    bool is_near(const Pair& pair, bool edges, float reach) const {
         float most = thickness;
         if ((pair[0] < count_) == (pair[3] < count_)) {
             std::array<Vec3, 4> rest;
@@ -111,7 +112,7 @@ class MovingSheets {
                 const Vec3 from = start_[pair[k]].xyz();
                 x[k] = from + (now_[pair[k]].xyz() - from) * part;
             }
-            if (distance(x, edges) < most) return true;
+            if (distance(x, edges) < most + (part == 1 ? 2 * reach : 0)) return true;
         }
         return false;
     }
@@ -146,28 +147,36 @@ TEST(PairSearch, lists_all_pairs_that_come_near) {
             std::size_t near = 0;
             for (int tick = 1; tick <= 25; ++tick) {
                 sheets.step(tick);
-                if (search.find_outdated(sheets.now(), 0.6f)) {
-                    search.follow(sheets.start(), sheets.now(), sheets.velocity(), 1, tick % 7 == 0);
+                // All places between the start and the end, or the places around the end.
+                const bool between = tick % 7 == 0;
+                const float reach = between ? 0 : std::array{0.0f, 0.4f, 1.5f}[tick % 3] * slack;
+                const std::vector<float> of_tiles(search.tile_count(), reach);
+                if (search.find_outdated(sheets.now(), of_tiles)) {
+                    if (between)
+                        search.cover(sheets.start(), sheets.now());
+                    else
+                        search.follow(sheets.start(), sheets.now(), sheets.velocity(), 1, of_tiles);
                     search.search();
                 }
                 std::array<std::map<Pair, float>, 2> spare;  // less what the features may have approached
-                search.for_each_block([&](const TilePairs& row, const TilePairs::Block& block, float approach) {
-                    for (int kind = 0; kind < 2; ++kind) {
-                        const PairList& list = row.lists[kind];
-                        for (std::uint32_t i = block.begin[kind]; i < block.begin[kind] + block.count[kind]; ++i) {
-                            const Pair pair{list.particle[0][i], list.particle[1][i], list.particle[2][i],
-                                            list.particle[3][i]};
-                            const bool fresh =
-                                spare[kind].emplace(in_order(pair, kind == 1), list.spare[i] - approach).second;
-                            EXPECT_TRUE(fresh) << "listed twice";
+                search.for_each_block(
+                    [&](std::size_t, const TilePairs& row, const TilePairs::Block& block, float approach) {
+                        for (int kind = 0; kind < 2; ++kind) {
+                            const PairList& list = row.lists[kind];
+                            for (std::uint32_t i = block.begin[kind]; i < block.begin[kind] + block.count[kind]; ++i) {
+                                const Pair pair{list.particle[0][i], list.particle[1][i], list.particle[2][i],
+                                                list.particle[3][i]};
+                                const bool fresh =
+                                    spare[kind].emplace(in_order(pair, kind == 1), list.spare[i] - approach).second;
+                                EXPECT_TRUE(fresh) << "listed twice";
+                            }
                         }
-                    }
-                });
-                sheets.for_each_near([&](const Pair& pair, bool edges) {
+                    });
+                sheets.for_each_near(reach, [&](const Pair& pair, bool edges) {
                     ++near;
                     const auto found = spare[edges].find(in_order(pair, edges));
                     ASSERT_NE(found, spare[edges].end()) << passes->isa << ", noise " << noise << ", tick " << tick;
-                    EXPECT_LE(found->second, 1e-6f);
+                    EXPECT_LE(found->second, 2 * reach + 1e-6f);
                 });
                 search.next_tick();
             }
@@ -182,9 +191,9 @@ TEST(PairSearch, keeps_lists_of_resting_cloth) {
     search.set_cloths(scalar_contact_loops().search, sheets.cloths());
     for (int tick = 1; tick <= 50; ++tick) {
         sheets.step(0);  // stays where it is
-        if (search.find_outdated(sheets.now(), 0.6f)) {
+        if (search.find_outdated(sheets.now(), {})) {
             EXPECT_EQ(tick, 1);
-            search.follow(sheets.start(), sheets.now(), sheets.velocity(), 1, false);
+            search.follow(sheets.start(), sheets.now(), sheets.velocity(), 1, {});
             search.search();
         }
         search.next_tick();
@@ -196,14 +205,14 @@ TEST(PairSearch, finds_positions_that_are_not_finite_outdated) {
     MovingSheets sheets(0);
     PairSearch search;
     search.set_cloths(scalar_contact_loops().search, sheets.cloths());
-    (void)search.find_outdated(sheets.now(), 0.6f);
-    search.follow(sheets.start(), sheets.now(), sheets.velocity(), 1, false);
+    (void)search.find_outdated(sheets.now(), {});
+    search.follow(sheets.start(), sheets.now(), sheets.velocity(), 1, {});
     search.search();
     search.next_tick();
     std::vector<Vec4> broken(sheets.now(), sheets.now() + 2 * 13 * 11);
-    EXPECT_FALSE(search.find_outdated(broken.data(), 0.6f));
+    EXPECT_FALSE(search.find_outdated(broken.data(), {}));
     broken[5].y = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(search.find_outdated(broken.data(), 0.6f));
+    EXPECT_TRUE(search.find_outdated(broken.data(), {}));
 }
 
 }  // namespace

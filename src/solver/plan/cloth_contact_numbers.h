@@ -12,9 +12,6 @@ namespace weft {
 inline constexpr std::uint32_t contact_rounds = 4;
 /// Sweeps that follow the last round where the limit would have to act.
 inline constexpr int contact_extra_sweeps = 8;
-/// Part of the slack by which all rounds together may move a particle from where the first constraints left it. The
-/// rest is for the motion of the following substeps.
-inline constexpr float contact_cap = 0.7f;
 /// Gap that a pair keeps at least, as a part of its thickness. Without it gaps of micrometers stay closed forever.
 inline constexpr float contact_gap_floor = 0.1f;
 /// m/s at which an overlap from before the substep is removed at most.
@@ -29,10 +26,9 @@ inline constexpr float untangling_speed = 0.6f;
 /// How often the limit may start again because a particle left its listed trajectory.
 inline constexpr int contact_most_attempts = 20;
 
-/// How far a particle may leave its listed trajectory, m: a fifth of an edge. A larger slack makes lists longer, a
-/// smaller one makes them fail earlier.
-inline float contact_slack(const ClothModel& model) {
-    return 0.2f * model.mean_edge;
+/// How far all rounds together may move a particle from where the first constraints left it, m.
+inline float contact_cap(const ClothModel& model) {
+    return 0.14f * model.mean_edge;
 }
 
 }  // namespace weft

@@ -22,6 +22,9 @@ static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edg
               WEFT_TILE_TRIANGLES == tile_triangles);
 static_assert(WEFT_CONTACT_ROUNDS == contact_rounds && WEFT_CONTACT_EXTRA_SWEEPS == contact_extra_sweeps);
 
+// Part of the slack of lists by which contact may move particles. The rest is for the motion of the following substeps.
+constexpr float contact_part_of_slack = 0.7f;
+
 // The tiles of all cloths, as the shaders read them.
 struct TileArrays {
     std::vector<ContactTileIn> tiles;
@@ -185,8 +188,8 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
         reports.push_back(members[m].report);
         if (!model.tiles) continue;
         for (const Tile& tile : *model.tiles) arrays.add(tile, model, m, cloth.base());
-        const float slack = contact_slack(model);
-        if (data.slack == 0 || slack < data.slack) data.slack = slack;
+        const float cap = contact_cap(model);
+        if (data.cap == 0 || cap < data.cap) data.cap = cap;
         data.thickest = std::max(data.thickest, std::max(model.fabric.contact.thickness, least_contact_thickness));
         data.frame = members[m].frame;
         particles += model.particle_count;
@@ -245,7 +248,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.report_count = static_cast<std::uint32_t>(reports.size());
     data.tile_pair_capacity = room_.tile_pairs, data.listed_capacity = room_.listed, data.near_capacity = room_.near;
     data.widest = device_.limits().workgroup_count[0];
-    data.cap = contact_cap * data.slack, data.cap_part = contact_cap;
+    data.slack = data.cap / contact_part_of_slack, data.cap_part = contact_part_of_slack;
     data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
     data.search_always = search_always ? 1 : 0;
     if (auto made = make_tangle(data, end, name); !made) return made;
