@@ -223,6 +223,10 @@ struct ClothDesc {
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
     SelfCollision self_collision = SelfCollision::off;
+    std::uint32_t collision_group = 0;          ///< 0…31
+    std::uint32_t collision_mask = 0xffffffff;  ///< bit g: collides with cloths of group g
+    std::uint32_t layer =
+        0;  ///< 0…1000: where cloths of two layers cross, the higher one is moved to the lower one's front
 };
 
 /// The solid half space normal·x ≤ offset, in the collider's local frame.

@@ -137,8 +137,8 @@ bool visit_edges_through(const Face& edges, const Face& face, Visit&& visit) {
 /// Calls on_edge(triangle of the edge, side, triangle) for every edge through a triangle, and on_triangles() for every
 /// two triangles without a common corner that intersect.
 template <class OnEdge, class OnTriangles>
-void visit_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles, OnEdge&& on_edge,
-                     OnTriangles&& on_triangles) {
+void visit_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles, const CanCross& can_cross,
+                     OnEdge&& on_edge, OnTriangles&& on_triangles) {
     std::vector<Face> faces;
     std::vector<bool> usable;
     std::vector<Bounds> boxes;
@@ -156,6 +156,7 @@ void visit_crossings(std::span<const Vec3> positions, std::span<const Triangle> 
         const Face& a = faces[i];
         const Face& b = faces[j];
         const int shared = shared_corners(a, b);
+        if (can_cross && !can_cross(triangles[i][0], triangles[j][0])) return;
         if (shared >= 2) return;  // every edge of one triangle shares a particle with the other
         const bool ab = visit_edges_through(a, b, [&](const Side& side) { on_edge(i, side, j); });
         const bool ba = visit_edges_through(b, a, [&](const Side& side) { on_edge(j, side, i); });
@@ -165,18 +166,20 @@ void visit_crossings(std::span<const Vec3> positions, std::span<const Triangle> 
 
 }  // namespace
 
-Crossings count_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+Crossings count_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                          const CanCross& can_cross) {
     Crossings crossings;
     visit_crossings(
-        positions, triangles, [&](std::uint32_t, const Side&, std::uint32_t) { ++crossings.edges; },
+        positions, triangles, can_cross, [&](std::uint32_t, const Side&, std::uint32_t) { ++crossings.edges; },
         [&] { ++crossings.triangles; });
     return crossings;
 }
 
-std::vector<EdgeCrossing> find_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+std::vector<EdgeCrossing> find_crossings(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                         const CanCross& can_cross) {
     std::vector<EdgeCrossing> found;
     visit_crossings(
-        positions, triangles,
+        positions, triangles, can_cross,
         [&](std::uint32_t of, const Side& side, std::uint32_t triangle) {
             const auto [a, b] = std::minmax(triangles[of][side.a], triangles[of][side.b]);
             found.push_back({{a, b}, triangle});

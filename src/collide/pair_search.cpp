@@ -262,6 +262,10 @@ void PairSearch::find_near_tiles() {
         }
         return near;
     };
+    const auto can_meet = [&](std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t of_a = tiles_[a].cloth, of_b = tiles_[b].cloth;
+        return of_a == of_b || collide(cloths_[of_a].filter, cloths_[of_b].filter);
+    };
     // Along the axis on which the tiles spread most, only those in a window come into question.
     const int axis = sort_tiles();
     const auto center = [&](std::uint32_t i) { return bounds_[axis][i]; };
@@ -277,7 +281,8 @@ void PairSearch::find_near_tiles() {
             bounds_[3 + axis][a] + largest + apart + 2 * half_time * (fastest + std::fabs(bounds_[6 + axis][a]));
         for (auto b = std::ranges::lower_bound(sorted_, center(a) - window, {}, center);
              b != sorted_.end() && center(*b) <= center(a) + window; ++b) {
-            if (is_near(a, *b) && !(outdated_[*b] && *b < a)) near_[std::min(a, *b)].push_back(std::max(a, *b));
+            if (is_near(a, *b) && can_meet(a, *b) && !(outdated_[*b] && *b < a))
+                near_[std::min(a, *b)].push_back(std::max(a, *b));
         }
     }
 }

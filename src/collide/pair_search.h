@@ -5,6 +5,7 @@
 // than are near; their order does not depend on when they were listed.
 #pragma once
 
+#include "base/collision_filter.h"
 #include "collide/tiles.h"
 
 #include <array>
@@ -35,10 +36,11 @@ struct FeatureArrays {
 /// A cloth as the search needs it.
 struct SearchedCloth {
     std::shared_ptr<const std::vector<Tile>> tiles;
-    std::uint32_t base = 0;      ///< number of its first particle in the world
-    const Vec4* rest = nullptr;  ///< m, by particle of the cloth
-    float thickness = 0;         ///< m
-    float slack = 0;             ///< m: how far a particle may be from its listed trajectory
+    std::uint32_t base = 0;       ///< number of its first particle in the world
+    const Vec4* rest = nullptr;   ///< m, by particle of the cloth
+    float thickness = 0;          ///< m
+    float slack = 0;              ///< m: how far a particle may be from its listed trajectory
+    CollisionFilter filter = {};  ///< for other cloths
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;
 };
 

@@ -252,7 +252,9 @@ void ParticleSearch::find_near_tiles() {
         for_each_in_window(at, half_length(a) + longest, [&](std::uint32_t other) {
             if (other < at.tile) return;
             const Tile& b = tiles_[other];
-            if (!cloths_[a.cloth].with_alike && !cloths_[b.cloth].with_alike) return;
+            const SearchedParticles &of_a = cloths_[a.cloth], &of_b = cloths_[b.cloth];
+            if (!of_a.with_alike && !of_b.with_alike) return;
+            if (a.cloth != b.cloth && !collide(of_a.filter, of_b.filter)) return;
             if (overlap(box, widened(b))) fresh_near_[at.tile].push_back(other);
         });
         std::ranges::sort(fresh_near_[at.tile]);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/aligned.h"
+#include "base/collision_filter.h"
 
 #include <weft/vector.h>
 
@@ -27,8 +28,9 @@ struct SearchedParticles {
     const Vec4* rest = nullptr;                               ///< m, by particle of the cloth
     float diameter = 0;                                       ///< m
     float margin = 0;                                         ///< m: how much farther its listed pairs may be apart
-    float part_at_rest = 0;  ///< of their distance at rest that two of its particles keep at most
-    bool with_alike = true;  ///< false: it has no pairs with itself and with other cloths that have none
+    float part_at_rest = 0;       ///< of their distance at rest that two of its particles keep at most
+    bool with_alike = true;       ///< false: it has no pairs with itself and with other cloths that have none
+    CollisionFilter filter = {};  ///< for other cloths
     friend bool operator==(const SearchedParticles&, const SearchedParticles&) = default;
 };
 

@@ -35,8 +35,10 @@ struct Curve {
 
 class TangleFinder {
   public:
-    TangleFinder(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::vector<EdgeCrossing> found)
-        : positions_(positions),
+    TangleFinder(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::vector<EdgeCrossing> found,
+                 const TangleRules& rules)
+        : rules_(rules),
+          positions_(positions),
           triangles_(triangles),
           found_(std::move(found)),
           count_(static_cast<std::uint32_t>(positions.size())) {
@@ -137,6 +139,8 @@ class TangleFinder {
     Vec3 direction(const EdgeCrossing& crossing) const {
         const Triangle& triangle = triangles_[crossing.triangle];
         const Vec3 normal = normal_of(triangle);
+        const int order = rules_.order ? rules_.order(crossing.edge[0], triangle[0]) : 0;
+        if (order != 0) return order > 0 ? normal : -normal_at(crossing);
         const Curve& own = curves_[curve_at_[crossing.edge[0]]];
         const Curve* other = nullptr;
         for (const std::uint32_t p : triangle)
@@ -204,6 +208,7 @@ class TangleFinder {
         tangle.near = std::move(groups.items);
     }
 
+    const TangleRules& rules_;
     std::span<const Vec3> positions_;
     std::span<const Triangle> triangles_;
     std::vector<EdgeCrossing> found_;  // sorted by edge
@@ -230,10 +235,10 @@ bool Tangle::joins(std::uint32_t p, std::uint32_t q) const {
     return false;
 }
 
-Tangle find_tangle(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
-    std::vector<EdgeCrossing> found = find_crossings(positions, triangles);
+Tangle find_tangle(std::span<const Vec3> positions, std::span<const Triangle> triangles, const TangleRules& rules) {
+    std::vector<EdgeCrossing> found = find_crossings(positions, triangles, rules.can_cross);
     if (found.empty()) return {};
-    return TangleFinder(positions, triangles, std::move(found)).run();
+    return TangleFinder(positions, triangles, std::move(found), rules).run();
 }
 
 }  // namespace weft

@@ -1,7 +1,7 @@
 // Where cloth passes through cloth, and which way leads out: what untangling needs.
 #pragma once
 
-#include "mesh/triangle_mesh.h"
+#include "collide/crossings.h"
 
 #include <array>
 #include <cstdint>
@@ -27,10 +27,19 @@ struct Tangle {
     bool joins(std::uint32_t p, std::uint32_t q) const;
 };
 
+/// What untangling knows of the particles of two cloths.
+struct TangleRules {
+    CanCross can_cross = {};
+    /// Positive: the first particle's cloth belongs in front of the second one's; negative: behind it; 0: no order.
+    /// Empty: 0.
+    std::function<int(std::uint32_t, std::uint32_t)> order = {};
+};
+
 /// All crossings within one set of triangles (crossings.h). A contour where two cloths intersect moves towards the rim
 /// of the smallest part that it cuts off from either of them. A contour without such a part follows the gradient of its
 /// length (Volino and Magnenat-Thalmann 2006, "Resolving Surface Collisions through Intersection Contour
-/// Minimization"). Deterministic. Expected time O(n log n) for n triangles.
-Tangle find_tangle(std::span<const Vec3> positions, std::span<const Triangle> triangles);
+/// Minimization"). Between cloths with an order each crossing moves along the normal of the cloth that belongs behind.
+/// Deterministic. Expected time O(n log n) for n triangles.
+Tangle find_tangle(std::span<const Vec3> positions, std::span<const Triangle> triangles, const TangleRules& rules = {});
 
 }  // namespace weft

@@ -51,6 +51,29 @@ TEST(Tangle, all_crossings_are_found) {
     EXPECT_EQ(tangle.pairs.size(), count_crossings(surfaces.positions, surfaces.triangles).edges);
 }
 
+TEST(Tangle, surfaces_that_cannot_cross_are_not_tangled) {
+    const Surfaces surfaces = small_through_large();
+    const TangleRules rules{.can_cross = [](std::uint32_t p, std::uint32_t q) { return (p < 81) == (q < 81); }};
+    EXPECT_TRUE(find_tangle(surfaces.positions, surfaces.triangles, rules).pairs.empty());
+}
+
+TEST(Tangle, an_order_decides_instead_of_the_size_of_parts) {
+    const Surfaces surfaces = small_through_large();
+    for (const int small_in_front : {1, -1}) {
+        const TangleRules rules{.order = [&](std::uint32_t p, std::uint32_t q) {
+            return (p < 81) == (q < 81) ? 0 : p < 81 ? -small_in_front : small_in_front;
+        }};
+        for (const TangledPair& pair : find_tangle(surfaces.positions, surfaces.triangles, rules).pairs) {
+            const bool small_passes = pair.particle[0] >= 81;
+            // In front of the large sheet is above it; in front of the small one, beside it.
+            if (small_in_front > 0)
+                EXPECT_NEAR(pair.direction.y, small_passes ? 1 : -1, 1e-5);
+            else
+                EXPECT_NEAR(std::abs(pair.direction.z), 1, 1e-5);
+        }
+    }
+}
+
 TEST(Tangle, the_smaller_part_is_drawn_back) {
     const Surfaces surfaces = small_through_large();
     const auto first_of_small = static_cast<std::uint32_t>(81);

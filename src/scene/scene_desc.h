@@ -52,6 +52,9 @@ struct SceneCloth {
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< relative to the geodesic distance
     SelfCollision self_collision = SelfCollision::off;
+    std::uint32_t collision_group = 0;
+    std::uint32_t collision_mask = ~0u;
+    std::uint32_t layer = 0;
     std::optional<SceneMaterial> material = {};  ///< by default that of the fabric
     friend bool operator==(const SceneCloth&, const SceneCloth&) = default;
 };

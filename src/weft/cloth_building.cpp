@@ -74,6 +74,10 @@ void note_binding(const ClothModel& model, std::vector<std::string>& notes) {
                         number_text(model.binding.farthest) + " m away from the simulated one");
 }
 
+ClothCollision collision_of(const SceneCloth& cloth) {
+    return {cloth.self_collision, {1u << cloth.collision_group, cloth.collision_mask}, cloth.layer};
+}
+
 }  // namespace
 
 Fabric fabric_of(const SceneCloth& cloth) {
@@ -123,7 +127,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                     .render_mesh = std::move(drawn),
                                     .start_velocity = cloth.velocity,
                                     .fabric = fabric_of(cloth),
-                                    .self_collision = cloth.self_collision,
+                                    .collision = collision_of(cloth),
                                     .pins = std::move(pinned->pins),
                                     .layout = world.settings().layout(),
                                     .build_times = build_times},
@@ -140,7 +144,7 @@ Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, c
     const TriangleMesh& mesh = simulated_mesh(now, source);
     auto topology = build_topology(mesh, source.topology);
     if (!topology) return topology.errors();
-    return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout, cloth.self_collision);
+    return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout, collision_of(cloth));
 }
 
 Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource& source,

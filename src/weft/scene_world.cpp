@@ -55,12 +55,19 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .tethers = cloth.tethers,
             .tether_slack = cloth.tether_slack,
             .self_collision = cloth.self_collision,
+            .collision_group = cloth.collision_group,
+            .collision_mask = cloth.collision_mask,
+            .layer = cloth.layer,
             .material = cloth.material};
 }
 
 /// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
     return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform && a.velocity == b.velocity;
+}
+bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
+    return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&
+           a.collision_mask == b.collision_mask && a.layer == b.layer;
 }
 bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
     return a.shape == b.shape && (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));
@@ -411,7 +418,7 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         if (*there == wanted) continue;
         const ClothId id = world_->cloth_id(place);
         Pinned pinned{sources_[place].pins, world_->kinematic_targets(id)};
-        if (there->pins == wanted.pins && there->self_collision == wanted.self_collision) {
+        if (there->pins == wanted.pins && collides_alike(*there, wanted)) {
             auto changed = change_material(place, wanted);
             if (!changed) return changed.errors();
             if (*changed) continue;

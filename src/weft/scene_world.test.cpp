@@ -184,7 +184,7 @@ TEST(SceneWorld, changes_self_collision_of_a_moving_cloth) {
     SceneWorld world = open(two_sheets());
     hash_after(world, 2);
     const ClothId a = world.world().cloth_id(0);
-    const auto in_model = [&] { return world.world().model(a)->self_collision; };
+    const auto in_model = [&] { return world.world().model(a)->collision.with_cloth; };
     EXPECT_EQ(in_model(), SelfCollision::off);
     const float height = world.world().frame().cloths[0].positions[143].y;
     SceneDesc next = world.scene();
@@ -205,6 +205,16 @@ TEST(SceneWorld, changes_self_collision_of_a_moving_cloth) {
     EXPECT_EQ(in_model(), SelfCollision::exact);
     ASSERT_TRUE(world.set_solver({.substeps = 3, .hierarchy = false}).ok());
     EXPECT_EQ(in_model(), SelfCollision::exact);
+    expect_document_says_all(world);
+
+    next = world.scene();
+    next.cloths[0].collision_group = 3;
+    next.cloths[0].collision_mask = 6;
+    next.cloths[0].layer = 2;
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_TRUE(world.world().contains(a));
+    EXPECT_EQ(world.world().model(a)->collision.filter, (CollisionFilter{.groups = 8, .mask = 6}));
+    EXPECT_EQ(world.world().model(a)->collision.layer, 2u);
     expect_document_says_all(world);
 
     next = world.scene();

@@ -29,7 +29,10 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .pins = desc.pins,
             .tethers = desc.tethers,
             .tether_slack = desc.tether_slack,
-            .self_collision = desc.self_collision};
+            .self_collision = desc.self_collision,
+            .collision_group = desc.collision_group,
+            .collision_mask = desc.collision_mask,
+            .layer = desc.layer};
 }
 
 template <class Named>

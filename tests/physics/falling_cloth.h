@@ -113,8 +113,10 @@ inline void add_stack(World& world, float speed, std::uint32_t sheets) {
 // --- Cloth that passes through cloth at the start ---
 
 /// Two sheets that pass through each other in their middle, the second one turned by `rotation`.
-inline void add_crossed_sheets(World& world, std::uint32_t side, Vec3 rotation, Vec3 offset = {}) {
+inline void add_crossed_sheets(World& world, std::uint32_t side, Vec3 rotation, Vec3 offset = {},
+                               std::array<std::uint32_t, 2> layers = {0, 0}) {
     SheetDesc one = falling(side, {0, 0, 0}), two = falling(side, rotation);
+    one.layer = layers[0], two.layer = layers[1];
     one.position = {0, 0.6f, 0};
     two.position = one.position + Vec3{0.013f, 0.03f, 0.017f} + offset;
     world.add(make_sheet(one));

@@ -30,6 +30,8 @@ struct SheetDesc {
     Fabric fabric = {};
     ClothLayout layout = {};
     SelfCollision self_collision = SelfCollision::off;
+    CollisionFilter filter = {};
+    std::uint32_t layer = 0;
     // Called with positions in the flat sheet, before rotation and translation:
     std::function<bool(Vec3 at_rest)> pinned = {};
     std::function<float(Vec3 at_rest)> spring = {};  ///< m/N: holds a particle where it starts; 0 for none
@@ -47,7 +49,7 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
                          .mesh = std::move(mesh),
                          .start_velocity = desc.velocity,
                          .fabric = desc.fabric,
-                         .self_collision = desc.self_collision,
+                         .collision = {desc.self_collision, desc.filter, desc.layer},
                          .layout = desc.layout};
     for (std::uint32_t v = 0; v < flat.size(); ++v) {
         const std::uint32_t p = topology->vertex_to_particle[v];

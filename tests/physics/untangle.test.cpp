@@ -33,6 +33,27 @@ void expect_to_come_apart(World& world) {
     EXPECT_TRUE(all_finite(world));
 }
 
+/// Of a sheet's particles near another sheet, the part that lies in front of its nearest triangle.
+double part_in_front(const ClothFrame& lower, const ClothFrame& higher) {
+    double near = 0, front = 0;
+    for (const Vec4& x : higher.positions) {
+        float nearest = 0.06f;
+        bool in_front = false;
+        for (const Triangle t : lower.triangles) {
+            const Vec3 a = lower.positions[t[0]].xyz(), b = lower.positions[t[1]].xyz(),
+                       c = lower.positions[t[2]].xyz();
+            const Vec3 to = x.xyz() - (a + b + c) / 3;
+            if (length(to) >= nearest) continue;
+            nearest = length(to);
+            in_front = dot(cross(b - a, c - a), to) > 0;
+        }
+        if (nearest == 0.06f) continue;
+        near += 1, front += in_front;
+    }
+    EXPECT_GT(near, 10);
+    return front / near;
+}
+
 double fastest(const World& world) {
     double result = 0;
     for (const ClothFrame& cloth : world.frame().cloths)
@@ -67,6 +88,27 @@ TEST(Untangle, a_sheet_placed_half_through_itself_comes_apart) {
             World world = empty_world(gravity);
             world.add(make_sheet(sheet));
             expect_to_come_apart(world);
+        }
+    }
+}
+
+// Labels: slow no-asan
+TEST(Untangle, the_higher_layer_ends_in_front_of_the_lower_one) {
+    for (const std::array<std::uint32_t, 2> layers : {std::array{0u, 1u}, std::array{3u, 2u}}) {
+        for (const Vec3 offset : {Vec3{}, Vec3{0.3f, 0, 0}}) {
+            World world = empty_world(0);
+            // In the middle neither part is smaller; with the offset, the smaller one is on the same side for both.
+            add_crossed_sheets(world, 14, {70, 20, 0}, offset, layers);
+            EXPECT_GT(crossings(world), 10u);
+            int frames = 0;
+            for (; frames < 120 && crossings(world) > 0; ++frames) world.step(1.0 / 60);
+            EXPECT_LT(frames, 120);
+            const auto& cloths = world.frame().cloths;
+            const bool second_is_higher = layers[0] < layers[1];
+            EXPECT_GT(part_in_front(cloths[second_is_higher ? 0 : 1], cloths[second_is_higher ? 1 : 0]), 0.95);
+            for (int i = 0; i < 30; ++i) world.step(1.0 / 60);
+            EXPECT_EQ(crossings(world), 0u);
+            EXPECT_EQ(world.frame().cloth_contacts.tangled, 0u);
         }
     }
 }

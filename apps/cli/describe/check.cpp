@@ -70,15 +70,22 @@ void warn_of_size(const std::string& cloth, double largest, Warnings& warnings) 
 void warn_of_crossings(const Frame& frame, Warnings& warnings) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
+    std::vector<const ClothFrame*> cloth_of;  // by position
     for (const ClothFrame& cloth : frame.cloths) {
-        if (cloth.model->self_collision == SelfCollision::off) continue;
+        if (cloth.model->collision.with_cloth == SelfCollision::off) continue;
         const auto first = static_cast<std::uint32_t>(positions.size());
         for (const Vec4& position : cloth.positions) positions.push_back(position.xyz());
+        cloth_of.resize(positions.size(), &cloth);
         for (const Triangle t : cloth.triangles) triangles.push_back({first + t[0], first + t[1], first + t[2]});
     }
-    const bool exact = std::ranges::any_of(
-        frame.cloths, [](const ClothFrame& cloth) { return cloth.model->self_collision == SelfCollision::exact; });
-    const std::uint64_t crossings = count_crossings(positions, triangles).triangles;
+    const auto can_cross = [&](std::uint32_t p, std::uint32_t q) {
+        const ClothFrame &a = *cloth_of[p], &b = *cloth_of[q];
+        return &a == &b || can_collide(a.model->collision, b.model->collision);
+    };
+    const bool exact = std::ranges::any_of(frame.cloths, [](const ClothFrame& cloth) {
+        return cloth.model->collision.with_cloth == SelfCollision::exact;
+    });
+    const std::uint64_t crossings = count_crossings(positions, triangles, can_cross).triangles;
     if (crossings == 0) return;
     warnings.add("cloth with self_collision crosses itself or other cloth at the start, at " +
                  std::to_string(crossings) + " pairs of triangles; " +

@@ -65,7 +65,8 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
         const ClothModel& model = *cloth->model;
         if (model.tiles)
             searched.push_back({model.tiles, cloth->base, model.start.data(),
-                                std::max(model.fabric.contact.thickness, least_contact_thickness), slack_});
+                                std::max(model.fabric.contact.thickness, least_contact_thickness), slack_,
+                                model.collision.filter});
     }
     search_.set_cloths(loops_->search, std::move(searched));
     search_.check_start(x_);

@@ -241,7 +241,7 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->start_velocity = desc.start_velocity;
-    model->self_collision = desc.self_collision;
+    model->collision = desc.collision;
     model->build_times = desc.build_times;
     if (auto done =
             lay_out(*model, desc.mesh, topology, desc.fabric, desc.pins, desc.coloring, desc.layout, desc.reserve);
@@ -284,11 +284,11 @@ Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& fro
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Topology& topology, const Fabric& fabric,
                                                              const ClothPins& pins, const ClothLayout& layout,
-                                                             SelfCollision self_collision) {
+                                                             const ClothCollision& collision) {
     auto model = std::make_shared<ClothModel>();
     model->name = from.name;
     model->start_velocity = from.start_velocity;
-    model->self_collision = self_collision;
+    model->collision = collision;
     model->binding = from.binding;
     if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
         model->set_mesh_of_particles(mesh.uvs, mesh.colors);
@@ -304,10 +304,10 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
 void ClothModel::make_tiles_if_needed() {
     tiles = nullptr;
     along_curve = nullptr;
-    if (self_collision == SelfCollision::off) return;
+    if (collision.with_cloth == SelfCollision::off) return;
     const std::span<const Vec4> particles{start.data(), particle_count};
     along_curve = std::make_shared<const std::vector<std::uint32_t>>(order_along_curve(particles));
-    if (self_collision != SelfCollision::exact) return;
+    if (collision.with_cloth != SelfCollision::exact) return;
     tiles = std::make_shared<const std::vector<Tile>>(make_tiles(triangles(), {start.data(), start.size()}));
 }
 

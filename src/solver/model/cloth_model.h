@@ -1,6 +1,7 @@
 // The immutable data of a cloth: everything that does not change while it moves. Identical cloths can share one model.
 #pragma once
 
+#include "base/collision_filter.h"
 #include "base/shared_array.h"
 #include "collide/tiles.h"
 #include "mesh/topology.h"
@@ -37,6 +38,18 @@ struct ClothLayout {
     friend bool operator==(const ClothLayout&, const ClothLayout&) = default;
 };
 
+/// With which cloth a cloth collides.
+struct ClothCollision {
+    SelfCollision with_cloth = SelfCollision::off;
+    CollisionFilter filter = {};  ///< for other cloths
+    std::uint32_t layer = 0;      ///< a higher one lies in front of lower ones
+};
+
+/// Whether two cloths of a world collide with each other.
+inline bool can_collide(const ClothCollision& a, const ClothCollision& b) {
+    return a.with_cloth != SelfCollision::off && b.with_cloth != SelfCollision::off && collide(a.filter, b.filter);
+}
+
 /// Room for particles and constraints that are added while the cloth moves (cloth_edit.h).
 struct ClothReserve {
     std::uint32_t particles = 0;
@@ -49,7 +62,7 @@ struct ClothModelDesc {
     std::optional<TriangleMesh> render_mesh = {};  ///< drawn mesh, follows `mesh`; nullopt: `mesh` is drawn
     Vec3 start_velocity = {};                      ///< m/s
     Fabric fabric = {};
-    SelfCollision self_collision = SelfCollision::off;
+    ClothCollision collision = {};
     ClothPins pins = {};
     ClothLayout layout = {};
     ClothReserve reserve = {};
@@ -74,7 +87,7 @@ struct ClothModel {
     SharedArray<std::uint32_t> vertex_to_particle;  ///< as in Topology; empty with a binding
     Fabric fabric;                                  ///< `tether.use` is on or off, never automatic
     Tethers tethers_asked = Tethers::automatic;     ///< `tether.use` as requested
-    SelfCollision self_collision = SelfCollision::off;
+    ClothCollision collision;
 
     std::uint32_t particle_count = 0;
     ClothReserve reserved = {};      ///< reserve at build time
@@ -175,12 +188,12 @@ std::vector<float> face_masses(const ClothModel& model);
 /// not > 0 and finite, or if the render mesh is malformed.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
-/// Builds a model of the same mesh with another fabric, other pins, another layout or another self-collision. `mesh`
+/// Builds a model of the same mesh with another fabric, other pins, another layout or other collision. `mesh`
 /// and `topology` are those that `from` was built from.
 Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& from, const TriangleMesh& mesh,
                                                              const Topology& topology, const Fabric& fabric,
                                                              const ClothPins& pins, const ClothLayout& layout = {},
-                                                             SelfCollision self_collision = SelfCollision::off);
+                                                             const ClothCollision& collision = {});
 
 /// Returns the same constraints with the parameters of another fabric. Compliances, masses, inverse masses and
 /// elasticity have the bits that build_cloth_model() gives. All other arrays are shared with `from`, so coarse levels

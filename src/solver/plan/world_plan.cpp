@@ -243,7 +243,7 @@ WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth>
 
 bool has_particle_contact(std::span<const PlannedCloth> cloths) {
     return std::ranges::any_of(
-        cloths, [](const PlannedCloth& cloth) { return cloth.model->self_collision == SelfCollision::fast; });
+        cloths, [](const PlannedCloth& cloth) { return cloth.model->collision.with_cloth == SelfCollision::fast; });
 }
 
 bool has_particle_contact(const WorldPlan& plan) {

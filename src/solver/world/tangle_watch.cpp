@@ -15,7 +15,20 @@ void TangleWatch::search(std::span<const WatchedCloth> cloths) {
         for (const Triangle t : cloth.model->triangles())
             triangles.push_back({cloth.base + t[0], cloth.base + t[1], cloth.base + t[2]});
     }
-    tangle_ = find_tangle(positions, triangles);
+    const auto cloth_of = [&](std::uint32_t particle) -> const WatchedCloth& {
+        return *std::ranges::find_if(cloths, [&](const WatchedCloth& cloth) {
+            return particle >= cloth.base && particle - cloth.base < cloth.positions.size();
+        });
+    };
+    const auto can_cross = [&](std::uint32_t p, std::uint32_t q) {
+        const WatchedCloth &a = cloth_of(p), &b = cloth_of(q);
+        return a.base == b.base || can_collide(a.model->collision, b.model->collision);
+    };
+    const auto order = [&](std::uint32_t p, std::uint32_t q) {
+        const std::uint32_t a = cloth_of(p).model->collision.layer, b = cloth_of(q).model->collision.layer;
+        return a > b ? 1 : a < b ? -1 : 0;
+    };
+    tangle_ = find_tangle(positions, triangles, {can_cross, order});
 }
 
 void TangleWatch::count(ClothContactCounts& counts) const {

@@ -1,5 +1,6 @@
 #include "solver/world/world.h"
 
+#include "base/disjoint_sets.h"
 #include "base/hash.h"
 
 #include <algorithm>
@@ -286,11 +287,16 @@ void World::make_islands() {
     const auto place_of = [&](ClothId id) { return static_cast<std::uint32_t>(cloths_.find(id)); };
     for (const auto& group : stitches_)
         for (const Stitch& stitch : group) ties.push_back({place_of(stitch.a), place_of(stitch.b)});
-    std::optional<std::uint32_t> colliding;
-    for (std::uint32_t place = 0; place < cloths_.size(); ++place) {
-        if (cloths_[place].model->self_collision == SelfCollision::off) continue;
-        if (colliding) ties.push_back({*colliding, place});
-        colliding = place;
+    // A tie for each of few pairs that suffice to group all cloths that can collide.
+    DisjointSets colliding(static_cast<std::uint32_t>(cloths_.size()));
+    for (std::uint32_t b = 0; b < cloths_.size(); ++b) {
+        for (std::uint32_t a = 0; a < b; ++a) {
+            if (!can_collide(cloths_[a].model->collision, cloths_[b].model->collision) ||
+                colliding.first_of(a) == colliding.first_of(b))
+                continue;
+            colliding.merge(a, b);
+            ties.push_back({a, b});
+        }
     }
     islands_.clear();
     std::vector<std::size_t> island_of(cloths_.size());

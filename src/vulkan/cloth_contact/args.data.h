@@ -57,6 +57,8 @@ struct ContactTileIn {
     float thickness;  // m
     float static_friction;
     float kinetic_friction;
+    uint groups;  // CollisionFilter
+    uint collides_with;
 };
 
 // The trajectory that a tile's lists were made for (TileState of collide/pair_search.h), and where it is now.

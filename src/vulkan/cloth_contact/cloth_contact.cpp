@@ -15,7 +15,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ContactTileIn) == 32 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
+static_assert(sizeof(ContactTileIn) == 40 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
               sizeof(TangledPairIn) == 32);
 static_assert(sizeof(ClothContactArgs) == 16);
 static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edges &&
@@ -39,7 +39,9 @@ struct TileArrays {
                          .cloth = cloth,
                          .thickness = std::max(material.thickness, least_contact_thickness),
                          .static_friction = material.friction[0],
-                         .kinetic_friction = material.friction[1]});
+                         .kinetic_friction = material.friction[1],
+                         .groups = model.collision.filter.groups,
+                         .collides_with = model.collision.filter.mask});
         for (const std::uint32_t p : tile.particle) particles.push_back(base + p);
         for (std::uint32_t e = 0; e < tile_edges; ++e) edges.push_back(tile.edge[0][e] | tile.edge[1][e] << 8);
         for (std::uint32_t t = 0; t < tile_triangles; ++t)

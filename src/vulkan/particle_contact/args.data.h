@@ -27,6 +27,8 @@ struct SphereTileIn {
     uint count;
     uint cloth;
     uint with_alike;  // SearchedParticles
+    uint groups;      // CollisionFilter
+    uint collides_with;
     float diameter;   // m
     float margin;     // m
 };

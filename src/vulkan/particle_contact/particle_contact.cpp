@@ -11,7 +11,7 @@
 namespace weft::vulkan {
 namespace {
 
-static_assert(sizeof(SphereTileIn) == 20 && sizeof(SpherePairIn) == 16 && sizeof(ParticleContactArgs) == 16);
+static_assert(sizeof(SphereTileIn) == 28 && sizeof(SpherePairIn) == 16 && sizeof(ParticleContactArgs) == 16);
 static_assert(WEFT_PARTICLE_GROUP == WEFT_GROUP);
 
 // Workgroups of a pass over the listed pairs at most: enough to fill a device.
@@ -29,7 +29,9 @@ struct SphereArrays {
         for (std::uint32_t begin = 0; begin < size; begin += WEFT_PARTICLE_TILE) {
             tiles.push_back({.count = std::min<std::uint32_t>(WEFT_PARTICLE_TILE, size - begin),
                              .cloth = cloth,
-                             .with_alike = model.self_collision == SelfCollision::fast,
+                             .with_alike = model.collision.with_cloth == SelfCollision::fast,
+                             .groups = model.collision.filter.groups,
+                             .collides_with = model.collision.filter.mask,
                              .diameter = particle_diameter(model),
                              .margin = particle_margin(model)});
             for (std::uint32_t i = begin; i < begin + WEFT_PARTICLE_TILE; ++i) {

@@ -195,6 +195,13 @@ bool are_near(uint a, uint b, float apart)
 
 shared uint meets[WEFT_GROUP];
 
+bool can_meet(uint a, uint b)
+{
+    if (contact.tiles.at[a].cloth == contact.tiles.at[b].cloth) return true;
+    return (contact.tiles.at[a].groups & contact.tiles.at[b].collides_with) != 0u &&
+           (contact.tiles.at[b].groups & contact.tiles.at[a].collides_with) != 0u;
+}
+
 // Appends the pairs of an outdated tile and every tile that may come near it.
 void run_pair_tiles(uint a)
 {
@@ -216,7 +223,7 @@ void run_pair_tiles(uint a)
             uint b = (first + k) * WEFT_TILES_TOGETHER + me();
             if (me() >= WEFT_TILES_TOGETHER || b >= contact.tile_count) continue;
             if (b < a && contact.tracked.at[b].outdated == 1u) continue;
-            if (!are_near(a, b, apart)) continue;
+            if (!can_meet(a, b) || !are_near(a, b, apart)) continue;
             uint at = atomicAdd(head.tile_pairs, 1u);
             if (at >= contact.tile_pair_capacity) continue;
             contact.tile_pairs.at[2u * at] = min(a, b);

@@ -22,6 +22,7 @@ bool may_meet(uint one, uint two, SphereTileIn a)
 {
     SphereTileIn b = spheres.tiles.at[two];
     if (a.with_alike == 0u && b.with_alike == 0u) return false;
+    if (a.cloth != b.cloth && ((a.groups & b.collides_with) == 0u || (b.groups & a.collides_with) == 0u)) return false;
     vec4 low_a = spheres.boxes.at[2u * one], high_a = spheres.boxes.at[2u * one + 1u];
     vec4 low_b = spheres.boxes.at[2u * two], high_b = spheres.boxes.at[2u * two + 1u];
     float reach = 0.5 * (a.diameter + b.diameter) + reach_of(a, b, max(abs(low_a.xyz), abs(high_a.xyz)));
