@@ -46,8 +46,10 @@ std::string shortest(Real value) {
     const Real size = std::abs(value);
     const bool plain = size == 0 || (size >= Real(1e-4) && size < Real(1e9));
     std::array<char, 64> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                   plain ? std::chars_format::fixed : std::chars_format::scientific);
+    // Beyond that range, large whole numbers keep their digits where an exponent would not make them shorter.
+    const auto end = plain      ? std::to_chars(buffer.begin(), buffer.end(), value, std::chars_format::fixed)
+                     : size < 1 ? std::to_chars(buffer.begin(), buffer.end(), value, std::chars_format::scientific)
+                                : std::to_chars(buffer.begin(), buffer.end(), value);
     std::string text(buffer.data(), end.ptr);
     if (const std::size_t e = text.find('e'); e != std::string::npos) {
         const std::string exponent = std::to_string(std::stoi(text.substr(e + 1)));

@@ -23,6 +23,8 @@ TEST(Problems, NumbersReadAsTyped) {
     EXPECT_EQ(number_text(1e39), "1e39");
     EXPECT_EQ(number_text(1e9f), "1e9");
     EXPECT_EQ(number_text(4294967295u), "4294967295");
+    EXPECT_EQ(number_text(4294967295.0), "4294967295");
+    EXPECT_EQ(number_text(3.4028235e38f), "3.4028235e38");
     EXPECT_EQ(number_text(std::numeric_limits<float>::quiet_NaN()), "nan");
     EXPECT_EQ(number_text(-std::numeric_limits<float>::infinity()), "-infinity");
 }
