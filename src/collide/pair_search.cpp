@@ -1,6 +1,7 @@
 #include "collide/pair_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -20,6 +21,11 @@ constexpr float most_approach = 0.5f;
 constexpr float resting = 0.1f;
 // How far, in slacks, the motion within a tick may differ from the velocity for the list to follow the velocity.
 constexpr float follows_velocity = 0.48f;
+// A list for one tick covers what its particles are known to need, and besides so many times their reach and so much of
+// the slack.
+constexpr float spare_reach = 1, spare_slack = 0.1f;
+// Part of the slack by which a list for all places of a tick covers more than these.
+constexpr float slack_of_cover = 0.1f;
 // Part of the slack by which rounding may change a distance.
 constexpr float rounding_of_slack = 0.01f;
 
@@ -30,6 +36,25 @@ float squared(Vec3 v) {
 }
 float length_of(Vec3 v) {
     return std::sqrt(squared(v));
+}
+
+// A float for each particle. Not its number itself, which a float holds up to 2^24 only.
+float distinct_float(std::uint32_t particle) {
+    return std::bit_cast<float>(0x3f800000u + particle);
+}
+
+template <std::size_t Count, std::size_t Corners>
+void number_features(const std::array<std::array<std::uint32_t, Count>, Corners>& vertex, std::uint32_t count,
+                     const TileState& tile, FeatureArrays<Count, Corners>& features) {
+    for (std::size_t c = 0; c < Corners; ++c)
+        for (std::uint32_t i = 0; i < count; ++i) features.number[c][i] = distinct_float(tile.particle[vertex[c][i]]);
+}
+
+void number_features(TileState& tile) {
+    for (std::uint32_t i = 0; i < tile.tile->own_vertices; ++i)
+        tile.vertices.number[0][i] = distinct_float(tile.particle[i]);
+    number_features(tile.tile->edge, tile.tile->edge_count, tile, tile.edges);
+    number_features(tile.tile->triangle, tile.tile->triangle_count, tile, tile.triangles);
 }
 
 }  // namespace
@@ -79,7 +104,9 @@ void PairSearch::set_cloths(const SearchLoops& loops, std::vector<SearchedCloth>
             TileState& state = tiles_[at++];
             state.tile = &tile;
             state.cloth = c;
+            state.slack = cloths_[c].slack;
             for (std::uint32_t i = 0; i < tile_vertices; ++i) state.particle[i] = cloths_[c].base + tile.particle[i];
+            number_features(state);
         }
     }
     find_owners();
@@ -112,7 +139,7 @@ void PairSearch::check_start(const Vec4* positions) {
         if (tile.listed < 0) continue;
         const float deviation = loops_->deviation(tile, &positions->x, static_cast<float>(tick_ - tile.listed));
         tile.strays[0] = deviation + tile.most_around;
-        if (!(deviation <= slack(tile))) tile.listed = -1;
+        if (!(deviation <= tile.slack)) tile.listed = -1;
     }
 }
 
@@ -136,7 +163,7 @@ bool PairSearch::find_outdated(const Vec4* positions, std::span<const float> rea
             const auto ticks = static_cast<float>(tick_ + 1 - tile.listed);
             const float deviation = loops_->deviation(tile, &positions->x, ticks);
             tile.strays[1] = std::max(tile.strays[1], deviation + tile.most_around);
-            outdated = !(deviation + (reach.empty() ? 0 : reach[i]) <= slack(tile));
+            outdated = !(deviation + (reach.empty() ? 0 : reach[i]) <= tile.slack);
         }
         outdated_[i] = outdated;
         any = any || outdated || pairs_[i].until <= tick_;
@@ -166,11 +193,9 @@ void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const
         farthest = std::max(farthest, squared(moved - v));
         fastest = std::max(fastest, squared(v));
     }
-    const float slack_here = slack(tile);
-    const bool along_velocity = std::sqrt(farthest) < follows_velocity * slack_here;
-    const bool moving = !along_velocity || fastest > resting * resting * slack_here * slack_here;
-    tile.most_around = std::max(0.0f, reach - (0.98f - 0.5f * follows_velocity) * slack_here);
-    tile.around.fill(tile.most_around);
+    const float full = full_slack(tile);
+    const bool along_velocity = std::sqrt(farthest) < follows_velocity * full;
+    const bool moving = !along_velocity || fastest > resting * resting * full * full;
     for (std::uint32_t i = 0; i < tile_vertices; ++i) {
         const std::uint32_t p = tile.particle[i];
         const Vec3 start = from[p].xyz(), moved = to[p].xyz() - start;
@@ -180,8 +205,12 @@ void PairSearch::follow(TileState& tile, const Vec4* from, const Vec4* to, const
         tile.velocity[0][i] = v.x, tile.velocity[1][i] = v.y, tile.velocity[2][i] = v.z;
         most_off = std::max(most_off, squared(moved - v));
     }
+    const float off = 0.5f * std::sqrt(most_off);
     begin_list(tile, moving);
-    tile.strays.fill(0.5f * std::sqrt(most_off) + rounding_of_slack * slack_here + tile.most_around);
+    tile.slack = tile.lifetime > 1 ? full : std::min(full, off + (1 + spare_reach) * reach + spare_slack * full);
+    tile.most_around = std::max(0.0f, off + reach - (1 - rounding_of_slack) * tile.slack);
+    tile.around.fill(tile.most_around);
+    tile.strays.fill(off + rounding_of_slack * full + tile.most_around);
 }
 
 void PairSearch::cover(TileState& tile, const Vec4* from, const Vec4* to) {
@@ -196,7 +225,8 @@ void PairSearch::cover(TileState& tile, const Vec4* from, const Vec4* to) {
     }
     begin_list(tile, true);
     tile.lifetime = 1;
-    tile.strays.fill(tile.most_around + slack(tile));
+    tile.slack = slack_of_cover * full_slack(tile);
+    tile.strays.fill(tile.most_around + tile.slack);
 }
 
 // Chooses how long the list of a tile lasts at most: a list that outlived its purpose is followed by a longer one, one
@@ -220,7 +250,7 @@ void PairSearch::begin_list(TileState& tile, bool moving) {
     float spread = 0;
     for (std::uint32_t i = 0; i < count; ++i) spread = std::max(spread, squared(velocity(i) - tile.mean_velocity));
     tile.spread = std::sqrt(spread);
-    const float ticks = most_spread * slack(tile) / (tile.spread + 1e-9f);
+    const float ticks = most_spread * full_slack(tile) / (tile.spread + 1e-9f);
     if (moving && ticks < static_cast<float>(tile.lifetime))
         tile.lifetime = std::max(1, static_cast<std::int32_t>(ticks));
 }
@@ -228,8 +258,8 @@ void PairSearch::begin_list(TileState& tile, bool moving) {
 void PairSearch::bound(TileState& tile) {
     if (tile.bounded == tick_) return;
     tile.bounded = tick_;
-    loops_->bound(tile, static_cast<float>(tick_ - tile.listed),
-                  tile.moving ? static_cast<float>(tile.lifetime) : 0.0f);
+    tile.middle = tile.moving ? 0.5f * static_cast<float>(remaining(tile)) : 0.0f;
+    loops_->bound(tile, static_cast<float>(tick_ - tile.listed));
 }
 
 void PairSearch::gather(TileState& tile) {
@@ -305,20 +335,21 @@ int PairSearch::sort_tiles() {
     return axis;
 }
 
-TileReach PairSearch::reach(const TileState& a, const TileState& b, std::int64_t& until) const {
+TileReach PairSearch::reach(const TileState& a, const TileState& b, TilePairs::Block& block) const {
     const SearchedCloth &of_a = cloths_[a.cloth], &of_b = cloths_[b.cloth];
-    const float slack_both = of_a.slack + of_b.slack;
+    const float slack_both = a.slack + b.slack;
     const std::int64_t full = std::min<std::int64_t>({longest_lifetime, remaining(a), remaining(b)});
     const Vec3 relative = b.mean_velocity - a.mean_velocity;
     const float speed = length_of(relative);
     std::int64_t ticks = full;
     if (speed * static_cast<float>(full) > most_approach * slack_both)
         ticks = std::max<std::int64_t>(1, static_cast<std::int64_t>(most_approach * slack_both / speed));
-    until = ticks < full ? tick_ + ticks : never;
+    block.until = ticks < full ? tick_ + ticks : never;
+    block.middle = {0.5f * static_cast<float>(ticks), a.middle, b.middle};
     const Vec3 moved = relative * static_cast<float>(ticks);
     TileReach reach;
     reach.thickness = 0.5f * (of_a.thickness + of_b.thickness);
-    reach.add = slack_both + length_of(moved);
+    reach.add = slack_both + 0.5f * length_of(moved);
     const std::array<float, 3> parts{moved.x, moved.y, moved.z};
     for (int k = 0; k < 3; ++k) {
         reach.shift[k] = 0.5f * parts[k];
@@ -329,9 +360,13 @@ TileReach PairSearch::reach(const TileState& a, const TileState& b, std::int64_t
 }
 
 float PairSearch::approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const {
-    const auto ticks = static_cast<float>(tick_ + 1 - block.listed);
-    const float relative = a.spread + b.spread + length_of(b.mean_velocity - a.mean_velocity);
-    return ticks * relative + std::max(a.strays[0], a.strays[1]) + std::max(b.strays[0], b.strays[1]);
+    const auto begin = static_cast<float>(tick_ - block.listed);
+    const auto away_from = [&](float middle) {
+        return std::max(std::fabs(begin - middle), std::fabs(begin + 1 - middle));
+    };
+    return away_from(block.middle[0]) * length_of(b.mean_velocity - a.mean_velocity) +
+           away_from(block.middle[1]) * a.spread + away_from(block.middle[2]) * b.spread +
+           std::max(a.strays[0], a.strays[1]) + std::max(b.strays[0], b.strays[1]);
 }
 
 void PairSearch::next_tick() {
@@ -341,7 +376,7 @@ void PairSearch::next_tick() {
 
 void PairSearch::list_block(std::uint32_t a, std::uint32_t b, TilePairs& row) {
     TilePairs::Block block{.other = b, .listed = tick_};
-    const TileReach how = reach(tiles_[a], tiles_[b], block.until);
+    const TileReach how = reach(tiles_[a], tiles_[b], block);
     for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
     gather(tiles_[a]), gather(tiles_[b]);
     loops_->list_pairs(tiles_[a], tiles_[b], how, *scratch_, row.lists);

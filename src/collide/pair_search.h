@@ -26,9 +26,7 @@ struct BoxArrays {
 template <std::size_t Count, std::size_t Corners>
 struct FeatureArrays {
     alignas(cache_line)
-        std::array<std::array<std::array<float, Count>, 3>, Corners> corner;  ///< m, [corner][axis][feature]
-    std::array<std::array<float, Count>, Corners> number;  ///< of the corners' particles: equal for equal particles
-    alignas(cache_line) std::array<float, Count> away;     ///< m: how far a corner may be from its place
+        std::array<std::array<float, Count>, Corners> number;  ///< of the corners' particles: equal for equal particles
     BoxArrays<Count> boxes;
     BoxArrays<16> groups;
 };
@@ -39,7 +37,7 @@ struct SearchedCloth {
     std::uint32_t base = 0;       ///< number of its first particle in the world
     const Vec4* rest = nullptr;   ///< m, by particle of the cloth
     float thickness = 0;          ///< m
-    float slack = 0;              ///< m: how far a particle may be from its listed trajectory
+    float slack = 0;              ///< m: how far a particle may be from its listed trajectory at most
     CollisionFilter filter = {};  ///< for other cloths
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;
 };
@@ -59,9 +57,11 @@ struct TileState {
     /// m: bound on the distance of its vertices from their trajectories, at the start and at the end of the tick.
     std::array<float, 2> strays{};
     float most_around = 0;  ///< of all vertices
+    float slack = 0;        ///< m: how far a vertex may be from its listed trajectory; at most that of the cloth
 
     // At the tick `bounded`.
     std::int64_t bounded = -1;
+    float middle = 0;  ///< ticks: half of the time that the list lasts from then on
     alignas(cache_line) std::array<Vec4, tile_vertices> now;  ///< w: farthest deviation from the mean motion
     std::array<float, 3> center, half;                        ///< of the box around all vertices
 
@@ -97,6 +97,9 @@ struct TilePairs {
         std::array<float, 2> least_spare{};             ///< m, by kind
         std::int64_t until = 0;                         ///< tick from which on the block is not valid
         std::int64_t listed = 0;                        ///< tick in which it was made
+        /// Ticks after it was made for which distances were computed: of the relative motion of both tiles, and of the
+        /// motion within either of them.
+        std::array<float, 3> middle{};
     };
     std::array<PairList, 2> lists;  ///< by kind
     std::vector<Block> blocks;      ///< by ascending `other`
@@ -114,12 +117,16 @@ struct TileReach {
 /// Working memory of SearchLoops::list_pairs.
 struct SearchScratch {
     static constexpr std::size_t most_pairs = std::size_t{tile_edges} * tile_edges;
-    // Packets of pairs whose boxes meet: one feature, and those of as many following ones that have a bit.
-    std::array<std::uint32_t, most_pairs + 1> one, first_of_two, bits;
-    alignas(cache_line) std::array<float, most_pairs> packet_distance;  ///< m, by packet and lane
+    // Boxes of the features of one tile, by axis.
+    alignas(cache_line) std::array<std::array<float, tile_edges>, 3> center, half;
+    // Packets of pairs whose boxes meet: the lanes that do as the lowest 16 bits, then the one feature, then the first
+    // of as many other ones as there are lanes.
+    std::array<std::uint32_t, most_pairs + 1> packet;
     std::uint32_t packets = 0;
 
-    // Pairs that come within the thickness of their tiles.
+    // Pairs, one after another. First those whose boxes meet, by their vertices in the tiles; then those that come
+    // within the thickness of their tiles, by particles.
+    std::array<std::array<std::uint32_t, most_pairs + 32>, 4> vertex;
     std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in their cloths
     AlignedVector<float> far;       ///< m: how much farther than their thickness the pairs to be listed may be apart
     AlignedVector<float> distance;  ///< m
@@ -130,8 +137,9 @@ struct SearchScratch {
 struct SearchLoops {
     /// Largest distance of a vertex from its listed trajectory, m. Not a number if a position is not.
     float (*deviation)(const TileState&, const float* positions, float ticks);
-    /// Vertices at a tick, `ticks` after the list was made, and their box for the next `lifetime` ticks.
-    void (*bound)(TileState&, float ticks, float lifetime);
+    /// Vertices at a tick, `ticks` after the list was made, with half of their motion relative to the mean while the
+    /// list lasts, and their box for that time.
+    void (*bound)(TileState&, float ticks);
     /// Largest distance between two places of a vertex that the tile owns, m. Places as blocks of four.
     float (*measure)(const TileState&, const float* places, const float* other_places);
     /// Features of a tile whose vertices are bounded.
@@ -170,17 +178,19 @@ class PairSearch {
     /// to the positions of the last find_outdated().
     template <class Visit>
     void for_each_block(Visit&& visit) const {
-        for (std::size_t a = 0; a < pairs_.size(); ++a)
+        for (std::uint32_t a = 0; a < pairs_.size(); ++a)
             for (const TilePairs::Block& block : pairs_[a].blocks)
                 visit(a, pairs_[a], block, approach(tiles_[a], tiles_[block.other], block));
     }
     std::span<const SearchedCloth> cloths() const { return cloths_; }
     std::size_t tile_count() const { return tiles_.size(); }
+    /// Whether the last find_outdated() marked the tile.
+    bool outdated(std::uint32_t tile) const { return outdated_[tile] != 0; }
     /// Tiles searched since set_cloths().
     std::uint64_t searched_tiles() const { return searched_; }
 
   private:
-    float slack(const TileState& tile) const { return cloths_[tile.cloth].slack; }
+    float full_slack(const TileState& tile) const { return cloths_[tile.cloth].slack; }
     std::int64_t remaining(const TileState& tile) const;
     void find_owners();
     void follow(TileState& tile, const Vec4* from, const Vec4* to, const Vec4* velocity, float h, float reach);
@@ -191,7 +201,7 @@ class PairSearch {
     void find_near_tiles();
     int sort_tiles();
     float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
-    TileReach reach(const TileState& a, const TileState& b, std::int64_t& until) const;
+    TileReach reach(const TileState& a, const TileState& b, TilePairs::Block& block) const;
     void list_row(std::uint32_t a);
     void list_block(std::uint32_t a, std::uint32_t b, TilePairs& row);
 

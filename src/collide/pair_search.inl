@@ -31,15 +31,16 @@ inline float most_moved_of_tile(const TileState& tile, const float* places, cons
     return std::sqrt(*std::max_element(lanes, lanes + lane_count));
 }
 
-inline void bound_tile(TileState& tile, float ticks, float lifetime) {
+inline void bound_tile(TileState& tile, float ticks) {
     const vec3 mean(real(tile.mean_velocity.x), real(tile.mean_velocity.y), real(tile.mean_velocity.z));
     const real far(std::numeric_limits<float>::infinity());
     real low[3] = {far, far, far}, high[3] = {-far, -far, -far};
     for (std::uint32_t i = 0; i < tile_vertices; i += lane_count) {  // unused places repeat the first vertex
         const vec3 place(load(&tile.place[0][i]), load(&tile.place[1][i]), load(&tile.place[2][i]));
         const vec3 velocity(load(&tile.velocity[0][i]), load(&tile.velocity[1][i]), load(&tile.velocity[2][i]));
-        const vec3 x = place + velocity * real(ticks), relative = velocity - mean;
-        const real away = sqrt(dot(relative, relative)) * real(lifetime) + load(&tile.around[i]);
+        const vec3 half_way = (velocity - mean) * real(tile.middle);
+        const vec3 x = place + velocity * real(ticks) + half_way;
+        const real away = sqrt(dot(half_way, half_way)) + load(&tile.around[i]);
         store_blocks(x, away, &tile.now[i].x);
         const real axes[3] = {x.x, x.y, x.z};
         for (int k = 0; k < 3; ++k) low[k] = min(low[k], axes[k] - away), high[k] = max(high[k], axes[k] + away);
@@ -60,28 +61,28 @@ constexpr std::uint32_t feature_group = lane_count < 8 ? 8 : lane_count;
 // Boxes around groups of features. Groups without features are far away.
 template <std::size_t Count>
 WEFT_FN void bound_groups(const BoxArrays<Count>& boxes, std::uint32_t count, BoxArrays<16>& groups) {
+    const real infinity(std::numeric_limits<float>::infinity());
     for (std::uint32_t group = 0; group < 16; ++group) {
         const std::uint32_t begin = group * feature_group, end = std::min(begin + feature_group, count);
         for (int k = 0; k < 3; ++k) {
-            float low = std::numeric_limits<float>::infinity(), high = -low;
-            for (std::uint32_t i = begin; i < end; ++i) {
-                low = std::min(low, boxes.center[k][i] - boxes.half[k][i]);
-                high = std::max(high, boxes.center[k][i] + boxes.half[k][i]);
+            real low = infinity, high = -infinity;
+            for (std::uint32_t i = begin; i < end; i += lane_count) {
+                const real center = load(&boxes.center[k][i]), half = load(&boxes.half[k][i]);
+                const mask used = mask_of(lanes_before(i, count));
+                low = min(low, select(used, center - half, infinity));
+                high = max(high, select(used, center + half, -infinity));
             }
-            groups.center[k][group] = begin < end ? 0.5f * (low + high) : 1e18f;
-            groups.half[k][group] = begin < end ? 0.5f * (high - low) : 0;
+            const float lowest = least(low), highest = most(high);
+            groups.center[k][group] = begin < end ? 0.5f * (lowest + highest) : 1e18f;
+            groups.half[k][group] = begin < end ? 0.5f * (highest - lowest) : 0;
         }
     }
 }
 
-// A float for each particle's number. Not the number itself, which a float holds up to 2^24 only.
-WEFT_FN float distinct_float(std::uint32_t particle) { return std::bit_cast<float>(0x3f800000u + particle); }
-
 // `vertex`: by corner, the vertices of the features.
 template <std::size_t Count, std::size_t Corners>
 WEFT_FN void gather_features(const float* now, const std::array<const std::uint32_t*, Corners>& vertex,
-                             std::uint32_t count, const std::uint32_t* particle,
-                             FeatureArrays<Count, Corners>& features) {
+                             std::uint32_t count, FeatureArrays<Count, Corners>& features) {
     for (std::uint32_t i = 0; i < count; i += lane_count) {
         real low[3], high[3], away(0.0f);
         for (std::size_t c = 0; c < Corners; ++c) {
@@ -90,34 +91,32 @@ WEFT_FN void gather_features(const float* now, const std::array<const std::uint3
             away = max(away, away_here);
             const real axes[3] = {x.x, x.y, x.z};
             for (int k = 0; k < 3; ++k) {
-                store(axes[k], &features.corner[c][k][i]);
                 low[k] = c == 0 ? axes[k] : min(low[k], axes[k]);
                 high[k] = c == 0 ? axes[k] : max(high[k], axes[k]);
             }
         }
-        store(away, &features.away[i]);
         for (int k = 0; k < 3; ++k) {
             store((low[k] + high[k]) * real(0.5f), &features.boxes.center[k][i]);
             store((high[k] - low[k]) * real(0.5f) + away, &features.boxes.half[k][i]);
         }
     }
-    for (std::size_t c = 0; c < Corners; ++c)
-        for (std::uint32_t i = 0; i < count; ++i) features.number[c][i] = distinct_float(particle[vertex[c][i]]);
     bound_groups(features.boxes, count, features.groups);
 }
 
+// The vertices of a tile, as the corners of its edges and triangles are given.
+constexpr auto vertex_numbers = [] {
+    std::array<std::uint32_t, tile_vertices> number{};
+    for (std::uint32_t i = 0; i < tile_vertices; ++i) number[i] = i;
+    return number;
+}();
+
 inline void gather_tile(TileState& tile) {
-    static constexpr auto itself = [] {
-        std::array<std::uint32_t, tile_vertices> number{};
-        for (std::uint32_t i = 0; i < tile_vertices; ++i) number[i] = i;
-        return number;
-    }();
     const Tile& mesh = *tile.tile;
     const float* now = &tile.now[0].x;
-    gather_features<tile_vertices, 1>(now, {itself.data()}, mesh.own_vertices, tile.particle.data(), tile.vertices);
-    gather_features<tile_edges, 2>(now, {mesh.edge[0].data(), mesh.edge[1].data()}, mesh.edge_count, tile.particle.data(), tile.edges);
+    gather_features<tile_vertices, 1>(now, {vertex_numbers.data()}, mesh.own_vertices, tile.vertices);
+    gather_features<tile_edges, 2>(now, {mesh.edge[0].data(), mesh.edge[1].data()}, mesh.edge_count, tile.edges);
     gather_features<tile_triangles, 3>(now, {mesh.triangle[0].data(), mesh.triangle[1].data(), mesh.triangle[2].data()},
-                                       mesh.triangle_count, tile.particle.data(), tile.triangles);
+                                       mesh.triangle_count, tile.triangles);
 }
 
 // A box, and whether others meet it.
@@ -149,7 +148,13 @@ struct BoxTest {
 template <class A, class B>
 WEFT_FN void find_meeting_boxes(const TileState& b, const A& of_a, std::uint32_t count_a, const B& of_b, std::uint32_t count_b,
                                 bool same, const TileReach& reach, float sign, SearchScratch& scratch) {
-    constexpr std::size_t stride_a = sizeof of_a.boxes.center[0] / sizeof(float);
+    // The boxes of `a` where they meet those of `b`.
+    for (std::uint32_t i = 0; i < count_a; i += lane_count) {
+        for (int k = 0; k < 3; ++k) {
+            store(load(&of_a.boxes.center[k][i]) - real(sign * reach.shift[k]), &scratch.center[k][i]);
+            store(load(&of_a.boxes.half[k][i]) + real(reach.widen[k]), &scratch.half[k][i]);
+        }
+    }
     std::uint32_t packets = 0;
     const BoxTest all(b.center.data(), b.half.data(), 1, reach, sign);
     for_each_bit(all.meets_groups(of_a.groups), [&](std::uint32_t group_a) {
@@ -161,11 +166,15 @@ WEFT_FN void find_meeting_boxes(const TileState& b, const A& of_a, std::uint32_t
             const std::uint32_t first = group_b * feature_group, last = std::min(first + feature_group, count_b);
             for (std::uint32_t j = first; j < last; j += lane_count) {
                 const std::uint32_t used = lanes_before(j, count_b);
+                real center[3], half[3];
+                for (int k = 0; k < 3; ++k) center[k] = load(&of_b.boxes.center[k][j]), half[k] = load(&of_b.boxes.half[k][j]);
                 for (std::uint32_t i = begin; i < end; ++i) {
-                    const BoxTest one(&of_a.boxes.center[0][i], &of_a.boxes.half[0][i], stride_a, reach, -sign);
-                    std::uint32_t bits = one.meets(of_b.boxes, j) & used;
+                    const auto meets = [&](int k) {
+                        return abs(real(scratch.center[k][i]) - center[k]) < real(scratch.half[k][i]) + half[k];
+                    };
+                    std::uint32_t bits = bits_of(meets(0) && meets(1) && meets(2)) & used;
                     if (same) bits = i < j ? bits : i - j < lane_count - 1 ? bits & (~1u << (i - j)) : 0;
-                    scratch.one[packets] = i, scratch.first_of_two[packets] = j, scratch.bits[packets] = bits;
+                    scratch.packet[packets] = bits | i << 16 | j << 24;
                     packets += bits != 0;
                 }
             }
@@ -174,80 +183,86 @@ WEFT_FN void find_meeting_boxes(const TileState& b, const A& of_a, std::uint32_t
     scratch.packets = packets;
 }
 
+// Numbers of vertices of the two sides of a pair.
+template <PairKind kind>
+constexpr std::array<int, 2> sides = kind == PairKind::vertex_triangle ? std::array{1, 3} : std::array{2, 2};
+
 template <PairKind kind>
 WEFT_FN ClosestPoints closest(const vec3* x) {
     if constexpr (kind == PairKind::vertex_triangle) return closest_vertex_triangle(x[0], x[1], x[2], x[3]);
     else return closest_edge_edge(x[0], x[1], x[2], x[3]);
 }
 
-// Keeps, of the packets, the pairs without common particles that come within the thickness.
+// Packs the pairs of the packets that have no common particle, with their vertices in the tiles.
 template <PairKind kind, class A, class B>
-WEFT_FN void keep_near_pairs(const A& of_a, const B& of_b, const TileReach& reach, SearchScratch& scratch) {
-    constexpr int side_one = kind == PairKind::vertex_triangle ? 1 : 2;
+WEFT_FN void pack_pairs(const A& of_a, const std::array<const std::uint32_t*, sides<kind>[0]>& of_one, const B& of_b,
+                        const std::array<const std::uint32_t*, sides<kind>[1]>& of_two, SearchScratch& scratch) {
+    std::uint32_t count = 0;
     for (std::uint32_t packet = 0; packet < scratch.packets; ++packet) {
-        const std::uint32_t i = scratch.one[packet], j = scratch.first_of_two[packet];
-        vec3 x[4];
+        const std::uint32_t i = scratch.packet[packet] >> 16 & 255, j = scratch.packet[packet] >> 24;
         mask apart = real(0.0f) < real(1.0f);
-        for (int c = 0; c < 4; ++c) {
-            if (c < side_one) {
-                const auto& at = of_a.corner[c];
-                x[c] = vec3(real(at[0][i]), real(at[1][i]), real(at[2][i]));
-                for (int d = 0; d < 4 - side_one; ++d) {
-                    const real p(of_a.number[c][i]), q = load(&of_b.number[d][j]);
-                    apart = apart && (p < q || p > q);
-                }
-            } else {
-                const auto& at = of_b.corner[c - side_one];
-                x[c] = vec3(load(&at[0][j]), load(&at[1][j]), load(&at[2][j]));
+        for (std::size_t c = 0; c < of_one.size(); ++c) {
+            for (std::size_t d = 0; d < of_two.size(); ++d) {
+                const real p(of_a.number[c][i]), q = load(&of_b.number[d][j]);
+                apart = apart && (p < q || p > q);
             }
         }
-        const real distance = closest<kind>(x).distance;
-        const real far = real(of_a.away[i] + reach.add) + load(&of_b.away[j]);
-        scratch.bits[packet] &= bits_of(distance < far + real(reach.thickness) && apart);
-        store(distance, &scratch.packet_distance[packet * lane_count]);
+        const std::uint32_t bits = scratch.packet[packet] & bits_of(apart);
+        const mask found = mask_of(bits);
+        for (std::size_t c = 0; c < of_one.size(); ++c) fill(of_one[c][i], &scratch.vertex[c][count]);
+        for (std::size_t d = 0; d < of_two.size(); ++d)
+            compress(&of_two[d][j], found, &scratch.vertex[of_one.size() + d][count]);
+        count += static_cast<std::uint32_t>(std::popcount(bits));
     }
+    for (auto& array : scratch.vertex) std::fill_n(&array[count], 16, 0u);
+    scratch.count = count;
 }
 
-// Finds the pairs of a feature of `a` and a feature of `b`, without common particles, that come within the thickness.
-// `vertices_of(i, j)`: their vertices in the tiles.
-template <PairKind kind, class A, class B, class Vertices>
-WEFT_FN void find_pairs(const TileState& a, const TileState& b, const A& of_a, std::uint32_t count_a, const B& of_b,
-                        std::uint32_t count_b, bool same, const TileReach& reach, float sign, SearchScratch& scratch,
-                        Vertices&& vertices_of) {
-    constexpr int side_one = kind == PairKind::vertex_triangle ? 1 : 2;
-    find_meeting_boxes(b, of_a, count_a, of_b, count_b, same, reach, sign, scratch);
-    keep_near_pairs<kind>(of_a, of_b, reach, scratch);
-    const std::size_t most = std::size_t{scratch.packets} * lane_count + 16;
+// Keeps, of the packed pairs, those that come within the thickness.
+template <PairKind kind>
+WEFT_FN void keep_near_pairs(const TileState& a, const TileState& b, const TileReach& reach, float sign, SearchScratch& scratch) {
+    const vec3 shift(real(sign * reach.shift[0]), real(sign * reach.shift[1]), real(sign * reach.shift[2]));
+    const std::size_t most = scratch.count + 16;
     if (scratch.far.size() < most) {
         for (auto& array : scratch.particle) array.resize(most);
         scratch.far.resize(most), scratch.distance.resize(most);
     }
-    std::uint32_t count = 0;
-    for (std::uint32_t packet = 0; packet < scratch.packets; ++packet) {
-        const std::uint32_t i = scratch.one[packet], j = scratch.first_of_two[packet];
-        for_each_bit(scratch.bits[packet], [&](std::uint32_t lane) {
-            const std::array<std::uint32_t, 4> vertex = vertices_of(i, j + lane);
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < scratch.count; i += lane_count) {
+        vec3 x[4];
+        real away[4];
+        for (int c = 0; c < 4; ++c)
+            x[c] = gather_blocks(&(c < sides<kind>[0] ? a : b).now[0].x, &scratch.vertex[c][i], away[c]);
+        for (int c = 0; c < sides<kind>[0]; ++c) x[c] = x[c] - shift;
+        const real distance = closest<kind>(x).distance;
+        const real of_one = kind == PairKind::edge_edge ? max(away[0], away[1]) : away[0];
+        const real of_two = kind == PairKind::edge_edge ? max(away[2], away[3]) : max(away[1], max(away[2], away[3]));
+        const real far = of_one + of_two + real(reach.add);
+        const std::uint32_t bits = bits_of(distance < far + real(reach.thickness)) & lanes_before(i, scratch.count);
+        if (bits == 0) continue;
+        alignas(64) float distances[16], fars[16];
+        store(distance, distances), store(far, fars);
+        for_each_bit(bits, [&](std::uint32_t lane) {
             for (int c = 0; c < 4; ++c)
-                scratch.particle[c][count] = (c < side_one ? a : b).tile->particle[vertex[c]];
-            scratch.far[count] = of_a.away[i] + reach.add + of_b.away[j + lane];
-            scratch.distance[count++] = scratch.packet_distance[packet * lane_count + lane];
+                scratch.particle[c][kept] = (c < sides<kind>[0] ? a : b).tile->particle[scratch.vertex[c][i + lane]];
+            scratch.far[kept] = fars[lane];
+            scratch.distance[kept++] = distances[lane];
         });
     }
-    scratch.count = count;
+    scratch.count = kept;
 }
 
 // Appends the pairs that were found and come within their own thickness.
 template <PairKind kind>
 inline void append_pairs(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
                          PairList& list) {
-    constexpr int side_one = kind == PairKind::vertex_triangle ? 1 : 2;
     const std::uint32_t count = scratch.count;
     if (count == 0) return;
     list.reserve(list.count + count);
     const auto add = [&](std::uint32_t i, float thickness) {
         const std::uint32_t at = list.count++;
         for (int c = 0; c < 4; ++c)
-            list.particle[c][at] = (c < side_one ? a : b).base() + scratch.particle[c][i];
+            list.particle[c][at] = (c < sides<kind>[0] ? a : b).base() + scratch.particle[c][i];
         list.thickness[at] = thickness, list.spare[at] = scratch.distance[i] - thickness;
     };
     if (!reach.rest) {
@@ -273,24 +288,22 @@ inline void append_pairs(const TileState& a, const TileState& b, const TileReach
 // Pairs of the vertices of `a` and the triangles of `b`, which moves by twice `sign` times the shift.
 inline void list_vertex_triangle(const TileState& a, const TileState& b, const TileReach& reach, float sign,
                                  SearchScratch& scratch, PairList& list) {
-    const Tile& of_b = *b.tile;
-    find_pairs<PairKind::vertex_triangle>(
-        a, b, a.vertices, a.tile->own_vertices, b.triangles, of_b.triangle_count, false, reach, sign, scratch,
-        [&](std::uint32_t i, std::uint32_t j) {
-            return std::array{i, of_b.triangle[0][j], of_b.triangle[1][j], of_b.triangle[2][j]};
-        });
-    append_pairs<PairKind::vertex_triangle>(a, b, reach, scratch, list);
+    constexpr PairKind kind = PairKind::vertex_triangle;
+    const auto& corner = b.tile->triangle;
+    find_meeting_boxes(b, a.vertices, a.tile->own_vertices, b.triangles, b.tile->triangle_count, false, reach, sign, scratch);
+    pack_pairs<kind>(a.vertices, {vertex_numbers.data()}, b.triangles, {corner[0].data(), corner[1].data(), corner[2].data()}, scratch);
+    keep_near_pairs<kind>(a, b, reach, sign, scratch);
+    append_pairs<kind>(a, b, reach, scratch, list);
 }
 
 inline void list_edge_edge(const TileState& a, const TileState& b, const TileReach& reach, SearchScratch& scratch,
                            PairList& list) {
-    const Tile &of_a = *a.tile, &of_b = *b.tile;
-    find_pairs<PairKind::edge_edge>(
-        a, b, a.edges, of_a.edge_count, b.edges, of_b.edge_count, &a == &b, reach, 1, scratch,
-        [&](std::uint32_t i, std::uint32_t j) {
-            return std::array{of_a.edge[0][i], of_a.edge[1][i], of_b.edge[0][j], of_b.edge[1][j]};
-        });
-    append_pairs<PairKind::edge_edge>(a, b, reach, scratch, list);
+    constexpr PairKind kind = PairKind::edge_edge;
+    const auto &one = a.tile->edge, &two = b.tile->edge;
+    find_meeting_boxes(b, a.edges, a.tile->edge_count, b.edges, b.tile->edge_count, &a == &b, reach, 1, scratch);
+    pack_pairs<kind>(a.edges, {one[0].data(), one[1].data()}, b.edges, {two[0].data(), two[1].data()}, scratch);
+    keep_near_pairs<kind>(a, b, reach, 1, scratch);
+    append_pairs<kind>(a, b, reach, scratch, list);
 }
 
 inline void list_pairs_of_tiles(const TileState& a, const TileState& b, const TileReach& reach,

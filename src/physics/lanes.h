@@ -83,6 +83,30 @@ WEFT_FN std::uint32_t bits_of(mask m) {
     return bytes[0] | std::uint32_t{bytes[1]} << 8;
 }
 
+// The first lane_count bits as lanes.
+WEFT_FN mask mask_of(std::uint32_t bits) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+    return {hn::LoadMaskBits(D(), bytes)};
+}
+
+// Writes the numbers of the lanes in `m`, one after another. Writes lane_count numbers in all; those after them are of
+// no use.
+template <class Tag>
+WEFT_FN void compress(Tag tag, hn::Vec<Tag> v, mask m, hn::TFromD<Tag>* to) {
+    hn::StoreU(hn::Compress(v, hn::RebindMask(tag, m.m)), tag, to);
+}
+WEFT_FN void compress(const std::uint32_t* from, mask m, std::uint32_t* to) {
+    const hn::Rebind<std::uint32_t, D> tag;
+    compress(tag, hn::LoadU(tag, from), m, to);
+}
+WEFT_FN void compress(real from, mask m, float* to) {
+    compress(D(), from.v, m, to);
+}
+WEFT_FN void fill(std::uint32_t number, std::uint32_t* to) {
+    const hn::Rebind<std::uint32_t, D> tag;
+    hn::StoreU(hn::Set(tag, number), tag, to);
+}
+
 WEFT_FN real sqrt(real x) {
     return hn::Sqrt(x.v);
 }
@@ -101,6 +125,13 @@ WEFT_FN real max(real a, real b) {
 }
 WEFT_FN real inversesqrt(real x) {
     return real(1) / sqrt(x);
+}
+// Over all lanes. None of them may be not a number.
+WEFT_FN float least(real x) {
+    return hn::GetLane(hn::MinOfLanes(D(), x.v));
+}
+WEFT_FN float most(real x) {
+    return hn::GetLane(hn::MaxOfLanes(D(), x.v));
 }
 
 #include "physics/lanes_vec3.inl"

@@ -13,8 +13,14 @@ WEFT_FN real min(real a, real b) { return a < b ? a : b; }
 WEFT_FN real max(real a, real b) { return a > b ? a : b; }
 WEFT_FN real inversesqrt(real x) { return real(1) / sqrt(x); }
 WEFT_FN real select(mask m, real yes, real no) { return m ? yes : no; }
+WEFT_FN real least(real x) { return x; }
+WEFT_FN real most(real x) { return x; }
 WEFT_FN bool any(mask m) { return m; }
 WEFT_FN std::uint32_t bits_of(mask m) { return m ? 1u : 0u; }
+WEFT_FN mask mask_of(std::uint32_t bits) { return (bits & 1u) != 0; }
+WEFT_FN void compress(const std::uint32_t* from, mask, std::uint32_t* to) { *to = *from; }
+WEFT_FN void compress(real from, mask, real* to) { *to = from; }
+WEFT_FN void fill(std::uint32_t number, std::uint32_t* to) { *to = number; }
 
 #include "physics/lanes_vec3.inl"
 

@@ -11,10 +11,7 @@ namespace {
 
 // How far a particle may leave its listed trajectory, per distance that contact may move it. A larger slack makes lists
 // longer, a smaller one makes them fail earlier. The result does not depend on it.
-constexpr float slack_per_cap = 1;
-// Part of the slack by which contact may always move particles beyond where the constraints left them, before near
-// pairs are searched again.
-constexpr float least_reach = 0.1f;
+constexpr float slack_per_cap = 1.5f;
 
 scalar::vec3 on_lane(Vec3 v) {
     return {v.x, v.y, v.z};
@@ -32,10 +29,6 @@ void set_place(Vec4& x, Vec3 place) {
     x = {place.x, place.y, place.z, x.w};
 }
 
-template <class Pairs>
-std::array<std::uint32_t, 4> particles_of(const Pairs& near, std::uint32_t i) {
-    return {near.particle[0][i], near.particle[1][i], near.particle[2][i], near.particle[3][i]};
-}
 std::array<float, 4> weights_of(const NearPairs& near, std::uint32_t i) {
     return {near.weight[0][i], near.weight[1][i], near.weight[2][i], near.weight[3][i]};
 }
@@ -101,81 +94,13 @@ void ClothContact::run(const ClothContactContext& context, const Pass& pass, Wor
 void ClothContact::detect() {
     untangle();
     for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
-    reach_.resize(search_.tile_count());
-    most_moved_.resize(search_.tile_count());
-    for (std::size_t tile = 0; tile < reach_.size(); ++tile)
-        reach_[tile] = std::min(cap_, std::max(2 * most_moved_[tile], least_reach * slack_));
-    std::ranges::fill(most_moved_, 0.0f);
+    begin_reach();
     if (search_.find_outdated(x_, reach_, search_always_)) {
-        search_.follow(start_, x_, velocity_, h_, reach_);
-        search_.search();
+        search();
         ++counts_.searches;
     }
     find_near();
-    for (int kind = 0; kind < 2; ++kind) pushed_[kind].assign(near_[kind].count, 0);
     pushes_of_substep_.clear();
-}
-
-void ClothContact::find_near() {
-    for (Candidates& candidates : candidates_) candidates.count = 0;
-    search_.for_each_block([&](std::size_t tile, const TilePairs& row, const TilePairs::Block& block, float approach) {
-        const float reach = reach_[tile] + reach_[block.other];
-        for (int kind = 0; kind < 2; ++kind) {
-            const std::uint32_t count = block.count[kind];
-            if (count > 0 && !(block.least_spare[kind] > approach + reach)) {
-                candidates_[kind].reserve(candidates_[kind].count + count);
-                loops_->choose(row.lists[kind], block.begin[kind], count, approach + reach, reach, candidates_[kind]);
-            }
-        }
-    });
-    const NearInput input{&start_->x, &reached_.data()->x, contact_gap_floor};
-    for (int kind = 0; kind < 2; ++kind) {
-        candidates_[kind].pad(cloths_.front()->base);
-        loops_->find_near[kind](candidates_[kind], input, near_[kind]);
-        drop_pairs_without_side(kind);
-        near_[kind].pad(cloths_.front()->base);
-    }
-}
-
-// Extends lists and near pairs if a particle has moved farther from where the constraints left it than they allow for.
-// Returns whether it did.
-bool ClothContact::extend_reach() {
-    search_.measure(reached_.data(), x_, moved_);
-    bool any = false;
-    for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
-        most_moved_[tile] = std::max(most_moved_[tile], moved_[tile]);
-        if (moved_[tile] <= reach_[tile]) continue;
-        reach_[tile] = 2 * moved_[tile];
-        any = true;
-    }
-    if (!any) return false;
-    const std::array pushed{pushed_pairs(0), pushed_pairs(1)};
-    if (search_.find_outdated(reached_.data(), reach_)) {
-        search_.follow(start_, reached_.data(), velocity_, h_, reach_);
-        search_.search();
-    }
-    find_near();
-    for (int kind = 0; kind < 2; ++kind) mark_pushed(kind, pushed[kind]);
-    return true;
-}
-
-// The pairs that contact pushed in this substep, in order.
-std::vector<std::array<std::uint32_t, 4>> ClothContact::pushed_pairs(int kind) const {
-    std::vector<std::array<std::uint32_t, 4>> pairs;
-    for (std::uint32_t i = 0; i < pushed_[kind].size(); ++i)
-        if (pushed_[kind][i]) pairs.push_back(particles_of(near_[kind], i));
-    std::ranges::sort(pairs);
-    return pairs;
-}
-
-void ClothContact::mark_pushed(int kind, std::span<const std::array<std::uint32_t, 4>> pairs) {
-    const NearPairs& near = near_[kind];
-    pushed_[kind].assign(near.count, 0);
-    if (pairs.empty()) return;
-    for (const auto& pair : pairs) marked_[pair[0]] = 1;
-    for (std::uint32_t i = 0; i < near.count; ++i)
-        pushed_[kind][i] = marked_[near.particle[0][i]] && std::ranges::binary_search(pairs, particles_of(near, i));
-    for (const auto& pair : pairs) marked_[pair[0]] = 0;
 }
 
 bool ClothContact::comes_near(int kind, std::uint32_t pair) const {
@@ -199,8 +124,8 @@ void ClothContact::find_overlaps() {
         loops_->find_overlaps[kind](near, &x_->x, contact_recovery_speed * h_, overlaps);
         std::erase_if(overlaps, [&](const Overlap& overlap) { return !comes_near(kind, overlap.pair); });
         for (const Overlap& overlap : overlaps) {
-            pushed_[kind][overlap.pair] = 1;
-            const auto particles = particles_of(near, overlap.pair);
+            near.pushed[overlap.pair] = 1;
+            const auto particles = near.particles(overlap.pair);
             const auto weights = weights_of(near, overlap.pair);
             add_shares(particles, weights);
         }
@@ -244,7 +169,7 @@ void ClothContact::find_pushes() {
     for (int kind = 0; kind < 2; ++kind) {
         const NearPairs& near = near_[kind];
         for (Overlap& overlap : overlaps_[kind]) {
-            const auto particles = particles_of(near, overlap.pair);
+            const auto particles = near.particles(overlap.pair);
             const auto weights = weights_of(near, overlap.pair);
             const Vec3 normal = normal_of(near, overlap.pair);
             Vec3 moved{};
@@ -267,7 +192,7 @@ void ClothContact::find_pushes() {
 void ClothContact::add_pushes() {
     for (int kind = 0; kind < 2; ++kind) {
         for (const Overlap& overlap : overlaps_[kind]) {
-            const auto particles = particles_of(near_[kind], overlap.pair);
+            const auto particles = near_[kind].particles(overlap.pair);
             const auto weights = weights_of(near_[kind], overlap.pair);
             add_to_sums(particles, weights, overlap.push, WEFT_PUSH_QUANTA_PER_METER);
         }
@@ -277,7 +202,7 @@ void ClothContact::add_pushes() {
 void ClothContact::scale_pushes() {
     for (int kind = 0; kind < 2; ++kind) {
         for (Overlap& overlap : overlaps_[kind]) {
-            const auto particles = particles_of(near_[kind], overlap.pair);
+            const auto particles = near_[kind].particles(overlap.pair);
             const auto weights = weights_of(near_[kind], overlap.pair);
             const Vec3 normal = normal_of(near_[kind], overlap.pair);
             float opened = 0;
@@ -310,7 +235,6 @@ void ClothContact::keep_in_reach() {
 }
 
 bool ClothContact::any_lost() {
-    extend_reach();
     for (int kind = 0; kind < 2; ++kind) {
         lost_.clear();
         loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
@@ -322,7 +246,6 @@ bool ClothContact::any_lost() {
 
 void ClothContact::push(const Pass& pass) {
     const auto sweep = [&] {
-        extend_reach();
         find_overlaps();
         find_pushes();
         add_pushes();
@@ -331,18 +254,21 @@ void ClothContact::push(const Pass& pass) {
         move_by_pushes();
     };
     if (pass.batch > 0) keep_in_reach();
+    extend_reach();
     sweep();
     if (pass.batch + 1 < contact_rounds) return;
     counts_.contacts = overlaps_[0].size() + overlaps_[1].size();
     // Where the limit would have to act, more sweeps are the better answer.
-    for (int extra = 0; extra < contact_extra_sweeps && any_lost(); ++extra) sweep();
-    for (int kind = 0; kind < 2; ++kind) {
-        const NearPairs& near = near_[kind];
+    for (int extra = 0; extra < contact_extra_sweeps; ++extra) {
+        extend_reach();
+        if (!any_lost()) break;
+        sweep();
+    }
+    for (const NearPairs& near : near_) {
         for (std::uint32_t i = 0; i < near.count; ++i) {
-            if (pushed_[kind][i])
-                pushes_of_substep_.push_back({particles_of(near, i), weights_of(near, i), normal_of(near, i)});
+            if (near.pushed[i])
+                pushes_of_substep_.push_back({near.particles(i), weights_of(near, i), normal_of(near, i)});
         }
-        pushed_[kind].clear();
     }
 }
 
@@ -361,7 +287,7 @@ void ClothContact::send_back() {
             for (const std::uint32_t pair : lost_) {
                 if (!comes_near(kind, pair)) continue;
                 bool helps = false;
-                for (const std::uint32_t p : particles_of(near_[kind], pair)) {
+                for (const std::uint32_t p : near_[kind].particles(pair)) {
                     if (!(part_[p] > 0) || !(x_[p].w > 0)) continue;
                     helps = true;
                     if (sent_back_[p]) continue;
@@ -371,7 +297,7 @@ void ClothContact::send_back() {
                 if (helps) continue;
                 ++stuck;
                 counts_.tangled_particle =
-                    std::min(counts_.tangled_particle, std::ranges::min(particles_of(near_[kind], pair)));
+                    std::min(counts_.tangled_particle, std::ranges::min(near_[kind].particles(pair)));
             }
         }
         if (to_send_back_.empty()) break;
@@ -396,10 +322,8 @@ void ClothContact::limit() {
     extend_reach();
     send_back();
     // A particle that was sent back may have left its listed trajectory. Its tile is then listed for all places between
-    // the start and where the particle was to go, and the limit starts again.
-    for (int attempt = 0;; ++attempt) {
-        const bool extended = extend_reach();
-        if (!extended && !any_uncovered()) break;
+    // the start and where the particle was to go, and the limit starts again. Near pairs cover these places anyway.
+    for (int attempt = 0; any_uncovered(); ++attempt) {
         if (attempt == contact_most_attempts) {
             for_each_particle([&](std::uint32_t p) {
                 if (!(x_[p].w > 0)) return;
@@ -409,11 +333,9 @@ void ClothContact::limit() {
             break;
         }
         for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
-        if (!extended) {
-            search_.cover(start_, asked_.data());
-            search_.search();
-            find_near();
-        }
+        search_.cover(start_, asked_.data());
+        search_.search();
+        find_near();
         send_back();
     }
     for_each_particle([&](std::uint32_t p) { counts_.limited += part_[p] < 1; });

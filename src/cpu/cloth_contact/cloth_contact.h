@@ -31,10 +31,16 @@ class ClothContact {
 
   private:
     void detect();
+    // near_pairs.cpp
+    void begin_reach();
+    void search();
     void find_near();
-    bool extend_reach();
-    std::vector<std::array<std::uint32_t, 4>> pushed_pairs(int kind) const;
-    void mark_pushed(int kind, std::span<const std::array<std::uint32_t, 4>> pairs);
+    void add_near_pairs();
+    bool is_relisted(std::uint32_t a, std::uint32_t b) const;
+    void extend_reach();
+    std::vector<std::array<std::uint32_t, 4>> remove_relisted(NearPairs& near) const;
+    void mark_pushed(NearPairs& near, std::uint32_t begin, std::vector<std::array<std::uint32_t, 4>>& pairs);
+
     void push(const Pass& pass);
     void keep_in_reach();
     void find_overlaps();
@@ -53,7 +59,7 @@ class ClothContact {
     void limit();
     // untangle.cpp
     void untangle();
-    void drop_pairs_without_side(int kind);
+    void drop_pairs_without_side(int kind, std::uint32_t begin);
     void send_back();
     void separate();
     template <class Visit>
@@ -67,11 +73,11 @@ class ClothContact {
     bool search_always_;
     const ContactLoops* loops_ = nullptr;
     PairSearch search_;
-    std::array<Candidates, 2> candidates_;             // by kind
-    std::array<NearPairs, 2> near_;                    // by kind
-    std::array<std::vector<std::uint8_t>, 2> pushed_;  // by kind: whether contact pushed it in this substep
-    // By tile, m: how far lists and near pairs allow particles to move from reached_, and how far they are and were.
-    std::vector<float> reach_, moved_, most_moved_;
+    std::array<Candidates, 2> candidates_;  // by kind
+    std::array<NearPairs, 2> near_;         // by kind
+    // By tile, m: how far lists and near pairs allow particles to move from reached_, and did before; how far they are
+    // from there, and were at most.
+    std::vector<float> reach_, before_, moved_, most_moved_;
     struct Pushed {
         std::array<std::uint32_t, 4> particles;
         std::array<float, 4> weights;

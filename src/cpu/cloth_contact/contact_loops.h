@@ -14,16 +14,28 @@ namespace weft::cpu {
 struct Candidates {
     std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
     AlignedVector<float> thickness;                        ///< m
-    AlignedVector<float>
-        reach;  ///< m: how far contact may move both sides together from where the constraints left them
+    /// m: how far contact may move both sides together from where the constraints left them; and the same when the near
+    /// pairs were found before: those that were near then are not near pairs again.
+    AlignedVector<float> reach, before;
+    AlignedVector<std::uint32_t> block;               ///< index into `tiles`
+    std::vector<std::array<std::uint32_t, 2>> tiles;  ///< by block
     std::uint32_t count = 0;
 
+    void clear();
     void reserve(std::uint32_t pairs);
     void pad(std::uint32_t with_particle);
 };
 
+/// What applies to all listed pairs of two tiles.
+struct ChosenBlock {
+    float approach;       ///< m: by how much their distance may be less than when they were listed
+    float reach, before;  ///< m: see Candidates
+};
+/// ChosenBlock::before of pairs that were not near before.
+inline constexpr float never_near = -1e30f;
+
 /// Pairs of one kind with their closest points and normal at the start of the substep. Padded to whole packets of
-/// lanes; padding has no weights.
+/// lanes; padding has no weights. In any order: sums over pairs do not depend on it.
 struct NearPairs {
     std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
     std::array<AlignedVector<float>, 4> weight;            ///< of the closest points
@@ -31,8 +43,13 @@ struct NearPairs {
     AlignedVector<float> thickness;  ///< m
     AlignedVector<float> gap;        ///< m: between the sides along the normal, at the start
     AlignedVector<float> distance;   ///< m, at the start
+    std::array<AlignedVector<std::uint32_t>, 2> tile;
+    AlignedVector<std::uint8_t> pushed;  ///< whether contact pushed it in this substep
     std::uint32_t count = 0;
 
+    std::array<std::uint32_t, 4> particles(std::uint32_t i) const {
+        return {particle[0][i], particle[1][i], particle[2][i], particle[3][i]};
+    }
     void reserve(std::uint32_t pairs);
     void move(std::uint32_t from, std::uint32_t to);
     void pad(std::uint32_t with_particle);
@@ -54,9 +71,9 @@ struct Overlap {
 /// One table per instruction set.
 struct ContactLoops {
     SearchLoops search;
-    /// Appends `count` listed pairs from `begin` on, without those whose spare exceeds `most`.
-    void (*choose)(const PairList&, std::uint32_t begin, std::uint32_t count, float most, float reach, Candidates&);
-    /// Replaces `NearPairs` by the candidates that contact or the limit may have to act on.
+    /// Appends `count` listed pairs from `begin` on that may be near, as the last one of Candidates::tiles.
+    void (*choose)(const PairList&, std::uint32_t begin, std::uint32_t count, const ChosenBlock&, Candidates&);
+    /// Appends the candidates that contact or the limit may have to act on, and had not before.
     std::array<void (*)(const Candidates&, const NearInput&, NearPairs&), 2> find_near;
     /// Appends the pairs that overlap at `positions`, in order. `recovery`: m.
     std::array<void (*)(const NearPairs&, const float* positions, float recovery, std::vector<Overlap>&), 2>

@@ -7,24 +7,28 @@ WEFT_FN real gap_of(const real* along) {
 }
 
 // Most listed pairs are too far apart to meet in this substep, which their distance at the time of listing says.
-inline void choose_pairs(const PairList& list, std::uint32_t begin, std::uint32_t count, float most, float reach,
+inline void choose_pairs(const PairList& list, std::uint32_t begin, std::uint32_t count, const ChosenBlock& block,
                          Candidates& chosen) {
-    constexpr std::uint32_t all_lanes = (1u << lane_count) - 1;
-    for (std::uint32_t i = 0; i < count; i += lane_count) {
-        const std::uint32_t far = bits_of(load(&list.spare[begin + i]) > real(most));
-        for_each_bit(~far & all_lanes & lanes_before(i, count), [&](std::uint32_t lane) {
-            const std::uint32_t from = begin + i + lane, to = chosen.count++;
-            for (int k = 0; k < 4; ++k) chosen.particle[k][to] = list.particle[k][from];
-            chosen.thickness[to] = list.thickness[from];
-            chosen.reach[to] = reach;
-        });
+    const real most(block.approach + block.reach), most_before(block.approach + block.before);
+    const real never(never_near), before(block.before);
+    const auto number = static_cast<std::uint32_t>(chosen.tiles.size() - 1);
+    for (std::uint32_t i = begin; i < begin + count; i += lane_count) {
+        const real spare = load(&list.spare[i]);
+        const std::uint32_t bits = bits_of(!(spare > most)) & lanes_before(i, begin + count);
+        const mask near = mask_of(bits);
+        const std::uint32_t to = chosen.count;
+        for (int k = 0; k < 4; ++k) compress(&list.particle[k][i], near, &chosen.particle[k][to]);
+        compress(load(&list.thickness[i]), near, &chosen.thickness[to]);
+        compress(select(spare > most_before, never, before), near, &chosen.before[to]);
+        store(real(block.reach), &chosen.reach[to]);
+        fill(number, &chosen.block[to]);
+        chosen.count += static_cast<std::uint32_t>(std::popcount(bits));
     }
 }
 
 template <PairKind kind>
 inline void find_near_pairs(const Candidates& list, const NearInput& input, NearPairs& near) {
-    near.count = 0;
-    near.reserve(list.count);
+    near.reserve(near.count + list.count);
     for (std::uint32_t i = 0; i < list.count; i += lane_count) {
         vec3 x[4];
         real w, along_start[4], along[4], low[4], high[4];
@@ -44,9 +48,12 @@ inline void find_near_pairs(const Candidates& list, const NearInput& input, Near
         // The least gap that any positions between start and end can have.
         const real worst = kind == PairKind::vertex_triangle ? low[0] - max(high[1], max(high[2], high[3]))
                                                              : min(low[0], low[1]) - max(high[2], high[3]);
-        const real reach = load(&list.reach[i]);
-        const mask is_near = reached < thickness + reach || worst < thickness * real(input.floor) + reach * real(2.0f);
-        const std::uint32_t bits = bits_of(is_near) & lanes_before(i, list.count);
+        // Particles are within `reach` of where the constraints left them, or on the way there.
+        const auto is_near = [&](real reach) {
+            return reached < thickness + reach || worst < thickness * real(input.floor) + reach;
+        };
+        const mask is_new = is_near(load(&list.reach[i])) && !is_near(load(&list.before[i]));
+        const std::uint32_t bits = bits_of(is_new) & lanes_before(i, list.count);
         if (bits == 0) continue;
         alignas(64) float lanes[9][16];
         for (int k = 0; k < 4; ++k) store(weight[k], lanes[k]);
@@ -58,6 +65,9 @@ inline void find_near_pairs(const Candidates& list, const NearInput& input, Near
             for (int k = 0; k < 3; ++k) near.normal[k][at] = lanes[4 + k][lane];
             near.thickness[at] = list.thickness[i + lane];
             near.gap[at] = lanes[7][lane], near.distance[at] = lanes[8][lane];
+            const auto& tiles = list.tiles[list.block[i + lane]];
+            near.tile[0][at] = tiles[0], near.tile[1][at] = tiles[1];
+            near.pushed[at] = 0;
         });
     }
 }

@@ -49,13 +49,13 @@ void ClothContact::untangle() {
     });
 }
 
-// Features near a pair that passes through each other do so freely.
-void ClothContact::drop_pairs_without_side(int kind) {
+// Features near a pair that passes through each other do so freely. Drops such pairs from number `begin` on.
+void ClothContact::drop_pairs_without_side(int kind, std::uint32_t begin) {
     if (!tangle_) return;
     NearPairs& near = near_[kind];
     const int side_one = kind == 0 ? 1 : 2;
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < near.count; ++i) {
+    std::uint32_t kept = begin;
+    for (std::uint32_t i = begin; i < near.count; ++i) {
         bool drop = false;
         for (int a = 0; a < side_one; ++a)
             for (int b = side_one; b < 4; ++b) drop = drop || tangle_->joins(near.particle[a][i], near.particle[b][i]);
