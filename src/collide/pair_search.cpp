@@ -374,12 +374,12 @@ void PairSearch::next_tick() {
     for (TileState& tile : tiles_) tile.strays = {tile.strays[1], 0};
 }
 
-void PairSearch::list_block(std::uint32_t a, std::uint32_t b, TilePairs& row) {
+void PairSearch::list_block(std::uint32_t a, std::uint32_t b, Workspace& workspace) const {
+    TilePairs& row = workspace.fresh;
     TilePairs::Block block{.other = b, .listed = tick_};
     const TileReach how = reach(tiles_[a], tiles_[b], block);
     for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
-    gather(tiles_[a]), gather(tiles_[b]);
-    loops_->list_pairs(tiles_[a], tiles_[b], how, *scratch_, row.lists);
+    loops_->list_pairs(tiles_[a], tiles_[b], how, workspace.scratch, row.lists);
     for (int kind = 0; kind < 2; ++kind) block.count[kind] = row.lists[kind].count - block.begin[kind];
     for (int kind = 0; kind < 2; ++kind) {
         const auto spare = std::span(row.lists[kind].spare).subspan(block.begin[kind], block.count[kind]);
@@ -390,47 +390,76 @@ void PairSearch::list_block(std::uint32_t a, std::uint32_t b, TilePairs& row) {
     row.blocks.push_back(block);
 }
 
+bool PairSearch::is_old(std::uint32_t a, const TilePairs::Block& block) const {
+    return outdated_[a] || outdated_[block.other] || block.until <= tick_;
+}
+
 // Merges the blocks that stay with those that are listed anew, in the order of the other tile.
-void PairSearch::list_row(std::uint32_t a) {
-    TilePairs& row = pairs_[a];
-    std::vector<std::uint32_t>& todo = near_[a];
-    const auto is_old = [&](const TilePairs::Block& block) {
-        return outdated_[a] || outdated_[block.other] || block.until <= tick_;
-    };
-    if (!outdated_[a] && row.until <= tick_) {
-        for (const TilePairs::Block& block : row.blocks)
-            if (block.until <= tick_ && !outdated_[block.other]) todo.push_back(block.other);
-    }
-    if (!outdated_[a] && todo.empty() && std::ranges::none_of(row.blocks, is_old)) return;
-    std::ranges::sort(todo);
-    for (PairList& list : fresh_.lists) list.count = 0;
-    fresh_.blocks.clear();
-    fresh_.until = never;
+void PairSearch::list_row(std::uint32_t a, Workspace& workspace) {
+    TilePairs &row = pairs_[a], &fresh = workspace.fresh;
+    for (PairList& list : fresh.lists) list.count = 0;
+    fresh.blocks.clear();
+    fresh.until = never;
     auto kept = row.blocks.begin();
-    auto next = todo.begin();
+    auto next = near_[a].begin();
     while (true) {
-        while (kept != row.blocks.end() && is_old(*kept)) ++kept;
-        if (kept == row.blocks.end() && next == todo.end()) break;
-        if (next == todo.end() || (kept != row.blocks.end() && kept->other < *next)) {
+        while (kept != row.blocks.end() && is_old(a, *kept)) ++kept;
+        if (kept == row.blocks.end() && next == near_[a].end()) break;
+        if (next == near_[a].end() || (kept != row.blocks.end() && kept->other < *next)) {
             TilePairs::Block block = *kept;
             for (int kind = 0; kind < 2; ++kind) {
-                block.begin[kind] = fresh_.lists[kind].count;
-                fresh_.lists[kind].append(row.lists[kind], kept->begin[kind], kept->count[kind]);
+                block.begin[kind] = fresh.lists[kind].count;
+                fresh.lists[kind].append(row.lists[kind], kept->begin[kind], kept->count[kind]);
             }
-            fresh_.until = std::min(fresh_.until, block.until);
-            fresh_.blocks.push_back(block);
+            fresh.until = std::min(fresh.until, block.until);
+            fresh.blocks.push_back(block);
             ++kept;
         } else {
-            list_block(a, *next++, fresh_);
+            list_block(a, *next++, workspace);
         }
     }
-    std::swap(fresh_, row);
+    std::swap(fresh, row);
     for (PairList& list : row.lists) list.pad(cloths_.front().base);
 }
 
-void PairSearch::search() {
+// The tiles of which pairs are to be listed, each with the other tiles in ascending order, and the tiles whose features
+// that needs.
+void PairSearch::find_rows() {
+    std::vector<std::uint8_t> needed(tiles_.size(), 0);
+    rows_.clear(), to_gather_.clear();
+    for (std::uint32_t a = 0; a < tiles_.size(); ++a) {
+        const TilePairs& row = pairs_[a];
+        std::vector<std::uint32_t>& others = near_[a];
+        if (!outdated_[a] && row.until <= tick_) {
+            for (const TilePairs::Block& block : row.blocks)
+                if (block.until <= tick_ && !outdated_[block.other]) others.push_back(block.other);
+        }
+        const auto old = [&](const TilePairs::Block& block) { return is_old(a, block); };
+        if (!outdated_[a] && others.empty() && std::ranges::none_of(row.blocks, old)) continue;
+        std::ranges::sort(others);
+        rows_.push_back(a);
+        if (!others.empty()) needed[a] = 1;
+        for (const std::uint32_t other : others) needed[other] = 1;
+    }
+    for (std::uint32_t i = 0; i < tiles_.size(); ++i)
+        if (needed[i]) to_gather_.push_back(i);
+}
+
+void PairSearch::search(unsigned workers, RunOnWorkers run) {
     find_near_tiles();
-    for (std::uint32_t a = 0; a < tiles_.size(); ++a) list_row(a);
+    find_rows();
+    while (workspaces_.size() < workers) workspaces_.push_back(std::make_unique<Workspace>());
+    run([&](unsigned worker, unsigned count) {
+        for (std::size_t i = worker; i < to_gather_.size(); i += count) gather(tiles_[to_gather_[i]]);
+    });
+    // Interleaved: neighboring rows have similar work.
+    run([&](unsigned worker, unsigned count) {
+        for (std::size_t i = worker; i < rows_.size(); i += count) list_row(rows_[i], *workspaces_[worker]);
+    });
+}
+
+void PairSearch::search() {
+    search(1, [](FunctionRef<void(unsigned, unsigned)> task) { task(0, 1); });
 }
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/collision_filter.h"
+#include "base/workers.h"
 #include "collide/tiles.h"
 
 #include <array>
@@ -133,6 +134,10 @@ struct SearchScratch {
     std::uint32_t count = 0;
 };
 
+/// Calls a function once for each of several workers, which may run side by side. The function gets the number of the
+/// worker and the number of all.
+using RunOnWorkers = FunctionRef<void(FunctionRef<void(unsigned worker, unsigned workers)>)>;
+
 /// The inner loops, one table per instruction set.
 struct SearchLoops {
     /// Largest distance of a vertex from its listed trajectory, m. Not a number if a position is not.
@@ -170,6 +175,9 @@ class PairSearch {
     /// Lists the marked tiles for all places between `from` and `to`, for this tick only.
     void cover(const Vec4* from, const Vec4* to);
     /// Lists all pairs of which a tile is marked or whose list has expired. find_outdated() and follow() come before.
+    /// `workers`: how many `run` has. The lists do not depend on it.
+    void search(unsigned workers, RunOnWorkers run);
+    /// The same on the calling thread.
     void search();
     void next_tick();
 
@@ -202,8 +210,14 @@ class PairSearch {
     int sort_tiles();
     float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
     TileReach reach(const TileState& a, const TileState& b, TilePairs::Block& block) const;
-    void list_row(std::uint32_t a);
-    void list_block(std::uint32_t a, std::uint32_t b, TilePairs& row);
+    void find_rows();
+    bool is_old(std::uint32_t a, const TilePairs::Block& block) const;
+    struct Workspace {
+        TilePairs fresh;
+        SearchScratch scratch;
+    };
+    void list_row(std::uint32_t a, Workspace& workspace);
+    void list_block(std::uint32_t a, std::uint32_t b, Workspace& workspace) const;
 
     const SearchLoops* loops_ = nullptr;
     std::vector<SearchedCloth> cloths_;
@@ -218,8 +232,9 @@ class PairSearch {
     std::int64_t tick_ = 0;
     std::uint64_t searched_ = 0;
     float thickest_ = 0, most_slack_ = 0;
-    TilePairs fresh_;
-    std::unique_ptr<SearchScratch> scratch_ = std::make_unique<SearchScratch>();
+    std::vector<std::uint32_t> rows_;                     // tiles of which pairs are to be listed
+    std::vector<std::uint32_t> to_gather_;                // tiles whose features that needs
+    std::vector<std::unique_ptr<Workspace>> workspaces_;  // by worker
 };
 
 }  // namespace weft

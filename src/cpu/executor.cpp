@@ -72,7 +72,7 @@ void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
         cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces);
     if (job.links) job.links->prepare(*job.step->links, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
-    if (job.cloth_contact) job.cloth_contact->prepare(passes_, {step, job.cloths});
+    if (job.cloth_contact) job.cloth_contact->prepare(passes_, step, job.cloths);
     if (job.particle_contact) job.particle_contact->prepare(passes_, {step, job.cloths}, workers);
     job.reports.assign(job.cloths.size(), report_none);
     for (WorkerScratch& scratch : scratch_) {
@@ -171,7 +171,8 @@ void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint3
         return;
     }
     if (is_cloth_contact(pass.pass.kind))
-        return island.job.cloth_contact->run({island.step, island.job.cloths}, pass.pass, worker);
+        return island.job.cloth_contact->run({island.step, island.job.cloths, [this] { team_.barrier(); }}, pass.pass,
+                                             worker);
     if (is_particle_contact(pass.pass.kind)) return island.job.particle_contact->run(pass.pass, worker);
     if (pass.pass.source == RowSource::dynamic)
         return island.job.adhesion->run({passes_, island.step, island.job.cloths}, pass.pass, substep, worker);

@@ -69,6 +69,25 @@ TEST(Determinism, holds_where_cloth_sticks_to_colliders) {
     for (const unsigned workers : {0u, 1u, 3u}) EXPECT_EQ(fall(workers, 1), expected) << workers << " workers";
 }
 
+// One thread runs the passes of exact contact, the others help it with the search. Fast contact is shared by all.
+TEST(Determinism, holds_where_cloth_meets_cloth) {
+    for (const SelfCollision contact : {SelfCollision::exact, SelfCollision::fast}) {
+        const auto fall = [&](unsigned workers) {
+            World world = make_world({.solver = {.substeps = 5}}, CpuOptions{workers});
+            SheetDesc sheet{.size = {0.6f, 0.6f}, .resolution = {24, 24}, .rotation_degrees = {80, 20, 45}};
+            sheet.position = {0, 0.3f, 0};
+            sheet.self_collision = contact;
+            world.add(make_sheet(sheet));
+            world.add(make_collider({.name = "floor", .shape = PlaneDesc{}}));
+            run(world, 0.2);
+            EXPECT_GT(world.frame().cloth_contacts.searches, 0u);
+            return world.state_hash();
+        };
+        const std::string expected = fall(0);
+        for (const unsigned workers : {1u, 2u}) EXPECT_EQ(fall(workers), expected) << workers << " workers";
+    }
+}
+
 // If there are more cloths than threads, each cloth runs on one thread. A single cloth runs on all threads. Both give
 // the same bits.
 // Labels: slow no-asan

@@ -38,9 +38,9 @@ Vec3 normal_of(const NearPairs& near, std::uint32_t i) {
 
 }  // namespace
 
-void ClothContact::prepare(const Passes& passes, const ClothContactContext& context) {
-    cloths_ = context.cloths;
-    tangle_ = context.step.input.tangle;
+void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths) {
+    cloths_ = cloths;
+    tangle_ = step.input.tangle;
     counts_ = {};
     WorldArrays& world = cloths_.front()->world;
     x_ = world.position.data(), velocity_ = world.velocity.data(), start_ = world.start.data();
@@ -51,7 +51,7 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
         if (cloth->model->tiles && (cap_ == 0 || cap < cap_)) cap_ = cap;
     }
     slack_ = slack_per_cap * cap_;
-    h_ = frame_numbers(*cloths_.front()->model, *context.step.plan, context.step.input.dt).h;
+    h_ = frame_numbers(*cloths_.front()->model, *step.plan, step.input.dt).h;
 
     std::vector<SearchedCloth> searched;
     for (const ClothState* cloth : cloths_) {
@@ -75,10 +75,16 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
                     std::array{cloth->model->fabric.contact.friction[0], cloth->model->fabric.contact.friction[1]});
 }
 
-// One thread runs these passes.
 void ClothContact::run(const ClothContactContext& context, const Pass& pass, Worker worker) {
-    if (worker.number != 0) return;
+    if (worker.number != 0) return help(context, worker);
     cloths_ = context.cloths;
+    workers_ = worker.count, barrier_ = &context.barrier;
+    lead(pass);
+    task_ = nullptr;
+    if (workers_ > 1) context.barrier();
+}
+
+void ClothContact::lead(const Pass& pass) {
     switch (pass.kind) {
         case PassKind::detect:
             return detect();
@@ -91,12 +97,22 @@ void ClothContact::run(const ClothContactContext& context, const Pass& pass, Wor
     }
 }
 
+// Waits for tasks of the first worker until its pass is done.
+void ClothContact::help(const ClothContactContext& context, Worker worker) {
+    while (true) {
+        context.barrier();
+        if (!task_) return;
+        (*task_)(worker.number, worker.count);
+        context.barrier();
+    }
+}
+
 void ClothContact::detect() {
     untangle();
     for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
     begin_reach();
     if (search_.find_outdated(x_, reach_, search_always_)) {
-        search();
+        follow_and_search();
         ++counts_.searches;
     }
     find_near();
@@ -334,7 +350,7 @@ void ClothContact::limit() {
         }
         for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
         search_.cover(start_, asked_.data());
-        search_.search();
+        search();
         find_near();
         send_back();
     }

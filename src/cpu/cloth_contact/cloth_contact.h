@@ -16,6 +16,7 @@ namespace weft::cpu {
 struct ClothContactContext {
     const WorldStep& step;
     std::span<ClothState* const> cloths;
+    FunctionRef<void()> barrier;  ///< of all workers that run the passes
 };
 
 class ClothContact {
@@ -23,16 +24,20 @@ class ClothContact {
     explicit ClothContact(bool search_always = false) : search_always_(search_always) {}
 
     /// Allocates for the island's cloths. Keeps the lists if they are the same cloths as in the frame before.
-    void prepare(const Passes& passes, const ClothContactContext& context);
+    void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths);
+    /// All workers call it. The first one runs the pass, and the others help it with the search.
     void run(const ClothContactContext& context, const Pass& pass, Worker worker);
 
     /// Of the frame.
     const ClothContactCounts& counts() const { return counts_; }
 
   private:
+    void lead(const Pass& pass);
+    void help(const ClothContactContext& context, Worker worker);
     void detect();
     // near_pairs.cpp
     void begin_reach();
+    void follow_and_search();
     void search();
     void find_near();
     void add_near_pairs();
@@ -84,6 +89,11 @@ class ClothContact {
         Vec3 normal;
     };
     std::vector<Pushed> pushes_of_substep_;
+
+    // Of the pass.
+    unsigned workers_ = 1;
+    const FunctionRef<void()>* barrier_ = nullptr;
+    const FunctionRef<void(unsigned, unsigned)>* task_ = nullptr;  // for all workers; null: the pass is done
 
     // Of the frame.
     std::span<ClothState* const> cloths_;

@@ -24,9 +24,19 @@ void ClothContact::begin_reach() {
     std::ranges::fill(most_moved_, 0.0f);
 }
 
-void ClothContact::search() {
+void ClothContact::follow_and_search() {
     search_.follow(start_, reached_.data(), velocity_, h_, reach_);
-    search_.search();
+    search();
+}
+
+void ClothContact::search() {
+    search_.search(workers_, [&](FunctionRef<void(unsigned, unsigned)> task) {
+        if (workers_ == 1) return task(0, 1);
+        task_ = &task;
+        (*barrier_)();
+        task(0, workers_);
+        (*barrier_)();
+    });
 }
 
 void ClothContact::find_near() {
@@ -83,7 +93,7 @@ void ClothContact::extend_reach() {
     if (!any) return;
     std::array<std::vector<std::array<std::uint32_t, 4>>, 2> pushed;
     if (search_.find_outdated(reached_.data(), reach_)) {
-        search();
+        follow_and_search();
         for (int kind = 0; kind < 2; ++kind) pushed[kind] = remove_relisted(near_[kind]);
     }
     const std::array begin{near_[0].count, near_[1].count};
