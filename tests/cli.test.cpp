@@ -255,6 +255,24 @@ TEST_F(Cli, cloth_falls_on_cloth_without_crossings) {
     }
 }
 
+// Cloth drawn through a hoop of cloth, an overhand knot, a towel that is twisted, a tube that crumples.
+// Labels: slow no-asan
+TEST_F(Cli, cloth_of_the_contact_scenes_never_crosses) {
+    for (const auto& entry : fs::directory_iterator(fs::path(WEFT_SOURCE_DIR) / "scenes" / "contact")) {
+        if (entry.path().extension() != ".json") continue;
+        SCOPED_TRACE(entry.path());
+        const Outcome outcome =
+            weft("run " + entry.path().string() + " --seconds 1 --crossings every --stats scene_stats.json --quiet");
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const Json stats = Json::parse(read_file(folder_ / "scene_stats.json"));
+        EXPECT_EQ(stats["intersections"]["worst"], 0);
+        EXPECT_EQ(stats["tangled"], 0);
+        EXPECT_EQ(stats["finite"], true);
+        EXPECT_GT(stats["searches"], 0);
+        EXPECT_LT(stats["stretch"]["mean"], 0.02);
+    }
+}
+
 TEST_F(Cli, check_warns_of_pictures_that_are_not_found) {
     write("here.png", "");
     write("looks.json", R"({ "weft": 1, "light": { "environment": { "file": "hall.hdr" } },
