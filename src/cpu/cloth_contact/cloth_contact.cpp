@@ -77,6 +77,7 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
         sums_.resize(size), share_.resize(size), part_.resize(size);
         sent_back_.resize(size), marked_.resize(size), friction_.resize(size);
     }
+    begin_marks(context.step.input.contact_marks);
     for (const ClothState* cloth : cloths_)
         std::fill_n(friction_.begin() + cloth->base, cloth->model->particle_count,
                     std::array{cloth->model->fabric.contact.friction[0], cloth->model->fabric.contact.friction[1]});
@@ -370,6 +371,7 @@ void ClothContact::send_back() {
                 }
                 if (helps) continue;
                 ++stuck;
+                mark_stuck(particles_of(near_[kind], pair));
                 counts_.tangled_particle =
                     std::min(counts_.tangled_particle, std::ranges::min(particles_of(near_[kind], pair)));
             }
@@ -417,6 +419,7 @@ void ClothContact::limit() {
         send_back();
     }
     for_each_particle([&](std::uint32_t p) { counts_.limited += part_[p] < 1; });
+    mark_limited_particles();
     search_.next_tick();
 }
 
