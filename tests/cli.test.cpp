@@ -125,10 +125,32 @@ TEST_F(Cli, crossings_are_counted_in_the_last_frame_or_in_every_one) {
     EXPECT_EQ(every["intersections"]["triangles"], 0);
     EXPECT_GE(every["intersections"]["worst"], within["intersections"]["triangles"]);
     EXPECT_EQ(every["state_hash"], after["state_hash"]);
+    EXPECT_EQ(after["intersections"]["order_lost"], 0) << "it may have fallen past the other sheet";
+    EXPECT_EQ(every["intersections"]["order_lost"], 1);
     const Outcome said = weft("run sheet.json --frames 8 --crossings every");
     EXPECT_NE(said.out.find("crossings     0 pairs of triangles, at most "), std::string::npos) << said.out;
     EXPECT_EQ(weft("run sheet.json --frames 8").out.find("crossings"), std::string::npos);
     expect_usage_error("run sheet.json --crossings all", "--crossings: must be \"last\" or \"every\", got \"all\"");
+}
+
+TEST_F(Cli, sheets_that_changed_places_are_counted) {
+    for (const std::string self_collision : {"off", "exact"}) {
+        const std::string sheet =
+            R"("mesh": { "grid": { "size": [0.4, 0.4], "resolution": [8, 8] } }, "self_collision": ")" +
+            self_collision + '"';
+        write("sheet.json", R"({ "weft": 1, "cloths": [{ )" + sheet + R"( },
+            { )" + sheet + R"(, "transform": { "position": [0.02, 0.05, 0] }, "velocity": [0, -5, 0] },
+            { )" + sheet + R"(, "transform": { "position": [0, 0.08, 0] } }] })");
+        const std::size_t lost = self_collision == "off" ? 1 : 0;
+        for (const std::string crossings : {"last", "every"}) {
+            const Json s = stats("--frames 1 --crossings " + crossings);
+            EXPECT_EQ(s["intersections"]["triangles"], 0) << self_collision;
+            EXPECT_EQ(s["intersections"]["order_lost"], lost) << self_collision << ' ' << crossings;
+        }
+        EXPECT_EQ(stats("--frames 0")["intersections"]["order_lost"], 0);
+        const Outcome said = weft("run sheet.json --frames 1");
+        EXPECT_EQ(said.out.find("order lost    1 pair of cloths") != std::string::npos, lost == 1) << said.out;
+    }
 }
 
 // Labels: slow no-asan
@@ -249,6 +271,7 @@ TEST_F(Cli, cloth_falls_on_cloth_without_crossings) {
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         const nlohmann::json stats = nlohmann::json::parse(read_file(folder_ / "fall_stats.json"));
         EXPECT_EQ(stats["intersections"]["worst"], 0);
+        EXPECT_EQ(stats["intersections"]["order_lost"], 0);
         EXPECT_GT(stats["searches"], 0);
         EXPECT_GT(stats["self_contacts"], 0);
         EXPECT_GT(stats["stage_ms"]["cloth contact"], 0);

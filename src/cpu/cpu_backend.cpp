@@ -132,6 +132,15 @@ class CpuBackend final : public Backend {
     ListCounts list_counts() const override { return counts_; }
     ClothContactCounts cloth_contact_counts() const override { return contact_counts_; }
 
+    void add_contact_marks(ClothHandle id, std::span<std::uint32_t> marks) const override {
+        const cpu::ClothState& state = cloth(id);
+        for (const cpu::Executor::Job& job : jobs_) {
+            if (std::ranges::find(job.cloths, &state) == job.cloths.end()) continue;
+            if (job.cloth_contact && state.model->tiles) job.cloth_contact->add_marks(state.base, marks);
+            if (job.particle_contact && state.model->along_curve) job.particle_contact->add_marks(state.base, marks);
+        }
+    }
+
     void measure(ClothHandle id, MeasureSums& sums) const override {
         const cpu::ClothState& state = cloth(id);
         const ClothModel& model = *state.model;

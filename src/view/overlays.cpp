@@ -7,7 +7,7 @@
 namespace weft {
 
 namespace overlay {
-#define WEFT_OVERLAY(name, needs_contact_forces, what) void name(const OverlayInput& input, OverlayOutput& output);
+#define WEFT_OVERLAY(name, needs, what) void name(const OverlayInput& input, OverlayOutput& output);
 #include "view/overlays.def"
 #undef WEFT_OVERLAY
 }  // namespace overlay
@@ -15,7 +15,7 @@ namespace overlay {
 namespace {
 
 constexpr Overlay all[] = {
-#define WEFT_OVERLAY(name, needs_contact_forces, what) {#name, what, overlay::name, needs_contact_forces},
+#define WEFT_OVERLAY(name, needs, what) {#name, what, overlay::name, OverlayNeeds::needs},
 #include "view/overlays.def"
 #undef WEFT_OVERLAY
 };

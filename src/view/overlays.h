@@ -38,10 +38,13 @@ struct OverlayOutput {
     std::vector<Legend> legends;   ///< draw_overlays() draws them
 };
 
+/// What World must record for an overlay (WorldSettings).
+enum class OverlayNeeds : std::uint8_t { nothing, contact_forces, contact_marks };
+
 struct Overlay {
     std::string_view name, what;
     void (*draw)(const OverlayInput& input, OverlayOutput& output);  ///< adds to the output
-    bool needs_contact_forces = false;                               ///< World must record contact forces
+    OverlayNeeds needs = OverlayNeeds::nothing;
 };
 
 /// In the order of overlays.def.

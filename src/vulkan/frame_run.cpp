@@ -59,6 +59,12 @@ std::uint32_t FrameRun::read_contact_forces(std::size_t member, ClothContactLog&
     return contacts_ ? contacts_->read(member, to) : std::uint32_t{report_none};
 }
 
+void FrameRun::add_contact_marks(const Cloth& cloth, std::span<std::uint32_t> marks) const {
+    const std::uint32_t base = cloth.state().base();
+    if (cloth_contact_ && cloth.model().tiles) cloth_contact_->add_marks(base, marks);
+    if (particle_contact_ && cloth.model().along_curve) particle_contact_->add_marks(base, marks);
+}
+
 Result<void> FrameRun::compile_members() {
     std::vector<InputShape> shapes;
     for (const Member& member : members_) shapes.push_back(member.shape);
@@ -106,7 +112,7 @@ Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
     }
     if (!any) return {};
     auto made = ClothContact::create(device_, programs_, members, lists.cloth_contact, lists.first_capacity,
-                                     lists.search_always, name());
+                                     lists.search_always, lists.records_marks, name());
     if (!made) return made.errors();
     cloth_contact_ = std::move(*made);
     return {};
@@ -123,7 +129,7 @@ Result<void> FrameRun::make_particle_contact(const Lists& lists) {
     }
     if (!any) return {};
     auto made = ParticleContact::create(device_, programs_, members, lists.particle_pairs, lists.first_capacity,
-                                        lists.search_always, name());
+                                        lists.search_always, lists.records_marks, name());
     if (!made) return made.errors();
     particle_contact_ = std::move(*made);
     return {};
@@ -183,7 +189,9 @@ Result<void> FrameRun::end_recording() {
     commands_->stamp();
     buffers_.record_end(*commands_);
     if (adhesion_) adhesion_->record_end(*commands_);
-    if (cloth_contact_) cloth_contact_->record_end(*commands_);
+    if (cloth_contact_) {
+        if (auto recorded = cloth_contact_->record_end(*commands_); !recorded) return recorded;
+    }
     if (particle_contact_) particle_contact_->record_end(*commands_);
     if (adhesion_ || cloth_contact_ || particle_contact_) commands_->host_barrier();
     return commands_->end();

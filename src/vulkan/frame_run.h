@@ -48,6 +48,7 @@ class FrameRun {
         ClothContactRoom cloth_contact{};
         std::uint32_t particle_pairs = 0;
         bool search_always = false;  ///< see VulkanOptions
+        bool records_marks = false;  ///< StepInput::contact_marks
     };
 
     /// `execution` must not be automatic, and not fused if the plan has dynamic lists or contact between cloths. Keeps
@@ -87,6 +88,8 @@ class FrameRun {
     std::uint32_t report(std::size_t member) const;
     /// Contacts of the member if InputShape::contact_forces is set: see ContactReadback::read.
     std::uint32_t read_contact_forces(std::size_t member, ClothContactLog& to);
+    /// Adds the bits (ContactMark) of a cloth of the last finished frame.
+    void add_contact_marks(const Cloth& cloth, std::span<std::uint32_t> marks) const;
     /// Call after a frame in which the cloth was not finite. Returns the cause. Expects the state from before the frame
     /// and leaves it unchanged.
     Result<std::string> find_non_finite(std::size_t member, const StepInput& input, const ClothStep& step);

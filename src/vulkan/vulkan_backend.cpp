@@ -189,6 +189,11 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     ListCounts list_counts() const override { return counts_; }
     ClothContactCounts cloth_contact_counts() const override { return contact_counts_; }
+    void add_contact_marks(ClothHandle handle, std::span<std::uint32_t> marks) const override {
+        const Cloth& one = cloth(handle);
+        for (const auto& run : runs_)
+            if (run->has(&one)) run->add_contact_marks(one, marks);
+    }
     void measure(ClothHandle handle, MeasureSums& sums) const override { cloth(handle).measure(sums); }
     ClothSnapshot save(ClothHandle handle) const override {
         auto snapshot = cloth(handle).save();
@@ -342,7 +347,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
              .adhesion = std::max(list_capacity_, first_list_capacity(step.input.list_capacity)),
              .cloth_contact = contact_room_,
              .particle_pairs = particle_pairs_,
-             .search_always = search_always_});
+             .search_always = search_always_,
+             .records_marks = step.input.contact_marks});
         if (!run) return run.errors();
         runs_.push_back(std::move(*run));
         return runs_.back().get();

@@ -322,6 +322,11 @@ void SceneWorld::set_contact_forces(bool on) {
     if (std::exchange(settings.contact_forces, on) != on) world_->configure(std::move(settings));
 }
 
+void SceneWorld::set_contact_marks(bool on) {
+    WorldSettings settings = world_->settings();
+    if (std::exchange(settings.contact_marks, on) != on) world_->configure(std::move(settings));
+}
+
 Result<void> SceneWorld::set_solver(const SolverDesc& solver) {
     const WorldSettings settings = settings_of(scene_, solver, world_->settings());
     if (const ClothLayout layout = settings.layout(); layout != world_->settings().layout()) {

@@ -66,6 +66,8 @@ class SceneWorld {
     Result<void> set_solver(const SolverDesc& solver);
     /// Whether contacts are recorded. Not part of the document; the motion has the same bits with and without it.
     void set_contact_forces(bool on);
+    /// Likewise for ClothFrame::contact_marks.
+    void set_contact_marks(bool on);
 
     /// Applies the differences between the document and `next`, for example to undo edits. Objects are matched by name.
     /// Fabric, pins, friction and pose of a matched object are changed while it keeps moving. A cloth whose mesh,

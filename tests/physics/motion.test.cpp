@@ -59,7 +59,7 @@ struct Momentum {
     double linear[3] = {}, angular[3] = {};
 };
 
-Momentum momentum(const LoneCloth& cloth) {
+Momentum total_of(const LoneCloth& cloth) {
     Momentum sum;
     for (std::uint32_t p = 0; p < cloth.model().particle_count; ++p) {
         const double m = cloth.model().mass[p];
@@ -85,9 +85,9 @@ TEST(FreeFall, constraints_and_damping_keep_momentum) {
         const Vec3 v = Vec3{0.3f, 0.1f, -0.2f} + cross({0.5f, 2, 1}, x) + Vec3{0, std::abs(x.x), 0};
         cloth.now().velocity[p] = {v.x, v.y, v.z, 0};
     }
-    const Momentum before = momentum(cloth);
+    const Momentum before = total_of(cloth);
     for (int i = 0; i < 60; ++i) cloth.step(1.0 / 60, {});
-    const Momentum after = momentum(cloth);
+    const Momentum after = total_of(cloth);
     // Every row conserves momentum exactly, but rounds positions of half a meter to 3e-8 m, which over a substep of
     // 1/1200 s reads as 4e-5 m/s. 1200 substeps of that, averaged over the sheet, are the tolerance.
     const double mass = 0.14, scale_linear = mass * 0.37, scale_angular = std::abs(before.angular[1]);

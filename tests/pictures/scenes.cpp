@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int frames_laid = 36, frames_hung = 24;
+constexpr int frames_laid = 36, frames_hung = 24, frames_thrown = 2;
 
 std::vector<PictureScene> all_scenes() {
     std::vector<PictureScene> scenes;
@@ -22,7 +22,10 @@ std::vector<PictureScene> all_scenes() {
     }
     for (const Overlay& overlay : overlays()) {
         const std::string name(overlay.name);
-        scenes.push_back({.name = "overlay_" + name, .overlays = {name}, .hung = true});
+        scenes.push_back({.name = "overlay_" + name,
+                          .overlays = {name},
+                          .hung = true,
+                          .thrown = overlay.needs == OverlayNeeds::contact_marks});
     }
     const auto light = [&](const std::string& name, const std::string& text) -> PictureScene& {
         return scenes.emplace_back(PictureScene{.name = "light_" + name, .light = text});
@@ -73,13 +76,27 @@ std::string scene_text(const PictureScene& scene) {
                              material + R"(
         "colliders": [{ "name": "ball", "sphere": { "radius": 0.25 }, "transform": { "position": [0, 0.3, 0] } },
                       { "name": "ground", "plane": {} }],)";
+    const std::string thrown = R"(
+        "cloths": [{ "name": "one", "mesh": { "grid": { "size": [0.8, 0.8], "resolution": [25, 25] } },
+                     "transform": { "position": [0, 0.5, 0], "rotation": [80, 20, 45] }, "velocity": [0, -12, 0],
+                     "fabric": { "preset": "cotton", "thickness": 0.008 }, "self_collision": "exact" },
+                   { "name": "two", "mesh": { "grid": { "size": [0.3, 0.3], "resolution": [14, 14] } },
+                     "transform": { "position": [0.1, 0.42, 0.12], "rotation": [5, 30, 50] }, "velocity": [0, -12, 0],
+                     "fabric": { "preset": "cotton", "thickness": 0.008 }, "self_collision": "exact")" +
+                               material + R"(
+        "colliders": [{ "name": "ground", "plane": {} }],)";
     const std::string from_near = R"({ "position": [0.55, 0.95, 1.75], "target": [0, 0.24, 0], "fov": 21 })",
-                      from_far = R"({ "position": [0.9, 0.9, 1.9], "target": [0, 0.42, 0.05], "fov": 34 })";
-    return R"({ "weft": 1,)" + (scene.hung ? hung : laid) + R"(
+                      from_far = R"({ "position": [0.9, 0.9, 1.9], "target": [0, 0.42, 0.05], "fov": 34 })",
+                      from_above = R"({ "position": [0.9, 0.8, 1.4], "target": [-0.15, 0.08, 0.05], "fov": 32 })";
+    const auto whole = [&](const std::string& content, const std::string& camera) {
+        return R"({ "weft": 1,)" + content + R"(
         "camera": )" +
-           (scene.hung ? from_far : from_near) + R"(,
+               camera + R"(,
         "light": )" +
-           scene.light + " }\n";
+               scene.light + " }\n";
+    };
+    if (scene.thrown) return whole(thrown, from_above);
+    return scene.hung ? whole(hung, from_far) : whole(laid, from_near);
 }
 
 ImageF window_light() {
@@ -114,7 +131,9 @@ Image8 PictureTest::drawn(const PictureScene& scene) {
     auto session = open_scene(file, options);
     EXPECT_TRUE(session.ok()) << session.error().message();
     if (!session) return {};
-    for (int i = 0; i < (scene.hung ? frames_hung : frames_laid); ++i) session->advance();
+    session->set_contact_marks(scene.thrown);
+    const int frames = scene.thrown ? frames_thrown : scene.hung ? frames_hung : frames_laid;
+    for (int i = 0; i < frames; ++i) session->advance();
 
     ViewSources sources;
     if (scene.environment) sources.read_light = [](const std::string&) { return Result<ImageF>(window_light()); };

@@ -22,6 +22,7 @@ struct PictureScene {
     bool transparent = false;
     bool environment = false;  ///< window_light() in place of a file
     bool hung = false;         ///< hangs by two corners; wind blows it against the ball
+    bool thrown = false;       ///< with `hung`: instead, two sheets that cross are thrown onto the ground
     std::uint32_t samples = 4;
 };
 void PrintTo(const PictureScene& scene, std::ostream* out);

@@ -176,6 +176,29 @@ TEST(ConstraintsOverlay, shows_plates_springs_and_rows_along_lines) {
     EXPECT_EQ(shown.draw("constraints").lines.size(), 2 * (208u + 9 + 3 * plates));
 }
 
+TEST(ClothContactsOverlay, shows_the_most_serious_mark_of_each_particle) {
+    World world = make_world({.contact_marks = true});
+    world.add(make_sheet({.resolution = {4, 4}}));
+    const OverlayOutput before = Shown(world).draw("cloth_contacts");
+    EXPECT_TRUE(before.points.empty());
+    EXPECT_EQ(entry(before, 0), "touching: not known");
+    world.step(frame_seconds);
+    Shown shown(world);
+    EXPECT_TRUE(shown.draw("cloth_contacts").points.empty());
+    shown.mark(3, mark_touches);
+    shown.mark(5, mark_touches | mark_limited);
+    shown.mark(7, mark_touches | mark_limited | mark_tangled);
+    const OverlayOutput output = shown.draw("cloth_contacts");
+    ASSERT_EQ(output.points.size(), 3u);
+    for (const std::size_t i : {0u, 1u, 2u}) {
+        EXPECT_EQ(output.points[i].position, shown.frame().cloths[0].positions[3 + 2 * i].xyz());
+        EXPECT_EQ(output.points[i].color, *output.legends[0].entries[i].color);
+    }
+    EXPECT_EQ(entry(output, 0), "touching: 3");
+    EXPECT_EQ(entry(output, 1), "limited: 2");
+    EXPECT_EQ(entry(output, 2), "tangled: 1");
+}
+
 TEST(ContactsOverlay, of_a_sheet_at_rest_are_all_its_particles) {
     World world = make_world({.solver = {.substeps = 10}, .contact_forces = true});
     world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, 0}}));
@@ -327,10 +350,11 @@ TEST(Overlays, of_nothing_are_nothing) {
 }
 
 TEST(Overlays, are_found_by_name) {
-    ASSERT_EQ(overlays().size(), 8u);
+    ASSERT_EQ(overlays().size(), 9u);
     for (const Overlay& overlay : overlays()) EXPECT_EQ(*find_overlay(overlay.name), &overlay);
-    EXPECT_TRUE((*find_overlay("contacts"))->needs_contact_forces);
-    EXPECT_FALSE((*find_overlay("strain"))->needs_contact_forces);
+    EXPECT_EQ((*find_overlay("contacts"))->needs, OverlayNeeds::contact_forces);
+    EXPECT_EQ((*find_overlay("cloth_contacts"))->needs, OverlayNeeds::contact_marks);
+    EXPECT_EQ((*find_overlay("strain"))->needs, OverlayNeeds::nothing);
     EXPECT_EQ(find_overlay("strian").error().message(), "overlay: unknown name \"strian\"; did you mean \"strain\"?");
 }
 

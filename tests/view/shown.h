@@ -36,6 +36,9 @@ class Shown {
         follow();
     }
 
+    /// Sets the contact marks of a particle of the first cloth.
+    void mark(std::uint32_t particle, std::uint32_t marks) { frame_.cloths[0].contact_marks.at(particle) = marks; }
+
     OverlayOutput draw(std::string_view name, std::uint32_t width = 1280, std::uint32_t height = 720) {
         return draw({name}, width, height);
     }

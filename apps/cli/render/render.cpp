@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #endif
 
 namespace weft::cli {
@@ -57,20 +58,20 @@ Result<Writers> make_writers(const RenderOptions& options) {
     return writers;
 }
 
-/// Returns whether any of the overlays needs contact forces.
-Result<bool> check_overlays(const std::vector<std::string>& names) {
+/// Returns what the overlays need.
+Result<std::set<OverlayNeeds>> check_overlays(const std::vector<std::string>& names) {
     Errors errors;
-    bool contact_forces = false;
+    std::set<OverlayNeeds> needs;
     for (const std::string& name : names) {
         const auto overlay = find_overlay(name);
         if (overlay) {
-            contact_forces = contact_forces || (*overlay)->needs_contact_forces;
+            needs.insert((*overlay)->needs);
         } else {
             for (const Error& error : overlay.errors()) errors.push_back({"--overlay", error.message()});
         }
     }
     if (!errors.empty()) return errors;
-    return contact_forces;
+    return needs;
 }
 
 Result<std::shared_ptr<gpu::Device>> find_device(World& world, const std::string& name) {
@@ -171,14 +172,15 @@ int render(const RenderOptions& options) {
     if (options.window) return open_window(options, *plan);
     auto writers = make_writers(options);
     if (!writers) return wrong(writers.errors());
-    const auto contact_forces = check_overlays(options.overlays);
-    if (!contact_forces) return wrong(contact_forces.errors());
+    const auto needs = check_overlays(options.overlays);
+    if (!needs) return wrong(needs.errors());
 
     Options common = options.common;
-    common.contact_forces = *contact_forces;
+    common.contact_forces = needs->contains(OverlayNeeds::contact_forces);
     if (common.backend == "cpu") common.device.clear();  // --device names the drawing device
     auto session = open_scene(options.scene, common);
     if (!session) return wrong(session.errors());
+    session->set_contact_marks(needs->contains(OverlayNeeds::contact_marks));
     const auto frames = frame_count(options.length, session->frame_seconds(), 0);
     if (!frames) return wrong(frames.errors());
     const double frame_rate = static_cast<double>(session->scene().frame_rate);

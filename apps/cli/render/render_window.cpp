@@ -113,8 +113,11 @@ class Show {
     }
 
     Result<void> set_overlays() {
-        const bool contact_forces = std::ranges::any_of(shown_, &Overlay::needs_contact_forces);
-        session_.set_contact_forces(contact_forces);
+        const auto need = [&](OverlayNeeds what) {
+            return std::ranges::find(shown_, what, &Overlay::needs) != shown_.end();
+        };
+        session_.set_contact_forces(need(OverlayNeeds::contact_forces));
+        session_.set_contact_marks(need(OverlayNeeds::contact_marks));
         view_.set_overlays(shown_);
         return {};
     }

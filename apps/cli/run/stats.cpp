@@ -74,7 +74,9 @@ Result<CountCrossings> read_crossings(const std::string& word) {
 }
 
 RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings)
-    : frame_seconds_(session.frame_seconds()), count_crossings_(crossings) {
+    : frame_seconds_(session.frame_seconds()),
+      count_crossings_(crossings),
+      order_(sheet_poses(session.world().frame())) {
     const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);
     snapshot_frame_ = frames - static_cast<std::uint64_t>(last_second + 0.5);
     if (snapshot_frame_ == 0) collect_positions(session.world().frame(), snapshot_);
@@ -94,6 +96,7 @@ void RunStatistics::add(const World& world) {
     if (count_crossings_ == CountCrossings::every) {
         crossings_ = count_intersections(world.frame());
         worst_crossings_ = std::max(worst_crossings_, crossings_->triangles);
+        order_.add(sheet_poses(world.frame()));
     }
     if (frame.index == snapshot_frame_) {
         collect_positions(world.frame(), snapshot_);
@@ -106,6 +109,15 @@ double RunStatistics::mean_speed(const Frame& frame) const {
     collect_positions(frame, now);
     const double elapsed = frame.time - snapshot_time_;
     return elapsed > 0 ? mean_displacement(snapshot_, now) / elapsed : 0;
+}
+
+// Between the start and the last frame, a sheet may have gone around another one. So only those that lie on each other
+// count.
+std::size_t RunStatistics::order_lost(const Frame& frame) const {
+    if (count_crossings_ == CountCrossings::every) return order_.lost();
+    SheetOrder order = order_;
+    order.add(sheet_poses(frame), stack_distance(frame));
+    return order.lost();
 }
 
 Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_file) const {
@@ -172,7 +184,8 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     }
     stats["intersections"] = {{"triangles", crossings.triangles},
                               {"edges", crossings.edges},
-                              {"worst", std::max(worst_crossings_, crossings.triangles)}};
+                              {"worst", std::max(worst_crossings_, crossings.triangles)},
+                              {"order_lost", order_lost(frame)}};
     stats["torn_edges"] = 0;  // cloth cannot tear yet
     stats["reports"] = report_names(reports_);
     stats["state_hash"] = world.state_hash();
@@ -224,6 +237,9 @@ void print_summary(const Json& s) {
     if (const auto worst = s["intersections"]["worst"].get<unsigned long long>(); worst > 0)
         std::printf("  crossings     %llu pairs of triangles, at most %llu in a counted frame\n",
                     s["intersections"]["triangles"].get<unsigned long long>(), worst);
+    if (const auto lost = s["intersections"]["order_lost"].get<unsigned long long>(); lost > 0)
+        std::printf("  order lost    %llu pair%s of cloths: one passed through the other\n", lost,
+                    lost == 1 ? "" : "s");
     if (s.contains("colliders")) {
         for (const Json& load : s["colliders"]) {
             const auto axis = [&](const char* of, std::size_t k) { return load[of][k].get<double>(); };

@@ -40,6 +40,7 @@ class RunStatistics {
 
   private:
     double mean_speed(const Frame& frame) const;
+    std::size_t order_lost(const Frame& frame) const;
 
     double frame_seconds_;
     std::uint64_t snapshot_frame_;
@@ -54,6 +55,7 @@ class RunStatistics {
     CountCrossings count_crossings_;
     std::optional<Intersections> crossings_;  ///< of the last frame; nullopt: not counted
     std::uint64_t worst_crossings_ = 0;       ///< most pairs of triangles in a counted frame
+    SheetOrder order_;                        ///< followed through the counted frames
 };
 
 /// "xpbd, lines", "pbd, jacobi by gather, hierarchy"

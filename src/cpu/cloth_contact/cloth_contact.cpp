@@ -70,6 +70,7 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
         sums_.resize(size), share_.resize(size), part_.resize(size);
         sent_back_.resize(size), marked_.resize(size), friction_.resize(size);
     }
+    begin_marks(step.input.contact_marks);
     for (const ClothState* cloth : cloths_)
         std::fill_n(friction_.begin() + cloth->base, cloth->model->particle_count,
                     std::array{cloth->model->fabric.contact.friction[0], cloth->model->fabric.contact.friction[1]});
@@ -312,6 +313,7 @@ void ClothContact::send_back() {
                 }
                 if (helps) continue;
                 ++stuck;
+                mark_stuck(near_[kind].particles(pair));
                 counts_.tangled_particle =
                     std::min(counts_.tangled_particle, std::ranges::min(near_[kind].particles(pair)));
             }
@@ -355,6 +357,7 @@ void ClothContact::limit() {
         send_back();
     }
     for_each_particle([&](std::uint32_t p) { counts_.limited += part_[p] < 1; });
+    mark_limited_particles();
     search_.next_tick();
 }
 

@@ -30,6 +30,9 @@ class ClothContact {
 
     /// Of the frame.
     const ClothContactCounts& counts() const { return counts_; }
+    /// Adds the bits (ContactMark) of the particles from `base` on, which must be those of one cloth. None unless the
+    /// frame recorded them.
+    void add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const;
 
   private:
     void lead(const Pass& pass);
@@ -62,6 +65,10 @@ class ClothContact {
                      double quanta);
     Vec3 sum(std::uint32_t p, double quanta) const;
     void limit();
+    // contact_marks.cpp
+    void begin_marks(bool record);
+    void mark_limited_particles();
+    void mark_stuck(std::span<const std::uint32_t> particles);
     // untangle.cpp
     void untangle();
     void drop_pairs_without_side(int kind, std::uint32_t begin);
@@ -104,6 +111,8 @@ class ClothContact {
     float slack_ = 0;  // m
     float cap_ = 0;    // m: how far pushes may move a particle from where the constraints left it
     ClothContactCounts counts_;
+    bool records_marks_ = false;
+    std::vector<std::uint32_t> marks_;  // by particle of the world: ContactMark, without mark_touches
 
     // By particle of the world.
     AlignedVector<Vec4> reached_;                     // where the constraints left the particles

@@ -3,6 +3,7 @@
 #include "physics/scalar.h"
 #include "solver/plan/particle_contact_numbers.h"
 #include "solver/state/address_space.h"
+#include "solver/state/contact_marks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,13 @@ ClothContactCounts ParticleContact::counts() const {
     ClothContactCounts counts{.searches = searches_};
     for (const Part& part : parts_) counts.contacts += part.overlaps.count;
     return counts;
+}
+
+void ParticleContact::add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const {
+    for (const Part& part : parts_) {
+        for (std::size_t i = 0; i < marks.size(); ++i)
+            if (part.pushes[base + i] > 0) marks[i] |= mark_touches;
+    }
 }
 
 // Each worker owns the same tiles in every pass, interleaved: neighboring tiles have similar work.

@@ -27,6 +27,8 @@ class ParticleContact {
 
     /// Of the frame: contacts and searches.
     ClothContactCounts counts() const;
+    /// Adds the bits (ContactMark) of the particles from `base` on, which must be those of one cloth.
+    void add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const;
 
   private:
     /// Aligned so that no two workers share a cache line.

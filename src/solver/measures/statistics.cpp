@@ -58,6 +58,29 @@ Intersections count_intersections(const Frame& frame) {
     return {crossings.triangles, crossings.edges};
 }
 
+std::vector<SheetPose> sheet_poses(const Frame& frame) {
+    std::vector<SheetPose> sheets;
+    for (const ClothFrame& cloth : frame.cloths) {
+        SheetPose& sheet = sheets.emplace_back();
+        for (const Vec4& p : cloth.positions) sheet.positions.push_back(p.xyz());
+        sheet.triangles.assign(cloth.triangles.begin(), cloth.triangles.end());
+    }
+    return sheets;
+}
+
+double stack_distance(const Frame& frame) {
+    double edge = 0, thickness = 0;
+    for (const ClothFrame& cloth : frame.cloths) {
+        Tally edges;
+        for (const auto& [a, b, c] : cloth.triangles)
+            for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+                edges.add(distance(cloth.positions[p].xyz(), cloth.positions[q].xyz()));
+        edge = std::max(edge, edges.result().mean);
+        thickness = std::max(thickness, double{cloth.model->fabric.contact.thickness});
+    }
+    return 2 * edge + thickness;
+}
+
 double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to) {
     Tally mean;
     for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) mean.add(distance(from[i], to[i]));

@@ -1,6 +1,7 @@
 // Measures of a frame, computed in double precision on the calling thread, outside the step.
 #pragma once
 
+#include "collide/sheet_order.h"
 #include "solver/measures/measures.h"
 #include "solver/state/frame.h"
 #include "solver/world/collider.h"
@@ -32,6 +33,11 @@ struct Intersections {
     std::uint64_t edges = 0;      ///< pairs of an edge and a triangle
 };
 Intersections count_intersections(const Frame& frame);
+
+/// The cloths of a frame as sheets, for SheetOrder.
+std::vector<SheetPose> sheet_poses(const Frame& frame);
+/// How far sheets that lie on each other may be apart, m: twice the longest mean edge of any cloth, and its thickness.
+double stack_distance(const Frame& frame);
 
 /// Mean distance between corresponding positions, m.
 double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to);

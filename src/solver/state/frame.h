@@ -5,6 +5,7 @@
 #include "solver/model/cloth_model.h"
 #include "solver/plan/pass.h"
 #include "solver/state/cloth_contact_counts.h"
+#include "solver/state/contact_marks.h"
 #include "solver/state/list_counts.h"
 
 #include <weft/ids.h>
@@ -52,6 +53,8 @@ struct ClothFrame {
     /// Changes whenever the triangles of the cloth or of its render mesh change.
     std::uint64_t topology_version = first_topology_version;
     std::uint32_t reports = report_none;
+    /// Bits (ContactMark); empty unless WorldSettings::contact_marks was on in the frame.
+    std::vector<std::uint32_t> contact_marks;
     std::string detail;  ///< source of the first non-finite value, or the device's error message
 
     /// Computed by the first call in a frame. Needs normals. Not thread-safe.

@@ -39,6 +39,7 @@ struct StepInput {
     /// substep = 0 … substeps.
     std::span<const Pose> poses = {};
     bool contact_forces = false;                          ///< record contacts
+    bool contact_marks = false;                           ///< record what contact between cloths does to each particle
     std::uint32_t list_capacity = default_list_capacity;  ///< initial capacity of dynamic lists
     /// Of the cloths that collide with cloth, at the start of the frame; particles are numbered over the world. Null if
     /// nothing is tangled.
@@ -116,6 +117,9 @@ class Backend {
     virtual ListCounts list_counts() const = 0;
     /// Counts of the last finished frame. All are 0 on a backend without contact of cloth against cloth.
     virtual ClothContactCounts cloth_contact_counts() const { return {}; }
+    /// Adds bits (ContactMark) to those of the cloth's particles, if the last finished frame recorded them. Call it
+    /// before any change of the cloths.
+    virtual void add_contact_marks(ClothHandle, std::span<std::uint32_t>) const {}
     /// Reads the current state of a cloth. The arrays stay valid until the next call of any function. Returns false if
     /// the device is lost; the state is then that of the last read.
     virtual bool read(ClothHandle cloth, ClothFrame& frame) const = 0;

@@ -223,6 +223,8 @@ void World::configure(WorldSettings settings) {
         contact_logs_ = {};
         contact_forces_ = {};
     }
+    if (!settings_.contact_marks)
+        for (ClothFrame& cloth : frame_.cloths) cloth.contact_marks.clear();
     replan();
 }
 
@@ -231,6 +233,7 @@ void World::list_cloths() {
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         frame_.cloths[i].id = cloths_.id_of(i);
         frame_.cloths[i].model = cloths_[i].model.get();
+        frame_.cloths[i].contact_marks.clear();
     }
     unread_ = true;
 }
@@ -396,6 +399,7 @@ void World::advance(double dt) {
                        .colliders = colliders_.values(),
                        .poses = poses_,
                        .contact_forces = settings_.contact_forces,
+                       .contact_marks = settings_.contact_marks,
                        .list_capacity = settings_.list_capacity,
                        .tangle = tangle_.tangle()},
              .islands = steps_};
@@ -418,6 +422,7 @@ void World::complete() const {
     unread_ = true;
     if (tangle_.tangle() || frame_.cloth_contacts.tangled > 0) watch_tangle();
     tangle_.count(frame_.cloth_contacts);
+    if (settings_.contact_marks) collect_contact_marks();
     frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());
@@ -435,6 +440,20 @@ void World::watch_tangle() const {
     for (const ClothFrame& cloth : frame().cloths)
         if (cloth.model->tiles) (next++)->positions = cloth.positions;
     tangle_.search(watched);
+}
+
+void World::collect_contact_marks() const {
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        std::vector<std::uint32_t>& marks = frame_.cloths[i].contact_marks;
+        marks.assign(cloths_[i].model->particle_count, 0);
+        backend_->add_contact_marks(cloths_[i].handle, marks);
+    }
+    if (!tangle_.tangle()) return;
+    for (const TangledPair& pair : tangle_.tangle()->pairs) {
+        for (const std::uint32_t p : pair.particle)
+            if (const auto place = place_of(p))
+                frame_.cloths[place->cloth].contact_marks[place->particle] |= mark_tangled;
+    }
 }
 
 std::optional<ParticlePlace> World::place_of(std::uint32_t particle) const {

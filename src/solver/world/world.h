@@ -21,6 +21,7 @@ struct WorldSettings {
     std::optional<AirDesc> air = {};                      ///< nullopt: no air
     bool surface = true;                                  ///< compute normals
     bool contact_forces = false;                          ///< record contacts
+    bool contact_marks = false;                           ///< record ClothFrame::contact_marks
     std::uint32_t list_capacity = default_list_capacity;  ///< initial capacity of dynamic lists, in constraints
     bool background = false;                              ///< rebuild models on a separate thread, one after another
 
@@ -178,6 +179,7 @@ class World {
     void list_cloths();
     std::optional<ParticlePlace> place_of(std::uint32_t particle) const;
     void watch_tangle() const;
+    void collect_contact_marks() const;
     void complete() const;        ///< waits for the frame that runs on a device
     void complete_and_resolve();  ///< complete(), and resolves the contact log before its memory is freed
     ContactLog& begin_contact_forces(double dt);

@@ -23,6 +23,11 @@
 #define WEFT_PAIR_OF_EDGES 1u
 #define WEFT_PAIR_PUSHED 2u  // in this substep
 
+// ContactMark of solver/state/contact_marks.h.
+#define WEFT_MARK_TOUCHES 1u
+#define WEFT_MARK_LIMITED 2u
+#define WEFT_MARK_TANGLED 4u
+
 #ifdef __cplusplus
 namespace weft::vulkan {
 using ContactDataRef = std::uint64_t;
@@ -142,6 +147,7 @@ struct ContactData {
     Uints scaled_sums;
     Floats part;  // of its motion that the limit leaves to the particle
     Uints marks;  // 1: to be sent back
+    Uints contact_marks;  // WEFT_MARK_…; none unless records_marks
     ContactTileRef tiles;
     TrackedTileRef tracked;
     Vec4s places;      // by vertex of the tiles; w: m that the lists cover around the trajectory
@@ -183,6 +189,7 @@ struct ContactData {
     float split;
     float untangling_speed;  // m/s
     uint search_always;
+    uint records_marks;
 };
 
 struct ClothContactArgs {

@@ -1,6 +1,7 @@
 #include "vulkan/cloth_contact/cloth_contact.h"
 
 #include "solver/plan/cloth_contact_numbers.h"
+#include "solver/state/contact_marks.h"
 #include "solver/state/list_counts.h"
 #include "vulkan/compiled_plan.h"
 #include "vulkan/primitives/recorder.h"
@@ -20,6 +21,8 @@ static_assert(sizeof(ContactTileIn) == 40 && sizeof(TrackedTile) == 64 && sizeof
 static_assert(sizeof(ClothContactArgs) == 16);
 static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edges &&
               WEFT_TILE_TRIANGLES == tile_triangles);
+static_assert(WEFT_MARK_TOUCHES == mark_touches && WEFT_MARK_LIMITED == mark_limited &&
+              WEFT_MARK_TANGLED == mark_tangled);
 static_assert(WEFT_CONTACT_ROUNDS == contact_rounds && WEFT_CONTACT_EXTRA_SWEEPS == contact_extra_sweeps);
 
 // Part of the slack of lists by which contact may move particles. The rest is for the motion of the following substeps.
@@ -171,15 +174,17 @@ ClothContactRoom ClothContactRoom::for_tangle(const Tangle* tangle) const {
 Result<std::unique_ptr<ClothContact>> ClothContact::create(gpu::Device& device, Programs& programs,
                                                            std::span<const Member> members,
                                                            const ClothContactRoom& room, std::uint32_t list_capacity,
-                                                           bool search_always, const std::string& name) {
+                                                           bool search_always, bool records_marks,
+                                                           const std::string& name) {
     auto self = std::unique_ptr<ClothContact>(new ClothContact(device, programs));
     self->room_ = room;
-    if (auto built = self->build(members, list_capacity, search_always, name); !built) return built.errors();
+    if (auto built = self->build(members, list_capacity, search_always, records_marks, name); !built)
+        return built.errors();
     return self;
 }
 
 Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
-                                 const std::string& name) {
+                                 bool records_marks, const std::string& name) {
     TileArrays arrays;
     std::vector<std::uint64_t> reports;
     std::uint64_t particles = 0, end = 0;
@@ -222,12 +227,18 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     std::array<Slot, 5> near;  // particles, weights, normals, starts, pushes
     for (Slot& slot : near) slot = arena_.reserve(2 * sizeof(Vec4) * room_.near);
     const Slot kinds = arena_.reserve(2 * word * room_.near);
+    if (records_marks) marks_ = arena_.reserve(end * word);
     head_ = arena_.reserve(sizeof(ContactHead));
     if (auto built = arena_.build(device_, "cloth contact of " + name, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT); !built)
         return built;
     auto back = device_.memory().buffer(sizeof(ContactHead), gpu::MemoryKind::readback, "counts of " + name);
     if (!back) return back.errors();
     back_ = std::move(*back);
+    if (records_marks) {
+        auto marks_back = device_.memory().buffer(marks_.bytes, gpu::MemoryKind::readback, "contact marks of " + name);
+        if (!marks_back) return marks_back.errors();
+        marks_back_ = std::move(*marks_back);
+    }
 
     const WorldParticles& world = members.front().cloth->world();
     data.position = world.address(PointArray::position, 0);
@@ -237,6 +248,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.rest = arena_.address(points[2]);
     data.share = arena_.address(share), data.sums = arena_.address(sums), data.scaled_sums = arena_.address(scaled);
     data.part = arena_.address(part), data.marks = arena_.address(marks);
+    data.contact_marks = arena_.address(marks_), data.records_marks = records_marks ? 1 : 0;
     data.tiles = arena_.address(tiles), data.tracked = arena_.address(tracked);
     data.places = arena_.address(places), data.velocities = arena_.address(velocities);
     data.particles = arena_.address(of_tiles), data.edges = arena_.address(edges);
@@ -295,6 +307,7 @@ void ClothContact::set_tangle(const Tangle* tangle) {
 
 void ClothContact::record_begin(gpu::Commands& commands) const {
     if (room_.tangled > 0) commands.copy(tangle_upload_, tangle_, tangle_.size());
+    if (marks_.bytes > 0) commands.fill(arena_.buffer(), 0, marks_.bytes, marks_.offset);
 }
 
 Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
@@ -331,8 +344,14 @@ Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std
     return passes.end();
 }
 
-void ClothContact::record_end(gpu::Commands& commands) const {
+Result<void> ClothContact::record_end(gpu::Commands& commands) const {
     commands.copy(arena_.buffer(), back_, sizeof(ContactHead), head_.offset, 0);
+    if (marks_.bytes == 0) return {};
+    PassRecorder passes(device_, programs_, commands, arena_, head_, data_arena_.address(data_));
+    passes.run_near("contact_mark_touching");
+    commands.barrier();
+    commands.copy(arena_.buffer(), marks_back_, marks_.bytes, marks_.offset, 0);
+    return passes.end();
 }
 
 ClothContactRoom ClothContact::wanted() const {
@@ -347,6 +366,11 @@ ClothContactCounts ClothContact::counts() const {
             .limited = head.limited,
             .tangled = head.tangled,
             .tangled_particle = head.tangled > 0 ? head.tangled_particle : no_particle};
+}
+
+void ClothContact::add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const {
+    const auto recorded = marks_back_.as<const std::uint32_t>();
+    for (std::size_t i = 0; i < marks.size() && base + i < recorded.size(); ++i) marks[i] |= recorded[base + i];
 }
 
 }  // namespace weft::vulkan

@@ -49,10 +49,11 @@ class ClothContact {
     };
 
     /// `members`: all cloths of the frame. Those without contact between cloths do not take part.
+    /// `records_marks`: see StepInput::contact_marks.
     static Result<std::unique_ptr<ClothContact>> create(gpu::Device& device, Programs& programs,
                                                         std::span<const Member> members, const ClothContactRoom& room,
                                                         std::uint32_t list_capacity, bool search_always,
-                                                        const std::string& name);
+                                                        bool records_marks, const std::string& name);
 
     /// Call before a frame is submitted. The room must hold the tangle.
     void set_tangle(const Tangle* tangle);
@@ -60,28 +61,31 @@ class ClothContact {
     void record_begin(gpu::Commands& commands) const;
     /// Records a pass of contact between cloths, for all cloths.
     Result<void> record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const;
-    /// Call at the end of a frame. Copies the counts back.
-    void record_end(gpu::Commands& commands) const;
+    /// Call at the end of a frame. Copies the counts and the marks back.
+    Result<void> record_end(gpu::Commands& commands) const;
 
     const ClothContactRoom& room() const { return room_; }
     // Of the last finished frame:
     /// Including elements that the lists had no room for.
     ClothContactRoom wanted() const;
     ClothContactCounts counts() const;
+    /// Adds the bits (ContactMark) of the particles from `base` on, which must be those of one cloth with contact
+    /// between cloths. None unless they were recorded.
+    void add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const;
 
   private:
     ClothContact(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
     Result<void> make_tangle(ContactData& data, std::uint64_t particles, const std::string& name);
     Result<void> build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
-                       const std::string& name);
+                       bool records_marks, const std::string& name);
 
     gpu::Device& device_;
     Programs& programs_;
     ClothContactRoom room_;
     std::uint32_t tiles_ = 0, groups_ = 0;
     Arena arena_, data_arena_;
-    Slot head_, data_;
-    gpu::Buffer back_;
+    Slot head_, data_, marks_;
+    gpu::Buffer back_, marks_back_;
     // The tangle of a frame: its number of pairs, the pairs, `first` and `near`.
     gpu::Buffer tangle_upload_, tangle_;
     std::uint64_t tangle_first_ = 0, tangle_near_ = 0;  // offsets

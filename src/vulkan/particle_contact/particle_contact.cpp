@@ -1,6 +1,7 @@
 #include "vulkan/particle_contact/particle_contact.h"
 
 #include "solver/plan/particle_contact_numbers.h"
+#include "solver/state/contact_marks.h"
 #include "solver/state/list_counts.h"
 #include "vulkan/primitives/recorder.h"
 
@@ -53,15 +54,17 @@ struct SphereArrays {
 Result<std::unique_ptr<ParticleContact>> ParticleContact::create(gpu::Device& device, Programs& programs,
                                                                  std::span<const Member> members,
                                                                  std::uint32_t capacity, std::uint32_t first_capacity,
-                                                                 bool search_always, const std::string& name) {
+                                                                 bool search_always, bool records_marks,
+                                                                 const std::string& name) {
     auto self = std::unique_ptr<ParticleContact>(new ParticleContact(device, programs));
     self->capacity_ = capacity;
-    if (auto built = self->build(members, first_capacity, search_always, name); !built) return built.errors();
+    if (auto built = self->build(members, first_capacity, search_always, records_marks, name); !built)
+        return built.errors();
     return self;
 }
 
 Result<void> ParticleContact::build(std::span<const Member> members, std::uint32_t first_capacity, bool search_always,
-                                    const std::string& name) {
+                                    bool records_marks, const std::string& name) {
     SphereArrays arrays;
     std::vector<std::uint64_t> reports;
     std::uint64_t end = 0;
@@ -89,6 +92,12 @@ Result<void> ParticleContact::build(std::span<const Member> members, std::uint32
     auto back = device_.memory().buffer(sizeof(SphereHead), gpu::MemoryKind::readback, "counts of " + name);
     if (!back) return back.errors();
     back_ = std::move(*back);
+    pushes_ = pushes;
+    if (records_marks) {
+        auto marks = device_.memory().buffer(pushes.bytes, gpu::MemoryKind::readback, "contact marks of " + name);
+        if (!marks) return marks.errors();
+        pushes_back_ = std::move(*marks);
+    }
 
     const WorldParticles& world = members.front().cloth->world();
     data.position = world.address(PointArray::position, 0);
@@ -145,6 +154,13 @@ Result<void> ParticleContact::record(gpu::Commands& commands, const Pass& pass, 
 
 void ParticleContact::record_end(gpu::Commands& commands) const {
     commands.copy(arena_.buffer(), back_, sizeof(SphereHead), head_.offset, 0);
+    if (pushes_back_.size() > 0) commands.copy(arena_.buffer(), pushes_back_, pushes_.bytes, pushes_.offset, 0);
+}
+
+void ParticleContact::add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const {
+    const auto pushes = pushes_back_.as<const std::uint32_t>();
+    for (std::size_t i = 0; i < marks.size() && base + i < pushes.size(); ++i)
+        if (pushes[base + i] > 0) marks[i] |= mark_touches;
 }
 
 ClothContactCounts ParticleContact::counts() const {

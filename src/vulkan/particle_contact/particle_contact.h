@@ -25,15 +25,16 @@ class ParticleContact {
     };
 
     /// `members`: all cloths of the frame. Those without contact between cloths do not take part. The list has room for
-    /// `capacity` pairs, or for more if `first_capacity` (StepInput::list_capacity) asks for it.
+    /// `capacity` pairs, or for more if `first_capacity` (StepInput::list_capacity) asks for it. `records_marks`: see
+    /// StepInput::contact_marks.
     static Result<std::unique_ptr<ParticleContact>> create(gpu::Device& device, Programs& programs,
                                                            std::span<const Member> members, std::uint32_t capacity,
                                                            std::uint32_t first_capacity, bool search_always,
-                                                           const std::string& name);
+                                                           bool records_marks, const std::string& name);
 
     /// Records a pass of contact between particles, for all cloths.
     Result<void> record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const;
-    /// Call at the end of a frame. Copies the counts back.
+    /// Call at the end of a frame. Copies the counts and the marks back.
     void record_end(gpu::Commands& commands) const;
 
     /// Pairs.
@@ -42,19 +43,22 @@ class ParticleContact {
     /// Pairs, including those that the list had no room for.
     std::uint32_t wanted() const { return counted().wanted; }
     ClothContactCounts counts() const;
+    /// Adds the bits (ContactMark) of the particles from `base` on, which must be those of one cloth with contact
+    /// between particles. None unless they were recorded.
+    void add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const;
 
   private:
     ParticleContact(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
     Result<void> build(std::span<const Member> members, std::uint32_t first_capacity, bool search_always,
-                       const std::string& name);
+                       bool records_marks, const std::string& name);
     const SphereHead& counted() const { return back_.as<SphereHead>()[0]; }
 
     gpu::Device& device_;
     Programs& programs_;
     std::uint32_t tiles_ = 0, capacity_ = 0;
     Arena arena_, data_arena_;
-    Slot head_, data_;
-    gpu::Buffer back_;
+    Slot head_, data_, pushes_;
+    gpu::Buffer back_, pushes_back_;
 };
 
 }  // namespace weft::vulkan

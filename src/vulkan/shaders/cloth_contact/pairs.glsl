@@ -164,6 +164,14 @@ bool mark(uint p)
     return true;
 }
 
+void record_mark(uvec4 particle, uint mark)
+{
+    atomicOr(contact.contact_marks.at[particle.x], mark);
+    atomicOr(contact.contact_marks.at[particle.y], mark);
+    atomicOr(contact.contact_marks.at[particle.z], mark);
+    atomicOr(contact.contact_marks.at[particle.w], mark);
+}
+
 // Marks the particles of a pair that has lost its gap. Returns 0 if the pair has its gap, 1 if it sends particles back,
 // 2 if none of them can go back any further.
 uint mark_lost(uint i)
@@ -175,7 +183,10 @@ uint mark_lost(uint i)
     helps = mark(p.y) || helps;
     helps = mark(p.z) || helps;
     helps = mark(p.w) || helps;
-    if (!helps) atomicMin(head.tangled_particle, min(min(p.x, p.y), min(p.z, p.w)));
+    if (!helps) {
+        atomicMin(head.tangled_particle, min(min(p.x, p.y), min(p.z, p.w)));
+        if (contact.records_marks == 1u) record_mark(p, WEFT_MARK_TANGLED);
+    }
     return helps ? 1u : 2u;
 }
 
@@ -197,6 +208,14 @@ void send_back(uint p)
     contact.part.at[p] = part;
     vec3 from = contact.start.at[p].xyz;
     contact.position.at[p].xyz = from + (contact.asked.at[p].xyz - from) * part;
+}
+
+// --- Marks ---
+
+void run_mark_touching(uint i)
+{
+    if (i >= near_count() || (contact.near_kinds.at[near_index(i)] & WEFT_PAIR_PUSHED) == 0u) return;
+    record_mark(contact.near_particles.at[near_index(i)], WEFT_MARK_TOUCHES);
 }
 
 // --- Velocities ---

@@ -61,7 +61,9 @@ void run_ask_again(uint p)
 
 void run_count(uint p)
 {
-    if (contact.part.at[p] < 1.0) atomicAdd(head.limited, 1u);
+    if (!(contact.part.at[p] < 1.0)) return;
+    atomicAdd(head.limited, 1u);
+    if (contact.records_marks == 1u) contact.contact_marks.at[p] |= WEFT_MARK_LIMITED;
 }
 
 void run_slow(uint p)
