@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/collision_filter.h"
+#include "collide/seams.h"
 #include "collide/tiles.h"
 
 #include <array>
@@ -36,11 +37,12 @@ struct FeatureArrays {
 /// A cloth as the search needs it.
 struct SearchedCloth {
     std::shared_ptr<const std::vector<Tile>> tiles;
-    std::uint32_t base = 0;       ///< number of its first particle in the world
-    const Vec4* rest = nullptr;   ///< m, by particle of the cloth
-    float thickness = 0;          ///< m
-    float slack = 0;              ///< m: how far a particle may be from its listed trajectory
-    CollisionFilter filter = {};  ///< for other cloths
+    std::uint32_t base = 0;                   ///< number of its first particle in the world
+    const Vec4* rest = nullptr;               ///< m, by particle of the cloth
+    float thickness = 0;                      ///< m
+    float slack = 0;                          ///< m: how far a particle may be from its listed trajectory
+    CollisionFilter filter = {};              ///< for other cloths
+    std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;
 };
 
@@ -194,6 +196,7 @@ class PairSearch {
     TileReach reach(const TileState& a, const TileState& b, std::int64_t& until) const;
     void list_row(std::uint32_t a);
     void list_block(std::uint32_t a, std::uint32_t b, TilePairs& row);
+    void apply_seams(int kind, PairList& list, std::uint32_t begin) const;
 
     const SearchLoops* loops_ = nullptr;
     std::vector<SearchedCloth> cloths_;

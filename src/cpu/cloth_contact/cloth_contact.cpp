@@ -66,7 +66,7 @@ void ClothContact::prepare(const Passes& passes, const ClothContactContext& cont
         if (model.tiles)
             searched.push_back({model.tiles, cloth->base, model.start.data(),
                                 std::max(model.fabric.contact.thickness, least_contact_thickness), slack_,
-                                model.collision.filter});
+                                model.collision.filter, context.seams});
     }
     search_.set_cloths(loops_->search, std::move(searched));
     search_.check_start(x_);

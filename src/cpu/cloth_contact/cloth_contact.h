@@ -16,6 +16,7 @@ namespace weft::cpu {
 struct ClothContactContext {
     const WorldStep& step;
     std::span<ClothState* const> cloths;
+    std::shared_ptr<const Seams> seams = {};
 };
 
 class ClothContact {
