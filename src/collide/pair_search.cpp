@@ -374,12 +374,35 @@ void PairSearch::next_tick() {
     for (TileState& tile : tiles_) tile.strays = {tile.strays[1], 0};
 }
 
+// Pairs near a seam keep at most half of their distance at rest through it, as neighbors on one cloth do. Features with
+// particles that a stitch holds together form no pair.
+void PairSearch::apply_seams(int kind, PairList& list, std::uint32_t begin) const {
+    const Seams& seams = *cloths_.front().seams;
+    const int side_one = kind == 0 ? 1 : 2;
+    std::uint32_t kept = begin;
+    for (std::uint32_t i = begin; i < list.count; ++i) {
+        float through = Seams::far;
+        for (int k = 0; k < side_one; ++k)
+            for (int l = side_one; l < 4; ++l)
+                through = std::min(through, seams.distance(list.particle[k][i], list.particle[l][i]));
+        if (!(through > 0)) continue;
+        const float thickness = std::min(list.thickness[i], 0.5f * through);
+        for (auto& array : list.particle) array[kept] = array[i];
+        list.spare[kept] = list.spare[i] + (list.thickness[i] - thickness);
+        list.thickness[kept] = thickness;
+        ++kept;
+    }
+    list.count = kept;
+}
+
 void PairSearch::list_block(std::uint32_t a, std::uint32_t b, Workspace& workspace) const {
     TilePairs& row = workspace.fresh;
     TilePairs::Block block{.other = b, .listed = tick_};
     const TileReach how = reach(tiles_[a], tiles_[b], block);
     for (int kind = 0; kind < 2; ++kind) block.begin[kind] = row.lists[kind].count;
     loops_->list_pairs(tiles_[a], tiles_[b], how, workspace.scratch, row.lists);
+    if (cloths_[tiles_[a].cloth].seams)
+        for (int kind = 0; kind < 2; ++kind) apply_seams(kind, row.lists[kind], block.begin[kind]);
     for (int kind = 0; kind < 2; ++kind) block.count[kind] = row.lists[kind].count - block.begin[kind];
     for (int kind = 0; kind < 2; ++kind) {
         const auto spare = std::span(row.lists[kind].spare).subspan(block.begin[kind], block.count[kind]);

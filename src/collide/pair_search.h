@@ -7,6 +7,7 @@
 
 #include "base/collision_filter.h"
 #include "base/workers.h"
+#include "collide/seams.h"
 #include "collide/tiles.h"
 
 #include <array>
@@ -35,11 +36,12 @@ struct FeatureArrays {
 /// A cloth as the search needs it.
 struct SearchedCloth {
     std::shared_ptr<const std::vector<Tile>> tiles;
-    std::uint32_t base = 0;       ///< number of its first particle in the world
-    const Vec4* rest = nullptr;   ///< m, by particle of the cloth
-    float thickness = 0;          ///< m
-    float slack = 0;              ///< m: how far a particle may be from its listed trajectory at most
-    CollisionFilter filter = {};  ///< for other cloths
+    std::uint32_t base = 0;                   ///< number of its first particle in the world
+    const Vec4* rest = nullptr;               ///< m, by particle of the cloth
+    float thickness = 0;                      ///< m
+    float slack = 0;                          ///< m: how far a particle may be from its listed trajectory at most
+    CollisionFilter filter = {};              ///< for other cloths
+    std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;
 };
 
@@ -218,6 +220,7 @@ class PairSearch {
     };
     void list_row(std::uint32_t a, Workspace& workspace);
     void list_block(std::uint32_t a, std::uint32_t b, Workspace& workspace) const;
+    void apply_seams(int kind, PairList& list, std::uint32_t begin) const;
 
     const SearchLoops* loops_ = nullptr;
     std::vector<SearchedCloth> cloths_;

@@ -48,6 +48,19 @@ bool overlap(const ParticleBox& a, const ParticleBox& b) {
            a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
 }
 
+// Particles near a seam keep at most a part of their distance at rest through it, as neighbors on one cloth do.
+void apply_seams(const Seams& seams, float part_at_rest, ParticlePairs& pairs, std::uint32_t begin) {
+    std::uint32_t kept = begin;
+    for (std::uint32_t i = begin; i < pairs.count; ++i) {
+        const float through = seams.distance(pairs.one[i], pairs.two[i]);
+        if (!(through > 0)) continue;
+        pairs.one[kept] = pairs.one[i], pairs.two[kept] = pairs.two[i];
+        pairs.diameter[kept] = std::min(pairs.diameter[i], through * part_at_rest);
+        ++kept;
+    }
+    pairs.count = kept;
+}
+
 }  // namespace
 
 void ParticlePairs::reserve(std::size_t pairs) {
@@ -286,6 +299,7 @@ ParticleSearch::Block ParticleSearch::list_block(std::uint32_t tile, std::uint32
                             .part_at_rest = of_a.part_at_rest,
                             .by_rest = by_rest};
     block.spare = loops_->list(tiles, pairs) - rounding;
+    if (of_a.seams) apply_seams(*of_a.seams, of_a.part_at_rest, pairs, block.begin);
     block.count = pairs.count - block.begin;
     return block;
 }

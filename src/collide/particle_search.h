@@ -7,6 +7,7 @@
 
 #include "base/aligned.h"
 #include "base/collision_filter.h"
+#include "collide/seams.h"
 
 #include <weft/vector.h>
 
@@ -31,6 +32,7 @@ struct SearchedParticles {
     float part_at_rest = 0;       ///< of their distance at rest that two of its particles keep at most
     bool with_alike = true;       ///< false: it has no pairs with itself and with other cloths that have none
     CollisionFilter filter = {};  ///< for other cloths
+    std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
     friend bool operator==(const SearchedParticles&, const SearchedParticles&) = default;
 };
 

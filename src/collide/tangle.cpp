@@ -237,6 +237,12 @@ bool Tangle::joins(std::uint32_t p, std::uint32_t q) const {
 
 Tangle find_tangle(std::span<const Vec3> positions, std::span<const Triangle> triangles, const TangleRules& rules) {
     std::vector<EdgeCrossing> found = find_crossings(positions, triangles, rules.can_cross);
+    const auto is_tied = [&](const EdgeCrossing& crossing) {
+        return std::ranges::any_of(crossing.edge, [&](std::uint32_t p) {
+            return std::ranges::any_of(triangles[crossing.triangle], [&](std::uint32_t q) { return rules.tied(p, q); });
+        });
+    };
+    if (rules.tied) std::erase_if(found, is_tied);
     if (found.empty()) return {};
     return TangleFinder(positions, triangles, std::move(found), rules).run();
 }

@@ -33,6 +33,8 @@ struct TangleRules {
     /// Positive: the first particle's cloth belongs in front of the second one's; negative: behind it; 0: no order.
     /// Empty: 0.
     std::function<int(std::uint32_t, std::uint32_t)> order = {};
+    /// Whether features with these particles may cross, because a stitch holds them together. Empty: none may.
+    std::function<bool(std::uint32_t, std::uint32_t)> tied = {};
 };
 
 /// All crossings within one set of triangles (crossings.h). A contour where two cloths intersect moves towards the rim

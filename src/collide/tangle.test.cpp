@@ -57,6 +57,20 @@ TEST(Tangle, surfaces_that_cannot_cross_are_not_tangled) {
     EXPECT_TRUE(find_tangle(surfaces.positions, surfaces.triangles, rules).pairs.empty());
 }
 
+TEST(Tangle, features_that_are_tied_are_not_tangled) {
+    const Surfaces surfaces = small_through_large();
+    const std::vector<TangledPair> all = find_tangle(surfaces.positions, surfaces.triangles).pairs;
+    const auto [a, b, c, d, e] = all.front().particle;
+    const TangleRules rules{.tied = [&](std::uint32_t p, std::uint32_t q) { return p == a && q == c; }};
+    const std::vector<TangledPair> left = find_tangle(surfaces.positions, surfaces.triangles, rules).pairs;
+    EXPECT_LT(left.size(), all.size());
+    EXPECT_FALSE(left.empty());
+    for (const TangledPair& pair : left) {
+        const bool of_a = pair.particle[0] == a || pair.particle[1] == a;
+        EXPECT_FALSE(of_a && std::find(&pair.particle[2], &pair.particle[4] + 1, c) != &pair.particle[4] + 1);
+    }
+}
+
 TEST(Tangle, an_order_decides_instead_of_the_size_of_parts) {
     const Surfaces surfaces = small_through_large();
     for (const int small_in_front : {1, -1}) {

@@ -72,8 +72,8 @@ void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
         cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces);
     if (job.links) job.links->prepare(*job.step->links, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
-    if (job.cloth_contact) job.cloth_contact->prepare(passes_, step, job.cloths);
-    if (job.particle_contact) job.particle_contact->prepare(passes_, {step, job.cloths}, workers);
+    if (job.cloth_contact) job.cloth_contact->prepare(passes_, step, job.cloths, job.step->seams);
+    if (job.particle_contact) job.particle_contact->prepare(passes_, {step, job.cloths, job.step->seams}, workers);
     job.reports.assign(job.cloths.size(), report_none);
     for (WorkerScratch& scratch : scratch_) {
         if (scratch.reports.size() < job.cloths.size()) scratch.reports.resize(job.cloths.size());

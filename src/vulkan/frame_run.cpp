@@ -26,6 +26,7 @@ Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs
     auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, plan, serial, members, execution));
     if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
     if (auto made = self->make_lists(lists); !made) return made.errors();
+    for (Member& member : self->members_) member.seams = nullptr;  // valid only during create()
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
     if (!recorded) return recorded.errors();
     if (auto prepared = self->prepare_contact_forces(); !prepared) return prepared.errors();
@@ -107,7 +108,7 @@ Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
     bool any = false;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const FrameInput& input = buffers_.input(i);
-        members.push_back({&members_[i].cloth->state(), input.frame(), input.report()});
+        members.push_back({&members_[i].cloth->state(), input.frame(), input.report(), members_[i].seams});
         any = any || members_[i].cloth->model().tiles;
     }
     if (!any) return {};
@@ -124,7 +125,7 @@ Result<void> FrameRun::make_particle_contact(const Lists& lists) {
     bool any = false;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const FrameInput& input = buffers_.input(i);
-        members.push_back({&members_[i].cloth->state(), input.frame(), input.report()});
+        members.push_back({&members_[i].cloth->state(), input.frame(), input.report(), members_[i].seams});
         any = any || members_[i].cloth->model().along_curve;
     }
     if (!any) return {};

@@ -39,6 +39,7 @@ class FrameRun {
         PlainStiffness stiffness{};
         std::uint32_t island = 0;           ///< members of one island are consecutive
         const LinkTables* links = nullptr;  ///< of the island; needed during create() only
+        const Seams* seams = nullptr;       ///< likewise
     };
 
     /// Sizes of lists that are found on the device.

@@ -310,7 +310,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
                                           .shape = vulkan::shape_of(*step.plan, step.input, one),
                                           .stiffness = one.stiffness ? *one.stiffness : PlainStiffness{},
                                           .island = i,
-                                          .links = island.links});
+                                          .links = island.links,
+                                          .seams = island.seams.get()});
             }
         }
     }

@@ -38,7 +38,8 @@ Vec3 normal_of(const NearPairs& near, std::uint32_t i) {
 
 }  // namespace
 
-void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths) {
+void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
+                           const std::shared_ptr<const Seams>& seams) {
     cloths_ = cloths;
     tangle_ = step.input.tangle;
     counts_ = {};
@@ -59,7 +60,7 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
         if (model.tiles)
             searched.push_back({model.tiles, cloth->base, model.start.data(),
                                 std::max(model.fabric.contact.thickness, least_contact_thickness), slack_,
-                                model.collision.filter});
+                                model.collision.filter, seams});
     }
     search_.set_cloths(loops_->search, std::move(searched));
     search_.check_start(x_);

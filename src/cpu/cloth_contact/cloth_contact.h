@@ -24,7 +24,8 @@ class ClothContact {
     explicit ClothContact(bool search_always = false) : search_always_(search_always) {}
 
     /// Allocates for the island's cloths. Keeps the lists if they are the same cloths as in the frame before.
-    void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths);
+    void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
+                 const std::shared_ptr<const Seams>& seams);
     /// All workers call it. The first one runs the pass, and the others help it with the search.
     void run(const ClothContactContext& context, const Pass& pass, Worker worker);
 

@@ -40,7 +40,8 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
                             .margin = particle_margin(model),
                             .part_at_rest = particle_part_at_rest,
                             .with_alike = model.collision.with_cloth == SelfCollision::fast,
-                            .filter = model.collision.filter});
+                            .filter = model.collision.filter,
+                            .seams = context.seams});
         const std::uint32_t end = cloth->base + model.particle_count;
         particles_.push_back({cloth->base, end});
         const auto& [of_rest, of_motion] = model.fabric.contact.friction;

@@ -15,6 +15,7 @@ namespace weft::cpu {
 struct ParticleContactContext {
     const WorldStep& step;
     std::span<ClothState* const> cloths;
+    std::shared_ptr<const Seams> seams = {};
 };
 
 class ParticleContact {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/hash.h"
+#include "collide/seams.h"
 #include "collide/tangle.h"
 #include "solver/measures/measures.h"
 #include "solver/plan/island_plan.h"
@@ -63,8 +64,9 @@ struct ClothStep {
 struct IslandStep {
     const IslandPlan* plan = nullptr;
     std::span<const ClothStep> cloths = {};
-    const LinkTables* links = nullptr;  ///< null if there are none
-    std::uint64_t links_serial = 0;     ///< changes whenever `links` changes
+    const LinkTables* links = nullptr;        ///< null if there are none
+    std::uint64_t links_serial = 0;           ///< changes whenever `links` changes
+    std::shared_ptr<const Seams> seams = {};  ///< for contact between cloths; null if there are none
 };
 
 struct WorldStep {

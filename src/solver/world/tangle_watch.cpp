@@ -5,7 +5,7 @@
 
 namespace weft {
 
-void TangleWatch::search(std::span<const WatchedCloth> cloths) {
+void TangleWatch::search(std::span<const WatchedCloth> cloths, std::span<const Seams* const> seams) {
     // Numbered over the world, where the ranges of cloths have gaps between them. No triangle uses these.
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
@@ -28,7 +28,12 @@ void TangleWatch::search(std::span<const WatchedCloth> cloths) {
         const std::uint32_t a = cloth_of(p).model->collision.layer, b = cloth_of(q).model->collision.layer;
         return a > b ? 1 : a < b ? -1 : 0;
     };
-    tangle_ = find_tangle(positions, triangles, {can_cross, order});
+    const auto tied = [&](std::uint32_t p, std::uint32_t q) {
+        return std::ranges::any_of(seams, [&](const Seams* one) { return !(one->distance(p, q) > 0); });
+    };
+    TangleRules rules{.can_cross = can_cross, .order = order};
+    if (!seams.empty()) rules.tied = tied;
+    tangle_ = find_tangle(positions, triangles, rules);
 }
 
 void TangleWatch::count(ClothContactCounts& counts) const {

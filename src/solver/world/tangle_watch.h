@@ -1,6 +1,7 @@
 // Finds where cloths that collide with cloth pass through each other.
 #pragma once
 
+#include "collide/seams.h"
 #include "collide/tangle.h"
 #include "solver/model/cloth_model.h"
 #include "solver/state/cloth_contact_counts.h"
@@ -18,8 +19,8 @@ struct WatchedCloth {
 
 class TangleWatch {
   public:
-    /// Replaces the tangle. O(n log n) for n triangles.
-    void search(std::span<const WatchedCloth> cloths);
+    /// Replaces the tangle. `seams`: where crossings do not count. O(n log n) for n triangles.
+    void search(std::span<const WatchedCloth> cloths, std::span<const Seams* const> seams = {});
     /// The last one found, with particles numbered over the world; null if there is none.
     const Tangle* tangle() const { return tangle_.pairs.empty() ? nullptr : &tangle_; }
     /// Adds it to the counts of a frame.

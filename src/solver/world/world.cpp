@@ -2,6 +2,8 @@
 
 #include "base/disjoint_sets.h"
 #include "base/hash.h"
+#include "solver/plan/cloth_contact_numbers.h"
+#include "solver/plan/particle_contact_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -305,7 +307,8 @@ void World::make_islands() {
     std::vector<std::size_t> island_of(cloths_.size());
     for (auto& cloths : group_islands(static_cast<std::uint32_t>(cloths_.size()), ties)) {
         for (const std::uint32_t place : cloths) island_of[place] = islands_.size();
-        islands_.push_back({.cloths = std::move(cloths), .links = {}, .linked = false, .plan = {}, .steps = {}});
+        islands_.push_back(
+            {.cloths = std::move(cloths), .links = {}, .linked = false, .seams = {}, .plan = {}, .steps = {}});
     }
     if (ties.empty()) return;
     std::vector<std::vector<PlacedStitch>> placed(islands_.size());
@@ -322,7 +325,29 @@ void World::make_islands() {
         const Cloth& first = cloths_[islands_[i].cloths.front()];
         islands_[i].links = make_links(placed[i], first.base + first_dummy(first.model->room()));
         islands_[i].linked = !placed[i].empty();
+        islands_[i].seams = seams_of(islands_[i].cloths, placed[i]);
     }
+}
+
+std::shared_ptr<const Seams> World::seams_of(std::span<const std::uint32_t> cloths,
+                                             std::span<const PlacedStitch> stitches) const {
+    if (stitches.empty()) return {};
+    const bool fast = std::ranges::any_of(
+        cloths, [&](std::uint32_t place) { return cloths_[place].model->collision.with_cloth == SelfCollision::fast; });
+    std::vector<SeamedCloth> seamed;
+    for (const std::uint32_t place : cloths) {
+        const ClothModel& model = *cloths_[place].model;
+        if (model.collision.with_cloth == SelfCollision::off) continue;
+        const float thickness = std::max(model.fabric.contact.thickness, least_contact_thickness);
+        seamed.push_back({.rest = model.start.data(),
+                          .base = cloths_[place].base,
+                          .count = model.particle_count,
+                          .thickness = fast ? std::max(thickness, particle_diameter(model)) : thickness});
+    }
+    std::vector<SeamTie> ties;
+    for (const PlacedStitch& stitch : stitches) ties.push_back({stitch.from, stitch.to, stitch.gap});
+    auto seams = std::make_shared<const Seams>(ties, seamed);
+    return seams->empty() ? nullptr : std::move(seams);
 }
 
 // Computes the pose of every collider at the start of the frame and after each substep.
@@ -388,7 +413,8 @@ void World::advance(double dt) {
         steps_.push_back({.plan = &island.plan,
                           .cloths = island.steps,
                           .links = island.linked ? &island.links : nullptr,
-                          .links_serial = plan_serial_});
+                          .links_serial = plan_serial_,
+                          .seams = island.seams});
     }
     step_ = {.plan = &plan_,
              .plan_serial = plan_serial_,
@@ -439,7 +465,10 @@ void World::watch_tangle() const {
     auto next = watched.begin();
     for (const ClothFrame& cloth : frame().cloths)
         if (cloth.model->tiles) (next++)->positions = cloth.positions;
-    tangle_.search(watched);
+    std::vector<const Seams*> seams;
+    for (const Island& island : islands_)
+        if (island.seams) seams.push_back(island.seams.get());
+    tangle_.search(watched, seams);
 }
 
 void World::collect_contact_marks() const {

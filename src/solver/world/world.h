@@ -156,12 +156,15 @@ class World {
         std::vector<std::uint32_t> cloths;  ///< indices
         LinkTables links;
         bool linked = false;
+        std::shared_ptr<const Seams> seams;  ///< null without stitches between cloths that can touch
         IslandPlan plan;
         std::vector<ClothStep> steps;  ///< scratch of a frame
     };
 
     void replan();
     void make_islands();
+    std::shared_ptr<const Seams> seams_of(std::span<const std::uint32_t> cloths,
+                                          std::span<const PlacedStitch> stitches) const;
     void use_model(const PendingModels::Ready& ready);
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,

@@ -2,7 +2,7 @@
 #ifndef WEFT_VULKAN_CLOTH_CONTACT_ARGS_H
 #define WEFT_VULKAN_CLOTH_CONTACT_ARGS_H
 
-#include "vulkan/args.data.h"
+#include "vulkan/seams.data.h"
 
 // Sizes of a tile (collide/tiles.h), and tiles per group of tiles.
 #define WEFT_TILE_VERTICES 96
@@ -172,6 +172,8 @@ struct ContactData {
     TangledPairRef tangled;
     Uints tangle_first;
     Uints tangle_near;
+    Uints seam_first;  // by particle of the world; this and the following: see Seams of collide/seams.h
+    SeamEntryRef seam_entries;
     uint untangles;  // 1: the four arrays exist
     uint tile_count;
     uint group_count;
@@ -190,6 +192,8 @@ struct ContactData {
     float untangling_speed;  // m/s
     uint search_always;
     uint records_marks;
+    uint has_seams;  // 1: there are seams
+    uint unused;
 };
 
 struct ClothContactArgs {

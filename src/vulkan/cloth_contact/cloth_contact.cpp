@@ -211,6 +211,10 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
         if (model.tiles) std::copy_n(model.start.begin(), model.particle_count, rest.begin() + member.cloth->base());
     }
 
+    std::vector<const Seams*> of_members;
+    for (const Member& member : members) of_members.push_back(member.seams);
+    const SeamArrays seams(of_members, end);
+
     constexpr std::uint64_t word = sizeof(std::uint32_t);
     const std::uint64_t vertices = std::uint64_t{tiles_} * tile_vertices;
     const Slot points[] = {arena_.reserve(end * sizeof(Vec4)), arena_.reserve(end * sizeof(Vec4)),
@@ -227,6 +231,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     std::array<Slot, 5> near;  // particles, weights, normals, starts, pushes
     for (Slot& slot : near) slot = arena_.reserve(2 * sizeof(Vec4) * room_.near);
     const Slot kinds = arena_.reserve(2 * word * room_.near);
+    const Slot seam_first = arena_.add_array(seams.first()), seam_entries = arena_.add_array(seams.entries());
     if (records_marks) marks_ = arena_.reserve(end * word);
     head_ = arena_.reserve(sizeof(ContactHead));
     if (auto built = arena_.build(device_, "cloth contact of " + name, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT); !built)
@@ -265,6 +270,8 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.slack = data.cap / contact_part_of_slack, data.cap_part = contact_part_of_slack;
     data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
     data.search_always = search_always ? 1 : 0;
+    data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
+    data.has_seams = seams.empty() ? 0 : 1;
     if (auto made = make_tangle(data, end, name); !made) return made;
     data_ = data_arena_.add(std::as_bytes(std::span(&data, 1)));
     return data_arena_.build(device_, "cloth contact addresses of " + name);

@@ -10,6 +10,7 @@
 #include "vulkan/cloth_contact/args.data.h"
 #include "vulkan/cloth_state.h"
 #include "vulkan/programs.h"
+#include "vulkan/seams.h"
 
 #include <memory>
 #include <span>
@@ -46,6 +47,7 @@ class ClothContact {
     struct Member {
         const ClothState* cloth = nullptr;
         std::uint64_t frame = 0, report = 0;
+        const Seams* seams = nullptr;  ///< of its island; needed during create() only; null if there are none
     };
 
     /// `members`: all cloths of the frame. Those without contact between cloths do not take part.

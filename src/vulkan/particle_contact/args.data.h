@@ -2,7 +2,7 @@
 #ifndef WEFT_VULKAN_PARTICLE_CONTACT_ARGS_H
 #define WEFT_VULKAN_PARTICLE_CONTACT_ARGS_H
 
-#include "vulkan/args.data.h"
+#include "vulkan/seams.data.h"
 
 #define WEFT_PARTICLE_TILE 32   // particles in a tile
 #define WEFT_PARTICLE_BLOCK 16  // particles that share friction
@@ -65,6 +65,8 @@ struct SphereData {
     SphereHeadRef head;
     FrameRef frame;  // of any of the cloths
     SphereReportsRef reports;
+    Uints seam_first;  // by particle of the world; this and the following: see Seams of collide/seams.h
+    SeamEntryRef seam_entries;
     uint tile_count;
     uint capacity;  // pairs
     uint report_count;
@@ -72,7 +74,7 @@ struct SphereData {
     float split;
     float part_at_rest;
     uint search_always;
-    uint unused;
+    uint has_seams;  // 1: there are seams
 };
 
 struct ParticleContactArgs {

@@ -81,12 +81,17 @@ Result<void> ParticleContact::build(std::span<const Member> members, std::uint32
     const double pairs = 8.0 * WEFT_PARTICLE_TILE * tiles_ * first_capacity / default_list_capacity;
     capacity_ = std::max(capacity_, static_cast<std::uint32_t>(std::min(64 + pairs, double{most_list_rows})));
 
+    std::vector<const Seams*> of_members;
+    for (const Member& member : members) of_members.push_back(member.seams);
+    const SeamArrays seams(of_members, end);
+
     constexpr std::uint64_t word = sizeof(std::uint32_t);
     const Slot friction = arena_.add_array(arrays.friction), pushes = arena_.reserve(end * word),
                sums = arena_.reserve(4 * end * word), particles = arena_.add_array(arrays.particles),
                rest = arena_.add_array(arrays.rest), listed = arena_.reserve(arrays.rest.size() * sizeof(Vec4)),
                boxes = arena_.reserve(2 * tiles_ * sizeof(Vec4)), tiles = arena_.add_array(arrays.tiles),
                all_pairs = arena_.reserve(sizeof(SpherePairIn) * capacity_), all_reports = arena_.add_array(reports);
+    const Slot seam_first = arena_.add_array(seams.first()), seam_entries = arena_.add_array(seams.entries());
     head_ = arena_.reserve(sizeof(SphereHead));
     if (auto built = arena_.build(device_, "particle contact of " + name); !built) return built;
     auto back = device_.memory().buffer(sizeof(SphereHead), gpu::MemoryKind::readback, "counts of " + name);
@@ -113,6 +118,8 @@ Result<void> ParticleContact::build(std::span<const Member> members, std::uint32
     data.recovery_speed = particle_recovery_speed, data.split = particle_split;
     data.part_at_rest = particle_part_at_rest;
     data.search_always = search_always ? 1 : 0;
+    data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
+    data.has_seams = seams.empty() ? 0 : 1;
     data_ = data_arena_.add(std::as_bytes(std::span(&data, 1)));
     return data_arena_.build(device_, "particle contact addresses of " + name);
 }

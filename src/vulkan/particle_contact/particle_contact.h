@@ -9,6 +9,7 @@
 #include "vulkan/cloth_state.h"
 #include "vulkan/particle_contact/args.data.h"
 #include "vulkan/programs.h"
+#include "vulkan/seams.h"
 
 #include <memory>
 #include <span>
@@ -22,6 +23,7 @@ class ParticleContact {
     struct Member {
         const ClothState* cloth = nullptr;
         std::uint64_t frame = 0, report = 0;
+        const Seams* seams = nullptr;  ///< of its island; needed during create() only; null if there are none
     };
 
     /// `members`: all cloths of the frame. Those without contact between cloths do not take part. The list has room for

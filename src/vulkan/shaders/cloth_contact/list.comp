@@ -66,6 +66,14 @@ float thickness_of_tiles()
     return 0.5 * (contact.tiles.at[tile_of[0]].thickness + contact.tiles.at[tile_of[1]].thickness);
 }
 
+float through(uint p, uint q) { return seam_distance(contact.seam_first, contact.seam_entries, p, q); }
+
+float distance_through_seam(bool edges, uvec4 p)
+{
+    float least = min(through(p.x, p.z), through(p.x, p.w));
+    return min(least, edges ? min(through(p.y, p.z), through(p.y, p.w)) : through(p.x, p.y));
+}
+
 // `one`: the tile of side one.
 void add_pair(bool edges, uint one, uint first, uint second)
 {
@@ -88,6 +96,12 @@ void add_pair(bool edges, uint one, uint first, uint second)
     if (contact.tiles.at[tile_of[0]].cloth == contact.tiles.at[tile_of[1]].cloth) {
         float at_rest = pair_distance(edges, contact.rest.at[p.x].xyz, contact.rest.at[p.y].xyz,
                                       contact.rest.at[p.z].xyz, contact.rest.at[p.w].xyz);
+        thickness = min(thickness, at_rest * 0.5);
+        if (!(least < thickness && at_rest > 0.0)) return;
+    }
+    // The same holds near a seam, for the distance through its stitches.
+    if (contact.has_seams == 1u) {
+        float at_rest = distance_through_seam(edges, p);
         thickness = min(thickness, at_rest * 0.5);
         if (!(least < thickness && at_rest > 0.0)) return;
     }

@@ -40,6 +40,12 @@ void list_pair(uint one, uint two, uint i, uint j, SphereTileIn a, SphereTileIn 
         vec3 apart = rest[i].xyz - y.xyz;
         diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), spheres.part_at_rest);
     }
+    if (spheres.has_seams == 1u)
+        diameter = diameter_of_pair(diameter,
+                                    seam_distance(spheres.seam_first, spheres.seam_entries,
+                                                  spheres.particles.at[one * WEFT_PARTICLE_TILE + i],
+                                                  spheres.particles.at[slot]),
+                                    spheres.part_at_rest);
     if (!(diameter > 0.0) || !(sqrt(dot(between, between)) < diameter + reach_of(a, b, x.xyz))) return;
     uint at = atomicAdd(head.listed, 1u);
     if (at >= spheres.capacity) return;
