@@ -190,6 +190,21 @@ TEST(SeamContact, follow_stitches_that_are_added_and_removed) {
     }
 }
 
+TEST(SeamContact, follow_a_change_of_thickness) {
+    const auto thicken = [](bool touch) {
+        World world = hung({.touch = touch}, 30);
+        for (const std::size_t i : {0u, 1u}) {
+            Fabric fabric = world.model(world.cloth_id(i))->fabric;
+            fabric.contact.thickness = 1.2f * panel_edge;
+            auto model = with_fabric(*world.model(world.cloth_id(i)), fabric);
+            EXPECT_TRUE(model.ok());
+            EXPECT_TRUE(world.set_material(world.cloth_id(i), *model).ok());
+        }
+        return hash_after(world, 30);
+    };
+    EXPECT_EQ(thicken(true), thicken(false));
+}
+
 TEST(SeamContact, a_tube_of_one_cloth_keeps_its_seam) {
     for (const SelfCollision self_collision : {SelfCollision::exact, SelfCollision::fast}) {
         constexpr std::uint32_t around = 16, along = 6;

@@ -2,8 +2,6 @@
 
 #include "base/disjoint_sets.h"
 #include "base/hash.h"
-#include "solver/plan/cloth_contact_numbers.h"
-#include "solver/plan/particle_contact_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -117,13 +115,15 @@ Result<void> World::set_material(ClothId id, std::shared_ptr<const ClothModel> m
     if (auto set = backend_->set_material(cloth.handle, model); !set) return set;
     pending_.drop(id);
     cloth.unedited = std::move(*unedited);
-    // Plans depend on the fabric only by whether it damps.
-    const bool same_passes = (cloth.model->fabric.body.damping > 0) == (model->fabric.body.damping > 0);
+    // Plans depend on the fabric only by whether it damps, and by how thick it is beside seams.
+    const Fabric &before = cloth.model->fabric, &after = model->fabric;
+    const bool same_plan = (before.body.damping > 0) == (after.body.damping > 0) &&
+                           (stitches_.empty() || before.contact.thickness == after.contact.thickness);
     cloth.model = std::move(model);
     if (settings_.solver.method == Method::pbd)
         cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
     list_cloths();
-    if (!same_passes) replan();
+    if (!same_plan) replan();
     return {};
 }
 
@@ -329,27 +329,6 @@ void World::make_islands() {
     }
 }
 
-std::shared_ptr<const Seams> World::seams_of(std::span<const std::uint32_t> cloths,
-                                             std::span<const PlacedStitch> stitches) const {
-    if (stitches.empty()) return {};
-    const bool fast = std::ranges::any_of(
-        cloths, [&](std::uint32_t place) { return cloths_[place].model->collision.with_cloth == SelfCollision::fast; });
-    std::vector<SeamedCloth> seamed;
-    for (const std::uint32_t place : cloths) {
-        const ClothModel& model = *cloths_[place].model;
-        if (model.collision.with_cloth == SelfCollision::off) continue;
-        const float thickness = std::max(model.fabric.contact.thickness, least_contact_thickness);
-        seamed.push_back({.rest = model.start.data(),
-                          .base = cloths_[place].base,
-                          .count = model.particle_count,
-                          .thickness = fast ? std::max(thickness, particle_diameter(model)) : thickness});
-    }
-    std::vector<SeamTie> ties;
-    for (const PlacedStitch& stitch : stitches) ties.push_back({stitch.from, stitch.to, stitch.gap});
-    auto seams = std::make_shared<const Seams>(ties, seamed);
-    return seams->empty() ? nullptr : std::move(seams);
-}
-
 // Computes the pose of every collider at the start of the frame and after each substep.
 void World::place_colliders(double dt) {
     const std::size_t count = colliders_.size();
@@ -453,45 +432,6 @@ void World::complete() const {
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());
     frame_.step_ms += ms_since(begin);
-}
-
-// Looks for crossings of cloths that collide with cloth. A frame that starts without any ends without any, except where
-// pins leave no room, which the backend reports; so one search at the start and after changes is enough.
-void World::watch_tangle() const {
-    std::vector<WatchedCloth> watched;
-    for (const Cloth& cloth : cloths_)
-        if (cloth.model->tiles) watched.push_back({cloth.model.get(), cloth.base, {}});
-    if (watched.empty()) return tangle_.search(watched);
-    auto next = watched.begin();
-    for (const ClothFrame& cloth : frame().cloths)
-        if (cloth.model->tiles) (next++)->positions = cloth.positions;
-    std::vector<const Seams*> seams;
-    for (const Island& island : islands_)
-        if (island.seams) seams.push_back(island.seams.get());
-    tangle_.search(watched, seams);
-}
-
-void World::collect_contact_marks() const {
-    for (std::size_t i = 0; i < cloths_.size(); ++i) {
-        std::vector<std::uint32_t>& marks = frame_.cloths[i].contact_marks;
-        marks.assign(cloths_[i].model->particle_count, 0);
-        backend_->add_contact_marks(cloths_[i].handle, marks);
-    }
-    if (!tangle_.tangle()) return;
-    for (const TangledPair& pair : tangle_.tangle()->pairs) {
-        for (const std::uint32_t p : pair.particle)
-            if (const auto place = place_of(p))
-                frame_.cloths[place->cloth].contact_marks[place->particle] |= mark_tangled;
-    }
-}
-
-std::optional<ParticlePlace> World::place_of(std::uint32_t particle) const {
-    for (std::uint32_t i = 0; i < cloths_.size(); ++i) {
-        const Cloth& cloth = cloths_[i];
-        if (particle >= cloth.base && particle - cloth.base < cloth.model->particle_count)
-            return ParticlePlace{i, particle - cloth.base};
-    }
-    return {};
 }
 
 // Lists the cloths and colliders of the new frame in its contact log.

@@ -163,8 +163,6 @@ class World {
 
     void replan();
     void make_islands();
-    std::shared_ptr<const Seams> seams_of(std::span<const std::uint32_t> cloths,
-                                          std::span<const PlacedStitch> stitches) const;
     void use_model(const PendingModels::Ready& ready);
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,
@@ -180,6 +178,9 @@ class World {
                                const std::shared_ptr<const ClothModel>& model);
     Result<void> check_fits(const Snapshot& snapshot) const;
     void list_cloths();
+    // world_contact.cpp
+    std::shared_ptr<const Seams> seams_of(std::span<const std::uint32_t> cloths,
+                                          std::span<const PlacedStitch> stitches) const;
     std::optional<ParticlePlace> place_of(std::uint32_t particle) const;
     void watch_tangle() const;
     void collect_contact_marks() const;
