@@ -82,8 +82,10 @@ void ClothContact::run(const ClothContactContext& context, const Pass& pass, Wor
     cloths_ = context.cloths;
     workers_ = worker.count, barrier_ = &context.barrier;
     lead(pass);
+    if (workers_ == 1) return;
     task_ = nullptr;
-    if (workers_ > 1) context.barrier();
+    context.barrier();
+    context.barrier();  // all have seen that the pass is done, before the next one sets a task
 }
 
 void ClothContact::lead(const Pass& pass) {
@@ -103,9 +105,10 @@ void ClothContact::lead(const Pass& pass) {
 void ClothContact::help(const ClothContactContext& context, Worker worker) {
     while (true) {
         context.barrier();
-        if (!task_) return;
-        (*task_)(worker.number, worker.count);
+        const auto* const task = task_;
+        if (task) (*task)(worker.number, worker.count);
         context.barrier();
+        if (!task) return;
     }
 }
 
