@@ -51,6 +51,19 @@ TEST_F(Cli, cloth_of_the_contact_scenes_never_crosses) {
     }
 }
 
+// What the constraints ask for in a substep is then more than contact can take back. Cloth must slide all the same.
+// Labels: slow no-asan
+TEST_F(Cli, cloth_pulled_over_cloth_does_not_jam_with_few_substeps) {
+    const std::string scene = std::string(WEFT_SOURCE_DIR) + "/scenes/contact/ring.json";
+    const Outcome outcome =
+        weft("run " + scene + " --substeps 20 --seconds 1 --crossings every --stats ring.json --quiet");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json stats = Json::parse(read_file(folder_ / "ring.json"));
+    EXPECT_EQ(stats["intersections"]["worst"], 0);
+    EXPECT_LT(stats["stretch"]["mean"], 0.01);
+    EXPECT_LT(stats["limited"], 2000);
+}
+
 TEST_F(Cli, counts_contacts_of_cloth_with_cloth_on_vulkan) {
     write("sheet.json", R"({ "weft": 1, "solver": { "substeps": 2 }, "cloths": [
         { "mesh": { "grid": { "size": [0.2, 0.2], "resolution": [6, 6] } }, "self_collision": true,

@@ -29,6 +29,7 @@
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/contact_forces.kernel.h"
 #include "physics/cloth_contact/cloth_contact.kernel.h"
+#include "physics/cloth_contact/limit.kernel.h"
 #include "physics/cloth_contact/untangle.kernel.h"
 #include "physics/particle_contact/particle_contact.kernel.h"
 #define WEFT_SHAPE_KERNELS

@@ -44,6 +44,13 @@ TEST(ClothContactOnVulkan, pins_that_press_cloth_together_are_counted_as_on_the_
     EXPECT_NE(result.counts.tangled_particle, no_particle);
 }
 
+// By more than contact can take back, so the brake acts.
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, cloth_driven_into_cloth_is_the_same_as_on_the_cpu) {
+    const RunOfFrames result = expect_equal(with_substeps(5), add_driven_sheets, 3);
+    EXPECT_GT(result.counts.contacts, 0u);
+}
+
 // Labels: slow no-asan
 TEST(ClothContactOnVulkan, bits_depend_neither_on_when_lists_are_made_nor_on_their_room) {
     const auto drop = [](const WorldSettings& settings, const VulkanOptions& options) {

@@ -166,6 +166,26 @@ inline std::shared_ptr<const ClothModel> add_pressed_sheets(World& world, float 
     return model;
 }
 
+/// A sheet whose middle is pushed through another one faster than contact can answer. The other one is held by two
+/// edges.
+inline void add_driven_sheets(World& world) {
+    SheetDesc lower = falling(20, {0, 0, 0}), upper = falling(24, {2, 10, 0});
+    const float edge = lower.size[0] / 2 - 1e-3f, middle = upper.size[0] / 6;
+    lower.pinned = [edge](Vec3 x) { return std::abs(x.x) > edge; };
+    upper.pinned = [middle](Vec3 x) { return std::abs(x.x) < middle && std::abs(x.z) < middle; };
+    lower.position = {};
+    upper.position = {0, 0.02f, 0};
+    world.add(make_sheet(lower));
+    auto model = make_sheet(upper);
+    KinematicTargets targets;
+    targets.motions.push_back({.collider = {}, .offsets = {{0, {}}, {0.1f, {0, -0.3f, 0}}}});
+    for (std::uint32_t p = 0; p < model->particle_count; ++p) {
+        if (model->start[p].w > 0) continue;
+        targets.particles.push_back({.particle = p, .motion = 0, .local = model->start[p].xyz()});
+    }
+    world.add(model, targets);
+}
+
 inline World stack(float speed, std::uint32_t sheets, CpuOptions options = {}) {
     World world = make_world({.solver = {.substeps = 20}}, options);
     add_stack(world, speed, sheets);

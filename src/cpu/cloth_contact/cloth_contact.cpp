@@ -1,6 +1,6 @@
 #include "cpu/cloth_contact/cloth_contact.h"
 
-#include "physics/scalar.h"
+#include "cpu/cloth_contact/pair_math.h"
 #include "solver/plan/cloth_contact_numbers.h"
 
 #include <algorithm>
@@ -12,29 +12,6 @@ namespace {
 // How far a particle may leave its listed trajectory, per distance that contact may move it. A larger slack makes lists
 // longer, a smaller one makes them fail earlier. The result does not depend on it.
 constexpr float slack_per_cap = 1.5f;
-
-scalar::vec3 on_lane(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-Vec3 to_vec3(scalar::vec3 v) {
-    return {v.x, v.y, v.z};
-}
-float squared(Vec3 v) {
-    return v.x * v.x + v.y * v.y + v.z * v.z;
-}
-std::uint32_t to_integer(float quanta) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(quanta));
-}
-void set_place(Vec4& x, Vec3 place) {
-    x = {place.x, place.y, place.z, x.w};
-}
-
-std::array<float, 4> weights_of(const NearPairs& near, std::uint32_t i) {
-    return {near.weight[0][i], near.weight[1][i], near.weight[2][i], near.weight[3][i]};
-}
-Vec3 normal_of(const NearPairs& near, std::uint32_t i) {
-    return {near.normal[0][i], near.normal[1][i], near.normal[2][i]};
-}
 
 }  // namespace
 
@@ -69,7 +46,8 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
     if (part_.size() < size) {
         for (auto* array : {&reached_, &asked_, &farthest_}) array->resize(size);
         sums_.resize(size), share_.resize(size), part_.resize(size);
-        sent_back_.resize(size), marked_.resize(size), friction_.resize(size);
+        sent_back_.resize(size), marked_.resize(size), retreats_.resize(size), slide_.resize(size),
+            friction_.resize(size);
     }
     begin_marks(step.input.contact_marks);
     for (const ClothState* cloth : cloths_)
@@ -121,6 +99,14 @@ void ClothContact::detect() {
         ++counts_.searches;
     }
     find_near();
+    if (brake()) {
+        for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
+        if (search_.find_outdated(x_, reach_)) {
+            follow_and_search();
+            ++counts_.searches;
+        }
+        find_near();
+    }
     pushes_of_substep_.clear();
 }
 
@@ -166,14 +152,15 @@ float ClothContact::share(std::uint32_t p) const {
 // Adds `change` times the weight and the inverse mass of each particle to the sums.
 void ClothContact::add_to_sums(std::span<const std::uint32_t> particles, std::span<const float> weights, Vec3 change,
                                double quanta) {
-    for (std::size_t k = 0; k < particles.size(); ++k) {
-        const std::uint32_t p = particles[k];
-        const Vec3 part = change * (weights[k] * x_[p].w);
-        const auto scale = static_cast<float>(quanta);
-        sums_[p][0] += to_integer(scalar::to_contact_quanta(part.x, scale));
-        sums_[p][1] += to_integer(scalar::to_contact_quanta(part.y, scale));
-        sums_[p][2] += to_integer(scalar::to_contact_quanta(part.z, scale));
-    }
+    for (std::size_t k = 0; k < particles.size(); ++k)
+        add_to_sum(particles[k], change * (weights[k] * x_[particles[k]].w), quanta);
+}
+
+void ClothContact::add_to_sum(std::uint32_t p, Vec3 change, double quanta) {
+    const auto scale = static_cast<float>(quanta);
+    sums_[p][0] += to_integer(scalar::to_contact_quanta(change.x, scale));
+    sums_[p][1] += to_integer(scalar::to_contact_quanta(change.y, scale));
+    sums_[p][2] += to_integer(scalar::to_contact_quanta(change.z, scale));
 }
 
 Vec3 ClothContact::sum(std::uint32_t p, double quanta) const {
@@ -255,16 +242,6 @@ void ClothContact::keep_in_reach() {
     });
 }
 
-bool ClothContact::any_lost() {
-    for (int kind = 0; kind < 2; ++kind) {
-        lost_.clear();
-        loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
-        for (const std::uint32_t pair : lost_)
-            if (comes_near(kind, pair)) return true;
-    }
-    return false;
-}
-
 void ClothContact::push(const Pass& pass) {
     const auto sweep = [&] {
         find_overlaps();
@@ -291,78 +268,6 @@ void ClothContact::push(const Pass& pass) {
                 pushes_of_substep_.push_back({near.particles(i), weights_of(near, i), normal_of(near, i)});
         }
     }
-}
-
-// Sends the particles of all pairs that lose their gap back towards the start of the substep, where every pair has its
-// gap: half of the way, and at last all of it. A pair that keeps its gap along one normal at both ends of a linear
-// motion does not meet in between.
-void ClothContact::send_back() {
-    for_each_particle([&](std::uint32_t p) { part_[p] = 1; });
-    std::uint64_t stuck = 0;
-    while (true) {
-        to_send_back_.clear();
-        stuck = 0;
-        for (int kind = 0; kind < 2; ++kind) {
-            lost_.clear();
-            loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, lost_);
-            for (const std::uint32_t pair : lost_) {
-                if (!comes_near(kind, pair)) continue;
-                bool helps = false;
-                for (const std::uint32_t p : near_[kind].particles(pair)) {
-                    if (!(part_[p] > 0) || !(x_[p].w > 0)) continue;
-                    helps = true;
-                    if (sent_back_[p]) continue;
-                    sent_back_[p] = 1;
-                    to_send_back_.push_back(p);
-                }
-                if (helps) continue;
-                ++stuck;
-                mark_stuck(near_[kind].particles(pair));
-                counts_.tangled_particle =
-                    std::min(counts_.tangled_particle, std::ranges::min(near_[kind].particles(pair)));
-            }
-        }
-        if (to_send_back_.empty()) break;
-        for (const std::uint32_t p : to_send_back_) {
-            sent_back_[p] = 0;
-            part_[p] = part_[p] > 0.2f ? 0.5f * part_[p] : 0;
-            const Vec3 from = start_[p].xyz();
-            set_place(x_[p], from + (asked_[p].xyz() - from) * part_[p]);
-        }
-    }
-    counts_.tangled = std::max(counts_.tangled, stuck);
-}
-
-// Whether a particle that was sent back may have been beyond what its list covers, on any part of its way.
-bool ClothContact::any_uncovered() {
-    for_each_particle([&](std::uint32_t p) { farthest_[p] = part_[p] < 1 ? start_[p] : x_[p]; });
-    return search_.find_outdated(farthest_.data(), {});
-}
-
-void ClothContact::limit() {
-    for_each_particle([&](std::uint32_t p) { asked_[p] = x_[p]; });
-    extend_reach();
-    send_back();
-    // A particle that was sent back may have left its listed trajectory. Its tile is then listed for all places between
-    // the start and where the particle was to go, and the limit starts again. Near pairs cover these places anyway.
-    for (int attempt = 0; any_uncovered(); ++attempt) {
-        if (attempt == contact_most_attempts) {
-            for_each_particle([&](std::uint32_t p) {
-                if (!(x_[p].w > 0)) return;
-                part_[p] = 0;
-                set_place(x_[p], start_[p].xyz());
-            });
-            break;
-        }
-        for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
-        search_.cover(start_, asked_.data());
-        search();
-        find_near();
-        send_back();
-    }
-    for_each_particle([&](std::uint32_t p) { counts_.limited += part_[p] < 1; });
-    mark_limited_particles();
-    search_.next_tick();
 }
 
 // Takes the velocity with which pushed pairs separate, so that contact does not make cloth bounce. Masses are split in

@@ -46,7 +46,7 @@ class ClothContact {
     void find_near();
     void add_near_pairs();
     bool is_relisted(std::uint32_t a, std::uint32_t b) const;
-    void extend_reach();
+    void extend_reach(float more = 0);
     std::vector<std::array<std::uint32_t, 4>> remove_relisted(NearPairs& near) const;
     void mark_pushed(NearPairs& near, std::uint32_t begin, std::vector<std::array<std::uint32_t, 4>>& pairs);
 
@@ -57,15 +57,25 @@ class ClothContact {
     void add_pushes();
     void scale_pushes();
     void move_by_pushes();
-    bool any_lost();
     bool comes_near(int kind, std::uint32_t pair) const;
-    bool any_uncovered();
     void add_shares(std::span<const std::uint32_t> particles, std::span<const float> weights);
     float share(std::uint32_t p) const;
+    void add_to_sum(std::uint32_t p, Vec3 change, double quanta);
     void add_to_sums(std::span<const std::uint32_t> particles, std::span<const float> weights, Vec3 change,
                      double quanta);
     Vec3 sum(std::uint32_t p, double quanta) const;
+    // limit.cpp
+    struct MovedPair;
+    MovedPair moved_pair(int kind, std::uint32_t pair) const;
+    template <class Visit>
+    void for_each_lost(float depth, Visit&& visit);
+    bool any_lost();
+    bool brake();
     void limit();
+    void send_back();
+    bool retreat(const MovedPair& pair, bool all);
+    void set_back(std::uint32_t p);
+    bool any_uncovered();
     // contact_marks.cpp
     void begin_marks(bool record);
     void mark_limited_particles();
@@ -73,7 +83,6 @@ class ClothContact {
     // untangle.cpp
     void untangle();
     void drop_pairs_without_side(int kind, std::uint32_t begin);
-    void send_back();
     void separate();
     template <class Visit>
     void for_each_particle(Visit&& visit) const {
@@ -121,7 +130,9 @@ class ClothContact {
     AlignedVector<Vec4> farthest_;                    // from the listed trajectories
     std::vector<std::array<std::uint32_t, 3>> sums_;  // of pushes or velocities, in quanta
     std::vector<std::uint32_t> share_;                // sum of the weights of all pairs that push, in quanta
-    std::vector<float> part_;                         // of its motion that the limit leaves to the particle
+    std::vector<float> part_;                         // of its motion that the brake leaves to the particle
+    std::vector<Vec3> slide_;                         // motion that the limit leaves to a particle that slides
+    std::vector<std::uint8_t> retreats_;              // how often the limit has sent the particle back
     std::vector<std::uint8_t> sent_back_, marked_;
     std::vector<std::array<float, 2>> friction_;  // static and kinetic, by particle of the world
 

@@ -78,8 +78,9 @@ struct ContactLoops {
     /// Appends the pairs that overlap at `positions`, in order. `recovery`: m.
     std::array<void (*)(const NearPairs&, const float* positions, float recovery, std::vector<Overlap>&), 2>
         find_overlaps;
-    /// Appends the pairs that lose their gap at `positions`, in order.
-    std::array<void (*)(const NearPairs&, const float* positions, float floor, std::vector<std::uint32_t>&), 2>
+    /// Appends the pairs that lose their gap, and `depth` m more, at `positions`, in order.
+    std::array<
+        void (*)(const NearPairs&, const float* positions, float floor, float depth, std::vector<std::uint32_t>&), 2>
         find_lost;
 };
 

@@ -98,12 +98,13 @@ inline void find_overlapping_pairs(const NearPairs& near, const float* positions
 }
 
 template <PairKind kind>
-inline void find_lost_pairs(const NearPairs& near, const float* positions, float floor,
+inline void find_lost_pairs(const NearPairs& near, const float* positions, float floor, float depth,
                             std::vector<std::uint32_t>& lost) {
     for (std::uint32_t i = 0; i < near.count; i += lane_count) {
         real along[4];
         load_along(near, i, positions, along);
-        const mask loses = loses_gap(gap_of<kind>(along), load(&near.gap[i]), load(&near.thickness[i]) * real(floor));
+        const mask loses =
+            loses_gap(gap_of<kind>(along) + real(depth), load(&near.gap[i]), load(&near.thickness[i]) * real(floor));
         for_each_bit(bits_of(loses) & lanes_before(i, near.count), [&](std::uint32_t lane) { lost.push_back(i + lane); });
     }
 }

@@ -13,7 +13,7 @@ void ClothContact::begin_marks(bool record) {
 void ClothContact::mark_limited_particles() {
     if (!records_marks_) return;
     for_each_particle([&](std::uint32_t p) {
-        if (part_[p] < 1) marks_[p] |= mark_limited;
+        if (retreats_[p] > 0) marks_[p] |= mark_limited;
     });
 }
 

@@ -80,12 +80,14 @@ bool ClothContact::is_relisted(std::uint32_t a, std::uint32_t b) const {
 }
 
 // Extends lists and near pairs if a particle has moved farther from where the constraints left it than they allow for.
-void ClothContact::extend_reach() {
+// `more`: m, how much farther it may still move.
+void ClothContact::extend_reach(float more) {
     search_.measure(reached_.data(), x_, moved_);
     before_ = reach_;
     bool any = false;
     for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
         most_moved_[tile] = std::max(most_moved_[tile], moved_[tile]);
+        moved_[tile] += more;
         if (moved_[tile] <= reach_[tile]) continue;
         reach_[tile] = std::max(std::min(reach_growth * moved_[tile], cap_), 1.01f * moved_[tile]);
         any = true;

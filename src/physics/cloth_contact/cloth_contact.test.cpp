@@ -122,5 +122,69 @@ TEST(ClothContactKernels, friction_takes_back_slip_up_to_the_coulomb_limit) {
     EXPECT_EQ(norm(reference::cloth_friction(vec3(0, 1, 0), normal, 0.01, 0.3, 0.2)), 0);
 }
 
+TEST(ClothContactKernels, the_brake_leaves_the_part_of_a_motion_that_loses_no_more_than_its_depth) {
+    constexpr double start = 0.001, least = 0.0002, depth = 0.0005;
+    EXPECT_EQ(reference::part_to_depth(start, start, least, depth), 1) << "at rest";
+    EXPECT_EQ(reference::part_to_depth(-0.00029, start, least, depth), 1) << "contact can answer that";
+    for (const double gap : {-0.00031, -0.001, -0.5}) {
+        const double part = reference::part_to_depth(gap, start, least, depth);
+        EXPECT_NEAR(start + part * (gap - start), least - depth, 1e-12);
+    }
+    const double closed = reference::part_to_depth(-0.002, 0.0, least, depth);
+    EXPECT_NEAR(closed * -0.002, -depth, 1e-12) << "a pair without a gap";
+}
+
+TEST(ClothContactKernels, sides_that_keep_their_least_motions_keep_their_gap) {
+    Random random(9);
+    for (int i = 0; i < 2000; ++i) {
+        const bool edges = i % 2 == 0;
+        double start[4], moved[4], mass[4];
+        for (int k = 0; k < 4; ++k) {
+            start[k] = random.vector(1).x, moved[k] = random.vector(1).x;
+            mass[k] = random.vector(1).x > 0.5 ? 0 : 1;
+        }
+        const auto gap = [&](const double(&x)[4]) {
+            return edges ? reference::gap_edge_edge(x[0], x[1], x[2], x[3])
+                         : reference::gap_vertex_triangle(x[0], x[1], x[2], x[3]);
+        };
+        const double before = gap(start), spare = i % 3 == 0 ? 0.1 : 0;
+        const auto least_motions =
+            edges ? reference::least_motions_edge_edge : reference::least_motions_vertex_triangle;
+        const auto least =
+            least_motions(moved[0], moved[1], moved[2], moved[3], mass[0], mass[1], mass[2], mass[3], spare);
+        double end[4];
+        bool fixed[2] = {false, false};
+        for (int k = 0; k < 4; ++k) {
+            const bool one = k < (edges ? 2 : 1);
+            fixed[one ? 0 : 1] |= mass[k] == 0;
+            double motion = one ? moved[k] : -moved[k];
+            if (mass[k] > 0) motion = std::max(motion, one ? least.one : least.two);
+            end[k] = start[k] + (one ? motion : -motion);
+        }
+        if (fixed[0] && fixed[1]) continue;  // nothing can hold their sides apart
+        EXPECT_GE(gap(end), before - spare - 1e-12) << i;
+    }
+    // A side may follow the other one, and gives way to what is prescribed.
+    EXPECT_EQ(reference::least_motions_vertex_triangle(-1, -3, -2, -4, 1, 1, 1, 1, 0).one, -2);
+    EXPECT_EQ(reference::least_motions_vertex_triangle(0, 3, 2, 4, 1, 1, 1, 1, 0).one, 0);
+    EXPECT_EQ(reference::least_motions_vertex_triangle(0, 3, 2, 4, 1, 0, 1, 1, 0).one, 3);
+}
+
+TEST(ClothContactKernels, sliding_stays_near_the_way_of_the_particle) {
+    Random random(4);
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 asked = random.vector(1), slide = random.vector(1);
+        const vec3 left = reference::slide_near(asked, slide, 0.05);
+        EXPECT_LT(norm(cross(left, slide)), 1e-9) << "the direction stays";
+        EXPECT_LE(norm(left), norm(slide) + 1e-12);
+        const double along = std::clamp(dot(left, asked) / dot(asked, asked), 0.0, 1.0);
+        EXPECT_LE(norm(left - asked * along), 0.05 + 1e-9);
+    }
+    const vec3 asked(1, 0, 0);
+    EXPECT_LT(norm(reference::slide_near(asked, vec3(0.5, 0.04, 0), 0.05) - vec3(0.5, 0.04, 0)), 1e-12)
+        << "near enough";
+    EXPECT_EQ(norm(reference::slide_near(vec3(0, 0, 0), vec3(0, 0, 0), 0.05)), 0);
+}
+
 }  // namespace
 }  // namespace weft

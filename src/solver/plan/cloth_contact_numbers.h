@@ -23,6 +23,14 @@ inline constexpr float contact_split = 0.3f;
 /// m/s: relative speed of an edge and a triangle that untangling takes apart, and the most that it adds to the speed of
 /// a particle.
 inline constexpr float untangling_speed = 0.6f;
+/// How deep a pair may lose its gap before contact, as a part of contact_cap(). What constraints ask beyond it, contact
+/// could not take back; both sides then go only a part of their way.
+inline constexpr float contact_brake_depth = 0.5f;
+/// How often the limit makes a particle slide along its pairs before it shortens what is left of its motion, and how
+/// often it halves that before the particle has to stay.
+inline constexpr std::uint32_t limit_slides = 4, limit_halvings = 3;
+/// How far sliding may lead from the way on which the particle was, as a part of contact_cap().
+inline constexpr float limit_aside = 0.1f;
 /// How often the limit may start again because a particle left its listed trajectory.
 inline constexpr int contact_most_attempts = 20;
 

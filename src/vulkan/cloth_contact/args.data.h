@@ -14,8 +14,11 @@
 #define WEFT_CONTACT_EXTRA_SWEEPS 8  // contact_extra_sweeps
 // Rounds of the limit that run in parallel. What they leave to do, one workgroup does.
 #define WEFT_LIMIT_ROUNDS 6
+#define WEFT_LIMIT_SLIDES 4    // limit_slides
+#define WEFT_LIMIT_HALVINGS 3  // limit_halvings
+#define WEFT_MOST_RETREATS (WEFT_LIMIT_SLIDES + WEFT_LIMIT_HALVINGS + 1)
 
-// The two searches of a substep, and their lists of near pairs.
+// The two kinds of search of a substep, and their lists of near pairs.
 #define WEFT_SEARCH_MOTION 0    // for the motion to where the constraints left the particles
 #define WEFT_SEARCH_ANYWHERE 1  // for all places on the way there, because the limit sent particles back
 
@@ -119,7 +122,8 @@ struct ContactHead {
     uint listed1;
     uint near0;       // near pairs, by search
     uint near1;
-    uint uncovered;   // 1: the second search is needed
+    uint brakes;      // 1: the brake slows particles, so the search for the motion runs again
+    uint uncovered;   // 1: the search for all places is needed
     uint contacts;
     uint lost[WEFT_CONTACT_EXTRA_SWEEPS];  // 1: some pair loses its gap before this extra sweep
     uint sent_back[2 * WEFT_LIMIT_ROUNDS];  // 1: the round sends particles back; [search · rounds + round]
@@ -145,8 +149,10 @@ struct ContactData {
     Uints share;  // sums of weights, in quanta
     Uints sums;   // in quanta: four per particle
     Uints scaled_sums;
-    Floats part;  // of its motion that the limit leaves to the particle
-    Uints marks;  // 1: to be sent back
+    Uints part;      // of its motion that the brake leaves to the particle: the bits of a float from 0 to 1
+    Uints retreats;  // how often the limit has sent the particle back
+    Vec4s slide;     // motion that the limit leaves to a particle that slides
+    Uints marks;     // 1: to be sent back
     Uints contact_marks;  // WEFT_MARK_…; none unless records_marks
     ContactTileRef tiles;
     TrackedTileRef tracked;
@@ -188,6 +194,8 @@ struct ContactData {
     float cap_part;  // of the slack
     float recovery_speed;  // m/s
     float gap_floor;
+    float brake_depth;  // m
+    float most_aside;   // m
     float split;
     float untangling_speed;  // m/s
     uint search_always;

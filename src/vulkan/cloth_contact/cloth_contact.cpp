@@ -24,6 +24,7 @@ static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edg
 static_assert(WEFT_MARK_TOUCHES == mark_touches && WEFT_MARK_LIMITED == mark_limited &&
               WEFT_MARK_TANGLED == mark_tangled);
 static_assert(WEFT_CONTACT_ROUNDS == contact_rounds && WEFT_CONTACT_EXTRA_SWEEPS == contact_extra_sweeps);
+static_assert(WEFT_LIMIT_SLIDES == limit_slides && WEFT_LIMIT_HALVINGS == limit_halvings);
 
 // Part of the slack of lists by which contact may move particles. The rest is for the motion of the following substeps.
 constexpr float contact_part_of_slack = 0.7f;
@@ -105,8 +106,10 @@ class PassRecorder {
     Errors errors_;
 };
 
-void record_search(PassRecorder& passes, std::uint32_t search, std::uint32_t tiles, std::uint32_t groups) {
-    passes.on(search);
+// `round`: 1 for the search after the brake.
+void record_search(PassRecorder& passes, std::uint32_t search, std::uint32_t tiles, std::uint32_t groups,
+                   std::uint32_t round = 0) {
+    passes.on(search), passes.round(round);
     passes.run("contact_track", tiles);
     passes.run("contact_bound_group", groups);
     passes.run("contact_pair_tiles", tiles);
@@ -130,6 +133,13 @@ void record_sweep(PassRecorder& passes, std::uint32_t round, std::uint32_t tiles
     passes.run_near("contact_pushes");
     passes.run_near("contact_scale");
     passes.run("contact_move", tiles);
+}
+
+void record_brake(PassRecorder& passes, std::uint32_t tiles, std::uint32_t groups) {
+    passes.run_near("contact_find_deep");
+    passes.run("contact_brake", tiles);
+    passes.run("contact_end_brake", 1);
+    record_search(passes, WEFT_SEARCH_MOTION, tiles, groups, 1);
 }
 
 void record_limit(PassRecorder& passes, std::uint32_t search, std::uint32_t tiles) {
@@ -221,6 +231,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
                            arena_.add_array(rest)};
     const Slot share = arena_.reserve(end * word), sums = arena_.reserve(4 * end * word),
                scaled = arena_.reserve(4 * end * word), part = arena_.reserve(end * word),
+               retreats = arena_.reserve(end * word), slide = arena_.reserve(end * sizeof(Vec4)),
                marks = arena_.reserve(end * word);
     const Slot tiles = arena_.add_array(arrays.tiles), tracked = arena_.reserve(tiles_ * sizeof(TrackedTile)),
                places = arena_.reserve(vertices * sizeof(Vec4)), velocities = arena_.reserve(vertices * sizeof(Vec4)),
@@ -252,7 +263,8 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.reached = arena_.address(points[0]), data.asked = arena_.address(points[1]);
     data.rest = arena_.address(points[2]);
     data.share = arena_.address(share), data.sums = arena_.address(sums), data.scaled_sums = arena_.address(scaled);
-    data.part = arena_.address(part), data.marks = arena_.address(marks);
+    data.part = arena_.address(part), data.retreats = arena_.address(retreats);
+    data.slide = arena_.address(slide), data.marks = arena_.address(marks);
     data.contact_marks = arena_.address(marks_), data.records_marks = records_marks ? 1 : 0;
     data.tiles = arena_.address(tiles), data.tracked = arena_.address(tracked);
     data.places = arena_.address(places), data.velocities = arena_.address(velocities);
@@ -269,6 +281,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.widest = device_.limits().workgroup_count[0];
     data.slack = data.cap / contact_part_of_slack, data.cap_part = contact_part_of_slack;
     data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
+    data.brake_depth = contact_brake_depth * data.cap, data.most_aside = limit_aside * data.cap;
     data.search_always = search_always ? 1 : 0;
     data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
     data.has_seams = seams.empty() ? 0 : 1;
@@ -325,6 +338,7 @@ Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std
             passes.run("contact_begin", 1);
             if (room_.tangled > 0) record_untangle(passes, room_.tangled, tiles_);
             record_search(passes, WEFT_SEARCH_MOTION, tiles_, groups_);
+            record_brake(passes, tiles_, groups_);
             break;
         case PassKind::cloth_contact:
             if (pass.batch > 0) passes.run("contact_clamp", tiles_);

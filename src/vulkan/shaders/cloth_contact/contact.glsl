@@ -18,6 +18,13 @@ uint near_index(uint i) { return args.search * contact.near_capacity + i; }
 uint listed_count(uint list) { return min(list == 0u ? head.listed0 : head.listed1, contact.listed_capacity); }
 uint listed_index(uint list, uint i) { return list * contact.listed_capacity + i; }
 
+// Whether a search has nothing to do. Round 1 of the search for the motion follows the brake.
+bool is_idle_search()
+{
+    if (args.search == WEFT_SEARCH_ANYWHERE) return head.uncovered == 0u;
+    return args.round == 1u && head.brakes == 0u;
+}
+
 vec3 sum_of(Uints sums, uint p, float quanta)
 {
     return vec3(int(sums.at[4u * p]), int(sums.at[4u * p + 1u]), int(sums.at[4u * p + 2u])) * (1.0 / quanta);

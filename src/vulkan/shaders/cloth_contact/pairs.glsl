@@ -61,11 +61,17 @@ vec4 coordinates(Pair pair)
                 dot(place_of(pair.particle.w) - first, pair.normal));
 }
 
-bool loses(Pair pair, vec4 along)
+float gap_along(Pair pair, vec4 along)
 {
-    float gap = pair.edges ? gap_edge_edge(along.x, along.y, along.z, along.w)
-                           : gap_vertex_triangle(along.x, along.y, along.z, along.w);
-    return loses_gap(gap, pair.gap, pair.thickness * contact.gap_floor) && pair_comes_near(pair);
+    return pair.edges ? gap_edge_edge(along.x, along.y, along.z, along.w)
+                      : gap_vertex_triangle(along.x, along.y, along.z, along.w);
+}
+
+// Whether the pair loses its gap, and `depth` m more.
+bool loses(Pair pair, vec4 along, float depth)
+{
+    return loses_gap(gap_along(pair, along) + depth, pair.gap, pair.thickness * contact.gap_floor) &&
+           pair_comes_near(pair);
 }
 
 // Where the limit would have to act, more sweeps follow the last round. Number of such a sweep.
@@ -80,7 +86,7 @@ void run_overlaps(uint i)
     if (i >= near_count()) return;
     Pair pair = load_pair(i);
     vec4 along = coordinates(pair), weight = pair.weight;
-    if (is_extra() && loses(pair, along)) head.lost[extra()] = 1u;
+    if (is_extra() && loses(pair, along, 0.0)) head.lost[extra()] = 1u;
     float gap = weight.y * along.y + weight.z * along.z + weight.w * along.w;
     float overlap =
         cloth_overlap(gap, pair.distance, pair.thickness, contact.recovery_speed * contact.frame.at.h);
@@ -151,17 +157,73 @@ void run_scale(uint i)
 #undef WEFT_ADD
 }
 
-// --- The limit ---
+// --- Brake and limit ---
 
 uint slot(uint round) { return args.search * WEFT_LIMIT_ROUNDS + round; }
 bool is_idle() { return args.search == WEFT_SEARCH_ANYWHERE && head.uncovered == 0u; }
 
-bool mark(uint p)
+void slow(uint p, float part) { atomicMin(contact.part.at[p], floatBitsToUint(part)); }
+
+// Slows pairs that lose their gap by more than contact can take back.
+void run_find_deep(uint i)
 {
-    vec4 x = contact.position.at[p];
-    if (!(contact.part.at[p] > 0.0) || !(x.w > 0.0)) return false;
+    if (i >= near_count()) return;
+    Pair pair = load_pair(i);
+    vec4 along = coordinates(pair);
+    if (!loses(pair, along, contact.brake_depth)) return;
+    float part = part_to_depth(gap_along(pair, along), pair.gap, pair.thickness * contact.gap_floor,
+                               contact.brake_depth);
+    slow(pair.particle.x, part);
+    slow(pair.particle.y, part);
+    slow(pair.particle.z, part);
+    slow(pair.particle.w, part);
+    head.brakes = 1u;
+}
+
+float motion_of(uint p, vec3 n) { return dot(place_of(p) - contact.start.at[p].xyz, n); }
+
+LeastMotions least_motions(Pair pair)
+{
+    uvec4 p = pair.particle;
+    vec3 n = pair.normal;
+    float m0 = motion_of(p.x, n), m1 = motion_of(p.y, n), m2 = motion_of(p.z, n), m3 = motion_of(p.w, n);
+    float w0 = inverse_mass_of(p.x), w1 = inverse_mass_of(p.y), w2 = inverse_mass_of(p.z), w3 = inverse_mass_of(p.w);
+    float spare = pair.gap - min(pair.gap, pair.thickness * contact.gap_floor);
+    if (pair.edges) return least_motions_edge_edge(m0, m1, m2, m3, w0, w1, w2, w3, spare);
+    return least_motions_vertex_triangle(m0, m1, m2, m3, w0, w1, w2, w3, spare);
+}
+
+vec3 slide_of(uint p)
+{
+    if (contact.retreats.at[p] == 0u) return contact.asked.at[p].xyz - contact.start.at[p].xyz;
+    vec4 slide = contact.slide.at[p];
+    return slide.xyz;
+}
+
+// Asks a particle to go back: if it comes closer to the other side than it may, or anyway. Returns whether it can.
+// `away`: unit, away from the other side; `least`: how far it has to move along it, m.
+bool retreat(uint p, vec3 away, float least, bool anyway)
+{
+    uint retreats = contact.retreats.at[p];
+    if (retreats == WEFT_MOST_RETREATS || !(inverse_mass_of(p) > 0.0)) return false;
+    if (retreats < WEFT_LIMIT_SLIDES) {
+        float missing = least - dot(slide_of(p), away);
+        if (!(missing > 0.0) && !anyway) return false;
+        add_to(contact.sums, p, away * max(missing, 0.0), WEFT_PUSH_QUANTA_PER_METER);
+        atomicAdd(contact.share.at[p], 1u);
+    }
     contact.marks.at[p] = 1u;
     return true;
+}
+
+bool retreat_all(Pair pair, LeastMotions least, bool anyway)
+{
+    vec3 n = pair.normal;
+    bool helps = retreat(pair.particle.x, n, least.one, anyway);
+    helps = retreat(pair.particle.y, pair.edges ? n : -n, pair.edges ? least.one : least.two, anyway) || helps;
+    helps = retreat(pair.particle.z, -n, least.two, anyway) || helps;
+    helps = retreat(pair.particle.w, -n, least.two, anyway) || helps;
+    return helps;
 }
 
 void record_mark(uvec4 particle, uint mark)
@@ -177,12 +239,10 @@ void record_mark(uvec4 particle, uint mark)
 uint mark_lost(uint i)
 {
     Pair pair = load_pair(i);
-    if (!loses(pair, coordinates(pair))) return 0u;
+    if (!loses(pair, coordinates(pair), 0.0)) return 0u;
     uvec4 p = pair.particle;
-    bool helps = mark(p.x);
-    helps = mark(p.y) || helps;
-    helps = mark(p.z) || helps;
-    helps = mark(p.w) || helps;
+    LeastMotions least = least_motions(pair);
+    bool helps = retreat_all(pair, least, false) || retreat_all(pair, least, true);
     if (!helps) {
         atomicMin(head.tangled_particle, min(min(p.x, p.y), min(p.z, p.w)));
         if (contact.records_marks == 1u) record_mark(p, WEFT_MARK_TANGLED);
@@ -199,15 +259,23 @@ void run_find_lost(uint i)
     if (found == 2u) atomicAdd(head.stuck[slot(args.round)], 1u);
 }
 
+// See ClothContact::set_back() of the CPU backend.
 void send_back(uint p)
 {
     if (contact.marks.at[p] == 0u) return;
     contact.marks.at[p] = 0u;
-    float part = contact.part.at[p];
-    part = part > 0.2 ? 0.5 * part : 0.0;
-    contact.part.at[p] = part;
-    vec3 from = contact.start.at[p].xyz;
-    contact.position.at[p].xyz = from + (contact.asked.at[p].xyz - from) * part;
+    vec3 from = contact.start.at[p].xyz, asked = contact.asked.at[p].xyz - from, slide = slide_of(p);
+    uint share = contact.share.at[p], retreats = contact.retreats.at[p] + 1u;
+    if (share > 0u) {
+        slide = slide + sum_of(contact.sums, p, WEFT_PUSH_QUANTA_PER_METER) * (1.0 / float(share));
+        clear_sum(contact.sums, p);
+        contact.share.at[p] = 0u;
+    }
+    contact.slide.at[p] = vec4(slide, 0.0);
+    contact.retreats.at[p] = retreats;
+    uint halvings = retreats > WEFT_LIMIT_SLIDES ? retreats - WEFT_LIMIT_SLIDES : 0u;
+    vec3 left = slide_near(asked, slide, contact.most_aside) * (1.0 / float(1u << halvings));
+    contact.position.at[p].xyz = retreats == WEFT_MOST_RETREATS ? from : from + left;
 }
 
 // --- Marks ---

@@ -39,10 +39,20 @@ void run_untangle(uint p)
     contact.position.at[p].xyz = place_of(p) + moved;
 }
 
+// See ClothContact::brake() of the CPU backend.
+void run_brake(uint p)
+{
+    if (head.brakes == 0u) return;
+    float part = uintBitsToFloat(contact.part.at[p]);
+    if (!(part < 1.0) || !(inverse_mass_of(p) > 0.0)) return;
+    vec3 from = contact.start.at[p].xyz;
+    contact.position.at[p].xyz = from + (place_of(p) - from) * part;
+}
+
 void run_ask(uint p)
 {
     contact.asked.at[p] = contact.position.at[p];
-    contact.part.at[p] = 1.0;
+    contact.retreats.at[p] = 0u;
 }
 
 void run_send_back(uint p)
@@ -56,12 +66,12 @@ void run_ask_again(uint p)
 {
     if (head.uncovered == 0u) return;
     contact.position.at[p].xyz = contact.asked.at[p].xyz;
-    contact.part.at[p] = 1.0;
+    contact.retreats.at[p] = 0u;
 }
 
 void run_count(uint p)
 {
-    if (!(contact.part.at[p] < 1.0)) return;
+    if (contact.retreats.at[p] == 0u) return;
     atomicAdd(head.limited, 1u);
     if (contact.records_marks == 1u) contact.contact_marks.at[p] |= WEFT_MARK_LIMITED;
 }

@@ -28,6 +28,7 @@ void run_begin()
     head.near1 = 0u;
     head.near_groups0 = groups_of(0u);
     head.near_groups1 = groups_of(0u);
+    head.brakes = 0u;
     head.uncovered = 0u;
     head.contacts = 0u;
     for (uint i = 0u; i < WEFT_CONTACT_EXTRA_SWEEPS; ++i) head.lost[i] = 0u;
@@ -43,10 +44,18 @@ void run_begin()
     head.wanted_near = 0u;
 }
 
+// If particles were slowed, near pairs are chosen anew.
+void run_end_brake()
+{
+    if (head.brakes == 0u) return;
+    head.outdated = 0u;
+    head.near0 = 0u;
+}
+
 // Pairs of tiles that stay valid move to the other half of the list, and new ones are added there.
 void run_begin_search()
 {
-    bool searches = args.search == WEFT_SEARCH_MOTION ? head.outdated == 1u : head.uncovered == 1u;
+    bool searches = !is_idle_search() && (args.search == WEFT_SEARCH_ANYWHERE || head.outdated == 1u);
     head.keep_groups = groups_of(searches ? filled(listed_count(head.list)) : 0u);
     head.list_groups = groups_of(searches ? min(head.tile_pairs, contact.tile_pair_capacity) : 0u);
     if (!searches) return;
@@ -61,15 +70,15 @@ void run_begin_search()
 void run_end_search()
 {
     uint wanted = head.list == 0u ? head.listed0 : head.listed1;
-    bool needed = args.search == WEFT_SEARCH_MOTION || head.uncovered == 1u;
-    head.listed_groups = groups_of(needed ? filled(listed_count(head.list)) : 0u);
+    head.listed_groups = groups_of(!is_idle_search() ? filled(listed_count(head.list)) : 0u);
     head.wanted_listed = max(head.wanted_listed, wanted);
     require(wanted, contact.listed_capacity);
-    head.tile_pairs = 0u;  // for the second search
+    head.tile_pairs = 0u;  // for the next search
 }
 
 void run_end_near()
 {
+    if (is_idle_search()) return;
     uint wanted = args.search == 0u ? head.near0 : head.near1;
     if (args.search == 0u) head.near_groups0 = groups_of(filled(near_count()));
     else head.near_groups1 = groups_of(filled(near_count()));

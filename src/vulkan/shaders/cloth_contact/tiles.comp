@@ -111,7 +111,7 @@ void bound(uint tile, uint tick)
 void run_track(uint tile)
 {
     bool anywhere = args.search == WEFT_SEARCH_ANYWHERE;
-    if (anywhere && head.uncovered == 0u) return;
+    if (is_idle_search()) return;
     uint tick = head.tick, listed = contact.tracked.at[tile].listed, i = me();
     bool mine = i < contact.tiles.at[tile].vertices, stays = true;
     vec3 strays = vec3(0.0);
@@ -126,7 +126,10 @@ void run_track(uint tile)
         float most = anywhere ? contact.slack : (1.0 - contact.cap_part) * contact.slack;
         stays = at_start <= contact.slack && at_end <= most;
         strays = vec3(max(at_start, at_end));
-        if (!anywhere && i < contact.tiles.at[tile].own_vertices) contact.reached.at[p] = contact.position.at[p];
+        if (!anywhere && i < contact.tiles.at[tile].own_vertices) {
+            contact.reached.at[p] = contact.position.at[p];
+            contact.part.at[p] = floatBitsToUint(1.0);
+        }
     }
     bool expired = listed == 0u || contact.tracked.at[tile].until <= tick || contact.search_always == 1u;
     bool outdated = expired || largest_of_group(stays ? vec3(0.0) : vec3(1.0)).x > 0.0;
@@ -150,8 +153,10 @@ void run_check(uint tile)
     vec4 place = contact.places.at[vertex_at(tile, i)];
     float ticks = float(head.tick + 1u - contact.tracked.at[tile].listed);
     vec3 then = place.xyz + contact.velocities.at[vertex_at(tile, i)].xyz * ticks;
-    vec3 farthest = contact.part.at[p] < 1.0 ? contact.start.at[p].xyz : contact.position.at[p].xyz;
-    if (!(length(farthest - then) - place.w <= contact.slack)) head.uncovered = 1u;
+    bool back = contact.retreats.at[p] > 0u;
+    vec3 farthest = back ? contact.start.at[p].xyz : contact.position.at[p].xyz;
+    float most = back ? contact.slack - contact.most_aside : contact.slack;
+    if (!(length(farthest - then) - place.w <= most)) head.uncovered = 1u;
 }
 
 #else
@@ -168,7 +173,7 @@ void way_of(uint tile, out vec3 low, out vec3 high)
 // The box around the ways of a group of tiles.
 void run_bound_group(uint group)
 {
-    if (args.search == WEFT_SEARCH_ANYWHERE ? head.uncovered == 0u : head.outdated == 0u) return;
+    if (is_idle_search() || (args.search == WEFT_SEARCH_MOTION && head.outdated == 0u)) return;
     vec3 low = vec3(1e30), high = vec3(-1e30);
     uint tile = group * WEFT_TILES_TOGETHER + me();
     if (me() < WEFT_TILES_TOGETHER && tile < contact.tile_count) {
@@ -205,8 +210,7 @@ bool can_meet(uint a, uint b)
 // Appends the pairs of an outdated tile and every tile that may come near it.
 void run_pair_tiles(uint a)
 {
-    if (args.search == WEFT_SEARCH_ANYWHERE && head.uncovered == 0u) return;
-    if (contact.tracked.at[a].outdated == 0u) return;
+    if (is_idle_search() || contact.tracked.at[a].outdated == 0u) return;
     vec3 low, high;
     way_of(a, low, high);
     float thickest = 0.5 * (contact.tiles.at[a].thickness + contact.thickest), apart = thickest + 2.0 * contact.slack;

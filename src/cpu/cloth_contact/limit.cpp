@@ -1,0 +1,189 @@
+// What keeps pairs from losing their gap: the brake before contact, and the limit after it.
+#include "cpu/cloth_contact/cloth_contact.h"
+#include "cpu/cloth_contact/pair_math.h"
+#include "solver/plan/cloth_contact_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::cpu {
+namespace {
+
+constexpr std::uint32_t most_retreats = limit_slides + limit_halvings + 1;
+
+}  // namespace
+
+/// A near pair where its particles are now.
+struct ClothContact::MovedPair {
+    std::array<std::uint32_t, 4> particles;
+    std::array<Vec3, 4> away;    // by particle: unit, away from the other side
+    std::array<float, 4> least;  // by particle: how far it has to move along `away`, m
+    float part;                  // of its motion that the brake leaves to the pair
+};
+
+ClothContact::MovedPair ClothContact::moved_pair(int kind, std::uint32_t pair) const {
+    const NearPairs& near = near_[kind];
+    const bool edges = kind == 1;
+    const Vec3 normal = normal_of(near, pair);
+    MovedPair result;
+    result.particles = near.particles(pair);
+    float along[4], moved[4], mass[4];
+    for (int k = 0; k < 4; ++k) {
+        const std::uint32_t p = result.particles[k];
+        // Relative to the first particle, as when the gap at the start was computed.
+        along[k] = dot(x_[p].xyz() - x_[result.particles[0]].xyz(), normal);
+        moved[k] = dot(x_[p].xyz() - start_[p].xyz(), normal);
+        mass[k] = x_[p].w;
+    }
+    const float gap = edges ? scalar::gap_edge_edge(along[0], along[1], along[2], along[3])
+                            : scalar::gap_vertex_triangle(along[0], along[1], along[2], along[3]);
+    const float start = near.gap[pair], floor = near.thickness[pair] * contact_gap_floor;
+    result.part = scalar::part_to_depth(gap, start, floor, contact_brake_depth * cap_);
+    const auto least_motions = edges ? scalar::least_motions_edge_edge : scalar::least_motions_vertex_triangle;
+    const scalar::LeastMotions least = least_motions(moved[0], moved[1], moved[2], moved[3], mass[0], mass[1], mass[2],
+                                                     mass[3], start - std::min(start, floor));
+    for (int k = 0; k < 4; ++k) {
+        const bool is_one = edges ? k < 2 : k < 1;
+        result.away[k] = is_one ? normal : normal * -1;
+        result.least[k] = is_one ? least.one : least.two;
+    }
+    return result;
+}
+
+// Calls visit(kind, pair) for all pairs that lose their gap and `depth` more. `visit` returns whether to go on.
+template <class Visit>
+void ClothContact::for_each_lost(float depth, Visit&& visit) {
+    for (int kind = 0; kind < 2; ++kind) {
+        lost_.clear();
+        loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, depth, lost_);
+        for (const std::uint32_t pair : lost_)
+            if (comes_near(kind, pair) && !visit(kind, pair)) return;
+    }
+}
+
+bool ClothContact::any_lost() {
+    bool any = false;
+    for_each_lost(0, [&](int, std::uint32_t) {
+        any = true;
+        return false;
+    });
+    return any;
+}
+
+// Where the constraints ask for more than contact can take back, the particles go a part of their way: the same part
+// for both sides of a pair, so that contact has to take back only the rest. Without it, cloth that is pulled over cloth
+// stays where it is in every substep, while the pull grows. Returns whether any particle was slowed.
+bool ClothContact::brake() {
+    bool any = false;
+    for_each_lost(contact_brake_depth * cap_, [&](int kind, std::uint32_t pair) {
+        if (!any) for_each_particle([&](std::uint32_t p) { part_[p] = 1; });
+        any = true;
+        const MovedPair moved = moved_pair(kind, pair);
+        for (const std::uint32_t p : moved.particles) part_[p] = std::min(part_[p], moved.part);
+        return true;
+    });
+    if (!any) return false;
+    for_each_particle([&](std::uint32_t p) {
+        if (!(part_[p] < 1) || !(x_[p].w > 0)) return;
+        const Vec3 from = start_[p].xyz();
+        set_place(x_[p], from + (x_[p].xyz() - from) * part_[p]);
+    });
+    return true;
+}
+
+// Asks particles of a pair that has lost its gap to go back: those that come closer to the other side than they may, or
+// all. Returns whether any of them can.
+bool ClothContact::retreat(const MovedPair& pair, bool all) {
+    bool helps = false;
+    for (int k = 0; k < 4; ++k) {
+        const std::uint32_t p = pair.particles[k];
+        if (retreats_[p] == most_retreats || !(x_[p].w > 0)) continue;
+        if (retreats_[p] < limit_slides) {
+            const Vec3 slide = retreats_[p] == 0 ? asked_[p].xyz() - start_[p].xyz() : slide_[p];
+            const float missing = pair.least[k] - dot(slide, pair.away[k]);
+            if (!(missing > 0) && !all) continue;
+            add_to_sum(p, pair.away[k] * std::max(missing, 0.0f), WEFT_PUSH_QUANTA_PER_METER);
+            ++share_[p];
+        }
+        helps = true;
+        if (sent_back_[p]) continue;
+        sent_back_[p] = 1;
+        to_send_back_.push_back(p);
+    }
+    return helps;
+}
+
+// The particle first slides along its pairs: it gives up what brings it closer to the other sides, the mean of what
+// they ask. If that does not help, what is left of its motion is halved, and at last it stays at its start.
+void ClothContact::set_back(std::uint32_t p) {
+    const Vec3 from = start_[p].xyz(), asked = asked_[p].xyz() - from;
+    if (retreats_[p] == 0) slide_[p] = asked;
+    if (share_[p] > 0) slide_[p] = slide_[p] + sum(p, WEFT_PUSH_QUANTA_PER_METER) * (1 / static_cast<float>(share_[p]));
+    sums_[p] = {}, share_[p] = 0, sent_back_[p] = 0;
+    const std::uint32_t retreats = ++retreats_[p];
+    if (retreats == most_retreats) return set_place(x_[p], from);
+    const Vec3 slide = to_vec3(scalar::slide_near(on_lane(asked), on_lane(slide_[p]), limit_aside * cap_));
+    const std::uint32_t halvings = retreats > limit_slides ? retreats - limit_slides : 0;
+    set_place(x_[p], from + slide * (1 / static_cast<float>(1u << halvings)));
+}
+
+// Sends the particles of all pairs that lose their gap back towards the start of the substep, where every pair has its
+// gap. A pair that keeps its gap along one normal at both ends of a linear motion does not meet in between.
+void ClothContact::send_back() {
+    for_each_particle([&](std::uint32_t p) { retreats_[p] = 0, share_[p] = 0; });
+    std::uint64_t stuck = 0;
+    while (true) {
+        to_send_back_.clear();
+        stuck = 0;
+        for_each_lost(0, [&](int kind, std::uint32_t pair) {
+            const MovedPair moved = moved_pair(kind, pair);
+            if (retreat(moved, false) || retreat(moved, true)) return true;
+            ++stuck;
+            mark_stuck(moved.particles);
+            counts_.tangled_particle = std::min(counts_.tangled_particle, std::ranges::min(moved.particles));
+            return true;
+        });
+        if (to_send_back_.empty()) break;
+        for (const std::uint32_t p : to_send_back_) set_back(p);
+    }
+    counts_.tangled = std::max(counts_.tangled, stuck);
+}
+
+// Whether a particle that was sent back may have been beyond what its list covers, on any part of its way.
+bool ClothContact::any_uncovered() {
+    for_each_particle([&](std::uint32_t p) { farthest_[p] = retreats_[p] > 0 ? start_[p] : x_[p]; });
+    std::ranges::fill(moved_, limit_aside * cap_);
+    return search_.find_outdated(farthest_.data(), moved_);
+}
+
+void ClothContact::limit() {
+    for_each_particle([&](std::uint32_t p) { asked_[p] = x_[p], retreats_[p] = 0; });
+    extend_reach();
+    if (any_lost()) {
+        extend_reach(limit_aside * cap_);
+        send_back();
+        // A particle that was sent back may have left its listed trajectory. Its tile is then listed for all places
+        // between the start and where the particle was to go, and the limit starts again. Near pairs cover these places
+        // anyway.
+        for (int attempt = 0; any_uncovered(); ++attempt) {
+            if (attempt == contact_most_attempts) {
+                for_each_particle([&](std::uint32_t p) {
+                    if (!(x_[p].w > 0)) return;
+                    retreats_[p] = most_retreats;
+                    set_place(x_[p], start_[p].xyz());
+                });
+                break;
+            }
+            for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
+            search_.cover(start_, asked_.data());
+            search();
+            find_near();
+            send_back();
+        }
+    }
+    for_each_particle([&](std::uint32_t p) { counts_.limited += retreats_[p] > 0; });
+    mark_limited_particles();
+    search_.next_tick();
+}
+
+}  // namespace weft::cpu
