@@ -101,6 +101,21 @@ TEST(ClothContactOnVulkan, tangled_cloth_comes_apart_as_on_the_cpu) {
     }
 }
 
+// More pairs than a workgroup has invocations.
+// Labels: slow no-asan
+TEST(ClothContactOnVulkan, many_tangled_pairs_come_apart_as_on_the_cpu) {
+    const auto add = [](World& world) {
+        for (int i = 0; i < 3; ++i) add_crossed_sheets(world, 20, {70, 30, 0}, {0.1f, 0, 0}, {0, 1});
+    };
+    World cpu = on_cpu(with_substeps(2)), vulkan = on_vulkan(with_substeps(2));
+    add(cpu), add(vulkan);
+    const RunOfFrames expected = run_frames(cpu, 1), result = run_frames(vulkan, 1);
+    EXPECT_GT(expected.counts.tangled, 300u);
+    EXPECT_EQ(result.counts.tangled, expected.counts.tangled);
+    if (!rounds_like_the_cpu(vulkan)) return;
+    EXPECT_EQ(result.hash, expected.hash);
+}
+
 // Labels: slow
 TEST(ClothContactOnVulkan, cloths_without_contact_do_not_take_part) {
     const auto add = [](World& world) {

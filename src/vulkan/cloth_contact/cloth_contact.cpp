@@ -69,6 +69,11 @@ class PassRecorder {
     void run(std::string_view program, std::uint32_t groups) {
         if (bind(program)) dispatch_groups(commands_, groups, device_.limits());
     }
+    /// One invocation per item.
+    void run_each(std::string_view program, std::uint32_t items) {
+        if (const gpu::Pipeline* pipeline = bind(program))
+            dispatch_groups(commands_, groups_of(items, pipeline->workgroup()), device_.limits());
+    }
     /// As many workgroups as the member of ContactHead at this offset says.
     void run_indirect(std::string_view program, std::size_t groups, bool barrier = true) {
         if (bind(program, barrier)) commands_.dispatch_indirect(arena_.buffer(), head_.offset + groups);
@@ -83,17 +88,18 @@ class PassRecorder {
     }
 
   private:
-    bool bind(std::string_view program, bool barrier = true) {
+    /// The pipeline, or null if it cannot be made.
+    const gpu::Pipeline* bind(std::string_view program, bool barrier = true) {
         auto pipeline = programs_.get(program);
         if (!pipeline) {
             errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
-            return false;
+            return nullptr;
         }
         const ClothContactArgs args{.data = data_, .round = round_, .search = search_};
         if (barrier) commands_.barrier();
         commands_.bind(**pipeline);
         commands_.push(std::as_bytes(std::span(&args, 1)));
-        return true;
+        return *pipeline;
     }
 
     gpu::Device& device_;
@@ -122,8 +128,8 @@ void record_search(PassRecorder& passes, std::uint32_t search, std::uint32_t til
 }
 
 void record_untangle(PassRecorder& passes, std::uint32_t pairs, std::uint32_t tiles) {
-    passes.run("contact_share_untangling", tiles_of(pairs));
-    passes.run("contact_push_untangling", tiles_of(pairs));
+    passes.run_each("contact_share_untangling", pairs);
+    passes.run_each("contact_push_untangling", pairs);
     passes.run("contact_untangle", tiles);
 }
 
