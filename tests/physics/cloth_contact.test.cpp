@@ -58,6 +58,38 @@ TEST(ClothContact, a_sheet_thrown_down_never_crosses_itself_and_does_not_rebound
     }
 }
 
+// Kinetic and potential energy, of the particles that can move.
+double energy_of(World& world) {
+    double energy = 0;
+    const Snapshot state = world.save();
+    for (const ClothSnapshot& cloth : state.cloths) {
+        for (std::size_t p = 0; p < cloth.position.size(); ++p) {
+            const Vec4 x = cloth.position[p];
+            const Vec3 v = cloth.velocity[p].xyz();
+            if (x.w > 0) energy += (0.5 * dot(v, v) + 9.81 * x.y) / x.w;
+        }
+    }
+    return energy;
+}
+
+// Labels: slow no-asan
+TEST(ClothContact, a_sheet_thrown_down_gains_no_energy) {
+    for (const std::uint32_t substeps : {10u, 20u}) {
+        SheetDesc sheet = falling(32);
+        sheet.velocity = {0, -15, 0};
+        World world = falling_world(sheet, substeps);
+        const double first = energy_of(world);
+        double before = first;
+        for (int frame = 0; frame < 90; ++frame) {
+            world.step(1.0 / 60);
+            const double now = energy_of(world);
+            EXPECT_LT(now - before, 1e-4 * first) << "frame " << frame;
+            before = now;
+        }
+        EXPECT_LT(before, 0.1 * first);
+    }
+}
+
 // Labels: slow no-asan
 TEST(ClothContact, a_stack_keeps_its_order) {
     for (const float speed : {0.0f, -10.0f}) {
