@@ -1,7 +1,6 @@
 #include "cpu/particle_contact/particle_contact.h"
 
 #include "physics/scalar.h"
-#include "solver/plan/particle_contact_numbers.h"
 #include "solver/state/address_space.h"
 #include "solver/state/contact_marks.h"
 
@@ -39,6 +38,7 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
                             .diameter = particle_diameter(model),
                             .margin = particle_margin(model),
                             .part_at_rest = particle_part_at_rest,
+                            .less_at_rest = particle_less_at_rest(model),
                             .with_alike = model.collision.with_cloth == SelfCollision::fast,
                             .filter = model.collision.filter,
                             .seams = context.seams});
@@ -91,11 +91,11 @@ void ParticleContact::run(const Pass& pass, Worker worker) {
         case PassKind::overlap_particles:
             return find_overlaps(worker);
         case PassKind::push_particles:
-            return loops_->push(input(), part.overlaps, part.sums.data());
+            return loops_->push(input(particle_sweeps[pass.batch]), part.overlaps, part.sums.data());
         case PassKind::move_particles:
             return move(worker, x_);
         case PassKind::hold_particles:
-            return loops_->hold(input(), part.overlaps, part.sums.data());
+            return loops_->hold(input(particle_sweeps.front()), part.overlaps, part.sums.data());
         default:
             // The velocity follows from the motion since the start of the substep. With the start moved, pushes do not
             // make cloth bounce.
@@ -103,14 +103,15 @@ void ParticleContact::run(const Pass& pass, Worker worker) {
     }
 }
 
-ParticleInput ParticleContact::input() const {
+ParticleInput ParticleContact::input(const ParticleSweep& sweep) const {
     return {.position = &x_->x,
             .start = &start_->x,
             .friction = &friction_.data()->x,
             .pushes = pushes_.data(),
             .workers = static_cast<unsigned>(parts_.size()),
-            .recovery = particle_recovery_speed * h_,
-            .split = particle_split};
+            .deep = sweep.deep,
+            .recovery = sweep.recovery_speed * h_,
+            .split = sweep.split};
 }
 
 void ParticleContact::find_overlaps(Worker worker) {
@@ -132,6 +133,7 @@ void ParticleContact::find_overlaps(Worker worker) {
     });
     part.overlaps.pad(particles_.front().begin);
     if (part.overlaps.depth.size() < part.overlaps.one.size()) part.overlaps.depth.resize(part.overlaps.one.size());
+    std::fill_n(part.overlaps.depth.begin(), part.overlaps.count + 16, 0.0f);
     for (std::uint32_t i = 0; i < part.overlaps.count; ++i) {
         part.touched[part.overlaps.one[i] / particle_block] = 1;
         part.touched[part.overlaps.two[i] / particle_block] = 1;

@@ -4,6 +4,7 @@
 
 #include "cpu/cloth_run.h"
 #include "cpu/particle_contact/particle_loops.h"
+#include "solver/plan/particle_contact_numbers.h"
 #include "solver/state/cloth_contact_counts.h"
 
 #include <span>
@@ -44,7 +45,7 @@ class ParticleContact {
     template <class Visit>
     void for_each_tile(Worker worker, Visit&& visit) const;
     void find_overlaps(Worker worker);
-    ParticleInput input() const;
+    ParticleInput input(const ParticleSweep& sweep) const;
     void move(Worker worker, Vec4* places);
     void move_block(std::uint32_t first, Vec4* places);
 

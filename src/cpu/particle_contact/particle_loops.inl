@@ -55,10 +55,11 @@ inline void push_overlapping_particles(const ParticleInput& in, ParticleOverlaps
     for (std::uint32_t i = 0; i < overlaps.count; i += lane_count) {
         const OverlapSide a(in, &overlaps.one[i]), b(in, &overlaps.two[i]);
         const real resistance = sphere_resistance(a.w, a.pushes, real(in.split)) + sphere_resistance(b.w, b.pushes, real(in.split));
+        const real diameter = load(&overlaps.diameter[i]);
         const SpherePush result =
-            push_spheres(a.x, b.x, a.start, b.start, load(&overlaps.diameter[i]), real(in.recovery), resistance,
+            push_spheres(a.x, b.x, a.start, b.start, diameter, diameter * real(in.deep), real(in.recovery), resistance,
                          a.friction.x * b.friction.x, a.friction.y * b.friction.y);
-        store(result.depth, &overlaps.depth[i]);
+        store(load(&overlaps.depth[i]) + result.depth, &overlaps.depth[i]);
         const int count = static_cast<int>(std::min<std::uint32_t>(lane_count, overlaps.count - i));
         add_push(sums, &overlaps.one[i], count, result.push * a.w);
         add_push(sums, &overlaps.two[i], count, result.push * -b.w);
