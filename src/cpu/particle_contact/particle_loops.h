@@ -39,8 +39,9 @@ struct ParticleLoops {
     /// Appends the pairs [begin, end) that overlap to `overlaps`, and counts them by particle.
     void (*find_overlaps)(const ParticlePairs& pairs, std::uint32_t begin, std::uint32_t end, const float* positions,
                           ParticlePairs& overlaps, std::uint32_t* pushes);
-    /// Adds the pushes of all overlaps to the sums, by particle, and their depths to the depths.
-    void (*push)(const ParticleInput&, ParticleOverlaps&, ParticleSum* sums);
+    /// Adds the pushes of all overlaps to the sums, by particle, and their depths to the depths. Marks the blocks of
+    /// particles that are pushed.
+    void (*push)(const ParticleInput&, ParticleOverlaps&, ParticleSum* sums, std::uint8_t* pushed);
     /// Adds what takes away the motion by which pushes have separated particles.
     void (*hold)(const ParticleInput&, const ParticleOverlaps&, ParticleSum* sums);
 };

@@ -42,7 +42,7 @@ inline float particle_less_at_rest(const ClothModel& model) {
 /// How much farther than their diameter listed pairs may be apart, m. Less than what neighbors on flat cloth are
 /// farther apart than their diameter, so that its lists are empty.
 inline float particle_margin(const ClothModel& model) {
-    return 0.43f * model.mean_edge;
+    return 0.3f * model.mean_edge;
 }
 
 }  // namespace weft
