@@ -289,14 +289,16 @@ ParticleSearch::Block ParticleSearch::list_block(std::uint32_t tile, std::uint32
     const float gap = gap_between(a.box, b.box, block.shift);
     block.allowed = std::max(margin, gap - diameter - rounding);
     if (gap > diameter + margin + rounding) return block;
+    const float at_rest = gap_between(a.rest_box, b.rest_box, {});
     const bool by_rest =
-        &of_a == &of_b && gap_between(a.rest_box, b.rest_box, {}) * of_a.part_at_rest < 1.001f * diameter;
+        &of_a == &of_b && std::max(at_rest * of_a.part_at_rest, at_rest - of_a.less_at_rest) < 1.001f * diameter;
     const TilesToList tiles{.one = &a,
                             .two = &b,
                             .shift = block.shift,
                             .diameter = diameter,
                             .margin = margin + rounding,
                             .part_at_rest = of_a.part_at_rest,
+                            .less_at_rest = of_a.less_at_rest,
                             .by_rest = by_rest};
     block.spare = loops_->list(tiles, pairs) - rounding;
     if (of_a.seams) apply_seams(*of_a.seams, of_a.part_at_rest, pairs, block.begin);

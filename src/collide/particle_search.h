@@ -29,7 +29,8 @@ struct SearchedParticles {
     const Vec4* rest = nullptr;                               ///< m, by particle of the cloth
     float diameter = 0;                                       ///< m
     float margin = 0;                                         ///< m: how much farther its listed pairs may be apart
-    float part_at_rest = 0;       ///< of their distance at rest that two of its particles keep at most
+    float part_at_rest = 0;       ///< two of its particles keep at most this part of their distance at rest,
+    float less_at_rest = 0;       ///< or that distance less this, m, whichever is larger
     bool with_alike = true;       ///< false: it has no pairs with itself and with other cloths that have none
     CollisionFilter filter = {};  ///< for other cloths
     std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
@@ -69,7 +70,8 @@ struct TilesToList {
     float diameter = 0;  ///< m
     float margin = 0;    ///< m
     float part_at_rest = 0;
-    bool by_rest = false;  ///< the distance at rest may limit the diameter
+    float less_at_rest = 0;  ///< m
+    bool by_rest = false;    ///< the distance at rest may limit the diameter
 };
 
 /// The inner loops, one table per instruction set.

@@ -48,7 +48,8 @@ inline float list_near_pairs(const TilesToList& tiles, std::uint64_t near_one, s
             real diameter(tiles.diameter), limit = most;
             if constexpr (by_rest) {
                 const vec3 apart = one_place(one.rest, i) - load_place(two.rest, j);
-                diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), real(tiles.part_at_rest));
+                diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), real(tiles.part_at_rest),
+                                            real(tiles.less_at_rest));
                 limit = select(diameter > real(0.0f), diameter + margin, real(0.0f));
             }
             bits &= bits_of(distance2 < limit * limit);

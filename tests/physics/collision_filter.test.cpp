@@ -61,9 +61,13 @@ TEST(CollisionFilter, a_cloth_collides_with_itself_whatever_its_mask) {
             sheet.self_collision = kind;
             sheet.filter = filter;
             World world = falling_world(sheet, 10);
-            std::string hash = hash_after(world, 60);
-            EXPECT_GT(world.frame().cloth_contacts.contacts, 0u);
-            return hash;
+            std::uint64_t contacts = 0;
+            for (int i = 0; i < 60; ++i) {
+                world.step(1.0 / 60);
+                contacts += world.frame().cloth_contacts.contacts;
+            }
+            EXPECT_GT(contacts, 0u);
+            return world.state_hash();
         };
         EXPECT_EQ(drop(nothing), drop(everything));
     }

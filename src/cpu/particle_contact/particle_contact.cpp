@@ -1,12 +1,12 @@
 #include "cpu/particle_contact/particle_contact.h"
 
 #include "physics/scalar.h"
-#include "solver/plan/particle_contact_numbers.h"
 #include "solver/state/address_space.h"
 #include "solver/state/contact_marks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace weft::cpu {
 namespace {
@@ -39,6 +39,7 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
                             .diameter = particle_diameter(model),
                             .margin = particle_margin(model),
                             .part_at_rest = particle_part_at_rest,
+                            .less_at_rest = particle_less_at_rest(model),
                             .with_alike = model.collision.with_cloth == SelfCollision::fast,
                             .filter = model.collision.filter,
                             .seams = context.seams});
@@ -52,7 +53,7 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
     parts_.resize(workers);
     pushes_.clear();
     for (Part& part : parts_) {
-        part.pushes.resize(size), part.sums.resize(size), part.touched.resize(blocks);
+        part.pushes.resize(size), part.sums.resize(size), part.touched.resize(blocks), part.pushed.resize(blocks);
         pushes_.push_back(part.pushes.data());
     }
 }
@@ -76,6 +77,16 @@ void ParticleContact::for_each_tile(Worker worker, Visit&& visit) const {
     for (std::uint32_t tile = worker.number; tile < search_.tile_count(); tile += worker.count) visit(tile);
 }
 
+// Calls visit(first particle) for the worker's share of the blocks of each cloth.
+template <class Visit>
+void ParticleContact::for_each_block(Worker worker, Visit&& visit) const {
+    for (const Range& particles : particles_) {
+        const Share share = worker.of(particles.end - particles.begin);
+        for (std::uint32_t p = particles.begin + share.begin; p < particles.begin + share.end; p += particle_block)
+            visit(p);
+    }
+}
+
 void ParticleContact::run(const Pass& pass, Worker worker) {
     Part& part = parts_[worker.number];
     switch (pass.kind) {
@@ -91,26 +102,26 @@ void ParticleContact::run(const Pass& pass, Worker worker) {
         case PassKind::overlap_particles:
             return find_overlaps(worker);
         case PassKind::push_particles:
-            return loops_->push(input(), part.overlaps, part.sums.data());
+            return loops_->push(input(particle_sweeps[pass.batch]), part.overlaps, part.sums.data(),
+                                part.pushed.data());
         case PassKind::move_particles:
-            return move(worker, x_);
+            return move(worker);
         case PassKind::hold_particles:
-            return loops_->hold(input(), part.overlaps, part.sums.data());
+            return loops_->hold(input(particle_sweeps.front()), part.overlaps, part.sums.data());
         default:
-            // The velocity follows from the motion since the start of the substep. With the start moved, pushes do not
-            // make cloth bounce.
-            return move(worker, start_);
+            return settle(worker);
     }
 }
 
-ParticleInput ParticleContact::input() const {
+ParticleInput ParticleContact::input(const ParticleSweep& sweep) const {
     return {.position = &x_->x,
             .start = &start_->x,
             .friction = &friction_.data()->x,
             .pushes = pushes_.data(),
             .workers = static_cast<unsigned>(parts_.size()),
-            .recovery = particle_recovery_speed * h_,
-            .split = particle_split};
+            .deep = sweep.deep,
+            .recovery = sweep.recovery_speed * h_,
+            .split = sweep.split};
 }
 
 void ParticleContact::find_overlaps(Worker worker) {
@@ -132,21 +143,30 @@ void ParticleContact::find_overlaps(Worker worker) {
     });
     part.overlaps.pad(particles_.front().begin);
     if (part.overlaps.depth.size() < part.overlaps.one.size()) part.overlaps.depth.resize(part.overlaps.one.size());
+    std::fill_n(part.overlaps.depth.begin(), part.overlaps.count + 16, 0.0f);
     for (std::uint32_t i = 0; i < part.overlaps.count; ++i) {
         part.touched[part.overlaps.one[i] / particle_block] = 1;
         part.touched[part.overlaps.two[i] / particle_block] = 1;
     }
 }
 
-// Moves the worker's particles by the sums of all workers, and clears the sums.
-void ParticleContact::move(Worker worker, Vec4* places) {
-    for (const Range& particles : particles_) {
-        const Share share = worker.of(particles.end - particles.begin);
-        for (std::uint32_t p = particles.begin + share.begin; p < particles.begin + share.end; p += particle_block) {
-            const auto touched = [&](const Part& part) { return part.touched[p / particle_block] != 0; };
-            if (std::ranges::any_of(parts_, touched)) move_block(p, places);
-        }
-    }
+// Both passes move the worker's particles by the sums of all workers, and clear the sums.
+
+void ParticleContact::move(Worker worker) {
+    for_each_block(worker, [&](std::uint32_t first) {
+        bool pushed = false;
+        for (Part& part : parts_) pushed |= std::exchange(part.pushed[first / particle_block], 0) != 0;
+        if (pushed) move_block(first, x_);
+    });
+}
+
+// The velocity follows from the motion since the start of the substep. With the start moved, pushes do not make cloth
+// bounce.
+void ParticleContact::settle(Worker worker) {
+    for_each_block(worker, [&](std::uint32_t first) {
+        const auto touched = [&](const Part& part) { return part.touched[first / particle_block] != 0; };
+        if (std::ranges::any_of(parts_, touched)) move_block(first, start_);
+    });
 }
 
 void ParticleContact::move_block(std::uint32_t first, Vec4* places) {

@@ -4,6 +4,7 @@
 
 #include "cpu/cloth_run.h"
 #include "cpu/particle_contact/particle_loops.h"
+#include "solver/plan/particle_contact_numbers.h"
 #include "solver/state/cloth_contact_counts.h"
 
 #include <span>
@@ -39,13 +40,17 @@ class ParticleContact {
         AlignedVector<ParticleSum> sums;    ///< by particle
         bool searched = false;              ///< in the current sweep
         std::vector<std::uint8_t> touched;  ///< by block of particles: whether any overlaps
+        std::vector<std::uint8_t> pushed;   ///< by block of particles: whether the current sweep pushes any
     };
 
     template <class Visit>
     void for_each_tile(Worker worker, Visit&& visit) const;
+    template <class Visit>
+    void for_each_block(Worker worker, Visit&& visit) const;
     void find_overlaps(Worker worker);
-    ParticleInput input() const;
-    void move(Worker worker, Vec4* places);
+    ParticleInput input(const ParticleSweep& sweep) const;
+    void move(Worker worker);
+    void settle(Worker worker);
     void move_block(std::uint32_t first, Vec4* places);
 
     bool search_always_;

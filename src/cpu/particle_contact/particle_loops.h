@@ -15,7 +15,7 @@ struct alignas(16) ParticleSum : std::array<std::uint32_t, 4> {};
 
 /// Pairs that overlap.
 struct ParticleOverlaps : ParticlePairs {
-    AlignedVector<float> depth;  ///< m, by which they are to be pushed apart
+    AlignedVector<float> depth;  ///< m, sum over the sweeps of a substep of the depths of their pushes
 };
 
 /// Particles that share a flag and friction. Every cloth's first particle is a multiple of it.
@@ -28,6 +28,7 @@ struct ParticleInput {
     const float* friction;               ///< blocks of four, by block of particles: square roots of both coefficients
     const std::uint32_t* const* pushes;  ///< by worker and particle: number of overlaps
     unsigned workers;
+    float deep;      ///< part of the diameter below which pairs are pushed
     float recovery;  ///< m
     float split;     ///< part of the mass splitting
 };
@@ -38,8 +39,9 @@ struct ParticleLoops {
     /// Appends the pairs [begin, end) that overlap to `overlaps`, and counts them by particle.
     void (*find_overlaps)(const ParticlePairs& pairs, std::uint32_t begin, std::uint32_t end, const float* positions,
                           ParticlePairs& overlaps, std::uint32_t* pushes);
-    /// Adds the pushes of all overlaps to the sums, by particle, and sets the depths.
-    void (*push)(const ParticleInput&, ParticleOverlaps&, ParticleSum* sums);
+    /// Adds the pushes of all overlaps to the sums, by particle, and their depths to the depths. Marks the blocks of
+    /// particles that are pushed.
+    void (*push)(const ParticleInput&, ParticleOverlaps&, ParticleSum* sums, std::uint8_t* pushed);
     /// Adds what takes away the motion by which pushes have separated particles.
     void (*hold)(const ParticleInput&, const ParticleOverlaps&, ParticleSum* sums);
 };

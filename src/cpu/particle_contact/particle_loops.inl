@@ -51,17 +51,31 @@ WEFT_FN void add_push(ParticleSum* sums, const std::uint32_t* particles, int cou
     }
 }
 
-inline void push_overlapping_particles(const ParticleInput& in, ParticleOverlaps& overlaps, ParticleSum* sums) {
+// The pairs of a packet that are nearer than the part `deep` of their diameter, as bits.
+WEFT_FN std::uint32_t deep_pairs(const float* positions, const ParticlePairs& pairs, std::uint32_t i, float deep) {
+    real unused;
+    const vec3 between = gather_blocks(positions, &pairs.one[i], unused) - gather_blocks(positions, &pairs.two[i], unused);
+    return bits_of(sqrt(dot(between, between)) < load(&pairs.diameter[i]) * real(deep)) & lanes_before(i, pairs.count);
+}
+
+inline void push_overlapping_particles(const ParticleInput& in, ParticleOverlaps& overlaps, ParticleSum* sums,
+                                       std::uint8_t* pushed) {
     for (std::uint32_t i = 0; i < overlaps.count; i += lane_count) {
+        const std::uint32_t deep = deep_pairs(in.position, overlaps, i, in.deep);
+        if (deep == 0) continue;
         const OverlapSide a(in, &overlaps.one[i]), b(in, &overlaps.two[i]);
         const real resistance = sphere_resistance(a.w, a.pushes, real(in.split)) + sphere_resistance(b.w, b.pushes, real(in.split));
+        const real diameter = load(&overlaps.diameter[i]);
         const SpherePush result =
-            push_spheres(a.x, b.x, a.start, b.start, load(&overlaps.diameter[i]), real(in.recovery), resistance,
+            push_spheres(a.x, b.x, a.start, b.start, diameter, diameter * real(in.deep), real(in.recovery), resistance,
                          a.friction.x * b.friction.x, a.friction.y * b.friction.y);
-        store(result.depth, &overlaps.depth[i]);
+        store(load(&overlaps.depth[i]) + result.depth, &overlaps.depth[i]);
         const int count = static_cast<int>(std::min<std::uint32_t>(lane_count, overlaps.count - i));
         add_push(sums, &overlaps.one[i], count, result.push * a.w);
         add_push(sums, &overlaps.two[i], count, result.push * -b.w);
+        for_each_bit(deep, [&](std::uint32_t lane) {
+            pushed[overlaps.one[i + lane] / particle_block] = 1, pushed[overlaps.two[i + lane] / particle_block] = 1;
+        });
     }
 }
 

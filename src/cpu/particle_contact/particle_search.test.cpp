@@ -17,7 +17,7 @@
 namespace weft::cpu {
 namespace {
 
-constexpr float near_enough = 0.14f, part_at_rest = 0.5f;
+constexpr float near_enough = 0.14f, part_at_rest = 0.5f, less_at_rest = 0.046f;
 constexpr std::uint32_t columns = 14, rows = 11, sheet = columns * rows;
 
 using PairSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
@@ -37,7 +37,8 @@ class WavingSheets {
         move_to(0);
     }
     std::vector<SearchedParticles> cloths() const {
-        SearchedParticles one{order_, 0, rest_.data(), near_enough, 0.045f, part_at_rest, true}, two = one;
+        SearchedParticles one{order_, 0, rest_.data(), near_enough, 0.045f, part_at_rest, less_at_rest, true},
+            two = one;
         two.base = sheet;
         return {one, two};
     }
@@ -60,8 +61,10 @@ class WavingSheets {
         for (std::uint32_t a = 0; a < 2 * sheet; ++a) {
             for (std::uint32_t b = a + 1; b < 2 * sheet; ++b) {
                 float most = near_enough;
-                if ((a < sheet) == (b < sheet))
-                    most = std::min(most, part_at_rest * length(rest_[a % sheet].xyz() - rest_[b % sheet].xyz()));
+                if ((a < sheet) == (b < sheet)) {
+                    const float at_rest = length(rest_[a % sheet].xyz() - rest_[b % sheet].xyz());
+                    most = std::min(most, std::max(part_at_rest * at_rest, at_rest - less_at_rest));
+                }
                 if (length(now_[a].xyz() - now_[b].xyz()) < most) pairs.insert({a, b});
             }
         }

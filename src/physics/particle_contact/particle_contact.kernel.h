@@ -1,9 +1,10 @@
 // Contact of two particles as spheres (law: particle_contact.md). cloth_contact.kernel.h supplies friction and quanta.
 
-// The distance that two particles of one cloth keep: at most a part of their distance at rest.
-WEFT_FN real diameter_of_pair(real diameter, real distance_at_rest, real part_at_rest)
+// The distance that two particles of one cloth keep: at most a part of their distance at rest, or that distance less a
+// length, m, whichever is larger.
+WEFT_FN real diameter_of_pair(real diameter, real distance_at_rest, real part_at_rest, real less_at_rest)
 {
-    return min(diameter, distance_at_rest * part_at_rest);
+    return min(diameter, max(distance_at_rest * part_at_rest, distance_at_rest - less_at_rest));
 }
 
 // Whether the spheres overlap. `w0`, `w1`: inverse masses; nothing can move a pair that has none.
@@ -34,22 +35,23 @@ struct SpherePush {
 };
 
 //   start0, start1  the particles at the start of the substep
+//   deep            m, only pairs nearer than this are pushed
 //   recovery        m, the most of an overlap from before the substep that one substep removes
 //   resistance      1/kg, of both particles
-WEFT_FN SpherePush push_spheres(vec3 x0, vec3 x1, vec3 start0, vec3 start1, real diameter, real recovery,
-                                real resistance, real static_friction, real kinetic_friction)
+WEFT_FN SpherePush push_spheres(vec3 x0, vec3 x1, vec3 start0, vec3 start1, real diameter, real deep,
+                                real recovery, real resistance, real static_friction, real kinetic_friction)
 {
     vec3 between = x0 - x1, before = start0 - start1;
     real distance = sqrt(dot(between, between)), distance_start = sqrt(dot(before, before));
     vec3 normal = direction_of(between, distance);
     SpherePush result;
-    result.depth = max(min(diameter, distance_start + recovery) - distance, real(0));
+    result.depth = select(distance < deep, max(min(diameter, distance_start + recovery) - distance, real(0)), real(0));
     vec3 rub = cloth_friction(between - before, normal, result.depth, static_friction, kinetic_friction);
     result.push = (normal * result.depth - rub) * (real(1) / max(resistance, real(1e-12)));
     return result;
 }
 
-// What takes the motion away by which a push has separated the particles, kg m. `depth`: of the push.
+// What takes the motion away by which pushes have separated the particles, kg m. `depth`: of all pushes, m.
 WEFT_FN vec3 hold_spheres(vec3 x0, vec3 x1, vec3 start0, vec3 start1, real depth, real resistance)
 {
     vec3 between = x0 - x1, before = start0 - start1;

@@ -10,8 +10,8 @@ constexpr double diameter = 0.01, recovery = 1e-4;
 
 SpherePush push(vec3 between, vec3 before, double resistance = 2, double friction = 0) {
     const vec3 at(0.3, -0.2, 5);
-    return reference::push_spheres(at + between, at, at + before, at, diameter, recovery, resistance, friction,
-                                   friction);
+    return reference::push_spheres(at + between, at, at + before, at, diameter, diameter, recovery, resistance,
+                                   friction, friction);
 }
 
 TEST(ParticleContactKernels, a_push_opens_new_overlap_at_once) {
@@ -26,6 +26,15 @@ TEST(ParticleContactKernels, a_push_opens_old_overlap_at_a_limited_speed) {
     EXPECT_EQ(push({0, 0.007, 0}, {0, 0.006, 0}).depth, 0) << "it opens by itself";
 }
 
+TEST(ParticleContactKernels, a_later_push_opens_deep_overlap_only) {
+    const auto depth = [](double distance) {
+        const vec3 one(0, distance, 0), two(0, 0, 0), before(0, 0.012, 0);
+        return reference::push_spheres(one, two, before, two, diameter, 0.9 * diameter, recovery, 2, 0, 0).depth;
+    };
+    EXPECT_NEAR(depth(0.0089), 0.0011, 1e-12) << "to the diameter";
+    EXPECT_EQ(depth(0.0091), 0);
+}
+
 TEST(ParticleContactKernels, particles_at_one_place_are_pushed_along_some_unit_vector) {
     const SpherePush result = push({0, 0, 0}, {0, 0, 0}, 1);
     EXPECT_NEAR(norm(result.push), recovery, 1e-12);
@@ -36,8 +45,8 @@ TEST(ParticleContactKernels, pushes_of_a_pair_are_opposite) {
     for (int i = 0; i < 500; ++i) {
         const vec3 x0 = random.vector(0.005), x1 = random.vector(0.005), s0 = random.vector(0.005),
                    s1 = random.vector(0.005);
-        const auto one = reference::push_spheres(x0, x1, s0, s1, diameter, recovery, 3, 0.5, 0.4);
-        const auto other = reference::push_spheres(x1, x0, s1, s0, diameter, recovery, 3, 0.5, 0.4);
+        const auto one = reference::push_spheres(x0, x1, s0, s1, diameter, diameter, recovery, 3, 0.5, 0.4);
+        const auto other = reference::push_spheres(x1, x0, s1, s0, diameter, diameter, recovery, 3, 0.5, 0.4);
         EXPECT_LT(norm(one.push + other.push), 1e-15);
     }
 }
@@ -60,8 +69,9 @@ TEST(ParticleContactKernels, holding_takes_what_a_push_has_opened_and_no_more) {
 }
 
 TEST(ParticleContactKernels, neighbors_keep_a_part_of_their_distance_at_rest) {
-    EXPECT_EQ(reference::diameter_of_pair(diameter, 0.004, 0.5), 0.002);
-    EXPECT_EQ(reference::diameter_of_pair(diameter, 1, 0.5), diameter);
+    EXPECT_EQ(reference::diameter_of_pair(diameter, 0.004, 0.5, 0.003), 0.002);
+    EXPECT_NEAR(reference::diameter_of_pair(diameter, 0.01, 0.5, 0.003), 0.007, 1e-15) << "the distance less a length";
+    EXPECT_EQ(reference::diameter_of_pair(diameter, 1, 0.5, 0.003), diameter);
 }
 
 TEST(ParticleContactKernels, pairs_without_mass_to_move_do_not_overlap) {

@@ -4,30 +4,45 @@
 #include "solver/model/cloth_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace weft {
 
-// A substep has one sweep of pushes. A second one costs as much as the first and leaves no fewer crossings.
-
 /// Diameter of a particle in mean edges. With 1, edges pass between particles.
 inline constexpr float particle_diameter_in_edges = 1.4f;
-/// Part of their distance at rest that two particles of one cloth keep at most. More hinders bending, and lists of
-/// pairs would hold all neighbors.
-inline constexpr float particle_part_at_rest = 0.5f;
-/// m/s at which an overlap from before the substep is removed at most.
-inline constexpr float particle_recovery_speed = 1;
-/// Part of the mass splitting that a push uses. In full, folded cloth is pushed apart too slowly and crosses itself.
-inline constexpr float particle_split = 0.35f;
+/// Two particles of one cloth keep at most this part of their distance at rest, or that distance less so many mean
+/// edges, whichever is larger. The second is more than the margin, so lists of flat cloth are empty.
+inline constexpr float particle_part_at_rest = 0.5f, particle_edges_less_at_rest = 0.45f;
+
+/// One sweep of pushes over all pairs that overlap.
+struct ParticleSweep {
+    float deep;            ///< in diameters: only pairs nearer than this are pushed
+    float recovery_speed;  ///< m/s at which an overlap from before the substep is removed at most
+    float split;           ///< part of the mass splitting: in full, folded cloth is pushed apart too slowly
+};
+/// The sweeps of a substep. The first one alone acts on cloth at rest, and is slow enough not to move it. The others
+/// act where cloth collides fast. They move particles farther than the first one, except for the last: it leaves less
+/// overlap behind.
+inline constexpr std::array<ParticleSweep, 4> particle_sweeps{{
+    {.deep = 1, .recovery_speed = 1, .split = 0.35f},
+    {.deep = 0.8f, .recovery_speed = 4, .split = 0.2f},
+    {.deep = 0.8f, .recovery_speed = 4, .split = 0.2f},
+    {.deep = 0.8f, .recovery_speed = 4, .split = 0.6f},
+}};
 
 /// m. Where the fabric's thickness asks for more, that wins.
 inline float particle_diameter(const ClothModel& model) {
     return std::max(particle_diameter_in_edges * model.mean_edge, model.fabric.contact.thickness);
 }
-/// How much farther than their diameter listed pairs may be apart, m. Less than half of an edge, so that lists of a
-/// flat cloth are empty: its neighbors keep half of their distance at rest.
+/// m, see particle_part_at_rest.
+inline float particle_less_at_rest(const ClothModel& model) {
+    return particle_edges_less_at_rest * model.mean_edge;
+}
+/// How much farther than their diameter listed pairs may be apart, m. Less than what neighbors on flat cloth are
+/// farther apart than their diameter, so that its lists are empty.
 inline float particle_margin(const ClothModel& model) {
-    return 0.45f * model.mean_edge;
+    return 0.3f * model.mean_edge;
 }
 
 }  // namespace weft

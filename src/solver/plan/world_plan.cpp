@@ -42,6 +42,7 @@ class Planner {
             if (i + 1 == settings_.solver.iterations) add_particle_contact(plan.substep);
             add_contact(i == 0, plan.substep);
         }
+        add_later_sweeps(plan.substep);
         if (exact) {
             add_cloth_contact(plan.substep);
             plan.iterations += contact_rounds - 1;
@@ -129,13 +130,22 @@ class Planner {
         passes.push_back({.kind = PassKind::limit});
     }
 
-    // One sweep in a substep. It comes before the rounds of exact contact, which limit how far particles move after
-    // them.
+    // They come before the rounds of exact contact, which limit how far particles move after them.
     void add_particle_contact(Passes& passes) const {
         if (!has_particle_contact(cloths_)) return;
         for (const PassKind kind : {PassKind::track_particles, PassKind::search_particles, PassKind::list_particles,
                                     PassKind::overlap_particles, PassKind::push_particles, PassKind::move_particles})
             passes.push_back({.kind = kind});
+    }
+
+    // Colliders have had their turn since the first sweep, and get another one.
+    void add_later_sweeps(Passes& passes) const {
+        if (!has_particle_contact(cloths_)) return;
+        for (std::uint32_t sweep = 1; sweep < particle_sweeps.size(); ++sweep) {
+            passes.push_back({.kind = PassKind::push_particles, .batch = sweep});
+            passes.push_back({.kind = PassKind::move_particles, .batch = sweep});
+        }
+        add_contact(false, passes);
     }
 
     // Contacts come last in an iteration, so that no particle is inside a collider after it.

@@ -31,13 +31,14 @@ struct SphereTileIn {
     uint collides_with;
     float diameter;   // m
     float margin;     // m
+    float less_at_rest;
 };
 
 struct SpherePairIn {
     uint one;
     uint two;
     float diameter;  // m
-    float depth;     // m, by which the current substep pushes
+    float depth;     // m, by which the sweeps of the current substep have pushed; negative: the pair does not overlap
 };
 
 struct SphereHead {
@@ -70,8 +71,6 @@ struct SphereData {
     uint tile_count;
     uint capacity;  // pairs
     uint report_count;
-    float recovery_speed;  // m/s
-    float split;
     float part_at_rest;
     uint search_always;
     uint has_seams;  // 1: there are seams
@@ -80,7 +79,9 @@ struct SphereData {
 struct ParticleContactArgs {
     SphereDataRef data;
     uint first_of_frame;  // 1: the first substep
-    uint unused;
+    float deep;           // of the sweep: ParticleSweep
+    float recovery_speed;
+    float split;
 };
 
 #ifdef __cplusplus

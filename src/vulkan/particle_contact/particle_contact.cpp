@@ -12,7 +12,7 @@
 namespace weft::vulkan {
 namespace {
 
-static_assert(sizeof(SphereTileIn) == 28 && sizeof(SpherePairIn) == 16 && sizeof(ParticleContactArgs) == 16);
+static_assert(sizeof(SphereTileIn) == 32 && sizeof(SpherePairIn) == 16 && sizeof(ParticleContactArgs) == 24);
 static_assert(WEFT_PARTICLE_GROUP == WEFT_GROUP);
 
 // Workgroups of a pass over the listed pairs at most: enough to fill a device.
@@ -34,7 +34,8 @@ struct SphereArrays {
                              .groups = model.collision.filter.groups,
                              .collides_with = model.collision.filter.mask,
                              .diameter = particle_diameter(model),
-                             .margin = particle_margin(model)});
+                             .margin = particle_margin(model),
+                             .less_at_rest = particle_less_at_rest(model)});
             for (std::uint32_t i = begin; i < begin + WEFT_PARTICLE_TILE; ++i) {
                 const std::uint32_t p = order[std::min(i, size - 1)];
                 particles.push_back(base + p);
@@ -115,7 +116,6 @@ Result<void> ParticleContact::build(std::span<const Member> members, std::uint32
     data.head = arena_.address(head_), data.reports = arena_.address(all_reports);
     data.tile_count = tiles_, data.capacity = capacity_;
     data.report_count = static_cast<std::uint32_t>(reports.size());
-    data.recovery_speed = particle_recovery_speed, data.split = particle_split;
     data.part_at_rest = particle_part_at_rest;
     data.search_always = search_always ? 1 : 0;
     data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
@@ -126,8 +126,12 @@ Result<void> ParticleContact::build(std::span<const Member> members, std::uint32
 
 Result<void> ParticleContact::record(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
     Recorder passes(device_, programs_, commands);
-    const ParticleContactArgs args{
-        .data = data_arena_.address(data_), .first_of_frame = substep == 0 ? 1u : 0u, .unused = 0};
+    const ParticleSweep& sweep = particle_sweeps[pass.kind == PassKind::push_particles ? pass.batch : 0];
+    const ParticleContactArgs args{.data = data_arena_.address(data_),
+                                   .first_of_frame = substep == 0 ? 1u : 0u,
+                                   .deep = sweep.deep,
+                                   .recovery_speed = sweep.recovery_speed,
+                                   .split = sweep.split};
     const std::uint32_t of_particles = groups_of(tiles_ * WEFT_PARTICLE_TILE, WEFT_PARTICLE_GROUP);
     const std::uint32_t of_pairs = std::min(groups_of(capacity_, WEFT_PARTICLE_GROUP), most_pair_groups);
     switch (pass.kind) {

@@ -38,19 +38,17 @@ void list_pair(uint one, uint two, uint i, uint j, SphereTileIn a, SphereTileIn 
     if (a.cloth == b.cloth) {
         vec4 y = spheres.rest.at[slot];
         vec3 apart = rest[i].xyz - y.xyz;
-        diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), spheres.part_at_rest);
+        diameter = diameter_of_pair(diameter, sqrt(dot(apart, apart)), spheres.part_at_rest, a.less_at_rest);
     }
     if (spheres.has_seams == 1u)
-        diameter = diameter_of_pair(diameter,
-                                    seam_distance(spheres.seam_first, spheres.seam_entries,
-                                                  spheres.particles.at[one * WEFT_PARTICLE_TILE + i],
-                                                  spheres.particles.at[slot]),
-                                    spheres.part_at_rest);
+        diameter = min(diameter, spheres.part_at_rest * seam_distance(spheres.seam_first, spheres.seam_entries,
+                                                                      spheres.particles.at[one * WEFT_PARTICLE_TILE + i],
+                                                                      spheres.particles.at[slot]));
     if (!(diameter > 0.0) || !(sqrt(dot(between, between)) < diameter + reach_of(a, b, x.xyz))) return;
     uint at = atomicAdd(head.listed, 1u);
     if (at >= spheres.capacity) return;
     spheres.pairs.at[at] = SpherePairIn(spheres.particles.at[one * WEFT_PARTICLE_TILE + i], spheres.particles.at[slot],
-                                        diameter, 0.0);
+                                        diameter, -1.0);
 }
 
 void list_tiles(uint one, uint two, SphereTileIn a)

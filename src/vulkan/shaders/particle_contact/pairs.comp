@@ -18,8 +18,7 @@ void run_overlap(uint i)
     SpherePairIn pair = spheres.pairs.at[i];
     vec4 x0 = spheres.position.at[pair.one], x1 = spheres.position.at[pair.two];
     bool pushes = spheres_overlap(x0.xyz, x1.xyz, x0.w, x1.w, pair.diameter);
-    // Any depth above 0 marks the pair for the next pass.
-    spheres.pairs.at[i].depth = pushes ? 1.0 : 0.0;
+    spheres.pairs.at[i].depth = pushes ? 0.0 : -1.0;
     if (!pushes) return;
     atomicAdd(spheres.pushes.at[pair.one], 1u);
     atomicAdd(spheres.pushes.at[pair.two], 1u);
@@ -31,17 +30,18 @@ float resistance_of(uint p, float w, float split) { return sphere_resistance(w, 
 void run_push(uint i)
 {
     SpherePairIn pair = spheres.pairs.at[i];
-    if (!(pair.depth > 0.0)) return;
+    if (pair.depth < 0.0) return;
     vec4 x0 = spheres.position.at[pair.one], x1 = spheres.position.at[pair.two];
     vec4 start0 = spheres.start.at[pair.one], start1 = spheres.start.at[pair.two];
     vec4 friction0 = spheres.friction.at[pair.one / WEFT_PARTICLE_BLOCK];
     vec4 friction1 = spheres.friction.at[pair.two / WEFT_PARTICLE_BLOCK];
     float resistance =
-        resistance_of(pair.one, x0.w, spheres.split) + resistance_of(pair.two, x1.w, spheres.split);
-    SpherePush result = push_spheres(x0.xyz, x1.xyz, start0.xyz, start1.xyz, pair.diameter,
-                                     spheres.recovery_speed * spheres.frame.at.h, resistance,
+        resistance_of(pair.one, x0.w, args.split) + resistance_of(pair.two, x1.w, args.split);
+    SpherePush result = push_spheres(x0.xyz, x1.xyz, start0.xyz, start1.xyz, pair.diameter, pair.diameter * args.deep,
+                                     args.recovery_speed * spheres.frame.at.h, resistance,
                                      friction0.x * friction1.x, friction0.y * friction1.y);
-    spheres.pairs.at[i].depth = result.depth;
+    if (!(result.depth > 0.0)) return;
+    spheres.pairs.at[i].depth = pair.depth + result.depth;
     add_push(pair.one, result.push * x0.w);
     add_push(pair.two, result.push * -x1.w);
 }
