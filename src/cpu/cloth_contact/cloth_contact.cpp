@@ -92,22 +92,20 @@ void ClothContact::help(const ClothContactContext& context, Worker worker) {
 
 void ClothContact::detect() {
     untangle();
-    for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
     begin_reach();
-    if (search_.find_outdated(x_, reach_, search_always_)) {
+    find_near_of_motion(search_always_);
+    if (brake()) find_near_of_motion(false);
+    pushes_of_substep_.clear();
+}
+
+// For the motion to where the particles are now.
+void ClothContact::find_near_of_motion(bool search_always) {
+    for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
+    if (search_.find_outdated(x_, reach_, search_always)) {
         follow_and_search();
         ++counts_.searches;
     }
     find_near();
-    if (brake()) {
-        for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
-        if (search_.find_outdated(x_, reach_)) {
-            follow_and_search();
-            ++counts_.searches;
-        }
-        find_near();
-    }
-    pushes_of_substep_.clear();
 }
 
 bool ClothContact::comes_near(int kind, std::uint32_t pair) const {

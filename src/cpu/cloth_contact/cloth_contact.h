@@ -39,6 +39,7 @@ class ClothContact {
     void lead(const Pass& pass);
     void help(const ClothContactContext& context, Worker worker);
     void detect();
+    void find_near_of_motion(bool search_always);
     // near_pairs.cpp
     void begin_reach();
     void follow_and_search();
@@ -67,6 +68,7 @@ class ClothContact {
     // limit.cpp
     struct MovedPair;
     MovedPair moved_pair(int kind, std::uint32_t pair) const;
+    float part_before_brake_depth(int kind, std::uint32_t pair) const;
     template <class Visit>
     void for_each_lost(float depth, Visit&& visit);
     bool any_lost();

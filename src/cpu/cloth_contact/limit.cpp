@@ -18,7 +18,6 @@ struct ClothContact::MovedPair {
     std::array<std::uint32_t, 4> particles;
     std::array<Vec3, 4> away;    // by particle: unit, away from the other side
     std::array<float, 4> least;  // by particle: how far it has to move along `away`, m
-    float part;                  // of its motion that the brake leaves to the pair
 };
 
 ClothContact::MovedPair ClothContact::moved_pair(int kind, std::uint32_t pair) const {
@@ -27,27 +26,36 @@ ClothContact::MovedPair ClothContact::moved_pair(int kind, std::uint32_t pair) c
     const Vec3 normal = normal_of(near, pair);
     MovedPair result;
     result.particles = near.particles(pair);
-    float along[4], moved[4], mass[4];
+    float moved[4], mass[4];
     for (int k = 0; k < 4; ++k) {
         const std::uint32_t p = result.particles[k];
-        // Relative to the first particle, as when the gap at the start was computed.
-        along[k] = dot(x_[p].xyz() - x_[result.particles[0]].xyz(), normal);
         moved[k] = dot(x_[p].xyz() - start_[p].xyz(), normal);
         mass[k] = x_[p].w;
     }
-    const float gap = edges ? scalar::gap_edge_edge(along[0], along[1], along[2], along[3])
-                            : scalar::gap_vertex_triangle(along[0], along[1], along[2], along[3]);
-    const float start = near.gap[pair], floor = near.thickness[pair] * contact_gap_floor;
-    result.part = scalar::part_to_depth(gap, start, floor, contact_brake_depth * cap_);
+    const float gap = near.gap[pair], spare = gap - std::min(gap, near.thickness[pair] * contact_gap_floor);
     const auto least_motions = edges ? scalar::least_motions_edge_edge : scalar::least_motions_vertex_triangle;
-    const scalar::LeastMotions least = least_motions(moved[0], moved[1], moved[2], moved[3], mass[0], mass[1], mass[2],
-                                                     mass[3], start - std::min(start, floor));
+    const scalar::LeastMotions least =
+        least_motions(moved[0], moved[1], moved[2], moved[3], mass[0], mass[1], mass[2], mass[3], spare);
     for (int k = 0; k < 4; ++k) {
         const bool is_one = edges ? k < 2 : k < 1;
         result.away[k] = is_one ? normal : normal * -1;
         result.least[k] = is_one ? least.one : least.two;
     }
     return result;
+}
+
+// Part of its motion that the brake leaves to a pair.
+float ClothContact::part_before_brake_depth(int kind, std::uint32_t pair) const {
+    const NearPairs& near = near_[kind];
+    const auto particles = near.particles(pair);
+    const Vec3 normal = normal_of(near, pair);
+    float along[4];
+    // Relative to the first particle, as when the gap at the start was computed.
+    for (int k = 0; k < 4; ++k) along[k] = dot(x_[particles[k]].xyz() - x_[particles[0]].xyz(), normal);
+    const float gap = kind == 1 ? scalar::gap_edge_edge(along[0], along[1], along[2], along[3])
+                                : scalar::gap_vertex_triangle(along[0], along[1], along[2], along[3]);
+    return scalar::part_to_depth(gap, near.gap[pair], near.thickness[pair] * contact_gap_floor,
+                                 contact_brake_depth * cap_);
 }
 
 // Calls visit(kind, pair) for all pairs that lose their gap and `depth` more. `visit` returns whether to go on.
@@ -78,8 +86,8 @@ bool ClothContact::brake() {
     for_each_lost(contact_brake_depth * cap_, [&](int kind, std::uint32_t pair) {
         if (!any) for_each_particle([&](std::uint32_t p) { part_[p] = 1; });
         any = true;
-        const MovedPair moved = moved_pair(kind, pair);
-        for (const std::uint32_t p : moved.particles) part_[p] = std::min(part_[p], moved.part);
+        const float part = part_before_brake_depth(kind, pair);
+        for (const std::uint32_t p : near_[kind].particles(pair)) part_[p] = std::min(part_[p], part);
         return true;
     });
     if (!any) return false;
