@@ -77,6 +77,55 @@ class WorkerTeam {
     std::vector<std::jthread> threads_;
 };
 
+/// Workers of a team of which the first one decides what all of them do. The first one calls lead(), all others help().
+class LedTeam {
+  public:
+    /// The calling thread alone.
+    LedTeam() = default;
+
+    /// Calls decide(), which may call run(), and then lets the others return. `barrier`: of all workers.
+    template <class Decide>
+    void lead(unsigned size, const FunctionRef<void()>& barrier, Decide&& decide) {
+        size_ = size, barrier_ = &barrier;
+        decide();
+        if (size == 1) return;
+        task_ = nullptr;
+        barrier();
+        barrier();  // all have seen that there is no more to do, before the next leader sets a task
+    }
+    /// Runs the tasks of the leader until it has no more.
+    void help(unsigned worker, const FunctionRef<void()>& barrier) const {
+        while (true) {
+            barrier();
+            const auto* const task = task_;
+            if (task) (*task)(worker);
+            barrier();
+            if (!task) return;
+        }
+    }
+
+    unsigned size() const { return size_; }
+    /// Calls work(worker) once on every worker at the same time and returns when all have returned.
+    template <class Work>
+    void run(Work&& work) const {
+        if (size_ == 1) return work(0u);
+        const FunctionRef<void(unsigned)> task(work);
+        task_ = &task;
+        (*barrier_)();
+        work(0u);
+        (*barrier_)();
+    }
+    /// Within such work: waits until every worker has called it.
+    void wait() const {
+        if (size_ > 1) (*barrier_)();
+    }
+
+  private:
+    unsigned size_ = 1;
+    const FunctionRef<void()>* barrier_ = nullptr;
+    mutable const FunctionRef<void(unsigned)>* task_ = nullptr;  // null: there is no more to do
+};
+
 /// Work whose result is needed later. start() runs it on its own thread; if it was not started, wait() runs it.
 class LaterWork {
   public:

@@ -38,6 +38,43 @@ TEST_P(Team, a_meeting_shows_every_rank_what_the_others_wrote) {
     for (std::uint64_t value : a) EXPECT_EQ(value, expected);
 }
 
+TEST_P(Team, runs_what_the_first_worker_decides) {
+    WorkerTeam team(GetParam());
+    const auto wait = [&] { team.barrier(); };
+    const FunctionRef<void()> barrier(wait);
+    LedTeam led;
+    std::vector<int> calls(team.size()), seen(team.size());
+    team.run([&](unsigned worker) {
+        for (int pass = 0; pass < 50; ++pass) {
+            if (worker != 0) {
+                led.help(worker, barrier);
+                continue;
+            }
+            led.lead(team.size(), barrier, [&] {
+                for (int task = 0; task < pass % 3; ++task) {
+                    led.run([&](unsigned of_task) {
+                        ++calls[of_task];
+                        led.wait();
+                        seen[of_task] += std::accumulate(calls.begin(), calls.end(), 0);
+                    });
+                }
+            });
+        }
+    });
+    // 0, 1, 2, 0, 1, 2, …: 49 tasks, and after each of them all workers have been called equally often.
+    const int all = static_cast<int>(team.size()) * 49 * 50 / 2;
+    for (unsigned worker = 0; worker < team.size(); ++worker) {
+        EXPECT_EQ(calls[worker], 49);
+        EXPECT_EQ(seen[worker], all);
+    }
+}
+
+TEST(LedTeam, runs_tasks_of_the_calling_thread_alone) {
+    int calls = 0;
+    LedTeam().run([&](unsigned worker) { calls += worker == 0 ? 1 : 100; });
+    EXPECT_EQ(calls, 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Workers, Team, testing::Values(0u, 1u, 2u, 4u));
 
 TEST(Share, covers_everything_once_in_whole_units) {

@@ -143,20 +143,20 @@ void PairSearch::check_start(const Vec4* positions) {
     }
 }
 
-void PairSearch::measure(const Vec4* places, const Vec4* other_places, std::vector<float>& distance) {
+void PairSearch::measure(const Vec4* places, const Vec4* other_places, std::vector<float>& distance,
+                         const LedTeam& team) {
     distance.resize(tiles_.size());
     of_owned_.resize(tiles_.size());
-    for (std::size_t i = 0; i < tiles_.size(); ++i)
-        of_owned_[i] = loops_->measure(tiles_[i], &places->x, &other_places->x);
+    for_each_tile(team,
+                  [&](std::uint32_t i) { of_owned_[i] = loops_->measure(tiles_[i], &places->x, &other_places->x); });
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
         distance[i] = of_owned_[i];
         for (const std::uint32_t owner : owners_[i]) distance[i] = std::max(distance[i], of_owned_[owner]);
     }
 }
 
-bool PairSearch::find_outdated(const Vec4* positions, std::span<const float> reach, bool all) {
-    bool any = false;
-    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+bool PairSearch::find_outdated(const Vec4* positions, std::span<const float> reach, bool all, const LedTeam& team) {
+    for_each_tile(team, [&](std::uint32_t i) {
         TileState& tile = tiles_[i];
         bool outdated = all || tile.listed < 0 || remaining(tile) < 1;
         if (!outdated) {
@@ -166,14 +166,17 @@ bool PairSearch::find_outdated(const Vec4* positions, std::span<const float> rea
             outdated = !(deviation + (reach.empty() ? 0 : reach[i]) <= tile.slack);
         }
         outdated_[i] = outdated;
-        any = any || outdated || pairs_[i].until <= tick_;
-    }
-    return any;
+    });
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        if (outdated_[i] || pairs_[i].until <= tick_) return true;
+    return false;
 }
 
-void PairSearch::follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, std::span<const float> reach) {
-    for (std::size_t i = 0; i < tiles_.size(); ++i)
+void PairSearch::follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, std::span<const float> reach,
+                        const LedTeam& team) {
+    for_each_tile(team, [&](std::uint32_t i) {
         if (outdated_[i]) follow(tiles_[i], from, to, velocity, h, reach.empty() ? 0 : reach[i]);
+    });
 }
 
 void PairSearch::cover(const Vec4* from, const Vec4* to) {
@@ -268,11 +271,8 @@ void PairSearch::gather(TileState& tile) {
     loops_->gather(tile);
 }
 
-// For each outdated tile, the tiles whose boxes come near while the list can last.
-void PairSearch::find_near_tiles() {
-    const auto count = static_cast<std::uint32_t>(tiles_.size());
-    for (auto& list : near_) list.clear();
-    for (std::uint32_t i = 0; i < count; ++i) {
+void PairSearch::bound_tiles(const LedTeam& team) {
+    for_each_tile(team, [&](std::uint32_t i) {
         TileState& tile = tiles_[i];
         bound(tile);
         const std::array<float, 3> mean{tile.mean_velocity.x, tile.mean_velocity.y, tile.mean_velocity.z};
@@ -281,7 +281,13 @@ void PairSearch::find_near_tiles() {
             bounds_[3 + k][i] = tile.half[k];
             bounds_[6 + k][i] = mean[k];
         }
-    }
+    });
+}
+
+// For each outdated tile, the tiles whose boxes come near while the list can last.
+void PairSearch::find_near_tiles() {
+    const auto count = static_cast<std::uint32_t>(tiles_.size());
+    for (auto& list : near_) list.clear();
     const float apart = thickest_ + 2 * most_slack_, half_time = 0.5f * longest_lifetime;
     const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
         bool near = true;
@@ -468,21 +474,18 @@ void PairSearch::find_rows() {
         if (needed[i]) to_gather_.push_back(i);
 }
 
-void PairSearch::search(unsigned workers, RunOnWorkers run) {
+void PairSearch::search(const LedTeam& team) {
+    bound_tiles(team);
     find_near_tiles();
     find_rows();
-    while (workspaces_.size() < workers) workspaces_.push_back(std::make_unique<Workspace>());
-    run([&](unsigned worker, unsigned count) {
-        for (std::size_t i = worker; i < to_gather_.size(); i += count) gather(tiles_[to_gather_[i]]);
+    while (workspaces_.size() < team.size()) workspaces_.push_back(std::make_unique<Workspace>());
+    team.run([&](unsigned worker) {
+        for (std::size_t i = worker; i < to_gather_.size(); i += team.size()) gather(tiles_[to_gather_[i]]);
     });
     // Interleaved: neighboring rows have similar work.
-    run([&](unsigned worker, unsigned count) {
-        for (std::size_t i = worker; i < rows_.size(); i += count) list_row(rows_[i], *workspaces_[worker]);
+    team.run([&](unsigned worker) {
+        for (std::size_t i = worker; i < rows_.size(); i += team.size()) list_row(rows_[i], *workspaces_[worker]);
     });
-}
-
-void PairSearch::search() {
-    search(1, [](FunctionRef<void(unsigned, unsigned)> task) { task(0, 1); });
 }
 
 }  // namespace weft

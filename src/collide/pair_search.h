@@ -136,10 +136,6 @@ struct SearchScratch {
     std::uint32_t count = 0;
 };
 
-/// Calls a function once for each of several workers, which may run side by side. The function gets the number of the
-/// worker and the number of all.
-using RunOnWorkers = FunctionRef<void(FunctionRef<void(unsigned worker, unsigned workers)>)>;
-
 /// The inner loops, one table per instruction set.
 struct SearchLoops {
     /// Largest distance of a vertex from its listed trajectory, m. Not a number if a position is not.
@@ -156,6 +152,7 @@ struct SearchLoops {
                        std::array<PairList, 2>& lists);
 };
 
+/// Functions with a team share their work among its workers. The result does not depend on it.
 class PairSearch {
   public:
     /// Starts anew with these cloths, whose particles must not overlap. Keeps all lists if nothing differs.
@@ -166,29 +163,27 @@ class PairSearch {
     void check_start(const Vec4* positions);
 
     /// The largest distance between two places of a vertex of each tile, m.
-    void measure(const Vec4* places, const Vec4* other_places, std::vector<float>& distance);
+    void measure(const Vec4* places, const Vec4* other_places, std::vector<float>& distance, const LedTeam& team = {});
     /// Marks the tiles with a vertex that may be farther than its slack from its listed trajectory at the end of the
     /// current tick: as far as `reach` (m, by tile; empty: 0) from `positions`. Or marks all tiles. Returns whether
     /// there is anything to search.
-    bool find_outdated(const Vec4* positions, std::span<const float> reach, bool all = false);
+    bool find_outdated(const Vec4* positions, std::span<const float> reach, bool all = false, const LedTeam& team = {});
     /// Lists the marked tiles for motion from `from` to `to` within this tick, and on along `velocity` (m/s) times `h`
     /// if that is near. Covers all places within `reach` of `to` in this tick.
-    void follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, std::span<const float> reach);
+    void follow(const Vec4* from, const Vec4* to, const Vec4* velocity, float h, std::span<const float> reach,
+                const LedTeam& team = {});
     /// Lists the marked tiles for all places between `from` and `to`, for this tick only.
     void cover(const Vec4* from, const Vec4* to);
     /// Lists all pairs of which a tile is marked or whose list has expired. find_outdated() and follow() come before.
-    /// `workers`: how many `run` has. The lists do not depend on it.
-    void search(unsigned workers, RunOnWorkers run);
-    /// The same on the calling thread.
-    void search();
+    void search(const LedTeam& team = {});
     void next_tick();
 
-    /// Calls visit(tile, its pairs, block, approach) for all blocks. `approach`, in m: the distance of a listed pair is
-    /// now at least its distance when it was listed less this, for all places that its particles take in this tick up
-    /// to the positions of the last find_outdated().
+    /// Calls visit(tile, its pairs, block, approach) for the blocks of every so many tiles, from one on. `approach`, in
+    /// m: the distance of a listed pair is now at least its distance when it was listed less this, for all places that
+    /// its particles take in this tick up to the positions of the last find_outdated().
     template <class Visit>
-    void for_each_block(Visit&& visit) const {
-        for (std::uint32_t a = 0; a < pairs_.size(); ++a)
+    void for_each_block(unsigned first, unsigned every, Visit&& visit) const {
+        for (std::uint32_t a = first; a < pairs_.size(); a += every)
             for (const TilePairs::Block& block : pairs_[a].blocks)
                 visit(a, pairs_[a], block, approach(tiles_[a], tiles_[block.other], block));
     }
@@ -208,7 +203,15 @@ class PairSearch {
     void begin_list(TileState& tile, bool moving);
     void bound(TileState& tile);
     void gather(TileState& tile);
+    void bound_tiles(const LedTeam& team);
     void find_near_tiles();
+    template <class Work>
+    void for_each_tile(const LedTeam& team, Work&& work) {
+        team.run([&](unsigned worker) {
+            const Share mine = share_of(static_cast<std::uint32_t>(tiles_.size()), 1, worker, team.size());
+            for (std::uint32_t i = mine.begin; i < mine.end; ++i) work(i);
+        });
+    }
     int sort_tiles();
     float approach(const TileState& a, const TileState& b, const TilePairs::Block& block) const;
     TileReach reach(const TileState& a, const TileState& b, TilePairs::Block& block) const;

@@ -214,6 +214,25 @@ WEFT_FN vec3 gather_blocks(const float* base, const Index* index, real& fourth) 
     return vec3(r0, r1, r2);
 }
 
+// The same of blocks of integers.
+template <class Index>
+WEFT_FN vec3 gather_integer_blocks(const std::int32_t* base, const Index* index, real& fourth) {
+    real w;
+    const vec3 bits = gather_blocks(reinterpret_cast<const float*>(base), index, w);
+    const auto number = [](real x) {
+        return real(hn::ConvertTo(D(), hn::BitCast(hn::Rebind<std::int32_t, D>(), x.v)));
+    };
+    fourth = number(w);
+    return vec3(number(bits.x), number(bits.y), number(bits.z));
+}
+
+// Stores integral numbers as blocks of integers.
+WEFT_FN void store_integer_blocks(vec3 v, real fourth, std::int32_t* p) {
+    const hn::Rebind<std::int32_t, D> tag;
+    const auto integers = [&](real x) { return hn::ConvertTo(tag, x.v); };
+    hn::StoreInterleaved4(integers(v.x), integers(v.y), integers(v.z), integers(fourth), tag, p);
+}
+
 WEFT_FN void scatter_blocks(vec3 v, real fourth, float* base, const std::uint32_t* index) {
     V r0 = v.x.v, r1 = v.y.v, r2 = v.z.v, r3 = fourth.v;
     transpose_blocks(r0, r1, r2, r3);

@@ -47,3 +47,16 @@ WEFT_FN vec3 gather_blocks(const real* base, const Index* index, real& fourth) {
 WEFT_FN void scatter_blocks(vec3 v, real fourth, real* base, const std::uint32_t* index) {
     store_blocks(v, fourth, base + 4 * std::size_t{*index});
 }
+// Blocks of integers as numbers, and back.
+template <class Index>
+WEFT_FN vec3 gather_integer_blocks(const std::int32_t* base, const Index* index, real& fourth) {
+    const std::int32_t* block = base + 4 * std::size_t{*index};
+    fourth = static_cast<real>(block[3]);
+    return vec3(static_cast<real>(block[0]), static_cast<real>(block[1]), static_cast<real>(block[2]));
+}
+WEFT_FN void store_integer_blocks(vec3 v, real fourth, std::int32_t* p) {
+    p[0] = static_cast<std::int32_t>(v.x);
+    p[1] = static_cast<std::int32_t>(v.y);
+    p[2] = static_cast<std::int32_t>(v.z);
+    p[3] = static_cast<std::int32_t>(fourth);
+}

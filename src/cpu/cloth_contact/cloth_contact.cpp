@@ -44,26 +44,24 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
 
     const std::size_t size = world.size();
     if (part_.size() < size) {
-        for (auto* array : {&reached_, &asked_, &farthest_}) array->resize(size);
-        sums_.resize(size), share_.resize(size), part_.resize(size);
-        sent_back_.resize(size), marked_.resize(size), retreats_.resize(size), slide_.resize(size),
-            friction_.resize(size);
+        for (auto* array : {&reached_, &asked_, &farthest_, &friction_}) array->resize(size);
+        part_.resize(size), sent_back_.resize(size), retreats_.resize(size), slide_.resize(size);
     }
+    sums_.assign(size, {}), unscaled_.assign(size, {});
     begin_marks(step.input.contact_marks);
-    for (const ClothState* cloth : cloths_)
+    for (const ClothState* cloth : cloths_) {
+        const auto& friction = cloth->model->fabric.contact.friction;
         std::fill_n(friction_.begin() + cloth->base, cloth->model->particle_count,
-                    std::array{cloth->model->fabric.contact.friction[0], cloth->model->fabric.contact.friction[1]});
+                    Vec4{friction[0], friction[1], 0, 0});
+    }
 }
 
 void ClothContact::run(const ClothContactContext& context, const Pass& pass, Worker worker) {
-    if (worker.number != 0) return help(context, worker);
+    if (worker.number != 0) return team_.help(worker.number, context.barrier);
     cloths_ = context.cloths;
-    workers_ = worker.count, barrier_ = &context.barrier;
-    lead(pass);
-    if (workers_ == 1) return;
-    task_ = nullptr;
-    context.barrier();
-    context.barrier();  // all have seen that the pass is done, before the next one sets a task
+    workers_.resize(worker.count);
+    for (unsigned i = 0; i < worker.count; ++i) workers_[i].worker = i;
+    team_.lead(worker.count, context.barrier, [&] { lead(pass); });
 }
 
 void ClothContact::lead(const Pass& pass) {
@@ -79,218 +77,130 @@ void ClothContact::lead(const Pass& pass) {
     }
 }
 
-// Waits for tasks of the first worker until its pass is done.
-void ClothContact::help(const ClothContactContext& context, Worker worker) {
-    while (true) {
-        context.barrier();
-        const auto* const task = task_;
-        if (task) (*task)(worker.number, worker.count);
-        context.barrier();
-        if (!task) return;
-    }
-}
-
 void ClothContact::detect() {
     untangle();
     begin_reach();
     find_near_of_motion(search_always_);
     if (brake()) find_near_of_motion(false);
-    pushes_of_substep_.clear();
+    for (Mine& mine : workers_) mine.pushes.clear();
 }
 
 // For the motion to where the particles are now.
 void ClothContact::find_near_of_motion(bool search_always) {
-    for_each_particle([&](std::uint32_t p) { reached_[p] = x_[p]; });
-    if (search_.find_outdated(x_, reach_, search_always)) {
+    in_parallel([&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { reached_[p] = x_[p]; }); });
+    if (search_.find_outdated(x_, reach_, search_always, team_)) {
         follow_and_search();
         ++counts_.searches;
     }
     find_near();
 }
 
-bool ClothContact::comes_near(int kind, std::uint32_t pair) const {
-    const NearPairs& near = near_[kind];
-    scalar::vec3 from[4], moved[4];
-    for (int k = 0; k < 4; ++k) {
-        const std::uint32_t p = near.particle[k][pair];
-        from[k] = on_lane(start_[p].xyz());
-        moved[k] = on_lane(x_[p].xyz() - start_[p].xyz());
-    }
-    return scalar::comes_near(kind == 1, from[0], from[1], from[2], from[3], moved[0], moved[1], moved[2], moved[3],
-                              near.distance[pair], near.thickness[pair]);
-}
-
-void ClothContact::find_overlaps() {
-    for_each_particle([&](std::uint32_t p) { share_[p] = 0; });
-    for (int kind = 0; kind < 2; ++kind) {
-        NearPairs& near = near_[kind];
-        std::vector<Overlap>& overlaps = overlaps_[kind];
-        overlaps.clear();
-        loops_->find_overlaps[kind](near, &x_->x, contact_recovery_speed * h_, overlaps);
-        std::erase_if(overlaps, [&](const Overlap& overlap) { return !comes_near(kind, overlap.pair); });
-        for (const Overlap& overlap : overlaps) {
-            near.pushed[overlap.pair] = 1;
-            const auto particles = near.particles(overlap.pair);
-            const auto weights = weights_of(near, overlap.pair);
-            add_shares(particles, weights);
-        }
-    }
-}
-
-void ClothContact::add_shares(std::span<const std::uint32_t> particles, std::span<const float> weights) {
-    for (std::size_t k = 0; k < particles.size(); ++k)
-        share_[particles[k]] += static_cast<std::uint32_t>(scalar::to_weight_quanta(weights[k]));
-}
-
-// Sum of the weights of all pushes of a particle.
-float ClothContact::share(std::uint32_t p) const {
-    return static_cast<float>(share_[p]) * static_cast<float>(1 / WEFT_WEIGHT_QUANTA);
-}
-
-// Adds `change` times the weight and the inverse mass of each particle to the sums.
-void ClothContact::add_to_sums(std::span<const std::uint32_t> particles, std::span<const float> weights, Vec3 change,
-                               double quanta) {
-    for (std::size_t k = 0; k < particles.size(); ++k)
-        add_to_sum(particles[k], change * (weights[k] * x_[particles[k]].w), quanta);
-}
-
-void ClothContact::add_to_sum(std::uint32_t p, Vec3 change, double quanta) {
-    const auto scale = static_cast<float>(quanta);
-    sums_[p][0] += to_integer(scalar::to_contact_quanta(change.x, scale));
-    sums_[p][1] += to_integer(scalar::to_contact_quanta(change.y, scale));
-    sums_[p][2] += to_integer(scalar::to_contact_quanta(change.z, scale));
-}
-
-Vec3 ClothContact::sum(std::uint32_t p, double quanta) const {
-    const auto axis = [&](int k) {
-        return static_cast<float>(static_cast<std::int32_t>(sums_[p][k])) * static_cast<float>(1 / quanta);
-    };
-    return {axis(0), axis(1), axis(2)};
-}
-
-// The masses of the particles are split among the pairs that push them, alike on both sides of a pair, so that momentum
-// is kept. In full this is safe and slow. A part of it is enough for pairs that push in different directions; it moves
-// pairs that push alike too far, so their pushes are scaled in a second step.
-void ClothContact::find_pushes() {
-    for (int kind = 0; kind < 2; ++kind) {
-        const NearPairs& near = near_[kind];
-        for (Overlap& overlap : overlaps_[kind]) {
-            const auto particles = near.particles(overlap.pair);
-            const auto weights = weights_of(near, overlap.pair);
-            const Vec3 normal = normal_of(near, overlap.pair);
-            Vec3 moved{};
-            float resistance = 0;
-            for (int k = 0; k < 4; ++k) {
-                const std::uint32_t p = particles[k];
-                moved = moved + (x_[p].xyz() - start_[p].xyz()) * weights[k];
-                resistance += scalar::contact_resistance(x_[p].w, weights[k], share(p) * contact_split);
-            }
-            overlap.push = {};
-            if (!(resistance > 1e-12f)) continue;
-            const auto &one = friction_[particles[0]], &two = friction_[particles[3]];
-            const Vec3 rub = to_vec3(scalar::cloth_friction(on_lane(moved), on_lane(normal), overlap.depth,
-                                                            std::sqrt(one[0] * two[0]), std::sqrt(one[1] * two[1])));
-            overlap.push = (normal * overlap.depth - rub) * (1 / resistance);
-        }
-    }
-}
-
-void ClothContact::add_pushes() {
-    for (int kind = 0; kind < 2; ++kind) {
-        for (const Overlap& overlap : overlaps_[kind]) {
-            const auto particles = near_[kind].particles(overlap.pair);
-            const auto weights = weights_of(near_[kind], overlap.pair);
-            add_to_sums(particles, weights, overlap.push, WEFT_PUSH_QUANTA_PER_METER);
-        }
-    }
-}
-
-void ClothContact::scale_pushes() {
-    for (int kind = 0; kind < 2; ++kind) {
-        for (Overlap& overlap : overlaps_[kind]) {
-            const auto particles = near_[kind].particles(overlap.pair);
-            const auto weights = weights_of(near_[kind], overlap.pair);
-            const Vec3 normal = normal_of(near_[kind], overlap.pair);
-            float opened = 0;
-            for (int k = 0; k < 4; ++k) {
-                const Vec3 push = sum(particles[k], WEFT_PUSH_QUANTA_PER_METER);
-                opened += weights[k] * (normal.x * push.x + normal.y * push.y + normal.z * push.z);
-            }
-            if (opened > overlap.depth) overlap.push = overlap.push * (overlap.depth / opened);
-        }
-    }
-    for_each_particle([&](std::uint32_t p) { sums_[p] = {}; });
-}
-
-void ClothContact::move_by_pushes() {
-    for_each_particle([&](std::uint32_t p) {
-        if (share_[p] == 0) return;
-        set_place(x_[p], x_[p].xyz() + sum(p, WEFT_PUSH_QUANTA_PER_METER));
-        sums_[p] = {};
-    });
-    keep_in_reach();
-}
-
-// What contact moves stays within what the lists cover.
-void ClothContact::keep_in_reach() {
-    for_each_particle([&](std::uint32_t p) {
-        const Vec3 away = x_[p].xyz() - reached_[p].xyz();
-        const float length2 = squared(away);
-        if (length2 > cap_ * cap_) set_place(x_[p], reached_[p].xyz() + away * (cap_ / std::sqrt(length2)));
-    });
-}
-
 void ClothContact::push(const Pass& pass) {
-    const auto sweep = [&] {
-        find_overlaps();
-        find_pushes();
-        add_pushes();
-        scale_pushes();
-        add_pushes();
-        move_by_pushes();
-    };
-    if (pass.batch > 0) keep_in_reach();
+    if (pass.batch > 0)
+        in_parallel([&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { keep_in_reach(p); }); });
     extend_reach();
     sweep();
     if (pass.batch + 1 < contact_rounds) return;
-    counts_.contacts = overlaps_[0].size() + overlaps_[1].size();
+    counts_.contacts = 0;
+    for (const Mine& mine : workers_) counts_.contacts += mine.overlaps.count;
     // Where the limit would have to act, more sweeps are the better answer.
     for (int extra = 0; extra < contact_extra_sweeps; ++extra) {
         extend_reach();
         if (!any_lost()) break;
         sweep();
     }
-    for (const NearPairs& near : near_) {
-        for (std::uint32_t i = 0; i < near.count; ++i) {
-            if (near.pushed[i])
-                pushes_of_substep_.push_back({near.particles(i), weights_of(near, i), normal_of(near, i)});
+    in_parallel([&](Mine& mine) {
+        for (const NearPairs& near : mine.near) {
+            for (std::uint32_t i = 0; i < near.count; ++i)
+                if (near.pushed[i]) mine.pushes.push_back({near.particles(i), weights_of(near, i), normal_of(near, i)});
         }
-    }
+    });
+}
+
+// Pushes overlapping pairs apart once.
+void ClothContact::sweep() {
+    const SweepView view{&start_->x,      &x_->x,           &friction_.data()->x,
+                         sums_.data(),    unscaled_.data(), contact_recovery_speed * h_,
+                         team_.size() > 1};
+    in_parallel([&](Mine& mine) {
+        mine.overlaps.count = 0;
+        for (int kind = 0; kind < 2; ++kind) loops_->find_overlaps[kind](mine.near[kind], view, mine.overlaps);
+        mine.overlaps.pad(cloths_.front()->base);
+        team_.wait();
+        loops_->find_pushes(mine.overlaps, view);
+        team_.wait();
+        loops_->scale_pushes(mine.overlaps, view);
+        team_.wait();
+        for_each_particle(mine, [&](std::uint32_t p) {
+            if (sums_[p].share > 0) {
+                set_place(x_[p], x_[p].xyz() + sum(p, WEFT_PUSH_QUANTA_PER_METER));
+                sums_[p] = {}, unscaled_[p] = {};
+            }
+            keep_in_reach(p);
+        });
+    });
+}
+
+// What contact moves stays within what the lists cover.
+void ClothContact::keep_in_reach(std::uint32_t p) {
+    const Vec3 away = x_[p].xyz() - reached_[p].xyz();
+    const float length2 = squared(away);
+    if (length2 > cap_ * cap_) set_place(x_[p], reached_[p].xyz() + away * (cap_ / std::sqrt(length2)));
+}
+
+void ClothContact::add_share(std::uint32_t p, float weight) {
+    const auto quanta = static_cast<std::uint32_t>(scalar::to_weight_quanta(weight));
+    add_quanta(sums_[p].share, quanta, team_.size() > 1);
+}
+
+// Sum of the weights of all pushes of a particle.
+float ClothContact::share(std::uint32_t p) const {
+    return static_cast<float>(sums_[p].share) * static_cast<float>(1 / WEFT_WEIGHT_QUANTA);
+}
+
+void ClothContact::add_to_sum(std::uint32_t p, Vec3 change, double quanta) {
+    const auto scale = static_cast<float>(quanta);
+    const std::array axes{change.x, change.y, change.z};
+    for (std::size_t k = 0; k < 3; ++k)
+        add_quanta(sums_[p].push[k], to_integer(scalar::to_contact_quanta(axes[k], scale)), team_.size() > 1);
+}
+
+Vec3 ClothContact::sum(std::uint32_t p, double quanta) const {
+    const auto axis = [&](std::size_t k) {
+        return static_cast<float>(static_cast<std::int32_t>(sums_[p].push[k])) * static_cast<float>(1 / quanta);
+    };
+    return {axis(0), axis(1), axis(2)};
 }
 
 // Takes the velocity with which pushed pairs separate, so that contact does not make cloth bounce. Masses are split in
 // full, so that one pass never takes too much.
 void ClothContact::separate() {
-    for_each_particle([&](std::uint32_t p) { share_[p] = 0; });
-    const auto for_each_pushed = [&](auto&& visit) {
-        for (const Pushed& pair : pushes_of_substep_) visit(pair.particles, pair.weights, pair.normal);
-    };
-    for_each_pushed([&](const auto& particles, const auto& weights, Vec3) { add_shares(particles, weights); });
-    for_each_pushed([&](const auto& particles, const auto& weights, Vec3 normal) {
-        float speed = 0, resistance = 0;
-        for (int k = 0; k < 4; ++k) {
-            const std::uint32_t p = particles[k];
-            const Vec3 v = velocity_[p].xyz();
-            speed += weights[k] * (normal.x * v.x + normal.y * v.y + normal.z * v.z);
-            resistance += scalar::contact_resistance(x_[p].w, weights[k], share(p));
+    in_parallel([&](Mine& mine) {
+        for (const Pushed& pair : mine.pushes)
+            for (int k = 0; k < 4; ++k) add_share(pair.particles[k], pair.weights[k]);
+        team_.wait();
+        // Reads velocities and shares, and adds to sums: no worker reads what another one writes.
+        for (const Pushed& pair : mine.pushes) {
+            float speed = 0, resistance = 0;
+            for (int k = 0; k < 4; ++k) {
+                const std::uint32_t p = pair.particles[k];
+                const Vec3 v = velocity_[p].xyz();
+                speed += pair.weights[k] * (pair.normal.x * v.x + pair.normal.y * v.y + pair.normal.z * v.z);
+                resistance += scalar::contact_resistance(x_[p].w, pair.weights[k], share(p));
+            }
+            if (!(speed > 0) || !(resistance > 1e-12f)) continue;
+            const Vec3 change = pair.normal * -(speed / resistance);
+            for (int k = 0; k < 4; ++k) {
+                const std::uint32_t p = pair.particles[k];
+                add_to_sum(p, change * (pair.weights[k] * x_[p].w), WEFT_SPEED_QUANTA_PER_METER);
+            }
         }
-        if (!(speed > 0) || !(resistance > 1e-12f)) return;
-        add_to_sums(particles, weights, normal * -(speed / resistance), WEFT_SPEED_QUANTA_PER_METER);
-    });
-    for_each_particle([&](std::uint32_t p) {
-        if (share_[p] == 0) return;
-        set_place(velocity_[p], velocity_[p].xyz() + sum(p, WEFT_SPEED_QUANTA_PER_METER));
-        sums_[p] = {};
+        team_.wait();
+        for_each_particle(mine, [&](std::uint32_t p) {
+            if (sums_[p].share == 0) return;
+            set_place(velocity_[p], velocity_[p].xyz() + sum(p, WEFT_SPEED_QUANTA_PER_METER));
+            sums_[p] = {};
+        });
     });
 }
 

@@ -2,6 +2,7 @@
 // crossings (law: physics/cloth_contact/cloth_contact.md). One object per island.
 #pragma once
 
+#include "base/workers.h"
 #include "cpu/cloth_contact/contact_loops.h"
 #include "cpu/cloth_run.h"
 #include "solver/state/cloth_contact_counts.h"
@@ -26,7 +27,7 @@ class ClothContact {
     /// Allocates for the island's cloths. Keeps the lists if they are the same cloths as in the frame before.
     void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
                  const std::shared_ptr<const Seams>& seams);
-    /// All workers call it. The first one runs the pass, and the others help it with the search.
+    /// All workers call it. The first one decides what to do, and all do it.
     void run(const ClothContactContext& context, const Pass& pass, Worker worker);
 
     /// Of the frame.
@@ -36,83 +37,93 @@ class ClothContact {
     void add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const;
 
   private:
+    struct Mine;
     void lead(const Pass& pass);
-    void help(const ClothContactContext& context, Worker worker);
     void detect();
     void find_near_of_motion(bool search_always);
+    void push(const Pass& pass);
+    void sweep();
+    void keep_in_reach(std::uint32_t p);
+    void add_share(std::uint32_t p, float weight);
+    float share(std::uint32_t p) const;
+    void add_to_sum(std::uint32_t p, Vec3 change, double quanta);
+    Vec3 sum(std::uint32_t p, double quanta) const;
+    void separate();
     // near_pairs.cpp
     void begin_reach();
     void follow_and_search();
-    void search();
     void find_near();
     void add_near_pairs();
+    void add_near_pairs(Mine& mine) const;
     bool is_relisted(std::uint32_t a, std::uint32_t b) const;
     void extend_reach(float more = 0);
     std::vector<std::array<std::uint32_t, 4>> remove_relisted(NearPairs& near) const;
-    void mark_pushed(NearPairs& near, std::uint32_t begin, std::vector<std::array<std::uint32_t, 4>>& pairs);
-
-    void push(const Pass& pass);
-    void keep_in_reach();
-    void find_overlaps();
-    void find_pushes();
-    void add_pushes();
-    void scale_pushes();
-    void move_by_pushes();
-    bool comes_near(int kind, std::uint32_t pair) const;
-    void add_shares(std::span<const std::uint32_t> particles, std::span<const float> weights);
-    float share(std::uint32_t p) const;
-    void add_to_sum(std::uint32_t p, Vec3 change, double quanta);
-    void add_to_sums(std::span<const std::uint32_t> particles, std::span<const float> weights, Vec3 change,
-                     double quanta);
-    Vec3 sum(std::uint32_t p, double quanta) const;
+    void extend_near_pairs(bool relisted);
     // limit.cpp
     struct MovedPair;
-    MovedPair moved_pair(int kind, std::uint32_t pair) const;
-    float part_before_brake_depth(int kind, std::uint32_t pair) const;
+    MovedPair moved_pair(const NearPairs& near, int kind, std::uint32_t pair) const;
+    float part_before_brake_depth(const NearPairs& near, int kind, std::uint32_t pair) const;
     template <class Visit>
-    void for_each_lost(float depth, Visit&& visit);
+    void for_each_lost(Mine& mine, float depth, Visit&& visit) const;
+    bool any_found() const;
     bool any_lost();
     bool brake();
     void limit();
     void send_back();
-    bool retreat(const MovedPair& pair, bool all);
+    bool retreat(Mine& mine, const MovedPair& pair, bool all);
     void set_back(std::uint32_t p);
     bool any_uncovered();
+    void restart_limit();
+    void stay_at_start();
+    void count_limited_particles();
     // contact_marks.cpp
     void begin_marks(bool record);
-    void mark_limited_particles();
     void mark_stuck(std::span<const std::uint32_t> particles);
     // untangle.cpp
     void untangle();
-    void drop_pairs_without_side(int kind, std::uint32_t begin);
-    void separate();
+    void drop_pairs_without_side(NearPairs& near, int kind, std::uint32_t begin) const;
+
+    /// Calls work(what the worker has of the pairs) on all workers at the same time.
+    template <class Work>
+    void in_parallel(Work&& work) {
+        team_.run([&](unsigned worker) { work(workers_[worker]); });
+    }
+    /// Of all particles, those that the worker processes.
     template <class Visit>
-    void for_each_particle(Visit&& visit) const {
+    void for_each_particle(const Mine& mine, Visit&& visit) const {
+        const Worker worker{mine.worker, team_.size()};
         for (const ClothState* cloth : cloths_) {
             if (!cloth->model->tiles) continue;
-            for (std::uint32_t p = cloth->base, end = p + cloth->model->particle_count; p < end; ++p) visit(p);
+            const Share particles = worker.of(cloth->model->particle_count);
+            for (std::uint32_t p = particles.begin; p < particles.end; ++p) visit(cloth->base + p);
         }
     }
 
-    bool search_always_;
-    const ContactLoops* loops_ = nullptr;
-    PairSearch search_;
-    std::array<Candidates, 2> candidates_;  // by kind
-    std::array<NearPairs, 2> near_;         // by kind
-    // By tile, m: how far lists and near pairs allow particles to move from reached_, and did before; how far they are
-    // from there, and were at most.
-    std::vector<float> reach_, before_, moved_, most_moved_;
     struct Pushed {
         std::array<std::uint32_t, 4> particles;
         std::array<float, 4> weights;
         Vec3 normal;
     };
-    std::vector<Pushed> pushes_of_substep_;
-
-    // Of the pass.
-    unsigned workers_ = 1;
-    const FunctionRef<void()>* barrier_ = nullptr;
-    const FunctionRef<void(unsigned, unsigned)>* task_ = nullptr;  // for all workers; null: the pass is done
+    bool search_always_;
+    const ContactLoops* loops_ = nullptr;
+    PairSearch search_;
+    // What one worker has of the pairs: those of every so many rows of tiles.
+    struct Mine {
+        unsigned worker = 0;
+        std::array<Candidates, 2> candidates;  // by kind
+        std::array<NearPairs, 2> near;         // by kind
+        Overlaps overlaps;
+        std::vector<Pushed> pushes;  // of the substep
+        std::vector<std::uint32_t> lost, to_send_back;
+        bool found = false;                    // of the last loop that looks for something
+        std::uint64_t stuck = 0, limited = 0;  // pairs, particles
+        std::uint32_t least_stuck = 0;         // particle
+    };
+    std::vector<Mine> workers_;
+    // By tile, m: how far lists and near pairs allow particles to move from reached_, and did before; how far they are
+    // from there, and were at most.
+    std::vector<float> reach_, before_, moved_, most_moved_;
+    LedTeam team_;
 
     // Of the frame.
     std::span<ClothState* const> cloths_;
@@ -127,20 +138,15 @@ class ClothContact {
     std::vector<std::uint32_t> marks_;  // by particle of the world: ContactMark, without mark_touches
 
     // By particle of the world.
-    AlignedVector<Vec4> reached_;                     // where the constraints left the particles
-    AlignedVector<Vec4> asked_;                       // before the limit
-    AlignedVector<Vec4> farthest_;                    // from the listed trajectories
-    std::vector<std::array<std::uint32_t, 3>> sums_;  // of pushes or velocities, in quanta
-    std::vector<std::uint32_t> share_;                // sum of the weights of all pairs that push, in quanta
-    std::vector<float> part_;                         // of its motion that the brake leaves to the particle
-    std::vector<Vec3> slide_;                         // motion that the limit leaves to a particle that slides
-    std::vector<std::uint8_t> retreats_;              // how often the limit has sent the particle back
-    std::vector<std::uint8_t> sent_back_, marked_;
-    std::vector<std::array<float, 2>> friction_;  // static and kinetic, by particle of the world
-
-    std::array<std::vector<Overlap>, 2> overlaps_;
-    std::vector<std::uint32_t> lost_;
-    std::vector<std::uint32_t> to_send_back_;
+    AlignedVector<Vec4> reached_;                 // where the constraints left the particles
+    AlignedVector<Vec4> asked_;                   // before the limit
+    AlignedVector<Vec4> farthest_;                // from the listed trajectories
+    AlignedVector<ContactSums> sums_, unscaled_;  // 0 between two uses
+    std::vector<float> part_;                     // of its motion that the brake leaves to the particle
+    std::vector<Vec3> slide_;                     // motion that the limit leaves to a particle that slides
+    std::vector<std::uint8_t> retreats_;          // how often the limit has sent the particle back
+    std::vector<std::uint8_t> sent_back_;
+    AlignedVector<Vec4> friction_;  // static and kinetic
 };
 
 }  // namespace weft::cpu

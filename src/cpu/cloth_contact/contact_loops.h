@@ -4,6 +4,7 @@
 #include "collide/pair_search.h"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -55,17 +56,55 @@ struct NearPairs {
     void pad(std::uint32_t with_particle);
 };
 
+/// Whether a pair comes within its thickness while its particles move straight from `start` to `positions`, blocks of
+/// four.
+bool comes_near(const NearPairs&, PairKind, std::uint32_t pair, const float* start, const float* positions);
+
 struct NearInput {
     const float* start;    ///< blocks of four: positions at the start of the substep
     const float* reached;  ///< where the constraints left the particles
     float floor;           ///< least gap that a pair keeps, as a part of its thickness
 };
 
-/// A pair that has to be pushed apart.
-struct Overlap {
-    std::uint32_t pair;
-    float depth;     ///< m, > 0
-    Vec3 push = {};  ///< kg·m: what one unit of inverse mass moves at weight 1
+/// Pairs of both kinds that a sweep pushes apart. Padded to whole packets of lanes. In any order.
+struct Overlaps {
+    AlignedVector<std::uint32_t> pair;                     ///< number among the near pairs of its kind
+    std::array<AlignedVector<std::uint32_t>, 4> particle;  ///< in the world
+    std::array<AlignedVector<float>, 4> weight;            ///< of the closest points
+    std::array<AlignedVector<float>, 4> give;              ///< 1/kg: the weights times the inverse masses
+    std::array<AlignedVector<float>, 3> normal;
+    AlignedVector<float> depth;                ///< m, > 0
+    AlignedVector<float> distance, thickness;  ///< m, at the start; only while overlaps are found
+    std::array<AlignedVector<float>, 3> push;  ///< kg·m: what one unit of inverse mass moves at weight 1
+    std::uint32_t count = 0;
+
+    void reserve(std::uint32_t pairs);
+    void pad(std::uint32_t with_particle);
+};
+
+/// Sums over the pairs of a particle, in quanta (cloth_contact.kernel.h): of pushes or velocities by axis, and of the
+/// weights. They wrap around.
+struct alignas(16) ContactSums {
+    std::array<std::uint32_t, 3> push{};
+    std::uint32_t share = 0;
+};
+
+/// Adds to a sum. `concurrent`: other threads may do so too.
+inline void add_quanta(std::uint32_t& sum, std::uint32_t quanta, bool concurrent) {
+    if (concurrent)
+        std::atomic_ref(sum).fetch_add(quanta, std::memory_order_relaxed);
+    else
+        sum += quanta;
+}
+
+/// What the loops over overlaps read and add to, by particle of the world.
+struct SweepView {
+    const float *start, *positions;  ///< blocks of four: position and inverse mass
+    const float* friction;           ///< blocks of four: static, kinetic
+    ContactSums* sums;               ///< of the weights, and of the scaled pushes
+    ContactSums* unscaled;           ///< of the pushes before that: no worker reads what another one adds to
+    float recovery;                  ///< m: the most of an overlap from before that a substep removes
+    bool concurrent;                 ///< whether other workers add to the same sums
 };
 
 /// One table per instruction set.
@@ -75,9 +114,11 @@ struct ContactLoops {
     void (*choose)(const PairList&, std::uint32_t begin, std::uint32_t count, const ChosenBlock&, Candidates&);
     /// Appends the candidates that contact or the limit may have to act on, and had not before.
     std::array<void (*)(const Candidates&, const NearInput&, NearPairs&), 2> find_near;
-    /// Appends the pairs that overlap at `positions`, in order. `recovery`: m.
-    std::array<void (*)(const NearPairs&, const float* positions, float recovery, std::vector<Overlap>&), 2>
-        find_overlaps;
+    /// Appends the pairs that overlap, and adds up the weights of their particles.
+    std::array<void (*)(NearPairs&, const SweepView&, Overlaps&), 2> find_overlaps;
+    /// Finds the pushes of all overlaps and adds them up; scales those that open too far together, and adds them up.
+    void (*find_pushes)(Overlaps&, const SweepView&);
+    void (*scale_pushes)(Overlaps&, const SweepView&);
     /// Appends the pairs that lose their gap, and `depth` m more, at `positions`, in order.
     std::array<
         void (*)(const NearPairs&, const float* positions, float floor, float depth, std::vector<std::uint32_t>&), 2>

@@ -82,18 +82,167 @@ WEFT_FN void load_along(const NearPairs& near, std::uint32_t i, const float* pos
         along[k] = dot(gather_blocks(positions, &near.particle[k][i], w) - first, normal);
 }
 
-inline void find_overlapping_pairs(const NearPairs& near, const float* positions, float recovery,
-                                   std::vector<Overlap>& overlaps) {
+// Whether pairs come within their thickness while their particles move straight from `start` to `positions`: comes_near()
+// on many lanes.
+template <PairKind kind>
+WEFT_FN mask pairs_come_near(const SweepView& view, const std::array<const std::uint32_t*, 4>& particle, real distance,
+                             real thickness) {
+    vec3 x[4], moved[4];
+    real w;
+    for (int k = 0; k < 4; ++k) {
+        x[k] = gather_blocks(view.start, particle[k], w);
+        moved[k] = gather_blocks(view.positions, particle[k], w) - x[k];
+    }
+    real fastest2(0.0f);
+    for (int k = 0; k < sides<kind>[0]; ++k)
+        for (int l = sides<kind>[0]; l < 4; ++l) fastest2 = max(fastest2, dot(moved[k] - moved[l], moved[k] - moved[l]));
+    const real fastest = sqrt(fastest2);
+    real time(0.0f);
+    for (int step = 0; step < 64; ++step) {
+        const mask goes_on = distance > thickness && time < real(1.0f);
+        if (!any(goes_on)) break;
+        const real later = min(time + (distance - real(0.5f) * thickness) / fastest, real(1.0f));
+        time = select(goes_on, later, time);
+        vec3 at[4];
+        for (int k = 0; k < 4; ++k) at[k] = x[k] + moved[k] * time;
+        distance = select(goes_on, closest<kind>(at).distance, distance);
+    }
+    return !(distance > thickness) || time < real(1.0f);
+}
+
+// Of the overlaps from number `begin` on, keeps those that come near.
+template <PairKind kind>
+inline void keep_pairs_that_come_near(const SweepView& view, Overlaps& overlaps, std::uint32_t begin) {
+    std::uint32_t to = begin;
+    for (std::uint32_t i = begin; i < overlaps.count; i += lane_count) {
+        const real distance = load(&overlaps.distance[i]), thickness = load(&overlaps.thickness[i]);
+        const mask starts_near = !(distance > thickness);
+        std::uint32_t bits = bits_of(starts_near) & lanes_before(i, overlaps.count);
+        if (any(!starts_near)) {
+            const auto& p = overlaps.particle;
+            bits = bits_of(pairs_come_near<kind>(view, {&p[0][i], &p[1][i], &p[2][i], &p[3][i]}, distance, thickness)) &
+                   lanes_before(i, overlaps.count);
+        }
+        const mask near = mask_of(bits);
+        for (auto* array : {&overlaps.pair, &overlaps.particle[0], &overlaps.particle[1], &overlaps.particle[2], &overlaps.particle[3]})
+            compress(&(*array)[i], near, &(*array)[to]);
+        for (auto* arrays : {&overlaps.weight[0], &overlaps.weight[1], &overlaps.weight[2], &overlaps.weight[3],
+                             &overlaps.normal[0], &overlaps.normal[1], &overlaps.normal[2], &overlaps.depth})
+            compress(load(&(*arrays)[i]), near, &(*arrays)[to]);
+        to += static_cast<std::uint32_t>(std::popcount(bits));
+    }
+    overlaps.count = to;
+}
+
+template <PairKind kind>
+inline void find_overlapping_pairs(NearPairs& near, const SweepView& view, Overlaps& overlaps) {
+    overlaps.reserve(overlaps.count + near.count);
+    const std::uint32_t begin = overlaps.count;
+    alignas(64) std::uint32_t numbers[16];
     for (std::uint32_t i = 0; i < near.count; i += lane_count) {
         real along[4], gap(0.0f);
-        load_along(near, i, positions, along);
+        load_along(near, i, view.positions, along);
         for (int k = 1; k < 4; ++k) gap = gap + load(&near.weight[k][i]) * along[k];
-        const real overlap = cloth_overlap(gap, load(&near.distance[i]), load(&near.thickness[i]), real(recovery));
+        const real distance = load(&near.distance[i]), thickness = load(&near.thickness[i]);
+        const real overlap = cloth_overlap(gap, distance, thickness, real(view.recovery));
         const std::uint32_t bits = bits_of(overlap < real(0.0f)) & lanes_before(i, near.count);
         if (bits == 0) continue;
-        alignas(64) float lanes[16];
-        store(-overlap, lanes);
-        for_each_bit(bits, [&](std::uint32_t lane) { overlaps.push_back({i + lane, lanes[lane], {}}); });
+        const mask found = mask_of(bits);
+        const std::uint32_t to = overlaps.count;
+        for (std::uint32_t lane = 0; lane < lane_count; ++lane) numbers[lane] = i + lane;
+        compress(numbers, found, &overlaps.pair[to]);
+        for (int k = 0; k < 4; ++k) {
+            compress(&near.particle[k][i], found, &overlaps.particle[k][to]);
+            compress(load(&near.weight[k][i]), found, &overlaps.weight[k][to]);
+        }
+        for (int k = 0; k < 3; ++k) compress(load(&near.normal[k][i]), found, &overlaps.normal[k][to]);
+        compress(distance, found, &overlaps.distance[to]);
+        compress(thickness, found, &overlaps.thickness[to]);
+        compress(-overlap, found, &overlaps.depth[to]);
+        overlaps.count += static_cast<std::uint32_t>(std::popcount(bits));
+    }
+    for (int k = 0; k < 4; ++k) std::fill_n(&overlaps.particle[k][overlaps.count], 16, near.particle[k][0]);
+    keep_pairs_that_come_near<kind>(view, overlaps, begin);
+    for (std::uint32_t i = begin; i < overlaps.count; ++i) near.pushed[overlaps.pair[i]] = 1;
+    for (int k = 0; k < 4; ++k) {
+        for (std::uint32_t i = begin; i < overlaps.count; i += lane_count) {
+            alignas(64) float shares[16];
+            store(to_weight_quanta(load(&overlaps.weight[k][i])), shares);
+            const std::uint32_t end = std::min<std::uint32_t>(lane_count, overlaps.count - i);
+            for (std::uint32_t lane = 0; lane < end; ++lane)
+                add_quanta(view.sums[overlaps.particle[k][i + lane]].share, static_cast<std::uint32_t>(shares[lane]),
+                           view.concurrent);
+        }
+    }
+}
+
+// Adds the pushes of a packet of overlaps to the sums of their particles.
+WEFT_FN void add_pushes(const Overlaps& overlaps, std::uint32_t i, vec3 push, ContactSums* sums, bool concurrent) {
+    const real scale(static_cast<float>(WEFT_PUSH_QUANTA_PER_METER));
+    const std::uint32_t used = lanes_before(i, overlaps.count);
+    for (int k = 0; k < 4; ++k) {
+        const vec3 change = push * load(&overlaps.give[k][i]);
+        alignas(64) std::array<std::array<std::int32_t, 4>, lane_count> quanta;
+        store_integer_blocks(vec3(to_contact_quanta(change.x, scale), to_contact_quanta(change.y, scale),
+                                  to_contact_quanta(change.z, scale)),
+                             real(0.0f), quanta[0].data());
+        for (int lane = 0; lane < lane_count; ++lane) {
+            if (!(used >> lane & 1)) break;
+            ContactSums& of_particle = sums[overlaps.particle[k][i + static_cast<std::uint32_t>(lane)]];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                add_quanta(of_particle.push[axis], static_cast<std::uint32_t>(quanta[lane][axis]), concurrent);
+        }
+    }
+}
+
+// The masses of the particles are split among the pairs that push them, alike on both sides of a pair, so that momentum
+// is kept. In full this is safe and slow. A part of it is enough for pairs that push in different directions; it moves
+// pairs that push alike too far, so their pushes are scaled in a second step.
+inline void find_pushes(Overlaps& overlaps, const SweepView& view) {
+    const auto* sums = reinterpret_cast<const std::int32_t*>(view.sums);
+    for (std::uint32_t i = 0; i < overlaps.count; i += lane_count) {
+        const vec3 normal(load(&overlaps.normal[0][i]), load(&overlaps.normal[1][i]), load(&overlaps.normal[2][i]));
+        const real depth = load(&overlaps.depth[i]);
+        vec3 moved(real(0.0f));
+        real resistance(0.0f);
+        for (int k = 0; k < 4; ++k) {
+            const std::uint32_t* particle = &overlaps.particle[k][i];
+            const real weight = load(&overlaps.weight[k][i]);
+            real inverse_mass, unused, share;
+            const vec3 x = gather_blocks(view.positions, particle, inverse_mass);
+            moved = moved + (x - gather_blocks(view.start, particle, unused)) * weight;
+            (void)gather_integer_blocks(sums, particle, share);
+            share = share * real(static_cast<float>(1 / WEFT_WEIGHT_QUANTA));
+            resistance = resistance + contact_resistance(inverse_mass, weight, share * real(contact_split));
+            store(weight * inverse_mass, &overlaps.give[k][i]);
+        }
+        real unused;
+        const vec3 one = gather_blocks(view.friction, &overlaps.particle[0][i], unused);
+        const vec3 two = gather_blocks(view.friction, &overlaps.particle[3][i], unused);
+        const vec3 rub = cloth_friction(moved, normal, depth, sqrt(one.x * two.x), sqrt(one.y * two.y));
+        const mask moves = resistance > real(1e-12f);
+        const real scale = real(1.0f) / select(moves, resistance, real(1.0f));
+        const vec3 push = select(moves, (normal * depth - rub) * scale, vec3(real(0.0f)));
+        store(push.x, &overlaps.push[0][i]), store(push.y, &overlaps.push[1][i]), store(push.z, &overlaps.push[2][i]);
+        add_pushes(overlaps, i, push, view.unscaled, view.concurrent);
+    }
+}
+
+inline void scale_pushes(Overlaps& overlaps, const SweepView& view) {
+    const auto* unscaled = reinterpret_cast<const std::int32_t*>(view.unscaled);
+    const real meters(static_cast<float>(1 / WEFT_PUSH_QUANTA_PER_METER));
+    for (std::uint32_t i = 0; i < overlaps.count; i += lane_count) {
+        const vec3 normal(load(&overlaps.normal[0][i]), load(&overlaps.normal[1][i]), load(&overlaps.normal[2][i]));
+        const real depth = load(&overlaps.depth[i]);
+        real opened(0.0f);
+        for (int k = 0; k < 4; ++k) {
+            real unused;
+            const vec3 push = gather_integer_blocks(unscaled, &overlaps.particle[k][i], unused) * meters;
+            opened = opened + load(&overlaps.weight[k][i]) * dot(normal, push);
+        }
+        const real part = select(opened > depth, depth / select(opened > depth, opened, real(1.0f)), real(1.0f));
+        const vec3 push(load(&overlaps.push[0][i]), load(&overlaps.push[1][i]), load(&overlaps.push[2][i]));
+        add_pushes(overlaps, i, push * part, view.sums, view.concurrent);
     }
 }
 
@@ -113,6 +262,8 @@ constexpr ContactLoops contact_loops{
     search_loops,
     choose_pairs,
     {find_near_pairs<PairKind::vertex_triangle>, find_near_pairs<PairKind::edge_edge>},
-    {find_overlapping_pairs, find_overlapping_pairs},
+    {find_overlapping_pairs<PairKind::vertex_triangle>, find_overlapping_pairs<PairKind::edge_edge>},
+    find_pushes,
+    scale_pushes,
     {find_lost_pairs<PairKind::vertex_triangle>, find_lost_pairs<PairKind::edge_edge>},
 };

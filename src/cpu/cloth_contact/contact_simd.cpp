@@ -8,6 +8,7 @@
 
 #include "cpu/cloth_contact/contact_loops.h"
 #include "physics/constraints.data.h"
+#include "solver/plan/cloth_contact_numbers.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,14 +2,24 @@
 #include "cpu/cloth_contact/cloth_contact.h"
 #include "cpu/cloth_contact/pair_math.h"
 #include "solver/plan/cloth_contact_numbers.h"
+#include "solver/state/contact_marks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace weft::cpu {
 namespace {
 
 constexpr std::uint32_t most_retreats = limit_slides + limit_halvings + 1;
+
+// Lowers a number that other workers may lower too.
+void lower(float& number, float to) {
+    const std::atomic_ref atomic(number);
+    float now = atomic.load(std::memory_order_relaxed);
+    while (to < now && !atomic.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
+    }
+}
 
 }  // namespace
 
@@ -20,8 +30,7 @@ struct ClothContact::MovedPair {
     std::array<float, 4> least;  // by particle: how far it has to move along `away`, m
 };
 
-ClothContact::MovedPair ClothContact::moved_pair(int kind, std::uint32_t pair) const {
-    const NearPairs& near = near_[kind];
+ClothContact::MovedPair ClothContact::moved_pair(const NearPairs& near, int kind, std::uint32_t pair) const {
     const bool edges = kind == 1;
     const Vec3 normal = normal_of(near, pair);
     MovedPair result;
@@ -45,8 +54,7 @@ ClothContact::MovedPair ClothContact::moved_pair(int kind, std::uint32_t pair) c
 }
 
 // Part of its motion that the brake leaves to a pair.
-float ClothContact::part_before_brake_depth(int kind, std::uint32_t pair) const {
-    const NearPairs& near = near_[kind];
+float ClothContact::part_before_brake_depth(const NearPairs& near, int kind, std::uint32_t pair) const {
     const auto particles = near.particles(pair);
     const Vec3 normal = normal_of(near, pair);
     float along[4];
@@ -58,50 +66,63 @@ float ClothContact::part_before_brake_depth(int kind, std::uint32_t pair) const 
                                  contact_brake_depth * cap_);
 }
 
-// Calls visit(kind, pair) for all pairs that lose their gap and `depth` more. `visit` returns whether to go on.
+// Calls visit(near pairs, kind, pair) for all pairs of the worker that lose their gap and `depth` more. `visit` returns
+// whether to go on.
 template <class Visit>
-void ClothContact::for_each_lost(float depth, Visit&& visit) {
+void ClothContact::for_each_lost(Mine& mine, float depth, Visit&& visit) const {
     for (int kind = 0; kind < 2; ++kind) {
-        lost_.clear();
-        loops_->find_lost[kind](near_[kind], &x_->x, contact_gap_floor, depth, lost_);
-        for (const std::uint32_t pair : lost_)
-            if (comes_near(kind, pair) && !visit(kind, pair)) return;
+        const NearPairs& near = mine.near[kind];
+        mine.lost.clear();
+        loops_->find_lost[kind](near, &x_->x, contact_gap_floor, depth, mine.lost);
+        for (const std::uint32_t pair : mine.lost)
+            if (comes_near(near, static_cast<PairKind>(kind), pair, &start_->x, &x_->x) && !visit(near, kind, pair))
+                return;
     }
 }
 
+bool ClothContact::any_found() const {
+    return std::ranges::any_of(workers_, &Mine::found);
+}
+
 bool ClothContact::any_lost() {
-    bool any = false;
-    for_each_lost(0, [&](int, std::uint32_t) {
-        any = true;
-        return false;
+    in_parallel([&](Mine& mine) {
+        mine.found = false;
+        for_each_lost(mine, 0, [&](const NearPairs&, int, std::uint32_t) {
+            mine.found = true;
+            return false;
+        });
     });
-    return any;
+    return any_found();
 }
 
 // Where the constraints ask for more than contact can take back, the particles go a part of their way: the same part
 // for both sides of a pair, so that contact has to take back only the rest. Without it, cloth that is pulled over cloth
 // stays where it is in every substep, while the pull grows. Returns whether any particle was slowed.
 bool ClothContact::brake() {
-    bool any = false;
-    for_each_lost(contact_brake_depth * cap_, [&](int kind, std::uint32_t pair) {
-        if (!any) for_each_particle([&](std::uint32_t p) { part_[p] = 1; });
-        any = true;
-        const float part = part_before_brake_depth(kind, pair);
-        for (const std::uint32_t p : near_[kind].particles(pair)) part_[p] = std::min(part_[p], part);
-        return true;
+    in_parallel([&](Mine& mine) {
+        for_each_particle(mine, [&](std::uint32_t p) { part_[p] = 1; });
+        team_.wait();
+        mine.found = false;
+        for_each_lost(mine, contact_brake_depth * cap_, [&](const NearPairs& near, int kind, std::uint32_t pair) {
+            mine.found = true;
+            const float part = part_before_brake_depth(near, kind, pair);
+            for (const std::uint32_t p : near.particles(pair)) lower(part_[p], part);
+            return true;
+        });
+        team_.wait();
+        if (!any_found()) return;
+        for_each_particle(mine, [&](std::uint32_t p) {
+            if (!(part_[p] < 1) || !(x_[p].w > 0)) return;
+            const Vec3 from = start_[p].xyz();
+            set_place(x_[p], from + (x_[p].xyz() - from) * part_[p]);
+        });
     });
-    if (!any) return false;
-    for_each_particle([&](std::uint32_t p) {
-        if (!(part_[p] < 1) || !(x_[p].w > 0)) return;
-        const Vec3 from = start_[p].xyz();
-        set_place(x_[p], from + (x_[p].xyz() - from) * part_[p]);
-    });
-    return true;
+    return any_found();
 }
 
 // Asks particles of a pair that has lost its gap to go back: those that come closer to the other side than they may, or
 // all. Returns whether any of them can.
-bool ClothContact::retreat(const MovedPair& pair, bool all) {
+bool ClothContact::retreat(Mine& mine, const MovedPair& pair, bool all) {
     bool helps = false;
     for (int k = 0; k < 4; ++k) {
         const std::uint32_t p = pair.particles[k];
@@ -111,12 +132,10 @@ bool ClothContact::retreat(const MovedPair& pair, bool all) {
             const float missing = pair.least[k] - dot(slide, pair.away[k]);
             if (!(missing > 0) && !all) continue;
             add_to_sum(p, pair.away[k] * std::max(missing, 0.0f), WEFT_PUSH_QUANTA_PER_METER);
-            ++share_[p];
+            add_quanta(sums_[p].share, 1, team_.size() > 1);
         }
         helps = true;
-        if (sent_back_[p]) continue;
-        sent_back_[p] = 1;
-        to_send_back_.push_back(p);
+        if (std::atomic_ref(sent_back_[p]).exchange(1, std::memory_order_relaxed) == 0) mine.to_send_back.push_back(p);
     }
     return helps;
 }
@@ -126,8 +145,9 @@ bool ClothContact::retreat(const MovedPair& pair, bool all) {
 void ClothContact::set_back(std::uint32_t p) {
     const Vec3 from = start_[p].xyz(), asked = asked_[p].xyz() - from;
     if (retreats_[p] == 0) slide_[p] = asked;
-    if (share_[p] > 0) slide_[p] = slide_[p] + sum(p, WEFT_PUSH_QUANTA_PER_METER) * (1 / static_cast<float>(share_[p]));
-    sums_[p] = {}, share_[p] = 0, sent_back_[p] = 0;
+    const std::uint32_t askers = sums_[p].share;
+    if (askers > 0) slide_[p] = slide_[p] + sum(p, WEFT_PUSH_QUANTA_PER_METER) * (1 / static_cast<float>(askers));
+    sums_[p] = {}, sent_back_[p] = 0;
     const std::uint32_t retreats = ++retreats_[p];
     if (retreats == most_retreats) return set_place(x_[p], from);
     const Vec3 slide = to_vec3(scalar::slide_near(on_lane(asked), on_lane(slide_[p]), limit_aside * cap_));
@@ -138,34 +158,60 @@ void ClothContact::set_back(std::uint32_t p) {
 // Sends the particles of all pairs that lose their gap back towards the start of the substep, where every pair has its
 // gap. A pair that keeps its gap along one normal at both ends of a linear motion does not meet in between.
 void ClothContact::send_back() {
-    for_each_particle([&](std::uint32_t p) { retreats_[p] = 0, share_[p] = 0; });
-    std::uint64_t stuck = 0;
-    while (true) {
-        to_send_back_.clear();
-        stuck = 0;
-        for_each_lost(0, [&](int kind, std::uint32_t pair) {
-            const MovedPair moved = moved_pair(kind, pair);
-            if (retreat(moved, false) || retreat(moved, true)) return true;
-            ++stuck;
-            mark_stuck(moved.particles);
-            counts_.tangled_particle = std::min(counts_.tangled_particle, std::ranges::min(moved.particles));
-            return true;
+    in_parallel([&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { retreats_[p] = 0; }); });
+    do {
+        in_parallel([&](Mine& mine) {
+            mine.to_send_back.clear();
+            mine.stuck = 0, mine.least_stuck = no_particle;
+            for_each_lost(mine, 0, [&](const NearPairs& near, int kind, std::uint32_t pair) {
+                const MovedPair moved = moved_pair(near, kind, pair);
+                if (retreat(mine, moved, false) || retreat(mine, moved, true)) return true;
+                ++mine.stuck;
+                mine.least_stuck = std::min(mine.least_stuck, std::ranges::min(moved.particles));
+                mark_stuck(moved.particles);
+                return true;
+            });
+            team_.wait();
+            mine.found = !mine.to_send_back.empty();
+            for (const std::uint32_t p : mine.to_send_back) set_back(p);
         });
-        if (to_send_back_.empty()) break;
-        for (const std::uint32_t p : to_send_back_) set_back(p);
+    } while (any_found());
+    std::uint64_t stuck = 0;
+    for (const Mine& mine : workers_) {
+        stuck += mine.stuck;
+        counts_.tangled_particle = std::min(counts_.tangled_particle, mine.least_stuck);
     }
     counts_.tangled = std::max(counts_.tangled, stuck);
 }
 
 // Whether a particle that was sent back may have been beyond what its list covers, on any part of its way.
 bool ClothContact::any_uncovered() {
-    for_each_particle([&](std::uint32_t p) { farthest_[p] = retreats_[p] > 0 ? start_[p] : x_[p]; });
+    in_parallel([&](Mine& mine) {
+        for_each_particle(mine, [&](std::uint32_t p) { farthest_[p] = retreats_[p] > 0 ? start_[p] : x_[p]; });
+    });
     std::ranges::fill(moved_, limit_aside * cap_);
-    return search_.find_outdated(farthest_.data(), moved_);
+    return search_.find_outdated(farthest_.data(), moved_, false, team_);
+}
+
+// Takes the particles back to where they were before the limit.
+void ClothContact::restart_limit() {
+    in_parallel(
+        [&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); }); });
+}
+
+void ClothContact::stay_at_start() {
+    in_parallel([&](Mine& mine) {
+        for_each_particle(mine, [&](std::uint32_t p) {
+            if (!(x_[p].w > 0)) return;
+            retreats_[p] = most_retreats;
+            set_place(x_[p], start_[p].xyz());
+        });
+    });
 }
 
 void ClothContact::limit() {
-    for_each_particle([&](std::uint32_t p) { asked_[p] = x_[p], retreats_[p] = 0; });
+    in_parallel(
+        [&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { asked_[p] = x_[p], retreats_[p] = 0; }); });
     extend_reach();
     if (any_lost()) {
         extend_reach(limit_aside * cap_);
@@ -175,23 +221,30 @@ void ClothContact::limit() {
         // anyway.
         for (int attempt = 0; any_uncovered(); ++attempt) {
             if (attempt == contact_most_attempts) {
-                for_each_particle([&](std::uint32_t p) {
-                    if (!(x_[p].w > 0)) return;
-                    retreats_[p] = most_retreats;
-                    set_place(x_[p], start_[p].xyz());
-                });
+                stay_at_start();
                 break;
             }
-            for_each_particle([&](std::uint32_t p) { set_place(x_[p], asked_[p].xyz()); });
+            restart_limit();
             search_.cover(start_, asked_.data());
-            search();
+            search_.search(team_);
             find_near();
             send_back();
         }
     }
-    for_each_particle([&](std::uint32_t p) { counts_.limited += retreats_[p] > 0; });
-    mark_limited_particles();
+    count_limited_particles();
     search_.next_tick();
+}
+
+void ClothContact::count_limited_particles() {
+    in_parallel([&](Mine& mine) {
+        mine.limited = 0;
+        for_each_particle(mine, [&](std::uint32_t p) {
+            if (retreats_[p] == 0) return;
+            ++mine.limited;
+            if (records_marks_) marks_[p] |= mark_limited;
+        });
+    });
+    for (const Mine& mine : workers_) counts_.limited += mine.limited;
 }
 
 }  // namespace weft::cpu

@@ -13,6 +13,14 @@ constexpr float least_reach = 0.3f;
 // A tile whose reach does not suffice gets so many times the distance that its particles have moved.
 constexpr float reach_growth = 2;
 
+// Marks the pairs among those from number `begin` on.
+void mark_pushed(NearPairs& near, std::uint32_t begin, std::vector<std::array<std::uint32_t, 4>>& pairs) {
+    if (pairs.empty()) return;
+    std::ranges::sort(pairs);
+    for (std::uint32_t i = begin; i < near.count; ++i)
+        near.pushed[i] = std::ranges::binary_search(pairs, near.particles(i));
+}
+
 }  // namespace
 
 // From how far contact moved each tile in the substep before.
@@ -25,31 +33,24 @@ void ClothContact::begin_reach() {
 }
 
 void ClothContact::follow_and_search() {
-    search_.follow(start_, reached_.data(), velocity_, h_, reach_);
-    search();
-}
-
-void ClothContact::search() {
-    search_.search(workers_, [&](FunctionRef<void(unsigned, unsigned)> task) {
-        if (workers_ == 1) return task(0, 1);
-        task_ = &task;
-        (*barrier_)();
-        task(0, workers_);
-        (*barrier_)();
-    });
+    search_.follow(start_, reached_.data(), velocity_, h_, reach_, team_);
+    search_.search(team_);
 }
 
 void ClothContact::find_near() {
-    for (NearPairs& near : near_) near.count = 0;
     before_.clear();
-    add_near_pairs();
+    in_parallel([&](Mine& mine) {
+        for (NearPairs& near : mine.near) near.count = 0;
+        add_near_pairs(mine);
+    });
 }
 
 // Adds the pairs that are near within `reach_` and were not within `before_`. Pairs of tiles that were searched since
 // are all new.
-void ClothContact::add_near_pairs() {
-    for (Candidates& candidates : candidates_) candidates.clear();
+void ClothContact::add_near_pairs(Mine& mine) const {
+    for (Candidates& candidates : mine.candidates) candidates.clear();
     search_.for_each_block(
+        mine.worker, team_.size(),
         [&](std::uint32_t tile, const TilePairs& row, const TilePairs::Block& block, float approach) {
             ChosenBlock chosen{approach, reach_[tile] + reach_[block.other], never_near};
             if (!before_.empty() && !is_relisted(tile, block.other)) {
@@ -59,18 +60,20 @@ void ClothContact::add_near_pairs() {
             for (int kind = 0; kind < 2; ++kind) {
                 const std::uint32_t count = block.count[kind];
                 if (count == 0 || block.least_spare[kind] > approach + chosen.reach) continue;
-                candidates_[kind].reserve(candidates_[kind].count + count);
-                candidates_[kind].tiles.push_back({tile, block.other});
-                loops_->choose(row.lists[kind], block.begin[kind], count, chosen, candidates_[kind]);
+                Candidates& candidates = mine.candidates[kind];
+                candidates.reserve(candidates.count + count);
+                candidates.tiles.push_back({tile, block.other});
+                loops_->choose(row.lists[kind], block.begin[kind], count, chosen, candidates);
             }
         });
     const NearInput input{&start_->x, &reached_.data()->x, contact_gap_floor};
     for (int kind = 0; kind < 2; ++kind) {
-        const std::uint32_t begin = near_[kind].count;
-        candidates_[kind].pad(cloths_.front()->base);
-        loops_->find_near[kind](candidates_[kind], input, near_[kind]);
-        drop_pairs_without_side(kind, begin);
-        near_[kind].pad(cloths_.front()->base);
+        NearPairs& near = mine.near[kind];
+        const std::uint32_t begin = near.count;
+        mine.candidates[kind].pad(cloths_.front()->base);
+        loops_->find_near[kind](mine.candidates[kind], input, near);
+        drop_pairs_without_side(near, kind, begin);
+        near.pad(cloths_.front()->base);
     }
 }
 
@@ -82,7 +85,7 @@ bool ClothContact::is_relisted(std::uint32_t a, std::uint32_t b) const {
 // Extends lists and near pairs if a particle has moved farther from where the constraints left it than they allow for.
 // `more`: m, how much farther it may still move.
 void ClothContact::extend_reach(float more) {
-    search_.measure(reached_.data(), x_, moved_);
+    search_.measure(reached_.data(), x_, moved_, team_);
     before_ = reach_;
     bool any = false;
     for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
@@ -93,14 +96,20 @@ void ClothContact::extend_reach(float more) {
         any = true;
     }
     if (!any) return;
-    std::array<std::vector<std::array<std::uint32_t, 4>>, 2> pushed;
-    if (search_.find_outdated(reached_.data(), reach_)) {
-        follow_and_search();
-        for (int kind = 0; kind < 2; ++kind) pushed[kind] = remove_relisted(near_[kind]);
-    }
-    const std::array begin{near_[0].count, near_[1].count};
-    add_near_pairs();
-    for (int kind = 0; kind < 2; ++kind) mark_pushed(near_[kind], begin[kind], pushed[kind]);
+    const bool relisted = search_.find_outdated(reached_.data(), reach_, false, team_);
+    if (relisted) follow_and_search();
+    extend_near_pairs(relisted);
+}
+
+void ClothContact::extend_near_pairs(bool relisted) {
+    in_parallel([&](Mine& mine) {
+        std::array<std::vector<std::array<std::uint32_t, 4>>, 2> pushed;
+        if (relisted)
+            for (int kind = 0; kind < 2; ++kind) pushed[kind] = remove_relisted(mine.near[kind]);
+        const std::array begin{mine.near[0].count, mine.near[1].count};
+        add_near_pairs(mine);
+        for (int kind = 0; kind < 2; ++kind) mark_pushed(mine.near[kind], begin[kind], pushed[kind]);
+    });
 }
 
 // Removes the pairs of tiles that were searched since. Returns those that contact pushed.
@@ -115,16 +124,6 @@ std::vector<std::array<std::uint32_t, 4>> ClothContact::remove_relisted(NearPair
         near.move(--near.count, i);
     }
     return pushed;
-}
-
-// Marks the pairs among those from number `begin` on.
-void ClothContact::mark_pushed(NearPairs& near, std::uint32_t begin, std::vector<std::array<std::uint32_t, 4>>& pairs) {
-    if (pairs.empty()) return;
-    std::ranges::sort(pairs);
-    for (const auto& pair : pairs) marked_[pair[0]] = 1;
-    for (std::uint32_t i = begin; i < near.count; ++i)
-        near.pushed[i] = marked_[near.particle[0][i]] && std::ranges::binary_search(pairs, near.particles(i));
-    for (const auto& pair : pairs) marked_[pair[0]] = 0;
 }
 
 }  // namespace weft::cpu

@@ -160,7 +160,7 @@ TEST(PairSearch, lists_all_pairs_that_come_near) {
                 }
                 std::array<std::map<Pair, float>, 2> spare;  // less what the features may have approached
                 search.for_each_block(
-                    [&](std::size_t, const TilePairs& row, const TilePairs::Block& block, float approach) {
+                    0, 1, [&](std::size_t, const TilePairs& row, const TilePairs::Block& block, float approach) {
                         for (int kind = 0; kind < 2; ++kind) {
                             const PairList& list = row.lists[kind];
                             for (std::uint32_t i = block.begin[kind]; i < block.begin[kind] + block.count[kind]; ++i) {

@@ -18,14 +18,13 @@ void ClothContact::untangle() {
     };
     std::vector<Passing> passing;
     const auto at_start = [&](std::uint32_t p) { return scalar::vec3{start_[p].x, start_[p].y, start_[p].z}; };
-    for_each_particle([&](std::uint32_t p) { share_[p] = 0; });
     for (const TangledPair& pair : tangle_->pairs) {
         const auto& p = pair.particle;
         const scalar::PassingEdge edge = scalar::edge_through_triangle(at_start(p[0]), at_start(p[1]), at_start(p[2]),
                                                                        at_start(p[3]), at_start(p[4]));
         if (!edge.passes) continue;
         passing.push_back({&pair, {edge.w0, edge.w1, edge.w2, edge.w3, edge.w4}});
-        add_shares(pair.particle, passing.back().weight);
+        for (int k = 0; k < 5; ++k) add_share(pair.particle[k], passing.back().weight[k]);
     }
     for (const auto& [pair, weight] : passing) {
         float resistance = 0;
@@ -37,22 +36,26 @@ void ClothContact::untangle() {
         }
         const float missing = untangling_speed * h_ - dot(moved, pair->direction);
         if (!(missing > 0) || !(resistance > 1e-12f)) continue;
-        add_to_sums(pair->particle, weight, pair->direction * (missing / resistance), WEFT_PUSH_QUANTA_PER_METER);
+        for (int k = 0; k < 5; ++k) {
+            const std::uint32_t p = pair->particle[k];
+            add_to_sum(p, pair->direction * (missing / resistance) * (weight[k] * x_[p].w), WEFT_PUSH_QUANTA_PER_METER);
+        }
     }
-    for_each_particle([&](std::uint32_t p) {
-        if (share_[p] == 0) return;
-        Vec3 moved = sum(p, WEFT_PUSH_QUANTA_PER_METER);
-        sums_[p] = {};
-        const float most = untangling_speed * h_, length2 = dot(moved, moved);
-        if (length2 > most * most) moved = moved * (most / std::sqrt(length2));
-        x_[p] = {x_[p].x + moved.x, x_[p].y + moved.y, x_[p].z + moved.z, x_[p].w};
+    in_parallel([&](Mine& mine) {
+        for_each_particle(mine, [&](std::uint32_t p) {
+            if (sums_[p].share == 0) return;
+            Vec3 moved = sum(p, WEFT_PUSH_QUANTA_PER_METER);
+            sums_[p] = {};
+            const float most = untangling_speed * h_, length2 = dot(moved, moved);
+            if (length2 > most * most) moved = moved * (most / std::sqrt(length2));
+            x_[p] = {x_[p].x + moved.x, x_[p].y + moved.y, x_[p].z + moved.z, x_[p].w};
+        });
     });
 }
 
 // Features near a pair that passes through each other do so freely. Drops such pairs from number `begin` on.
-void ClothContact::drop_pairs_without_side(int kind, std::uint32_t begin) {
+void ClothContact::drop_pairs_without_side(NearPairs& near, int kind, std::uint32_t begin) const {
     if (!tangle_) return;
-    NearPairs& near = near_[kind];
     const int side_one = kind == 0 ? 1 : 2;
     std::uint32_t kept = begin;
     for (std::uint32_t i = begin; i < near.count; ++i) {

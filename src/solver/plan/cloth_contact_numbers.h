@@ -11,7 +11,7 @@ namespace weft {
 /// constraints answer what contact has moved.
 inline constexpr std::uint32_t contact_rounds = 4;
 /// Sweeps that follow the last round where the limit would have to act.
-inline constexpr int contact_extra_sweeps = 8;
+inline constexpr int contact_extra_sweeps = 4;
 /// Gap that a pair keeps at least, as a part of its thickness. Without it gaps of micrometers stay closed forever.
 inline constexpr float contact_gap_floor = 0.1f;
 /// m/s at which an overlap from before the substep is removed at most.

@@ -11,7 +11,7 @@
 #define WEFT_TILES_TOGETHER 64
 
 #define WEFT_CONTACT_ROUNDS 4        // contact_rounds
-#define WEFT_CONTACT_EXTRA_SWEEPS 8  // contact_extra_sweeps
+#define WEFT_CONTACT_EXTRA_SWEEPS 4  // contact_extra_sweeps
 // Rounds of the limit that run in parallel. What they leave to do, one workgroup does.
 #define WEFT_LIMIT_ROUNDS 6
 #define WEFT_LIMIT_SLIDES 4    // limit_slides
