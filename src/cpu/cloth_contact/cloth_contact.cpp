@@ -13,6 +13,12 @@ namespace {
 // longer, a smaller one makes them fail earlier. The result does not depend on it.
 constexpr float slack_per_cap = 1.5f;
 
+// Moves the pushes of a worker to those of all.
+void add_pushes(ContactSums& to, ContactSums& from) {
+    for (std::size_t axis = 0; axis < 3; ++axis) to.push[axis] += from.push[axis];
+    from.push = {};
+}
+
 }  // namespace
 
 void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
@@ -117,20 +123,34 @@ void ClothContact::push(const Pass& pass) {
     });
 }
 
-// Pushes overlapping pairs apart once.
+// Pushes overlapping pairs apart once. Several workers add to sums of their own: most particles of a pile have pairs of
+// many workers, and adding to the same sums side by side is slower than one worker alone.
 void ClothContact::sweep() {
-    const SweepView view{&start_->x,      &x_->x,           &friction_.data()->x,
-                         sums_.data(),    unscaled_.data(), contact_recovery_speed * h_,
-                         team_.size() > 1};
+    const bool alone = team_.size() == 1;
     in_parallel([&](Mine& mine) {
+        if (!alone && mine.sums.size() < sums_.size()) mine.sums.resize(sums_.size());
+        ContactSums *const totals = sums_.data(), *const unscaled = unscaled_.data();
+        ContactSums* const own = alone ? totals : mine.sums.data();
+        const SweepView view{&start_->x,
+                             &x_->x,
+                             &friction_.data()->x,
+                             totals,
+                             unscaled,
+                             own,
+                             alone ? unscaled : own,
+                             own,
+                             contact_recovery_speed * h_};
         mine.overlaps.count = 0;
         for (int kind = 0; kind < 2; ++kind) loops_->find_overlaps[kind](mine.near[kind], view, mine.overlaps);
         mine.overlaps.pad(cloths_.front()->base);
-        team_.wait();
+        add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) { totals[p].share += of_worker.share; });
         loops_->find_pushes(mine.overlaps, view);
-        team_.wait();
+        add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) { add_pushes(unscaled[p], of_worker); });
         loops_->scale_pushes(mine.overlaps, view);
-        team_.wait();
+        add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) {
+            add_pushes(totals[p], of_worker);
+            of_worker.share = 0;
+        });
         for_each_particle(mine, [&](std::uint32_t p) {
             if (sums_[p].share > 0) {
                 set_place(x_[p], x_[p].xyz() + sum(p, WEFT_PUSH_QUANTA_PER_METER));
@@ -139,6 +159,19 @@ void ClothContact::sweep() {
             keep_in_reach(p);
         });
     });
+}
+
+// When all workers have added to their sums, calls add(particle, sums of a worker) for each worker that has pairs of
+// the particle.
+template <class Add>
+void ClothContact::add_up(const Mine& mine, Add&& add) {
+    team_.wait();
+    if (team_.size() == 1) return;
+    for_each_particle(mine, [&](std::uint32_t p) {
+        for (Mine& of_worker : workers_)
+            if (of_worker.sums[p].share > 0) add(p, of_worker.sums[p]);
+    });
+    team_.wait();
 }
 
 // What contact moves stays within what the lists cover.

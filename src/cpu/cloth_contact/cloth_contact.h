@@ -43,6 +43,8 @@ class ClothContact {
     void find_near_of_motion(bool search_always);
     void push(const Pass& pass);
     void sweep();
+    template <class Add>
+    void add_up(const Mine& mine, Add&& add);
     void keep_in_reach(std::uint32_t p);
     void add_share(std::uint32_t p, float weight);
     float share(std::uint32_t p) const;
@@ -113,6 +115,8 @@ class ClothContact {
         std::array<Candidates, 2> candidates;  // by kind
         std::array<NearPairs, 2> near;         // by kind
         Overlaps overlaps;
+        AlignedVector<ContactSums>
+            sums;                    // by particle of the world, if there are several workers; 0 between two sweeps
         std::vector<Pushed> pushes;  // of the substep
         std::vector<std::uint32_t> lost, to_send_back;
         bool found = false;                    // of the last loop that looks for something

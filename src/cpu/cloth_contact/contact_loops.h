@@ -99,12 +99,12 @@ inline void add_quanta(std::uint32_t& sum, std::uint32_t quanta, bool concurrent
 
 /// What the loops over overlaps read and add to, by particle of the world.
 struct SweepView {
-    const float *start, *positions;  ///< blocks of four: position and inverse mass
-    const float* friction;           ///< blocks of four: static, kinetic
-    ContactSums* sums;               ///< of the weights, and of the scaled pushes
-    ContactSums* unscaled;           ///< of the pushes before that: no worker reads what another one adds to
-    float recovery;                  ///< m: the most of an overlap from before that a substep removes
-    bool concurrent;                 ///< whether other workers add to the same sums
+    const float *start, *positions;                    ///< blocks of four: position and inverse mass
+    const float* friction;                             ///< blocks of four: static, kinetic
+    const ContactSums* shares;                         ///< sums of the weights of all workers
+    const ContactSums* unscaled;                       ///< sums of the pushes of all workers, before they are scaled
+    ContactSums *to_shares, *to_unscaled, *to_scaled;  ///< what this worker adds to; no other one does
+    float recovery;                                    ///< m: the most of an overlap from before that a substep removes
 };
 
 /// One table per instruction set.

@@ -170,14 +170,13 @@ inline void find_overlapping_pairs(NearPairs& near, const SweepView& view, Overl
             store(to_weight_quanta(load(&overlaps.weight[k][i])), shares);
             const std::uint32_t end = std::min<std::uint32_t>(lane_count, overlaps.count - i);
             for (std::uint32_t lane = 0; lane < end; ++lane)
-                add_quanta(view.sums[overlaps.particle[k][i + lane]].share, static_cast<std::uint32_t>(shares[lane]),
-                           view.concurrent);
+                view.to_shares[overlaps.particle[k][i + lane]].share += static_cast<std::uint32_t>(shares[lane]);
         }
     }
 }
 
 // Adds the pushes of a packet of overlaps to the sums of their particles.
-WEFT_FN void add_pushes(const Overlaps& overlaps, std::uint32_t i, vec3 push, ContactSums* sums, bool concurrent) {
+WEFT_FN void add_pushes(const Overlaps& overlaps, std::uint32_t i, vec3 push, ContactSums* sums) {
     const real scale(static_cast<float>(WEFT_PUSH_QUANTA_PER_METER));
     const std::uint32_t used = lanes_before(i, overlaps.count);
     for (int k = 0; k < 4; ++k) {
@@ -190,7 +189,7 @@ WEFT_FN void add_pushes(const Overlaps& overlaps, std::uint32_t i, vec3 push, Co
             if (!(used >> lane & 1)) break;
             ContactSums& of_particle = sums[overlaps.particle[k][i + static_cast<std::uint32_t>(lane)]];
             for (std::size_t axis = 0; axis < 3; ++axis)
-                add_quanta(of_particle.push[axis], static_cast<std::uint32_t>(quanta[lane][axis]), concurrent);
+                of_particle.push[axis] += static_cast<std::uint32_t>(quanta[lane][axis]);
         }
     }
 }
@@ -199,7 +198,7 @@ WEFT_FN void add_pushes(const Overlaps& overlaps, std::uint32_t i, vec3 push, Co
 // is kept. In full this is safe and slow. A part of it is enough for pairs that push in different directions; it moves
 // pairs that push alike too far, so their pushes are scaled in a second step.
 inline void find_pushes(Overlaps& overlaps, const SweepView& view) {
-    const auto* sums = reinterpret_cast<const std::int32_t*>(view.sums);
+    const auto* shares = reinterpret_cast<const std::int32_t*>(view.shares);
     for (std::uint32_t i = 0; i < overlaps.count; i += lane_count) {
         const vec3 normal(load(&overlaps.normal[0][i]), load(&overlaps.normal[1][i]), load(&overlaps.normal[2][i]));
         const real depth = load(&overlaps.depth[i]);
@@ -211,7 +210,7 @@ inline void find_pushes(Overlaps& overlaps, const SweepView& view) {
             real inverse_mass, unused, share;
             const vec3 x = gather_blocks(view.positions, particle, inverse_mass);
             moved = moved + (x - gather_blocks(view.start, particle, unused)) * weight;
-            (void)gather_integer_blocks(sums, particle, share);
+            (void)gather_integer_blocks(shares, particle, share);
             share = share * real(static_cast<float>(1 / WEFT_WEIGHT_QUANTA));
             resistance = resistance + contact_resistance(inverse_mass, weight, share * real(contact_split));
             store(weight * inverse_mass, &overlaps.give[k][i]);
@@ -224,7 +223,7 @@ inline void find_pushes(Overlaps& overlaps, const SweepView& view) {
         const real scale = real(1.0f) / select(moves, resistance, real(1.0f));
         const vec3 push = select(moves, (normal * depth - rub) * scale, vec3(real(0.0f)));
         store(push.x, &overlaps.push[0][i]), store(push.y, &overlaps.push[1][i]), store(push.z, &overlaps.push[2][i]);
-        add_pushes(overlaps, i, push, view.unscaled, view.concurrent);
+        add_pushes(overlaps, i, push, view.to_unscaled);
     }
 }
 
@@ -242,7 +241,7 @@ inline void scale_pushes(Overlaps& overlaps, const SweepView& view) {
         }
         const real part = select(opened > depth, depth / select(opened > depth, opened, real(1.0f)), real(1.0f));
         const vec3 push(load(&overlaps.push[0][i]), load(&overlaps.push[1][i]), load(&overlaps.push[2][i]));
-        add_pushes(overlaps, i, push * part, view.sums, view.concurrent);
+        add_pushes(overlaps, i, push * part, view.to_scaled);
     }
 }
 
