@@ -8,6 +8,4 @@
 
 #include "physics/kernels.inl"
 
-#include "physics/cloth_contact/comes_near.scalar.h"
-
 #endif

@@ -15,5 +15,6 @@
 
 real select(mask m, real yes, real no) { return m ? yes : no; }
 vec3 select(mask m, vec3 yes, vec3 no) { return m ? yes : no; }
+bool any(mask m) { return m; }
 
 #endif

@@ -15,8 +15,6 @@ using real = float;
 #include "physics/lanes_scalar.inl"
 
 #include "physics/kernels.inl"
-
-#include "physics/cloth_contact/comes_near.scalar.h"
 }  // namespace weft::scalar
 
 namespace weft::reference {

@@ -14,7 +14,7 @@ namespace {
 constexpr float slack_per_cap = 1.5f;
 
 // Moves the pushes of a worker to those of all.
-void add_pushes(ContactSums& to, ContactSums& from) {
+void move_pushes(ContactSums& to, ContactSums& from) {
     for (std::size_t axis = 0; axis < 3; ++axis) to.push[axis] += from.push[axis];
     from.push = {};
 }
@@ -145,10 +145,10 @@ void ClothContact::sweep() {
         mine.overlaps.pad(cloths_.front()->base);
         add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) { totals[p].share += of_worker.share; });
         loops_->find_pushes(mine.overlaps, view);
-        add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) { add_pushes(unscaled[p], of_worker); });
+        add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) { move_pushes(unscaled[p], of_worker); });
         loops_->scale_pushes(mine.overlaps, view);
         add_up(mine, [&](std::uint32_t p, ContactSums& of_worker) {
-            add_pushes(totals[p], of_worker);
+            move_pushes(totals[p], of_worker);
             of_worker.share = 0;
         });
         for_each_particle(mine, [&](std::uint32_t p) {

@@ -4,7 +4,6 @@
 #include "collide/pair_search.h"
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -88,14 +87,6 @@ struct alignas(16) ContactSums {
     std::array<std::uint32_t, 3> push{};
     std::uint32_t share = 0;
 };
-
-/// Adds to a sum. `concurrent`: other threads may do so too.
-inline void add_quanta(std::uint32_t& sum, std::uint32_t quanta, bool concurrent) {
-    if (concurrent)
-        std::atomic_ref(sum).fetch_add(quanta, std::memory_order_relaxed);
-    else
-        sum += quanta;
-}
 
 /// What the loops over overlaps read and add to, by particle of the world.
 struct SweepView {

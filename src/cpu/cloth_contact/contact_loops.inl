@@ -82,32 +82,16 @@ WEFT_FN void load_along(const NearPairs& near, std::uint32_t i, const float* pos
         along[k] = dot(gather_blocks(positions, &near.particle[k][i], w) - first, normal);
 }
 
-// Whether pairs come within their thickness while their particles move straight from `start` to `positions`: comes_near()
-// on many lanes.
 template <PairKind kind>
-WEFT_FN mask pairs_come_near(const SweepView& view, const std::array<const std::uint32_t*, 4>& particle, real distance,
-                             real thickness) {
+WEFT_FN mask pairs_come_near(const SweepView& view, const Overlaps& overlaps, std::uint32_t i) {
     vec3 x[4], moved[4];
     real w;
     for (int k = 0; k < 4; ++k) {
-        x[k] = gather_blocks(view.start, particle[k], w);
-        moved[k] = gather_blocks(view.positions, particle[k], w) - x[k];
+        x[k] = gather_blocks(view.start, &overlaps.particle[k][i], w);
+        moved[k] = gather_blocks(view.positions, &overlaps.particle[k][i], w) - x[k];
     }
-    real fastest2(0.0f);
-    for (int k = 0; k < sides<kind>[0]; ++k)
-        for (int l = sides<kind>[0]; l < 4; ++l) fastest2 = max(fastest2, dot(moved[k] - moved[l], moved[k] - moved[l]));
-    const real fastest = sqrt(fastest2);
-    real time(0.0f);
-    for (int step = 0; step < 64; ++step) {
-        const mask goes_on = distance > thickness && time < real(1.0f);
-        if (!any(goes_on)) break;
-        const real later = min(time + (distance - real(0.5f) * thickness) / fastest, real(1.0f));
-        time = select(goes_on, later, time);
-        vec3 at[4];
-        for (int k = 0; k < 4; ++k) at[k] = x[k] + moved[k] * time;
-        distance = select(goes_on, closest<kind>(at).distance, distance);
-    }
-    return !(distance > thickness) || time < real(1.0f);
+    return comes_near(kind == PairKind::edge_edge, x[0], x[1], x[2], x[3], moved[0], moved[1], moved[2], moved[3],
+                      load(&overlaps.distance[i]), load(&overlaps.thickness[i]));
 }
 
 // Of the overlaps from number `begin` on, keeps those that come near.
@@ -115,14 +99,7 @@ template <PairKind kind>
 inline void keep_pairs_that_come_near(const SweepView& view, Overlaps& overlaps, std::uint32_t begin) {
     std::uint32_t to = begin;
     for (std::uint32_t i = begin; i < overlaps.count; i += lane_count) {
-        const real distance = load(&overlaps.distance[i]), thickness = load(&overlaps.thickness[i]);
-        const mask starts_near = !(distance > thickness);
-        std::uint32_t bits = bits_of(starts_near) & lanes_before(i, overlaps.count);
-        if (any(!starts_near)) {
-            const auto& p = overlaps.particle;
-            bits = bits_of(pairs_come_near<kind>(view, {&p[0][i], &p[1][i], &p[2][i], &p[3][i]}, distance, thickness)) &
-                   lanes_before(i, overlaps.count);
-        }
+        const std::uint32_t bits = bits_of(pairs_come_near<kind>(view, overlaps, i)) & lanes_before(i, overlaps.count);
         const mask near = mask_of(bits);
         for (auto* array : {&overlaps.pair, &overlaps.particle[0], &overlaps.particle[1], &overlaps.particle[2], &overlaps.particle[3]})
             compress(&(*array)[i], near, &(*array)[to]);

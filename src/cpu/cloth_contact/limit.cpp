@@ -158,11 +158,14 @@ void ClothContact::set_back(std::uint32_t p) {
 // Sends the particles of all pairs that lose their gap back towards the start of the substep, where every pair has its
 // gap. A pair that keeps its gap along one normal at both ends of a linear motion does not meet in between.
 void ClothContact::send_back() {
-    in_parallel([&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { retreats_[p] = 0; }); });
+    in_parallel([&](Mine& mine) {
+        mine.least_stuck = no_particle;
+        for_each_particle(mine, [&](std::uint32_t p) { retreats_[p] = 0; });
+    });
     do {
         in_parallel([&](Mine& mine) {
             mine.to_send_back.clear();
-            mine.stuck = 0, mine.least_stuck = no_particle;
+            mine.stuck = 0;
             for_each_lost(mine, 0, [&](const NearPairs& near, int kind, std::uint32_t pair) {
                 const MovedPair moved = moved_pair(near, kind, pair);
                 if (retreat(mine, moved, false) || retreat(mine, moved, true)) return true;

@@ -4,6 +4,8 @@
 #include "cpu/cloth_contact/contact_loops.h"
 #include "physics/scalar.h"
 
+#include <atomic>
+
 namespace weft::cpu {
 
 inline scalar::vec3 on_lane(Vec3 v) {
@@ -17,6 +19,13 @@ inline float squared(Vec3 v) {
 }
 inline std::uint32_t to_integer(float quanta) {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(quanta));
+}
+// Adds to a sum. `concurrent`: other threads may do so too.
+inline void add_quanta(std::uint32_t& sum, std::uint32_t quanta, bool concurrent) {
+    if (concurrent)
+        std::atomic_ref(sum).fetch_add(quanta, std::memory_order_relaxed);
+    else
+        sum += quanta;
 }
 inline void set_place(Vec4& x, Vec3 place) {
     x = {place.x, place.y, place.z, x.w};
