@@ -23,6 +23,19 @@ class DisjointSets {
         parent_[std::max(a, b)] = std::min(a, b);
     }
 
+    std::uint32_t size() const { return static_cast<std::uint32_t>(parent_.size()); }
+    /// The sets. Numbers in a set are ascending; sets are sorted by their first number.
+    std::vector<std::vector<std::uint32_t>> sets() {
+        std::vector<std::vector<std::uint32_t>> sets;
+        std::vector<std::uint32_t> set_of(size());
+        for (std::uint32_t i = 0; i < size(); ++i) {
+            const std::uint32_t first = first_of(i);
+            if (first == i) set_of[i] = static_cast<std::uint32_t>(sets.size()), sets.emplace_back();
+            sets[set_of[first]].push_back(i);
+        }
+        return sets;
+    }
+
   private:
     std::vector<std::uint32_t> parent_;
 };

@@ -188,6 +188,7 @@ class PairSearch {
                 visit(a, pairs_[a], block, approach(tiles_[a], tiles_[block.other], block));
     }
     std::span<const SearchedCloth> cloths() const { return cloths_; }
+    const SearchedCloth& cloth(std::uint32_t tile) const { return cloths_[tiles_[tile].cloth]; }
     std::size_t tile_count() const { return tiles_.size(); }
     /// Whether the last find_outdated() marked the tile.
     bool outdated(std::uint32_t tile) const { return outdated_[tile] != 0; }

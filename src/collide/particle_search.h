@@ -9,6 +9,7 @@
 #include "base/collision_filter.h"
 #include "collide/seams.h"
 
+#include <weft/bounds.h>
 #include <weft/vector.h>
 
 #include <array>
@@ -101,6 +102,14 @@ class ParticleSearch {
         for (const auto& [begin, end] : rows_[tile].runs) visit(rows_[tile].pairs, begin, end);
     }
     std::uint32_t tile_count() const { return static_cast<std::uint32_t>(tiles_.size()); }
+    /// Calls visit(cloth, box around the tile's particles) for all tiles where track() saw them.
+    template <class Visit>
+    void for_each_box(Visit&& visit) const {
+        for (const Tile& tile : tiles_) {
+            const auto corner = [](const std::array<float, 4>& of) { return Vec3{of[0], of[1], of[2]}; };
+            visit(tile.cloth, Bounds{corner(tile.now.low), corner(tile.now.high)});
+        }
+    }
 
   private:
     /// The pairs of two tiles.

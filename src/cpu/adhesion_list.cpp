@@ -128,15 +128,16 @@ void AdhesionList::aim(const ListContext& context, std::uint32_t substep, Worker
 void AdhesionList::correct(const ListContext& context, const Pass& pass, std::uint32_t substep, Worker worker) {
     const Share mine = worker.of(padded(rows_.rows()));
     WorldArrays& world = context.cloths.front()->world;
-    const float h = frame_numbers(*context.cloths.front()->model, *context.step.plan, context.step.input.dt).h;
+    const WorldPlan& plan = *context.step.plan;
+    const float h = frame_numbers(*context.cloths.front()->model, plan, context.step.input.dt).h;
     const RowView view{rows_.stride(), rows_.particles(), rows_.fields(), rows_.lambda()};
     // Fabrics have no plain stiffness for adhesion, so plain position-based dynamics uses 1.
     const CorrectionView out{.blocks = rows_.corrections(),
                              .share = context.step.plan->method == Method::pbd ? nullptr : rows_.share(),
                              .stiffness = {1, 1}};
-    context.passes.correct[static_cast<std::uint32_t>(pass.constraint)](world.range(0, world.size()).view(), view, out,
-                                                                        {mine.begin, mine.end}, h,
-                                                                        lambda_use(*context.step.plan, pass, substep));
+    context.passes.correct[static_cast<std::uint32_t>(pass.constraint)](
+        world.range(0, world.size()).view(), view, out, {mine.begin, mine.end}, h,
+        lambda_use(plan, pass, substep, rounds_of_links(plan)));
 }
 
 void AdhesionList::average(const ListContext& context, Worker worker) {

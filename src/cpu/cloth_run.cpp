@@ -109,13 +109,13 @@ void ClothRun::run_lines(const Pass& pass, std::uint32_t substep, Worker worker)
     } else if (plan_.method == Method::pbd) {
         passes_.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else if (plan_.projection == Projection::lines) {
-        passes_.lines(view_, rows, blocks, numbers_.h, lambda_use(plan_, pass, substep),
+        passes_.lines(view_, rows, blocks, numbers_.h, use_of_lambda(pass, substep),
                       cloth_.line_scratch[worker.number].data());
     } else {
         // One packet at a time: the next packet continues the same lines, so it starts at particles that this one
         // moves.
         for (std::uint32_t r = range.begin; r < range.end; r += lane_padding) {
-            passes_.project[kind](view_, rows, {r, r + lane_padding}, numbers_.h, lambda_use(plan_, pass, substep));
+            passes_.project[kind](view_, rows, {r, r + lane_padding}, numbers_.h, use_of_lambda(pass, substep));
         }
     }
 }
@@ -139,7 +139,7 @@ void ClothRun::run_rows(const Pass& pass, std::uint32_t substep, Worker worker) 
     } else if (plan_.method == Method::pbd) {
         passes.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else {
-        passes.project[kind](view_, rows, range, numbers_.h, lambda_use(plan_, pass, substep));
+        passes.project[kind](view_, rows, range, numbers_.h, use_of_lambda(pass, substep));
     }
 }
 
@@ -147,7 +147,7 @@ void ClothRun::run_corrections(const Pass& pass, std::uint32_t substep, Worker w
     // Each constraint writes its corrections to its own place, so colors and the overflow do not matter.
     passes_.correct[static_cast<std::uint32_t>(pass.constraint)](
         view_, cloth_.rows(pass.constraint), cloth_.correction(pass.constraint, plan_, *step_.stiffness),
-        as_range(worker.of(model().table(pass.constraint).stride)), numbers_.h, lambda_use(plan_, pass, substep));
+        as_range(worker.of(model().table(pass.constraint).stride)), numbers_.h, use_of_lambda(pass, substep));
 }
 
 void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {
@@ -171,9 +171,9 @@ void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, W
     const Range rows = batch.serial ? Range{batch.begin, batch.begin + batch.rows}
                                     : Range{batch.begin + share.begin, batch.begin + share.end};
     const Passes& passes = batch.serial ? scalar_passes() : passes_;
-    passes.project[static_cast<std::uint32_t>(ConstraintKind::coarse_limit)](
-        cloth_.level_particles(pass.level), cloth_.level_rows(pass.level), rows, numbers_.h,
-        lambda_use(plan_, pass, substep));
+    passes.project[static_cast<std::uint32_t>(ConstraintKind::coarse_limit)](cloth_.level_particles(pass.level),
+                                                                             cloth_.level_rows(pass.level), rows,
+                                                                             numbers_.h, use_of_lambda(pass, substep));
 }
 
 void ClothRun::run_faces(const Pass& pass, Worker worker) const {

@@ -32,6 +32,9 @@ class ClothRun {
     bool run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_targets(std::uint32_t substep, Range mine) const;
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine) const;
+    LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
+        return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));
+    }
     void run_rows(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_lines(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_corrections(const Pass& pass, std::uint32_t substep, Worker worker) const;

@@ -162,6 +162,18 @@ void ClothState::remember(std::size_t begin, std::size_t end) {
     copy(world.compensation, world.good_compensation);
 }
 
+// Written so that compilers make one vector operation of each line.
+Bounds ClothState::bounds() const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    std::array<float, 4> low{infinity, infinity, infinity, infinity}, high{-infinity, -infinity, -infinity, -infinity};
+    for (const Vec4& x : world.range(base, model->particle_count).position) {
+        const std::array<float, 4> place{x.x, x.y, x.z, 0};
+        for (int k = 0; k < 4; ++k) low[k] = place[k] < low[k] ? place[k] : low[k];
+        for (int k = 0; k < 4; ++k) high[k] = place[k] > high[k] ? place[k] : high[k];
+    }
+    return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
 void ClothState::roll_back() {
     for (std::size_t p = base; p < std::size_t{base} + model->capacity(); ++p) {
         const Vec4& x = world.good_position[p];
@@ -276,7 +288,7 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     }
     for (const ConstraintTable& table : model->constraints) {
         auto& of_table = lambda[static_cast<std::uint32_t>(table.kind)];
-        const std::size_t count = plan.iterations > 1 ? table.lambda_count() : 0;
+        const std::size_t count = rounds_of(plan, *model) > 1 ? table.lambda_count() : 0;
         if (table.kind != ConstraintKind::stretch && of_table.size() != count) of_table.assign(count, 0.0f);
     }
     std::uint32_t longest = 0;
@@ -284,7 +296,7 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
         longest = std::max(longest, block.length);
     if (line_scratch.size() < workers) line_scratch.resize(workers);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
-    const std::size_t sums = plan.iterations > 1 ? colliders * model->capacity() : 0;
+    const std::size_t sums = rounds_of(plan, *model) > 1 ? colliders * model->capacity() : 0;
     if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
     account.prepare(contact_forces ? colliders : 0, model->capacity(), workers);
     if (plan.projection == Projection::jacobi && !gather) {

@@ -11,6 +11,8 @@
 #include "solver/state/particle_weight.h"
 #include "solver/state/snapshot.h"
 
+#include <weft/bounds.h>
+
 #include <array>
 #include <memory>
 #include <vector>
@@ -82,6 +84,7 @@ struct ClothState {
     void remember(std::size_t begin, std::size_t end);  ///< saves these particles as the last good ones
     void remember();                                    ///< all
     void roll_back();
+    Bounds bounds() const;  ///< of the particles where they are; leaves out what is not a number
     /// Allocates what the plan needs besides the particles; the passes do not allocate.
     void prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces = false);
     /// Computes the limits of tethers and coarse levels from the tension that the last frame left in the cloth.

@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "cpu/cloth_state.h"
 #include "cpu/executor.h"
+#include "cpu/near_parts.h"
 #include "cpu/passes.h"
 
 #include <algorithm>
@@ -29,13 +30,13 @@ class CpuBackend final : public Backend {
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         make_room(*model, base);
-        auto state = std::make_unique<cpu::ClothState>(std::move(model), arrays_, base);
+        auto place = std::make_unique<Place>(cpu::ClothState(std::move(model), arrays_, base), search_always_);
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
         const auto at = static_cast<std::uint32_t>(free - cloths_.begin());
         if (free == cloths_.end()) {
-            cloths_.push_back(std::move(state));
+            cloths_.push_back(std::move(place));
         } else {
-            *free = std::move(state);
+            *free = std::move(place);
         }
         return ClothHandle{at};
     }
@@ -79,35 +80,18 @@ class CpuBackend final : public Backend {
     }
 
     void step(const WorldStep& step) override {
-        jobs_.resize(step.islands.size());
-        links_.resize(std::max(links_.size(), step.islands.size()));
-        const auto& begin = step.plan->frame_begin;
-        const bool sticks = std::ranges::find(begin, PassKind::find, &Pass::kind) != begin.end();
-        adhesion_.resize(sticks ? std::max(adhesion_.size(), step.islands.size()) : 0);
         counts_ = {};
         contact_counts_ = {};
-        while (cloth_contact_.size() < step.islands.size()) cloth_contact_.emplace_back(search_always_);
-        while (particle_contact_.size() < step.islands.size()) particle_contact_.emplace_back(search_always_);
-        for (std::size_t i = 0; i < jobs_.size(); ++i) {
-            cpu::Executor::Job& job = jobs_[i];
-            job.step = &step.islands[i];
-            job.links = job.step->links ? &links_[i] : nullptr;
-            job.adhesion = sticks ? &adhesion_[i] : nullptr;
-            job.again = false;
-            job.cloths.clear();
-            for (const ClothStep& one : job.step->cloths) job.cloths.push_back(&cloth(one.cloth));
-            const auto collides = [](const cpu::ClothState* state) { return state->model->tiles != nullptr; };
-            job.cloth_contact = std::ranges::any_of(job.cloths, collides) ? &cloth_contact_[i] : nullptr;
-            const auto has_spheres = [](const cpu::ClothState* state) { return state->model->along_curve != nullptr; };
-            const bool spheres = has_particle_contact(*step.plan) && std::ranges::any_of(job.cloths, has_spheres);
-            job.particle_contact = spheres ? &particle_contact_[i] : nullptr;
-        }
-        executor_.run(step, jobs_, stage_ms_);
-        for (cpu::Executor::Job& job : jobs_) {
-            if (job.adhesion) complete_lists(step, job);
+        job_count_ = 0;
+        while (islands_.size() < step.islands.size()) islands_.push_back(std::make_unique<Island>());
+        for (std::size_t i = 0; i < step.islands.size(); ++i) begin_island(step, step.islands[i], *islands_[i]);
+        run(step, jobs());
+        for (std::size_t i = 0; i < step.islands.size(); ++i) group_again(step, *islands_[i]);
+        for (const cpu::Executor::Job& job : jobs()) {
+            if (job.adhesion) add_counts(*job.adhesion);
             if (job.cloth_contact) add_counts(job.cloth_contact->counts());
             if (job.particle_contact) add_counts(job.particle_contact->counts());
-            end_island(step, job);
+            end_job(step, job);
         }
     }
 
@@ -134,7 +118,7 @@ class CpuBackend final : public Backend {
 
     void add_contact_marks(ClothHandle id, std::span<std::uint32_t> marks) const override {
         const cpu::ClothState& state = cloth(id);
-        for (const cpu::Executor::Job& job : jobs_) {
+        for (const cpu::Executor::Job& job : jobs()) {
             if (std::ranges::find(job.cloths, &state) == job.cloths.end()) continue;
             if (job.cloth_contact && state.model->tiles) job.cloth_contact->add_marks(state.base, marks);
             if (job.particle_contact && state.model->along_curve) job.particle_contact->add_marks(state.base, marks);
@@ -161,9 +145,110 @@ class CpuBackend final : public Backend {
     }
 
   private:
-    cpu::ClothState& cloth(ClothHandle id) const {
+    // A cloth, and what the cloths that step together keep between frames if it is the first of them.
+    struct Place {
+        Place(cpu::ClothState cloth, bool search_always)
+            : state(std::move(cloth)), cloth_contact(search_always), particle_contact(search_always) {}
+        cpu::ClothState state;
+        cpu::LinkState links;  // of its stitched part
+        cpu::AdhesionList adhesion;
+        cpu::ClothContact cloth_contact;
+        cpu::ParticleContact particle_contact;
+    };
+    // In a frame.
+    struct Island {
+        const IslandStep* step = nullptr;
+        std::vector<cpu::ClothState*> cloths = {};  // as in the step
+        cpu::NearParts near = {};
+    };
+
+    Place& place(ClothHandle id) const {
         assert(id.value < cloths_.size() && cloths_[id.value]);
         return *cloths_[id.value];
+    }
+    cpu::ClothState& cloth(ClothHandle id) const { return place(id).state; }
+
+    std::span<cpu::Executor::Job> jobs() { return std::span(jobs_).first(job_count_); }
+    std::span<const cpu::Executor::Job> jobs() const { return std::span(jobs_).first(job_count_); }
+
+    // Adds the jobs of an island.
+    void begin_island(const WorldStep& step, const IslandStep& of, Island& island) {
+        island.step = &of;
+        island.cloths.clear();
+        for (const ClothStep& one : of.cloths) island.cloths.push_back(&cloth(one.cloth));
+        if (of.cloths.empty()) return;
+        island.near.begin(of, island.cloths, step.input.dt);
+        constexpr std::array<std::uint32_t, 1> only_part{0};
+        if (of.parts.size() == 1) return make_job(step, island, only_part, next_job());
+        for (const auto& parts : island.near.groups()) make_job(step, island, parts, next_job());
+    }
+
+    // Keeps the memory that earlier frames have allocated.
+    cpu::Executor::Job& next_job() {
+        if (job_count_ == jobs_.size()) jobs_.emplace_back();
+        return jobs_[job_count_++];
+    }
+
+    // The job of some parts of an island.
+    void make_job(const WorldStep& step, Island& island, std::span<const std::uint32_t> parts,
+                  cpu::Executor::Job& job) {
+        job.step = island.step;
+        job.again = false;
+        job.steps.clear(), job.cloths.clear(), job.links.clear(), job.swept.clear();
+        bool collides = false, has_spheres = false;
+        for (const std::uint32_t number : parts) {
+            const StitchedPart& part = island.step->parts[number];
+            for (std::uint32_t i = part.begin; i < part.end; ++i) {
+                const ClothModel& model = *island.cloths[i]->model;
+                collides = collides || model.tiles;
+                has_spheres = has_spheres || model.along_curve;
+                job.steps.push_back(&island.step->cloths[i]);
+                job.cloths.push_back(island.cloths[i]);
+                if (island.step->parts.size() > 1) job.swept.push_back(&island.near.swept(i));
+            }
+            if (part.links) job.links.push_back({part.links, &place(island.step->cloths[part.begin].cloth).links});
+        }
+        Place& first = place(job.steps.front()->cloth);
+        const auto& begin = step.plan->frame_begin;
+        const bool sticks = std::ranges::find(begin, PassKind::find, &Pass::kind) != begin.end();
+        job.adhesion = sticks ? &first.adhesion : nullptr;
+        job.cloth_contact = collides ? &first.cloth_contact : nullptr;
+        job.particle_contact = has_spheres && has_particle_contact(*step.plan) ? &first.particle_contact : nullptr;
+    }
+
+    void run(const WorldStep& step, std::span<cpu::Executor::Job> jobs) {
+        executor_.run(step, jobs, stage_ms_);
+        for (cpu::Executor::Job& job : jobs)
+            if (job.adhesion) complete_lists(step, job);
+    }
+
+    // Cloths that have come near each other without stepping together are taken back, and the frame runs again.
+    void group_again(const WorldStep& step, Island& island) {
+        while (island.near.merge()) {
+            std::vector<cpu::Executor::Job> grown;
+            for (const auto& parts : island.near.groups()) {
+                cpu::Executor::Job job;
+                make_job(step, island, parts, job);
+                if (std::ranges::find(jobs(), job.cloths, &cpu::Executor::Job::cloths) != jobs().end()) continue;
+                job.again = true;
+                for (cpu::ClothState* state : job.cloths) {
+                    state->roll_back();
+                    remove_job_of(*state);
+                }
+                ++counts_.repeats;
+                grown.push_back(std::move(job));
+            }
+            run(step, grown);
+            for (cpu::Executor::Job& job : grown) next_job() = std::move(job);
+        }
+    }
+
+    void remove_job_of(const cpu::ClothState& state) {
+        for (std::size_t i = 0; i < job_count_; ++i) {
+            if (std::ranges::find(jobs_[i].cloths, &state) == jobs_[i].cloths.end()) continue;
+            std::swap(jobs_[i], jobs_[--job_count_]);
+            return;
+        }
     }
 
     void make_room(const ClothModel& model, std::uint32_t base) {
@@ -171,7 +256,7 @@ class CpuBackend final : public Backend {
         if (arrays_.size() < end) arrays_.resize(end);
     }
 
-    // If an island's list was too short, rolls the island back and repeats the frame with a longer list.
+    // If a list was too short, rolls its cloths back and repeats the frame with a longer list.
     void complete_lists(const WorldStep& step, cpu::Executor::Job& job) {
         while (job.adhesion->rows().is_full()) {
             for (cpu::ClothState* state : job.cloths) state->roll_back();
@@ -180,24 +265,27 @@ class CpuBackend final : public Backend {
             executor_.run(step, std::span(&job, 1), stage_ms_);
             ++counts_.repeats;
         }
-        counts_.rows += job.adhesion->rows().rows();
-        counts_.capacity += job.adhesion->rows().capacity();
     }
 
-    void add_counts(const ClothContactCounts& island) {
-        contact_counts_.contacts += island.contacts;
-        contact_counts_.searches += island.searches;
-        contact_counts_.limited += island.limited;
-        contact_counts_.tangled += island.tangled;
-        if (island.tangled == 0) return;
-        contact_counts_.tangled_particle = std::min(contact_counts_.tangled_particle, island.tangled_particle);
+    void add_counts(const cpu::AdhesionList& list) {
+        counts_.rows += list.rows().rows();
+        counts_.capacity += list.rows().capacity();
     }
 
-    // Collects the reports and contacts of an island. If one of its cloths is not finite, rolls all of them back.
-    void end_island(const WorldStep& step, const cpu::Executor::Job& job) {
+    void add_counts(const ClothContactCounts& of_job) {
+        contact_counts_.contacts += of_job.contacts;
+        contact_counts_.searches += of_job.searches;
+        contact_counts_.limited += of_job.limited;
+        contact_counts_.tangled += of_job.tangled;
+        if (of_job.tangled == 0) return;
+        contact_counts_.tangled_particle = std::min(contact_counts_.tangled_particle, of_job.tangled_particle);
+    }
+
+    // Collects the reports and contacts of cloths. If one of them is not finite, rolls all of them back.
+    void end_job(const WorldStep& step, const cpu::Executor::Job& job) {
         std::uint32_t all = report_none;
         for (std::size_t i = 0; i < job.cloths.size(); ++i) {
-            const ClothStep& one = job.step->cloths[i];
+            const ClothStep& one = *job.steps[i];
             one.frame->reports = job.reports[i];
             one.frame->detail.clear();
             all |= job.reports[i];
@@ -208,7 +296,7 @@ class CpuBackend final : public Backend {
         for (cpu::ClothState* state : job.cloths) state->roll_back();
         const std::string culprit = executor_.find_non_finite(step, job);
         for (std::size_t i = 0; i < job.cloths.size(); ++i) {
-            const ClothStep& one = job.step->cloths[i];
+            const ClothStep& one = *job.steps[i];
             cpu::ClothState& state = *job.cloths[i];
             if (one.contact_forces) one.contact_forces->clear();
             one.frame->reports |= report_non_finite;
@@ -223,17 +311,15 @@ class CpuBackend final : public Backend {
     const cpu::Passes& passes_;
     WorkerTeam team_;
     cpu::Executor executor_;
-    std::vector<cpu::Executor::Job> jobs_;                // of the current frame
-    std::vector<cpu::LinkState> links_;                   // by island
-    std::vector<cpu::AdhesionList> adhesion_;             // by island; empty if nothing sticks
-    std::vector<cpu::ClothContact> cloth_contact_;        // by island
-    std::vector<cpu::ParticleContact> particle_contact_;  // by island
+    std::vector<std::unique_ptr<Island>> islands_;
+    std::vector<cpu::Executor::Job> jobs_;  // of the current frame, and unused ones
+    std::size_t job_count_ = 0;
     bool search_always_;
     ListCounts counts_;                  // of the last frame
     ClothContactCounts contact_counts_;  // of the last frame
     cpu::WorldArrays arrays_;
     std::array<double, stage_count> stage_ms_{};
-    std::vector<std::unique_ptr<cpu::ClothState>> cloths_;
+    std::vector<std::unique_ptr<Place>> cloths_;  // by handle
 };
 
 }  // namespace

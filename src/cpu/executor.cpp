@@ -70,10 +70,19 @@ void Executor::run(const WorldStep& step, std::span<Job> jobs, std::array<double
 void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
     for (ClothState* cloth : job.cloths)
         cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces);
-    if (job.links) job.links->prepare(*job.step->links, *step.plan);
+    for (const Job::Links& links : job.links) links.state->prepare(*links.tables, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
-    if (job.cloth_contact) job.cloth_contact->prepare(passes_, step, job.cloths, job.step->seams);
-    if (job.particle_contact) job.particle_contact->prepare(passes_, {step, job.cloths, job.step->seams}, workers);
+    for (Bounds* swept : job.swept) *swept = {};
+    const std::size_t particles = job.cloths.front()->world.size();
+    if (job.cloth_contact) {
+        contact_arrays_.reserve(particles, team_.size());
+        job.cloth_contact->prepare(passes_, step, job.cloths, job.step->seams, contact_arrays_, job.swept);
+    }
+    if (job.particle_contact) {
+        particle_arrays_.reserve(particles, team_.size());
+        job.particle_contact->prepare(passes_, {step, job.cloths, job.step->seams, particle_arrays_, job.swept},
+                                      workers);
+    }
     job.reports.assign(job.cloths.size(), report_none);
     for (WorkerScratch& scratch : scratch_) {
         if (scratch.reports.size() < job.cloths.size()) scratch.reports.resize(job.cloths.size());
@@ -87,7 +96,7 @@ void Executor::begin_island(const WorldStep& step, const Job& job, std::vector<C
         // The limits follow from the state after the previous frame. A repeated frame keeps them, since its first run
         // has overwritten that state.
         if (!job.again) job.cloths[i]->begin_frame(*step.plan);
-        runs.emplace_back(passes_, *job.cloths[i], step, job.step->cloths[i]);
+        runs.emplace_back(passes_, *job.cloths[i], step, *job.steps[i]);
     }
 }
 
@@ -166,14 +175,21 @@ void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint3
     if (pass.pass.source == RowSource::links) {
         WorldArrays& world = island.job.cloths.front()->world;
         const float h = frame_numbers(island.runs.front().model(), *island.step.plan, island.step.input.dt).h;
-        island.job.links->run(passes_, *island.job.step->links, *island.step.plan, pass.pass, substep,
-                              world.range(0, world.size()).view(), h, worker);
+        for (const Job::Links& links : island.job.links)
+            links.state->run(passes_, *links.tables, *island.step.plan, pass.pass, substep,
+                             world.range(0, world.size()).view(), h, worker);
         return;
     }
-    if (is_cloth_contact(pass.pass.kind))
+    // The island's plan has the passes of all its cloths; those of the job may have no part in contact.
+    if (is_cloth_contact(pass.pass.kind)) {
+        if (!island.job.cloth_contact) return;
         return island.job.cloth_contact->run({island.step, island.job.cloths, [this] { team_.barrier(); }}, pass.pass,
                                              worker);
-    if (is_particle_contact(pass.pass.kind)) return island.job.particle_contact->run(pass.pass, worker);
+    }
+    if (is_particle_contact(pass.pass.kind)) {
+        if (island.job.particle_contact) island.job.particle_contact->run(pass.pass, worker);
+        return;
+    }
     if (pass.pass.source == RowSource::dynamic)
         return island.job.adhesion->run({passes_, island.step, island.job.cloths}, pass.pass, substep, worker);
     for (std::size_t i = 0; i < island.runs.size(); ++i) {
@@ -188,7 +204,7 @@ std::string Executor::find_non_finite(const WorldStep& step, const Job& job) {
     for (std::size_t i = 0; i < job.cloths.size(); ++i) {
         const ClothState& cloth = *job.cloths[i];
         const Particles now = cloth.now();
-        std::string culprit = name_input(step.input, job.step->cloths[i].motion_poses, points(cloth, now.position),
+        std::string culprit = name_input(step.input, job.steps[i]->motion_poses, points(cloth, now.position),
                                          points(cloth, now.velocity));
         if (!culprit.empty()) return culprit;
     }

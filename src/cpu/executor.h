@@ -1,4 +1,4 @@
-// Executes a frame: runs the passes of every island on a worker team.
+// Executes a frame: runs the passes of all islands on a worker team.
 #pragma once
 
 #include "base/workers.h"
@@ -20,11 +20,17 @@ class Executor {
     Executor(const Passes& passes, WorkerTeam& team, std::uint32_t smallest_shared = 0)
         : passes_(passes), team_(team), smallest_shared_(smallest_shared), scratch_(team.size()) {}
 
-    /// An island in a frame.
+    /// Cloths of an island that step together in a frame: all, or the parts of a group (NearParts).
     struct Job {
+        struct Links {
+            const LinkTables* tables;
+            LinkState* state;
+        };
         const IslandStep* step = nullptr;
-        std::vector<ClothState*> cloths = {};         ///< as in the step
-        LinkState* links = nullptr;                   ///< null if the step has none
+        std::vector<const ClothStep*> steps = {};  ///< by cloth
+        std::vector<ClothState*> cloths = {};
+        std::vector<Links> links = {};                ///< of the parts that have any
+        std::vector<Bounds*> swept = {};              ///< by cloth: out; empty if nobody wants to know (NearParts)
         AdhesionList* adhesion = nullptr;             ///< null if nothing sticks
         ClothContact* cloth_contact = nullptr;        ///< null if no cloth collides exactly
         ParticleContact* particle_contact = nullptr;  ///< null if no cloth collides by particles
@@ -68,6 +74,8 @@ class Executor {
     std::uint32_t smallest_shared_;
     std::vector<WorkerScratch> scratch_;
     std::vector<Job*> small_;  // of the frame, the largest first
+    ContactArrays contact_arrays_;
+    ParticleArrays particle_arrays_;
 };
 
 }  // namespace weft::cpu

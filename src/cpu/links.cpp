@@ -4,7 +4,7 @@ namespace weft::cpu {
 
 void LinkState::prepare(const LinkTables& tables, const WorldPlan& plan) {
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
-        lambda_[kind].resize(plan.iterations > 1 ? tables[kind].lambda_count() : 0);
+        lambda_[kind].resize(rounds_of_links(plan) > 1 ? tables[kind].lambda_count() : 0);
 }
 
 void LinkState::run(const Passes& wide, const LinkTables& tables, const WorldPlan& plan, const Pass& pass,
@@ -21,7 +21,7 @@ void LinkState::run(const Passes& wide, const LinkTables& tables, const WorldPla
     const RowView view{table.stride, table.particles.data(), table.fields.data(), lambda_[kind].data()};
     // Fabrics have no plain stiffness for links, so plain position-based dynamics uses 1.
     if (plan.method == Method::pbd) return passes.project_plain[kind](world, view, rows, {1, 1});
-    passes.project[kind](world, view, rows, h, lambda_use(plan, pass, substep));
+    passes.project[kind](world, view, rows, h, lambda_use(plan, pass, substep, rounds_of_links(plan)));
 }
 
 }  // namespace weft::cpu

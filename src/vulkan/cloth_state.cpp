@@ -43,11 +43,11 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
         }
     }
     for (const ConstraintTable& table : model.constraints) {
-        if (plan.iterations > 1 && table.kind != ConstraintKind::stretch)
+        if (rounds_of(plan, model) > 1 && table.kind != ConstraintKind::stretch)
             work.lambda[static_cast<std::uint32_t>(table.kind)] =
                 work.arena.reserve(table.lambda_count() * sizeof(float));
     }
-    if (plan.iterations > 1)
+    if (rounds_of(plan, model) > 1)
         work.contact_sums = work.arena.reserve(std::uint64_t{shape.colliders} * model.capacity() * block);
     if (shape.contact_forces)
         work.contact_log = work.arena.reserve(2 * std::uint64_t{shape.colliders} * model.capacity() * block);

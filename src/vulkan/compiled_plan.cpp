@@ -27,7 +27,8 @@ class Compiler {
           stiffness_(stiffness),
           island_(island) {
         const PlannedCloth single_cloth{&model_, shape.targets > 0};
-        passes_ = IslandPlan(plan, {&single_cloth, 1}, island.tables, Sharing::free);
+        const std::span<const LinkTables* const> links(&island_.tables, island_.tables ? 1 : 0);
+        passes_ = IslandPlan(plan, {&single_cloth, 1}, links, Sharing::free);
     }
 
     Result<CompiledPlan> run() {
@@ -287,7 +288,8 @@ class Compiler {
     }
 
     std::uint32_t use_of_lambda(const Pass& pass, std::uint32_t substep) const {
-        return vulkan::use_of_lambda(plan_, pass, substep);
+        const bool links = pass.source == RowSource::links;
+        return vulkan::use_of_lambda(plan_, pass, substep, links ? rounds_of_links(plan_) : rounds_of(plan_, model_));
     }
 
     RowArgs row_args(ConstraintKind kind) const {
@@ -528,8 +530,8 @@ void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::D
     commands.dispatch(wide, (groups + wide - 1) / wide);
 }
 
-std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep) {
-    switch (lambda_use(plan, pass, substep)) {
+std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds) {
+    switch (lambda_use(plan, pass, substep, rounds)) {
         case LambdaUse::discard:
             return WEFT_LAMBDA_DISCARD;
         case LambdaUse::store:

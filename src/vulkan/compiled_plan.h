@@ -58,7 +58,7 @@ struct CompiledPlan {
 /// Data of the island that a cloth belongs to.
 struct IslandPart {
     std::uint64_t report = 0;            ///< address of the report of the island's first cloth
-    const LinkTables* tables = nullptr;  ///< only for the first cloth of an island with links
+    const LinkTables* tables = nullptr;  ///< only for the first of several cloths that are stitched together
     const LinkBuffers* links = nullptr;  ///< likewise
 };
 
@@ -70,7 +70,7 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);
 
 /// One of WEFT_LAMBDA_… for a pass.
-std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
+std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds);
 
 /// Whether a pass is recorded once for all cloths of a frame.
 inline bool is_for_all(const Pass& pass) {

@@ -80,7 +80,7 @@ Result<void> FrameRun::compile_members() {
         if (!work) return work.errors();
         work_.push_back(std::move(*work));
         IslandPart island{.report = buffers_.input(first_of_island(i)).report()};
-        if (first_of_island(i) == i && member.links) {
+        if (member.links) {
             auto links = LinkBuffers::create(device_, *member.links, plan_);
             if (!links) return links.errors();
             links_.push_back(std::move(*links));

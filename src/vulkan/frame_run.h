@@ -38,7 +38,7 @@ class FrameRun {
         InputShape shape;
         PlainStiffness stiffness{};
         std::uint32_t island = 0;           ///< members of one island are consecutive
-        const LinkTables* links = nullptr;  ///< of the island; needed during create() only
+        const LinkTables* links = nullptr;  ///< if it is the first of stitched cloths; needed during create() only
         const Seams* seams = nullptr;       ///< likewise
     };
 

@@ -12,7 +12,8 @@ Result<LinkBuffers> LinkBuffers::create(gpu::Device& device, const LinkTables& t
                                .lambda = {},
                                .stride = from.stride,
                                .batches = from.batches};
-        if (plan.iterations > 1) links.tables_[kind].lambda = links.arena_.reserve(from.lambda_count() * sizeof(float));
+        if (rounds_of_links(plan) > 1)
+            links.tables_[kind].lambda = links.arena_.reserve(from.lambda_count() * sizeof(float));
     }
     if (links.arena_.size() == 0) return links;
     if (auto built = links.arena_.build(device, "constraints between cloths"); !built) return built.errors();

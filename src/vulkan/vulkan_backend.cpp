@@ -279,7 +279,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     // `fused`: a workgroup runs a cloth to the end of the frame without waiting for others. So the cloth must be the
     // only one in its island, and there must be no dynamic lists and no contact between cloths, which all cloths share.
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
-        const bool single_cloth = island.cloths.size() == 1 && !island.links && !has_lists(step) &&
+        const bool single_cloth = island.cloths.size() == 1 && !island.parts.front().links && !has_lists(step) &&
                                   !cloth(island.cloths.front().cloth).model().along_curve;
         if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
@@ -304,14 +304,17 @@ class VulkanBackend final : public Backend, public VulkanInterop {
                 groups_.push_back({.execution = execution, .steps = {}, .members = {}});
                 there = groups_.end() - 1;
             }
-            for (const ClothStep& one : island.cloths) {
-                there->steps.push_back(&one);
-                there->members.push_back({.cloth = &cloth(one.cloth),
-                                          .shape = vulkan::shape_of(*step.plan, step.input, one),
-                                          .stiffness = one.stiffness ? *one.stiffness : PlainStiffness{},
-                                          .island = i,
-                                          .links = island.links,
-                                          .seams = island.seams.get()});
+            for (const StitchedPart& part : island.parts) {
+                for (std::uint32_t k = part.begin; k < part.end; ++k) {
+                    const ClothStep& one = island.cloths[k];
+                    there->steps.push_back(&one);
+                    there->members.push_back({.cloth = &cloth(one.cloth),
+                                              .shape = vulkan::shape_of(*step.plan, step.input, one),
+                                              .stiffness = one.stiffness ? *one.stiffness : PlainStiffness{},
+                                              .island = i,
+                                              .links = k == part.begin ? part.links : nullptr,
+                                              .seams = island.seams.get()});
+                }
             }
         }
     }

@@ -19,7 +19,7 @@ class LoneCloth {
           state_(std::move(model), arrays_, 0),
           executor_(*cpu::available_passes().front(), team_),
           plan_(plan_world(settings, {{{.model = state_.model.get()}}})),
-          passes_(plan_, {{{.model = state_.model.get()}}}, nullptr),
+          passes_(plan_, {{{.model = state_.model.get()}}}, {}),
           stiffness_(plain_stiffness(state_.model->fabric, settings.solver.iterations)) {}
 
     const ClothModel& model() const { return *state_.model; }
@@ -27,9 +27,10 @@ class LoneCloth {
     /// Returns report bits. `gravity` in m/s².
     std::uint32_t step(double dt, Vec3 gravity) {
         const ClothStep cloth{.cloth = {}, .stiffness = &stiffness_};
-        const IslandStep island{.plan = &passes_, .cloths = {&cloth, 1}};
+        const StitchedPart part{0, 1};
+        const IslandStep island{.plan = &passes_, .cloths = {&cloth, 1}, .parts = {&part, 1}};
         const WorldStep step{.plan = &plan_, .input = {.dt = dt, .gravity = gravity}};
-        cpu::Executor::Job job{.step = &island, .cloths = {&state_}};
+        cpu::Executor::Job job{.step = &island, .steps = {&cloth}, .cloths = {&state_}};
         executor_.run(step, {&job, 1}, stage_ms_);
         return job.reports.front();
     }

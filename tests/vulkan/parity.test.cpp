@@ -125,9 +125,10 @@ class Parity : public testing::TestWithParam<const char*> {
         PlainStiffness stiffness;
         stiffness.fill({0.3f, 0.8f});
         const PlannedCloth planned{model.get(), false};
-        const IslandPlan passes(plan, {&planned, 1}, nullptr);
+        const IslandPlan passes(plan, {&planned, 1}, {});
         const ClothStep step{.cloth = *cloth, .stiffness = &stiffness, .frame = &frame};
-        const IslandStep island{.plan = &passes, .cloths = {&step, 1}};
+        const StitchedPart part{0, 1};
+        const IslandStep island{.plan = &passes, .cloths = {&step, 1}, .parts = {&part, 1}};
         const WorldStep world{.plan = &plan, .input = {.dt = 1e-3, .gravity = {}}, .islands = {&island, 1}};
         backend.step(world);
         backend.finish(stages);

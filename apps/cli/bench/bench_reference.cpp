@@ -35,7 +35,7 @@ class TrafficCounter {
     /// substep also keeps it for statistics; that is not counted.)
     double lambda_bytes(const Pass& pass) {
         const bool projects = pass.kind == PassKind::project || pass.kind == PassKind::correct;
-        if (!projects || plan_.iterations < 2 || plan_.method == Method::pbd) return 0;
+        if (!projects || rounds_of(plan_, model_) < 2 || plan_.method == Method::pbd) return 0;
         const double transfers = pass.first_iteration ? 1 : 2;
         return of(pass).rows * constraint_info(pass.constraint).lambdas * word * transfers;
     }

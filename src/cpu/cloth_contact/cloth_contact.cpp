@@ -22,51 +22,57 @@ void move_pushes(ContactSums& to, ContactSums& from) {
 }  // namespace
 
 void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
-                           const std::shared_ptr<const Seams>& seams) {
+                           const std::shared_ptr<const Seams>& seams, ContactArrays& arrays,
+                           std::span<Bounds* const> swept) {
     cloths_ = cloths;
+    swept_ = swept;
     tangle_ = step.input.tangle;
     counts_ = {};
     WorldArrays& world = cloths_.front()->world;
     x_ = world.position.data(), velocity_ = world.velocity.data(), start_ = world.start.data();
     loops_ = &contact_loops_of(passes.isa);
-    cap_ = 0;
-    for (const ClothState* cloth : cloths_) {
-        const float cap = contact_cap(*cloth->model);
-        if (cloth->model->tiles && (cap_ == 0 || cap < cap_)) cap_ = cap;
-    }
-    slack_ = slack_per_cap * cap_;
     h_ = frame_numbers(*cloths_.front()->model, *step.plan, step.input.dt).h;
+    use(arrays);
+    records_marks_ = step.input.contact_marks;
 
     std::vector<SearchedCloth> searched;
     for (const ClothState* cloth : cloths_) {
         const ClothModel& model = *cloth->model;
+        const std::uint32_t base = cloth->base, count = model.particle_count;
+        const float cap = contact_cap(model);
+        const auto& friction = model.fabric.contact.friction;
+        std::fill_n(numbers_ + base, count, Vec4{friction[0], friction[1], cap, 0});
+        std::fill_n(sums_ + base, count, ContactSums{}), std::fill_n(unscaled_ + base, count, ContactSums{});
+        if (records_marks_) std::fill_n(marks_ + base, count, 0u);
         if (model.tiles)
-            searched.push_back({model.tiles, cloth->base, model.start.data(),
-                                std::max(model.fabric.contact.thickness, least_contact_thickness), slack_,
+            searched.push_back({model.tiles, base, model.start.data(),
+                                std::max(model.fabric.contact.thickness, least_contact_thickness), slack_per_cap * cap,
                                 model.collision.filter, seams});
     }
     search_.set_cloths(loops_->search, std::move(searched));
     search_.check_start(x_);
+    caps_.resize(search_.tile_count());
+    for (std::uint32_t tile = 0; tile < caps_.size(); ++tile) caps_[tile] = search_.cloth(tile).slack / slack_per_cap;
+    sweep_boxes();
+}
 
-    const std::size_t size = world.size();
-    if (part_.size() < size) {
-        for (auto* array : {&reached_, &asked_, &farthest_, &friction_}) array->resize(size);
-        part_.resize(size), sent_back_.resize(size), retreats_.resize(size), slide_.resize(size);
-    }
-    sums_.assign(size, {}), unscaled_.assign(size, {});
-    begin_marks(step.input.contact_marks);
-    for (const ClothState* cloth : cloths_) {
-        const auto& friction = cloth->model->fabric.contact.friction;
-        std::fill_n(friction_.begin() + cloth->base, cloth->model->particle_count,
-                    Vec4{friction[0], friction[1], 0, 0});
-    }
+void ClothContact::use(ContactArrays& arrays) {
+    arrays_ = &arrays;
+    reached_ = arrays.reached.data(), asked_ = arrays.asked.data(), farthest_ = arrays.farthest.data();
+    numbers_ = arrays.numbers.data();
+    sums_ = arrays.sums.data(), unscaled_ = arrays.unscaled.data();
+    part_ = arrays.part.data(), slide_ = arrays.slide.data();
+    retreats_ = arrays.retreats.data(), sent_back_ = arrays.sent_back.data(), marks_ = arrays.marks.data();
 }
 
 void ClothContact::run(const ClothContactContext& context, const Pass& pass, Worker worker) {
     if (worker.number != 0) return team_.help(worker.number, context.barrier);
     cloths_ = context.cloths;
     workers_.resize(worker.count);
-    for (unsigned i = 0; i < worker.count; ++i) workers_[i].worker = i;
+    for (unsigned i = 0; i < worker.count; ++i) {
+        workers_[i].worker = i;
+        workers_[i].sums = worker.count > 1 ? arrays_->worker_sums[i].data() : nullptr;
+    }
     team_.lead(worker.count, context.barrier, [&] { lead(pass); });
 }
 
@@ -84,11 +90,19 @@ void ClothContact::lead(const Pass& pass) {
 }
 
 void ClothContact::detect() {
+    sweep_boxes();
     untangle();
     begin_reach();
     find_near_of_motion(search_always_);
     if (brake()) find_near_of_motion(false);
     for (Mine& mine : workers_) mine.pushes.clear();
+}
+
+// What the contact of a substep looks at is near where the particles are when it begins, when the limit begins, or when
+// the frame begins (Reach).
+void ClothContact::sweep_boxes() {
+    for (std::size_t i = 0; i < swept_.size(); ++i)
+        if (cloths_[i]->model->tiles) swept_[i]->include(cloths_[i]->bounds());
 }
 
 // For the motion to where the particles are now.
@@ -128,12 +142,11 @@ void ClothContact::push(const Pass& pass) {
 void ClothContact::sweep() {
     const bool alone = team_.size() == 1;
     in_parallel([&](Mine& mine) {
-        if (!alone && mine.sums.size() < sums_.size()) mine.sums.resize(sums_.size());
-        ContactSums *const totals = sums_.data(), *const unscaled = unscaled_.data();
-        ContactSums* const own = alone ? totals : mine.sums.data();
+        ContactSums *const totals = sums_, *const unscaled = unscaled_;
+        ContactSums* const own = alone ? totals : mine.sums;
         const SweepView view{&start_->x,
                              &x_->x,
-                             &friction_.data()->x,
+                             &numbers_->x,
                              totals,
                              unscaled,
                              own,
@@ -178,7 +191,7 @@ void ClothContact::add_up(const Mine& mine, Add&& add) {
 void ClothContact::keep_in_reach(std::uint32_t p) {
     const Vec3 away = x_[p].xyz() - reached_[p].xyz();
     const float length2 = squared(away);
-    if (length2 > cap_ * cap_) set_place(x_[p], reached_[p].xyz() + away * (cap_ / std::sqrt(length2)));
+    if (length2 > cap(p) * cap(p)) set_place(x_[p], reached_[p].xyz() + away * (cap(p) / std::sqrt(length2)));
 }
 
 void ClothContact::add_share(std::uint32_t p, float weight) {

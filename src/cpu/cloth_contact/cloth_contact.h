@@ -1,11 +1,13 @@
 // Contact of cloth with itself and with other cloths, exactly: a substep that starts without crossings ends without
-// crossings (law: physics/cloth_contact/cloth_contact.md). One object per island.
+// crossings (law: physics/cloth_contact/cloth_contact.md). One object for all cloths that step together.
 #pragma once
 
 #include "base/workers.h"
-#include "cpu/cloth_contact/contact_loops.h"
+#include "cpu/cloth_contact/contact_arrays.h"
 #include "cpu/cloth_run.h"
 #include "solver/state/cloth_contact_counts.h"
+
+#include <weft/bounds.h>
 
 #include <array>
 #include <span>
@@ -13,7 +15,7 @@
 
 namespace weft::cpu {
 
-/// Input of the passes over an island's pairs.
+/// Input of the passes over the pairs of cloths that step together.
 struct ClothContactContext {
     const WorldStep& step;
     std::span<ClothState* const> cloths;
@@ -24,9 +26,11 @@ class ClothContact {
   public:
     explicit ClothContact(bool search_always = false) : search_always_(search_always) {}
 
-    /// Allocates for the island's cloths. Keeps the lists if they are the same cloths as in the frame before.
+    /// Allocates for these cloths. Keeps the lists if they are the same ones as in the frame before. `arrays` must have
+    /// room for all particles of the world, and last until the next call. `swept`: by cloth, gets a box around all
+    /// places at which passes look at its particles; empty if nobody wants to know.
     void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
-                 const std::shared_ptr<const Seams>& seams);
+                 const std::shared_ptr<const Seams>& seams, ContactArrays& arrays, std::span<Bounds* const> swept);
     /// All workers call it. The first one decides what to do, and all do it.
     void run(const ClothContactContext& context, const Pass& pass, Worker worker);
 
@@ -38,13 +42,16 @@ class ClothContact {
 
   private:
     struct Mine;
+    void use(ContactArrays& arrays);
     void lead(const Pass& pass);
     void detect();
+    void sweep_boxes();
     void find_near_of_motion(bool search_always);
     void push(const Pass& pass);
     void sweep();
     template <class Add>
     void add_up(const Mine& mine, Add&& add);
+    float cap(std::uint32_t p) const { return numbers_[p].z; }
     void keep_in_reach(std::uint32_t p);
     void add_share(std::uint32_t p, float weight);
     float share(std::uint32_t p) const;
@@ -58,7 +65,7 @@ class ClothContact {
     void add_near_pairs();
     void add_near_pairs(Mine& mine) const;
     bool is_relisted(std::uint32_t a, std::uint32_t b) const;
-    void extend_reach(float more = 0);
+    void extend_reach(float more_caps = 0);
     std::vector<std::array<std::uint32_t, 4>> remove_relisted(NearPairs& near) const;
     void extend_near_pairs(bool relisted);
     // limit.cpp
@@ -70,6 +77,7 @@ class ClothContact {
     bool any_found() const;
     bool any_lost();
     bool brake();
+    float brake_depth(const std::array<std::uint32_t, 4>& pair) const;
     void limit();
     void send_back();
     bool retreat(Mine& mine, const MovedPair& pair, bool all);
@@ -79,7 +87,6 @@ class ClothContact {
     void stay_at_start();
     void count_limited_particles();
     // contact_marks.cpp
-    void begin_marks(bool record);
     void mark_stuck(std::span<const std::uint32_t> particles);
     // untangle.cpp
     void untangle();
@@ -115,9 +122,8 @@ class ClothContact {
         std::array<Candidates, 2> candidates;  // by kind
         std::array<NearPairs, 2> near;         // by kind
         Overlaps overlaps;
-        AlignedVector<ContactSums>
-            sums;                    // by particle of the world, if there are several workers; 0 between two sweeps
-        std::vector<Pushed> pushes;  // of the substep
+        ContactSums* sums = nullptr;  // by particle of the world, if there are several workers
+        std::vector<Pushed> pushes;   // of the substep
         std::vector<std::uint32_t> lost, to_send_back;
         bool found = false;                    // of the last loop that looks for something
         std::uint64_t stuck = 0, limited = 0;  // pairs, particles
@@ -127,6 +133,7 @@ class ClothContact {
     // By tile, m: how far lists and near pairs allow particles to move from reached_, and did before; how far they are
     // from there, and were at most.
     std::vector<float> reach_, before_, moved_, most_moved_;
+    std::vector<float> caps_;  // of the tiles' particles
     LedTeam team_;
 
     // Of the frame.
@@ -134,23 +141,19 @@ class ClothContact {
     const Tangle* tangle_ = nullptr;  // null if nothing is tangled
     Vec4 *x_ = nullptr, *velocity_ = nullptr;
     const Vec4* start_ = nullptr;
-    float h_ = 0;      // s
-    float slack_ = 0;  // m
-    float cap_ = 0;    // m: how far pushes may move a particle from where the constraints left it
+    float h_ = 0;  // s
+    std::span<Bounds* const> swept_;
     ClothContactCounts counts_;
     bool records_marks_ = false;
-    std::vector<std::uint32_t> marks_;  // by particle of the world: ContactMark, without mark_touches
 
-    // By particle of the world.
-    AlignedVector<Vec4> reached_;                 // where the constraints left the particles
-    AlignedVector<Vec4> asked_;                   // before the limit
-    AlignedVector<Vec4> farthest_;                // from the listed trajectories
-    AlignedVector<ContactSums> sums_, unscaled_;  // 0 between two uses
-    std::vector<float> part_;                     // of its motion that the brake leaves to the particle
-    std::vector<Vec3> slide_;                     // motion that the limit leaves to a particle that slides
-    std::vector<std::uint8_t> retreats_;          // how often the limit has sent the particle back
-    std::vector<std::uint8_t> sent_back_;
-    AlignedVector<Vec4> friction_;  // static and kinetic
+    ContactArrays* arrays_ = nullptr;
+    // Of these, by particle of the world.
+    Vec4 *reached_ = nullptr, *asked_ = nullptr, *farthest_ = nullptr, *numbers_ = nullptr;
+    ContactSums *sums_ = nullptr, *unscaled_ = nullptr;
+    float* part_ = nullptr;
+    Vec3* slide_ = nullptr;
+    std::uint8_t *retreats_ = nullptr, *sent_back_ = nullptr;
+    std::uint32_t* marks_ = nullptr;
 };
 
 }  // namespace weft::cpu

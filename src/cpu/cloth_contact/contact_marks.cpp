@@ -6,13 +6,6 @@
 
 namespace weft::cpu {
 
-void ClothContact::begin_marks(bool record) {
-    records_marks_ = record;
-    if (!record) return;
-    marks_.resize(part_.size());
-    std::ranges::fill(marks_, 0u);
-}
-
 void ClothContact::mark_stuck(std::span<const std::uint32_t> particles) {
     if (!records_marks_) return;
     for (const std::uint32_t p : particles)  // other workers may mark the same particle

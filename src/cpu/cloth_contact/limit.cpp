@@ -62,8 +62,12 @@ float ClothContact::part_before_brake_depth(const NearPairs& near, int kind, std
     for (int k = 0; k < 4; ++k) along[k] = dot(x_[particles[k]].xyz() - x_[particles[0]].xyz(), normal);
     const float gap = kind == 1 ? scalar::gap_edge_edge(along[0], along[1], along[2], along[3])
                                 : scalar::gap_vertex_triangle(along[0], along[1], along[2], along[3]);
-    return scalar::part_to_depth(gap, near.gap[pair], near.thickness[pair] * contact_gap_floor,
-                                 contact_brake_depth * cap_);
+    return scalar::part_to_depth(gap, near.gap[pair], near.thickness[pair] * contact_gap_floor, brake_depth(particles));
+}
+
+// Of both sides the smaller one: neither can take back more.
+float ClothContact::brake_depth(const std::array<std::uint32_t, 4>& pair) const {
+    return contact_brake_depth * std::min(cap(pair[0]), cap(pair[3]));
 }
 
 // Calls visit(near pairs, kind, pair) for all pairs of the worker that lose their gap and `depth` more. `visit` returns
@@ -99,13 +103,14 @@ bool ClothContact::any_lost() {
 // for both sides of a pair, so that contact has to take back only the rest. Without it, cloth that is pulled over cloth
 // stays where it is in every substep, while the pull grows. Returns whether any particle was slowed.
 bool ClothContact::brake() {
+    const float least_depth = contact_brake_depth * std::ranges::min(caps_);
     in_parallel([&](Mine& mine) {
         for_each_particle(mine, [&](std::uint32_t p) { part_[p] = 1; });
         team_.wait();
         mine.found = false;
-        for_each_lost(mine, contact_brake_depth * cap_, [&](const NearPairs& near, int kind, std::uint32_t pair) {
-            mine.found = true;
+        for_each_lost(mine, least_depth, [&](const NearPairs& near, int kind, std::uint32_t pair) {
             const float part = part_before_brake_depth(near, kind, pair);
+            mine.found = mine.found || part < 1;
             for (const std::uint32_t p : near.particles(pair)) lower(part_[p], part);
             return true;
         });
@@ -150,7 +155,7 @@ void ClothContact::set_back(std::uint32_t p) {
     sums_[p] = {}, sent_back_[p] = 0;
     const std::uint32_t retreats = ++retreats_[p];
     if (retreats == most_retreats) return set_place(x_[p], from);
-    const Vec3 slide = to_vec3(scalar::slide_near(on_lane(asked), on_lane(slide_[p]), limit_aside * cap_));
+    const Vec3 slide = to_vec3(scalar::slide_near(on_lane(asked), on_lane(slide_[p]), limit_aside * cap(p)));
     const std::uint32_t halvings = retreats > limit_slides ? retreats - limit_slides : 0;
     set_place(x_[p], from + slide * (1 / static_cast<float>(1u << halvings)));
 }
@@ -192,8 +197,8 @@ bool ClothContact::any_uncovered() {
     in_parallel([&](Mine& mine) {
         for_each_particle(mine, [&](std::uint32_t p) { farthest_[p] = retreats_[p] > 0 ? start_[p] : x_[p]; });
     });
-    std::ranges::fill(moved_, limit_aside * cap_);
-    return search_.find_outdated(farthest_.data(), moved_, false, team_);
+    for (std::size_t tile = 0; tile < caps_.size(); ++tile) moved_[tile] = limit_aside * caps_[tile];
+    return search_.find_outdated(farthest_, moved_, false, team_);
 }
 
 // Takes the particles back to where they were before the limit.
@@ -213,11 +218,12 @@ void ClothContact::stay_at_start() {
 }
 
 void ClothContact::limit() {
+    sweep_boxes();
     in_parallel(
         [&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { asked_[p] = x_[p], retreats_[p] = 0; }); });
     extend_reach();
     if (any_lost()) {
-        extend_reach(limit_aside * cap_);
+        extend_reach(limit_aside);
         send_back();
         // A particle that was sent back may have left its listed trajectory. Its tile is then listed for all places
         // between the start and where the particle was to go, and the limit starts again. Near pairs cover these places
@@ -228,7 +234,7 @@ void ClothContact::limit() {
                 break;
             }
             restart_limit();
-            search_.cover(start_, asked_.data());
+            search_.cover(start_, asked_);
             search_.search(team_);
             find_near();
             send_back();

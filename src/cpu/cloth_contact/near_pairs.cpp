@@ -28,12 +28,12 @@ void ClothContact::begin_reach() {
     reach_.resize(search_.tile_count());
     most_moved_.resize(search_.tile_count());
     for (std::size_t tile = 0; tile < reach_.size(); ++tile)
-        reach_[tile] = std::min(cap_, std::max(reach_growth * most_moved_[tile], least_reach * cap_));
+        reach_[tile] = std::min(caps_[tile], std::max(reach_growth * most_moved_[tile], least_reach * caps_[tile]));
     std::ranges::fill(most_moved_, 0.0f);
 }
 
 void ClothContact::follow_and_search() {
-    search_.follow(start_, reached_.data(), velocity_, h_, reach_, team_);
+    search_.follow(start_, reached_, velocity_, h_, reach_, team_);
     search_.search(team_);
 }
 
@@ -66,7 +66,7 @@ void ClothContact::add_near_pairs(Mine& mine) const {
                 loops_->choose(row.lists[kind], block.begin[kind], count, chosen, candidates);
             }
         });
-    const NearInput input{&start_->x, &reached_.data()->x, contact_gap_floor};
+    const NearInput input{&start_->x, &reached_->x, contact_gap_floor};
     for (int kind = 0; kind < 2; ++kind) {
         NearPairs& near = mine.near[kind];
         const std::uint32_t begin = near.count;
@@ -83,20 +83,20 @@ bool ClothContact::is_relisted(std::uint32_t a, std::uint32_t b) const {
 }
 
 // Extends lists and near pairs if a particle has moved farther from where the constraints left it than they allow for.
-// `more`: m, how much farther it may still move.
-void ClothContact::extend_reach(float more) {
-    search_.measure(reached_.data(), x_, moved_, team_);
+// `more_caps`: how much farther it may still move, in caps of the particles.
+void ClothContact::extend_reach(float more_caps) {
+    search_.measure(reached_, x_, moved_, team_);
     before_ = reach_;
     bool any = false;
     for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
         most_moved_[tile] = std::max(most_moved_[tile], moved_[tile]);
-        moved_[tile] += more;
+        moved_[tile] += more_caps * caps_[tile];
         if (moved_[tile] <= reach_[tile]) continue;
-        reach_[tile] = std::max(std::min(reach_growth * moved_[tile], cap_), 1.01f * moved_[tile]);
+        reach_[tile] = std::max(std::min(reach_growth * moved_[tile], caps_[tile]), 1.01f * moved_[tile]);
         any = true;
     }
     if (!any) return;
-    const bool relisted = search_.find_outdated(reached_.data(), reach_, false, team_);
+    const bool relisted = search_.find_outdated(reached_, reach_, false, team_);
     if (relisted) follow_and_search();
     extend_near_pairs(relisted);
 }

@@ -26,13 +26,15 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
     h_ = frame_numbers(*context.cloths.front()->model, *context.step.plan, context.step.input.dt).h;
     searches_ = 0;
 
-    const std::size_t size = world.size(), blocks = size / particle_block + 1;
     std::vector<SearchedParticles> searched;
-    particles_.clear();
-    friction_.resize(blocks);
-    for (const ClothState* cloth : context.cloths) {
+    particles_.clear(), searched_cloths_.clear();
+    swept_ = context.swept;
+    friction_ = context.arrays.friction.data();
+    for (std::uint32_t i = 0; i < context.cloths.size(); ++i) {
+        const ClothState* cloth = context.cloths[i];
         const ClothModel& model = *cloth->model;
         if (!model.along_curve) continue;
+        searched_cloths_.push_back(i);
         searched.push_back({.order = model.along_curve,
                             .base = cloth->base,
                             .rest = model.start.data(),
@@ -47,14 +49,14 @@ void ParticleContact::prepare(const Passes& passes, const ParticleContactContext
         particles_.push_back({cloth->base, end});
         const auto& [of_rest, of_motion] = model.fabric.contact.friction;
         for (std::uint32_t block = cloth->base / particle_block; block * particle_block < end; ++block)
-            friction_[block] = {std::sqrt(of_rest), std::sqrt(of_motion), 0, 0};
+            context.arrays.friction[block] = {std::sqrt(of_rest), std::sqrt(of_motion), 0, 0};
     }
     search_.set_cloths(loops_->search, std::move(searched), workers);
     parts_.resize(workers);
     pushes_.clear();
-    for (Part& part : parts_) {
-        part.pushes.resize(size), part.sums.resize(size), part.touched.resize(blocks), part.pushed.resize(blocks);
-        pushes_.push_back(part.pushes.data());
+    for (unsigned i = 0; i < workers; ++i) {
+        parts_[i].arrays = &context.arrays.workers[i];
+        pushes_.push_back(parts_[i].arrays->pushes.data());
     }
 }
 
@@ -67,7 +69,7 @@ ClothContactCounts ParticleContact::counts() const {
 void ParticleContact::add_marks(std::uint32_t base, std::span<std::uint32_t> marks) const {
     for (const Part& part : parts_) {
         for (std::size_t i = 0; i < marks.size(); ++i)
-            if (part.pushes[base + i] > 0) marks[i] |= mark_touches;
+            if (part.arrays->pushes[base + i] > 0) marks[i] |= mark_touches;
     }
 }
 
@@ -93,7 +95,11 @@ void ParticleContact::run(const Pass& pass, Worker worker) {
         case PassKind::track_particles:
             return for_each_tile(worker, [&](std::uint32_t tile) { search_.track(tile, x_); });
         case PassKind::search_particles:
-            if (worker.number == 0) search_.find_outdated(x_, search_always_);
+            if (worker.number != 0) return;
+            search_.find_outdated(x_, search_always_);
+            if (!swept_.empty())
+                search_.for_each_box(
+                    [&](std::uint32_t cloth, const Bounds& box) { swept_[searched_cloths_[cloth]]->include(box); });
             return;
         case PassKind::list_particles:
             part.searched = false;
@@ -102,12 +108,12 @@ void ParticleContact::run(const Pass& pass, Worker worker) {
         case PassKind::overlap_particles:
             return find_overlaps(worker);
         case PassKind::push_particles:
-            return loops_->push(input(particle_sweeps[pass.batch]), part.overlaps, part.sums.data(),
-                                part.pushed.data());
+            return loops_->push(input(particle_sweeps[pass.batch]), part.overlaps, part.arrays->sums.data(),
+                                part.arrays->pushed.data());
         case PassKind::move_particles:
             return move(worker);
         case PassKind::hold_particles:
-            return loops_->hold(input(particle_sweeps.front()), part.overlaps, part.sums.data());
+            return loops_->hold(input(particle_sweeps.front()), part.overlaps, part.arrays->sums.data());
         default:
             return settle(worker);
     }
@@ -116,7 +122,7 @@ void ParticleContact::run(const Pass& pass, Worker worker) {
 ParticleInput ParticleContact::input(const ParticleSweep& sweep) const {
     return {.position = &x_->x,
             .start = &start_->x,
-            .friction = &friction_.data()->x,
+            .friction = &friction_->x,
             .pushes = pushes_.data(),
             .workers = static_cast<unsigned>(parts_.size()),
             .deep = sweep.deep,
@@ -126,27 +132,29 @@ ParticleInput ParticleContact::input(const ParticleSweep& sweep) const {
 
 void ParticleContact::find_overlaps(Worker worker) {
     Part& part = parts_[worker.number];
+    std::vector<std::uint8_t>& touched = part.arrays->touched;
+    std::vector<std::uint32_t>& pushes = part.arrays->pushes;
     if (worker.number == 0) searches_ += std::ranges::any_of(parts_, &Part::searched);
     for (const Range& particles : particles_) {
         for (std::uint32_t p = particles.begin; p < particles.end; p += particle_block) {
-            if (!part.touched[p / particle_block]) continue;
-            part.touched[p / particle_block] = 0;
-            std::fill_n(&part.pushes[p], particle_block, 0u);
+            if (!touched[p / particle_block]) continue;
+            touched[p / particle_block] = 0;
+            std::fill_n(&pushes[p], particle_block, 0u);
         }
     }
     part.overlaps.count = 0;
     for_each_tile(worker, [&](std::uint32_t tile) {
         search_.for_each_run(tile, [&](const ParticlePairs& pairs, std::uint32_t begin, std::uint32_t end) {
             part.overlaps.reserve(std::size_t{part.overlaps.count} + (end - begin));
-            loops_->find_overlaps(pairs, begin, end, &x_->x, part.overlaps, part.pushes.data());
+            loops_->find_overlaps(pairs, begin, end, &x_->x, part.overlaps, pushes.data());
         });
     });
     part.overlaps.pad(particles_.front().begin);
     if (part.overlaps.depth.size() < part.overlaps.one.size()) part.overlaps.depth.resize(part.overlaps.one.size());
     std::fill_n(part.overlaps.depth.begin(), part.overlaps.count + 16, 0.0f);
     for (std::uint32_t i = 0; i < part.overlaps.count; ++i) {
-        part.touched[part.overlaps.one[i] / particle_block] = 1;
-        part.touched[part.overlaps.two[i] / particle_block] = 1;
+        touched[part.overlaps.one[i] / particle_block] = 1;
+        touched[part.overlaps.two[i] / particle_block] = 1;
     }
 }
 
@@ -155,7 +163,7 @@ void ParticleContact::find_overlaps(Worker worker) {
 void ParticleContact::move(Worker worker) {
     for_each_block(worker, [&](std::uint32_t first) {
         bool pushed = false;
-        for (Part& part : parts_) pushed |= std::exchange(part.pushed[first / particle_block], 0) != 0;
+        for (Part& part : parts_) pushed |= std::exchange(part.arrays->pushed[first / particle_block], 0) != 0;
         if (pushed) move_block(first, x_);
     });
 }
@@ -164,7 +172,7 @@ void ParticleContact::move(Worker worker) {
 // bounce.
 void ParticleContact::settle(Worker worker) {
     for_each_block(worker, [&](std::uint32_t first) {
-        const auto touched = [&](const Part& part) { return part.touched[first / particle_block] != 0; };
+        const auto touched = [&](const Part& part) { return part.arrays->touched[first / particle_block] != 0; };
         if (std::ranges::any_of(parts_, touched)) move_block(first, start_);
     });
 }
@@ -173,8 +181,9 @@ void ParticleContact::move_block(std::uint32_t first, Vec4* places) {
     for (std::uint32_t p = first; p < first + particle_block; ++p) {
         ParticleSum sum{};
         for (Part& part : parts_) {
-            for (int k = 0; k < 3; ++k) sum[k] += part.sums[p][k];
-            part.sums[p] = {};
+            ParticleSum& mine = part.arrays->sums[p];
+            for (int k = 0; k < 3; ++k) sum[k] += mine[k];
+            mine = {};
         }
         if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0) continue;
         Vec4& x = places[p];

@@ -134,7 +134,7 @@ TEST(IslandPlan, has_the_passes_in_which_somebody_has_work) {
         for_each_pass(plan, [&](const Pass& pass, std::uint32_t substep) {
             if (takes_part(cloths[i], pass)) expected.push_back({pass, substep});
         });
-        IslandPlan(plan, std::span(cloths).subspan(i, 1), nullptr)
+        IslandPlan(plan, std::span(cloths).subspan(i, 1), {})
             .for_each_pass([&](const IslandPass& pass, std::uint32_t substep) {
                 found.push_back({pass.pass, substep});
             });

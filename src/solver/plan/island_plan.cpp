@@ -18,13 +18,14 @@ bool is_single(std::span<const PlannedCloth> cloths, const Pass& pass) {
 
 }  // namespace
 
-IslandPlan::IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> cloths, const LinkTables* links,
-                       Sharing sharing)
+IslandPlan::IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> cloths,
+                       std::span<const LinkTables* const> links, Sharing sharing)
     : substeps_(plan.substeps) {
     Barriers barriers(sharing);
     const auto add = [&](std::vector<IslandPass>& list, const Pass& pass) {
         const auto has_work = [&](const PlannedCloth& one) { return takes_part(one, pass); };
-        if (!(links && takes_part(*links, pass)) && std::ranges::none_of(cloths, has_work)) return;
+        const auto have_work = [&](const LinkTables* tables) { return takes_part(*tables, pass); };
+        if (std::ranges::none_of(links, have_work) && std::ranges::none_of(cloths, has_work)) return;
         const bool single = is_single(cloths, pass);
         list.push_back({pass, barriers.before(pass, single), single, std::ranges::all_of(cloths, has_work)});
     };

@@ -19,8 +19,8 @@ struct IslandPass {
 class IslandPlan {
   public:
     IslandPlan() = default;
-    /// `links`: of the island; null if there are none.
-    IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> cloths, const LinkTables* links,
+    /// `links`: of the island.
+    IslandPlan(const WorldPlan& plan, std::span<const PlannedCloth> cloths, std::span<const LinkTables* const> links,
                Sharing sharing = Sharing::fixed);
 
     std::span<const IslandPass> frame_begin() const { return frame_begin_; }

@@ -21,6 +21,9 @@ inline constexpr std::uint32_t pass_kind_count = 0
     ;
 #undef WEFT_PASS
 
+/// The cloths that a pass is for.
+enum class PassFor : std::uint8_t { all_cloths, exact_cloths, fast_cloths };
+
 struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list
@@ -28,6 +31,7 @@ struct Pass {
     bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0
     std::uint32_t level = 0;      ///< of restriction, interpolation, coarse_limit, node_correction
     RowSource source = RowSource::model;
+    PassFor cloths = PassFor::all_cloths;
     friend bool operator==(const Pass&, const Pass&) = default;
 };
 

@@ -20,7 +20,7 @@ class Planner {
         : settings_(settings), cloths_(cloths), links_(links) {}
 
     WorldPlan run() {
-        WorldPlan plan{settings_.solver, {}, {}, {}};
+        WorldPlan plan{settings_.solver, 0, {}, {}, {}};
         plan.projection = resolve(plan.projection, plan.method);
         for (const ConstraintKind kind : found()) {
             for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
@@ -45,7 +45,7 @@ class Planner {
         add_later_sweeps(plan.substep);
         if (exact) {
             add_cloth_contact(plan.substep);
-            plan.iterations += contact_rounds - 1;
+            plan.later_rounds = contact_rounds - 1;
         }
         if (has_particle_contact(cloths_)) {
             plan.substep.push_back({.kind = PassKind::hold_particles});
@@ -123,11 +123,20 @@ class Planner {
     void add_cloth_contact(Passes& passes) const {
         passes.push_back({.kind = PassKind::detect});
         for (std::uint32_t round = 0; round < contact_rounds; ++round) {
+            const std::size_t first = passes.size();
             if (round > 0) add_constraints(false, passes);
             passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
             add_contact(false, passes);
+            leave_to(PassFor::exact_cloths, passes, first);
         }
         passes.push_back({.kind = PassKind::limit});
+    }
+
+    // The passes from number `first` on are for these cloths alone, those of links and dynamic lists excepted. So a
+    // cloth costs and does the same, whatever contact other cloths have.
+    static void leave_to(PassFor cloths, Passes& passes, std::size_t first) {
+        for (std::size_t i = first; i < passes.size(); ++i)
+            if (passes[i].source == RowSource::model) passes[i].cloths = cloths;
     }
 
     // They come before the rounds of exact contact, which limit how far particles move after them.
@@ -145,7 +154,9 @@ class Planner {
             passes.push_back({.kind = PassKind::push_particles, .batch = sweep});
             passes.push_back({.kind = PassKind::move_particles, .batch = sweep});
         }
+        const std::size_t first = passes.size();
         add_contact(false, passes);
+        leave_to(PassFor::fast_cloths, passes, first);  // rounds of their own follow for exact ones
     }
 
     // Contacts come last in an iteration, so that no particle is inside a collider after it.
@@ -260,10 +271,19 @@ bool has_particle_contact(const WorldPlan& plan) {
     return std::ranges::any_of(plan.substep, [](const Pass& pass) { return is_particle_contact(pass.kind); });
 }
 
+std::uint32_t rounds_of(const WorldPlan& plan, const ClothModel& model) {
+    return plan.iterations + (model.collision.with_cloth == SelfCollision::exact ? plan.later_rounds : 0);
+}
+std::uint32_t rounds_of_links(const WorldPlan& plan) {
+    return plan.iterations + plan.later_rounds;
+}
+
 bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     const ClothModel& model = *cloth.model;
     if (pass.source == RowSource::links) return false;
     if (pass.source == RowSource::dynamic) return true;
+    if (pass.cloths == PassFor::exact_cloths && model.collision.with_cloth != SelfCollision::exact) return false;
+    if (pass.cloths == PassFor::fast_cloths && model.collision.with_cloth != SelfCollision::fast) return false;
     switch (pass.kind) {
         case PassKind::targets:
             return cloth.kinematic;
@@ -314,12 +334,12 @@ SubstepPasses passes_of(const WorldPlan& plan, std::uint32_t substep) {
     return {passes.subspan(begun, passes.size() - begun - goes_on), goes_on};
 }
 
-LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep) {
+LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds) {
     if (!pass.first_iteration) return LambdaUse::accumulate;
     if (pass.source == RowSource::level) return LambdaUse::store;
     const bool read_later =
         pass.source == RowSource::model && pass.constraint == ConstraintKind::stretch && substep + 1 == plan.substeps;
-    return plan.iterations > 1 || read_later ? LambdaUse::store : LambdaUse::discard;
+    return rounds > 1 || read_later ? LambdaUse::store : LambdaUse::discard;
 }
 
 std::string describe(const WorldPlan& plan) {

@@ -43,9 +43,10 @@ struct PlannedCloth {
 };
 
 /// A frame runs `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those
-/// that the passes were made for; `projection` is never `automatic` here. `iterations` includes the rounds of contact
-/// between cloths.
+/// that the passes were made for; `projection` is never `automatic` here.
 struct WorldPlan : SolverDesc {
+    std::uint32_t later_rounds =
+        0;  ///< in which constraints of exact cloths, and links, act again after the iterations
     std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
@@ -69,6 +70,9 @@ constexpr bool is_particle_contact(PassKind kind) {
     return kind >= PassKind::track_particles && kind <= PassKind::settle_particles;
 }
 
+/// How often the constraints of a cloth act in a substep, and those of links and dynamic lists.
+std::uint32_t rounds_of(const WorldPlan& plan, const ClothModel& model);
+std::uint32_t rounds_of_links(const WorldPlan& plan);
 /// Whether a cloth has work in a pass.
 bool takes_part(const PlannedCloth& cloth, const Pass& pass);
 /// Whether the links of an island have work in a pass.
@@ -103,7 +107,8 @@ enum class LambdaUse {
 
 /// Lambda is stored if it is read later: by the next iteration, by the next sweep on a coarse level, or, for stretch in
 /// the last substep, to compute the tension and the residual.
-LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep);
+/// `rounds`: how often the constraints act in a substep (rounds_of).
+LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds);
 
 /// The fraction 0…1 of its error that a constraint removes per iteration of plain position-based dynamics, for C > 0
 /// and for C < 0.

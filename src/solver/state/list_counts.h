@@ -13,7 +13,7 @@ inline constexpr std::uint32_t report_list_full = 1u << 31;
 struct ListCounts {
     std::uint64_t rows = 0;      ///< constraints found
     std::uint64_t capacity = 0;  ///< constraints that the lists have room for
-    std::uint64_t repeats = 0;   ///< how often the frame was run again because a list was full
+    std::uint64_t repeats = 0;   ///< how often cloths ran the frame again: a list was full, or they came near others
     friend bool operator==(const ListCounts&, const ListCounts&) = default;
 };
 

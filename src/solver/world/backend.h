@@ -59,14 +59,20 @@ struct ClothStep {
     ClothContactLog* contact_forces = nullptr;  ///< output; null if the input records no contacts
 };
 
-/// An island: cloths that are stitched together or can collide. All finish a substep before any begins the next.
-/// Islands are independent and may run in parallel.
+/// Cloths of an island that stitches connect, directly or through others; or one cloth without stitches.
+struct StitchedPart {
+    std::uint32_t begin = 0, end = 0;   ///< in the island's cloths
+    const LinkTables* links = nullptr;  ///< null if there are no stitches
+};
+
+/// An island: cloths that are stitched together or can collide. Islands are independent and may run in parallel. Cloths
+/// that are stitched together, and cloths that come near each other in the frame, finish a substep before any of them
+/// begins the next.
 struct IslandStep {
     const IslandPlan* plan = nullptr;
     std::span<const ClothStep> cloths = {};
-    const LinkTables* links = nullptr;        ///< null if there are none
-    std::uint64_t links_serial = 0;           ///< changes whenever `links` changes
-    std::shared_ptr<const Seams> seams = {};  ///< for contact between cloths; null if there are none
+    std::span<const StitchedPart> parts = {};  ///< of all cloths, in their order
+    std::shared_ptr<const Seams> seams = {};   ///< for contact between cloths; null if there are none
 };
 
 struct WorldStep {

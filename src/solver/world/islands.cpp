@@ -10,14 +10,7 @@ std::vector<std::vector<std::uint32_t>> group_islands(std::uint32_t count,
                                                       std::span<const std::array<std::uint32_t, 2>> ties) {
     DisjointSets sets(count);
     for (const auto& [a, b] : ties) sets.merge(a, b);
-    std::vector<std::vector<std::uint32_t>> groups;
-    std::vector<std::uint32_t> group_of(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t first = sets.first_of(i);
-        if (first == i) group_of[i] = static_cast<std::uint32_t>(groups.size()), groups.emplace_back();
-        groups[group_of[first]].push_back(i);
-    }
-    return groups;
+    return sets.sets();
 }
 
 LinkTables make_links(std::span<const PlacedStitch> stitches, std::uint32_t first_dummy) {

@@ -274,59 +274,76 @@ void World::replan() {
     make_islands();
     std::vector<const LinkTables*> links;
     for (const Island& island : islands_)
-        if (island.linked) links.push_back(&island.links);
+        for (const auto& tables : island.links) links.push_back(tables.get());
     plan_ = plan_world(settings, planned, links);
     std::vector<PlannedCloth> members;
     for (Island& island : islands_) {
-        members.clear();
+        members.clear(), links.clear();
         for (const std::uint32_t place : island.cloths) members.push_back(planned[place]);
-        island.plan = IslandPlan(plan_, members, island.linked ? &island.links : nullptr);
+        for (const auto& tables : island.links) links.push_back(tables.get());
+        island.plan = IslandPlan(plan_, members, links);
     }
     ++plan_serial_;
 }
 
-// Groups cloths that are stitched together or can collide, and packs the stitches with particles numbered over the
-// world.
+// Groups cloths that are stitched together to parts, and parts that can collide to islands. Packs the stitches of each
+// part with particles numbered over the world.
 void World::make_islands() {
-    std::vector<std::array<std::uint32_t, 2>> ties;
     const auto place_of = [&](ClothId id) { return static_cast<std::uint32_t>(cloths_.find(id)); };
+    std::vector<std::array<std::uint32_t, 2>> stitched;
     for (const auto& group : stitches_)
-        for (const Stitch& stitch : group) ties.push_back({place_of(stitch.a), place_of(stitch.b)});
-    // A tie for each of few pairs that suffice to group all cloths that can collide.
-    DisjointSets colliding(static_cast<std::uint32_t>(cloths_.size()));
-    for (std::uint32_t b = 0; b < cloths_.size(); ++b) {
-        for (std::uint32_t a = 0; a < b; ++a) {
-            if (!can_collide(cloths_[a].model->collision, cloths_[b].model->collision) ||
-                colliding.first_of(a) == colliding.first_of(b))
-                continue;
-            colliding.merge(a, b);
-            ties.push_back({a, b});
-        }
-    }
-    islands_.clear();
-    std::vector<std::size_t> island_of(cloths_.size());
-    for (auto& cloths : group_islands(static_cast<std::uint32_t>(cloths_.size()), ties)) {
-        for (const std::uint32_t place : cloths) island_of[place] = islands_.size();
-        islands_.push_back(
-            {.cloths = std::move(cloths), .links = {}, .linked = false, .seams = {}, .plan = {}, .steps = {}});
-    }
-    if (ties.empty()) return;
-    std::vector<std::vector<PlacedStitch>> placed(islands_.size());
+        for (const Stitch& stitch : group) stitched.push_back({place_of(stitch.a), place_of(stitch.b)});
+    const auto parts = group_islands(static_cast<std::uint32_t>(cloths_.size()), stitched);
+    std::vector<std::uint32_t> part_of(cloths_.size());
+    for (std::uint32_t part = 0; part < parts.size(); ++part)
+        for (const std::uint32_t place : parts[part]) part_of[place] = part;
+
+    std::vector<std::vector<PlacedStitch>> placed(parts.size());
     const auto in_world = [&](StitchPoint point, ClothId id) {
         for (std::uint32_t& p : point.particles) p += cloths_[cloths_.find(id)].base;
         return point;
     };
     for (const auto& group : stitches_) {
         for (const Stitch& stitch : group)
-            placed[island_of[place_of(stitch.a)]].push_back(
+            placed[part_of[place_of(stitch.a)]].push_back(
                 {in_world(stitch.from, stitch.a), in_world(stitch.to, stitch.b), stitch.gap, stitch.compliance});
     }
-    for (std::size_t i = 0; i < islands_.size(); ++i) {
-        const Cloth& first = cloths_[islands_[i].cloths.front()];
-        islands_[i].links = make_links(placed[i], first.base + first_dummy(first.model->room()));
-        islands_[i].linked = !placed[i].empty();
-        islands_[i].seams = seams_of(islands_[i].cloths, placed[i]);
+
+    islands_.clear();
+    for (const auto& members : group_islands(static_cast<std::uint32_t>(parts.size()), colliding_parts(part_of))) {
+        Island& island = islands_.emplace_back();
+        std::vector<PlacedStitch> of_island;
+        for (const std::uint32_t part : members) {
+            StitchedPart& mine = island.parts.emplace_back();
+            mine.begin = static_cast<std::uint32_t>(island.cloths.size());
+            island.cloths.insert(island.cloths.end(), parts[part].begin(), parts[part].end());
+            mine.end = static_cast<std::uint32_t>(island.cloths.size());
+            if (placed[part].empty()) continue;
+            const Cloth& first = cloths_[parts[part].front()];
+            island.links.push_back(std::make_unique<const LinkTables>(
+                make_links(placed[part], first.base + first_dummy(first.model->room()))));
+            mine.links = island.links.back().get();
+            of_island.insert(of_island.end(), placed[part].begin(), placed[part].end());
+        }
+        island.seams = seams_of(island.cloths, of_island);
     }
+}
+
+// Few pairs of parts that suffice to group all parts whose cloths can collide. `part_of`: by cloth.
+std::vector<std::array<std::uint32_t, 2>> World::colliding_parts(std::span<const std::uint32_t> part_of) const {
+    std::vector<std::array<std::uint32_t, 2>> ties;
+    DisjointSets grouped(static_cast<std::uint32_t>(part_of.size()));
+    for (std::uint32_t b = 0; b < cloths_.size(); ++b) {
+        for (std::uint32_t a = 0; a < b; ++a) {
+            const std::uint32_t one = part_of[a], two = part_of[b];
+            if (!can_collide(cloths_[a].model->collision, cloths_[b].model->collision) ||
+                grouped.first_of(one) == grouped.first_of(two))
+                continue;
+            grouped.merge(one, two);
+            ties.push_back({one, two});
+        }
+    }
+    return ties;
 }
 
 // Computes the pose of every collider at the start of the frame and after each substep.
@@ -389,11 +406,7 @@ void World::advance(double dt) {
                  .frame = &frame_.cloths[place],
                  .contact_forces = settings_.contact_forces ? &contact_log.cloths[place].contact_forces : nullptr});
         }
-        steps_.push_back({.plan = &island.plan,
-                          .cloths = island.steps,
-                          .links = island.linked ? &island.links : nullptr,
-                          .links_serial = plan_serial_,
-                          .seams = island.seams});
+        steps_.push_back({.plan = &island.plan, .cloths = island.steps, .parts = island.parts, .seams = island.seams});
     }
     step_ = {.plan = &plan_,
              .plan_serial = plan_serial_,

@@ -121,7 +121,7 @@ class World {
     ClothId cloth_id(std::size_t place) const { return cloths_.id_of(place); }  ///< in the order of frames
     const WorldPlan& plan() const { return plan_; }
     std::size_t island_count() const { return islands_.size(); }
-    /// Indices of an island's cloths, in the order of frames.
+    /// Indices of an island's cloths in the order of frames; stitched cloths follow one another.
     std::span<const std::uint32_t> island(std::size_t i) const { return islands_[i].cloths; }
     const Backend& backend() const { return *backend_; }
     Backend& backend() { return *backend_; }
@@ -153,16 +153,17 @@ class World {
         std::vector<Pose> motion_poses;
     };
     struct Island {
-        std::vector<std::uint32_t> cloths;  ///< indices
-        LinkTables links;
-        bool linked = false;
-        std::shared_ptr<const Seams> seams;  ///< null without stitches between cloths that can touch
+        std::vector<std::uint32_t> cloths;                     ///< indices; those of each part follow one another
+        std::vector<StitchedPart> parts;                       ///< of `cloths`
+        std::vector<std::unique_ptr<const LinkTables>> links;  ///< of the parts that have any
+        std::shared_ptr<const Seams> seams;                    ///< null without stitches between cloths that can touch
         IslandPlan plan;
         std::vector<ClothStep> steps;  ///< scratch of a frame
     };
 
     void replan();
     void make_islands();
+    std::vector<std::array<std::uint32_t, 2>> colliding_parts(std::span<const std::uint32_t> part_of) const;
     void use_model(const PendingModels::Ready& ready);
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,

@@ -67,6 +67,7 @@ struct ContactTileIn {
     float kinetic_friction;
     uint groups;  // CollisionFilter
     uint collides_with;
+    float slack;  // m: how far a vertex may be from its listed trajectory
 };
 
 // The trajectory that a tile's lists were made for (TileState of collide/pair_search.h), and where it is now.
@@ -145,7 +146,7 @@ struct ContactData {
     Vec4s velocity;
     Vec4s reached;  // where the constraints left the particles
     Vec4s asked;    // before the limit
-    Vec4s rest;
+    Vec4s rest;     // w: how far pushes may move the particle, m: its cap
     Uints share;  // sums of weights, in quanta
     Uints sums;   // in quanta: four per particle
     Uints scaled_sums;
@@ -189,19 +190,17 @@ struct ContactData {
     uint near_capacity;
     uint widest;  // largest number of workgroups along an axis
     float thickest;  // m: of all cloths
-    float slack;  // m
-    float cap;    // m: how far pushes may move a particle
-    float cap_part;  // of the slack
+    float most_slack;  // m: of all tiles
+    float cap_part;    // caps in slacks
     float recovery_speed;  // m/s
     float gap_floor;
-    float brake_depth;  // m
-    float most_aside;   // m
+    float brake_depth;  // in caps
+    float most_aside;   // in caps
     float split;
     float untangling_speed;  // m/s
     uint search_always;
     uint records_marks;
     uint has_seams;  // 1: there are seams
-    uint unused;
 };
 
 struct ClothContactArgs {

@@ -16,7 +16,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ContactTileIn) == 40 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
+static_assert(sizeof(ContactTileIn) == 44 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
               sizeof(TangledPairIn) == 32);
 static_assert(sizeof(ClothContactArgs) == 16);
 static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edges &&
@@ -45,7 +45,8 @@ struct TileArrays {
                          .static_friction = material.friction[0],
                          .kinetic_friction = material.friction[1],
                          .groups = model.collision.filter.groups,
-                         .collides_with = model.collision.filter.mask});
+                         .collides_with = model.collision.filter.mask,
+                         .slack = contact_cap(model) / contact_part_of_slack});
         for (const std::uint32_t p : tile.particle) particles.push_back(base + p);
         for (std::uint32_t e = 0; e < tile_edges; ++e) edges.push_back(tile.edge[0][e] | tile.edge[1][e] << 8);
         for (std::uint32_t t = 0; t < tile_triangles; ++t)
@@ -211,8 +212,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
         reports.push_back(members[m].report);
         if (!model.tiles) continue;
         for (const Tile& tile : *model.tiles) arrays.add(tile, model, m, cloth.base());
-        const float cap = contact_cap(model);
-        if (data.cap == 0 || cap < data.cap) data.cap = cap;
+        data.most_slack = std::max(data.most_slack, contact_cap(model) / contact_part_of_slack);
         data.thickest = std::max(data.thickest, std::max(model.fabric.contact.thickness, least_contact_thickness));
         data.frame = members[m].frame;
         particles += model.particle_count;
@@ -224,7 +224,10 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     std::vector<Vec4> rest(end);
     for (const Member& member : members) {
         const ClothModel& model = member.cloth->model();
-        if (model.tiles) std::copy_n(model.start.begin(), model.particle_count, rest.begin() + member.cloth->base());
+        if (!model.tiles) continue;
+        Vec4* const mine = &rest[member.cloth->base()];
+        std::copy_n(model.start.begin(), model.particle_count, mine);
+        for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = contact_cap(model);
     }
 
     std::vector<const Seams*> of_members;
@@ -285,9 +288,9 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.report_count = static_cast<std::uint32_t>(reports.size());
     data.tile_pair_capacity = room_.tile_pairs, data.listed_capacity = room_.listed, data.near_capacity = room_.near;
     data.widest = device_.limits().workgroup_count[0];
-    data.slack = data.cap / contact_part_of_slack, data.cap_part = contact_part_of_slack;
+    data.cap_part = contact_part_of_slack;
     data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
-    data.brake_depth = contact_brake_depth * data.cap, data.most_aside = limit_aside * data.cap;
+    data.brake_depth = contact_brake_depth, data.most_aside = limit_aside;
     data.search_always = search_always ? 1 : 0;
     data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
     data.has_seams = seams.empty() ? 0 : 1;

@@ -117,7 +117,7 @@ Result<void> AdhesionList::run(gpu::Commands& commands, std::string_view program
 Result<void> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
     Errors errors;
     RowArgs args = rows_;
-    if (plan_.method != Method::pbd) args.lambda_use = use_of_lambda(plan_, pass, substep);
+    if (plan_.method != Method::pbd) args.lambda_use = use_of_lambda(plan_, pass, substep, rounds_of_links(plan_));
     const Command command = make_command(programs_, errors, "side_by_side_adhesion", args, args.count);
     if (!errors.empty()) return errors;
     commands.barrier();

@@ -145,7 +145,8 @@ void choose_horizon()
         if (until != never) ticks = min(ticks, until - tick);
     }
     vec3 relative = means[1] - means[0];
-    float speed = length(relative), most = contact.slack;  // half of the slack of both
+    float slack = contact.tiles.at[tile_of[0]].slack + contact.tiles.at[tile_of[1]].slack;
+    float speed = length(relative), most = 0.5 * slack;
     if (speed * float(ticks) > most) {
         ticks = max(1u, uint(most / speed));
         uint faster = dot(means[0], means[0]) > dot(means[1], means[1]) ? 0u : 1u;
@@ -153,8 +154,8 @@ void choose_horizon()
     }
     vec3 moved = relative * float(ticks);
     shift = 0.5 * moved;
-    add = 2.0 * contact.slack + length(moved);
-    widen = vec3(thickness_of_tiles() + 2.0 * contact.slack) + abs(shift);
+    add = slack + length(moved);
+    widen = vec3(thickness_of_tiles() + slack) + abs(shift);
 }
 
 void main()

@@ -54,8 +54,8 @@ void run_near(uint i)
     ListedPair pair = contact.listed.at[listed_index(head.list, i)];
     uint one = pair.one & 0x7fffffffu;
     bool edges = pair.one != one;
-    float reach = contact.cap;
-    if (pair.spare > approach_of(one, pair.two) + 2.0 * reach) return;
+    float reach = (contact.tiles.at[one].slack + contact.tiles.at[pair.two].slack) * contact.cap_part;  // of both
+    if (pair.spare > approach_of(one, pair.two) + reach) return;
     vec3 x0 = contact.start.at[pair.particle.x].xyz, x1 = contact.start.at[pair.particle.y].xyz;
     vec3 x2 = contact.start.at[pair.particle.z].xyz, x3 = contact.start.at[pair.particle.w].xyz;
     ClosestPoints points;
@@ -74,8 +74,8 @@ void run_near(uint i)
     // The least gap that any positions between start and end can have.
     float worst = edges ? min(low.x, low.y) - max(high.z, high.w) : low.x - max(high.y, max(high.z, high.w));
     vec4 weight = vec4(points.w0, points.w1, points.w2, points.w3);
-    bool is_near = dot(weight, reached) < pair.thickness + 2.0 * reach ||
-                   worst < pair.thickness * contact.gap_floor + 4.0 * reach;
+    bool is_near = dot(weight, reached) < pair.thickness + reach ||
+                   worst < pair.thickness * contact.gap_floor + 2.0 * reach;
     if (!is_near || !has_side(pair.particle, edges)) return;
     uint at = args.search == 0u ? atomicAdd(head.near0, 1u) : atomicAdd(head.near1, 1u);
     if (at >= contact.near_capacity) return;

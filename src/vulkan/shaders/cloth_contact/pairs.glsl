@@ -18,6 +18,13 @@ vec3 place_of(uint p)
     vec4 x = contact.position.at[p];
     return x.xyz;
 }
+
+// How far pushes may move the particle, m.
+float cap_of(uint p)
+{
+    vec4 rest = contact.rest.at[p];
+    return rest.w;
+}
 float inverse_mass_of(uint p)
 {
     vec4 x = contact.position.at[p];
@@ -170,9 +177,9 @@ void run_find_deep(uint i)
     if (i >= near_count()) return;
     Pair pair = load_pair(i);
     vec4 along = coordinates(pair);
-    if (!loses(pair, along, contact.brake_depth)) return;
-    float part = part_to_depth(gap_along(pair, along), pair.gap, pair.thickness * contact.gap_floor,
-                               contact.brake_depth);
+    float depth = contact.brake_depth * min(cap_of(pair.particle.x), cap_of(pair.particle.w));  // of both sides
+    if (!loses(pair, along, depth)) return;
+    float part = part_to_depth(gap_along(pair, along), pair.gap, pair.thickness * contact.gap_floor, depth);
     slow(pair.particle.x, part);
     slow(pair.particle.y, part);
     slow(pair.particle.z, part);
@@ -274,7 +281,7 @@ void send_back(uint p)
     contact.slide.at[p] = vec4(slide, 0.0);
     contact.retreats.at[p] = retreats;
     uint halvings = retreats > WEFT_LIMIT_SLIDES ? retreats - WEFT_LIMIT_SLIDES : 0u;
-    vec3 left = slide_near(asked, slide, contact.most_aside) * (1.0 / float(1u << halvings));
+    vec3 left = slide_near(asked, slide, contact.most_aside * cap_of(p)) * (1.0 / float(1u << halvings));
     contact.position.at[p].xyz = retreats == WEFT_MOST_RETREATS ? from : from + left;
 }
 

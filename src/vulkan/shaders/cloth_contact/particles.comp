@@ -7,8 +7,8 @@
 vec3 in_reach(uint p, vec3 x)
 {
     vec3 away = x - contact.reached.at[p].xyz;
-    float length2 = dot(away, away);
-    if (length2 > contact.cap * contact.cap) x = contact.reached.at[p].xyz + away * (contact.cap / sqrt(length2));
+    float length2 = dot(away, away), cap = cap_of(p);
+    if (length2 > cap * cap) x = contact.reached.at[p].xyz + away * (cap / sqrt(length2));
     return x;
 }
 

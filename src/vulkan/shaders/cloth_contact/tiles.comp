@@ -45,6 +45,8 @@ vec3 sum_of_group(vec3 x)
 
 #ifdef WEFT_TRACKS
 
+float slack_of(uint tile) { return contact.tiles.at[tile].slack; }
+
 uint vertex_at(uint tile, uint i) { return WEFT_TILE_VERTICES * tile + i; }
 
 // Where the particle goes in this substep.
@@ -64,8 +66,8 @@ void follow(uint tile, uint tick)
     uint p = contact.particles.at[vertex_at(tile, mine ? i : 0u)];
     vec3 from = contact.start.at[p].xyz, moved = goal_of(p) - from, v = contact.velocity.at[p].xyz * contact.frame.at.h;
     vec3 most = largest_of_group(mine ? vec3(length(moved - v), length(v), length(moved)) : vec3(0.0));
-    bool along_velocity = !anywhere && most.x < follows_velocity * contact.slack;
-    bool moving = !along_velocity || most.y > resting * contact.slack;
+    bool along_velocity = !anywhere && most.x < follows_velocity * slack_of(tile);
+    bool moving = !along_velocity || most.y > resting * slack_of(tile);
     float around = anywhere ? 0.5 * length(moved) : 0.0;
     if (anywhere || !moving) v = vec3(0.0);
     else if (!along_velocity) v = moved;
@@ -80,7 +82,7 @@ void follow(uint tile, uint tick)
     uint listed = contact.tracked.at[tile].listed, lifetime = contact.tracked.at[tile].lifetime;
     uint age = tick - listed, adapted = max(1u, age >= lifetime ? age + 2u : age);
     lifetime = listed == 0u ? 4u : moving ? min(longest_lifetime, adapted) : longest_lifetime;
-    float ticks = most_spread * contact.slack / (spread + 1e-9);
+    float ticks = most_spread * slack_of(tile) / (spread + 1e-9);
     if (ticks < float(lifetime)) lifetime = max(1u, uint(ticks));
     if (anywhere) lifetime = 1u;
     contact.tracked.at[tile].listed = tick;
@@ -88,7 +90,7 @@ void follow(uint tile, uint tick)
     contact.tracked.at[tile].until = moving ? tick + lifetime : never;
     contact.tracked.at[tile].mean = vec4(mean, 0.0);
     contact.tracked.at[tile].center.w = spread;
-    contact.tracked.at[tile].extent.w = contact.slack + (anywhere ? 0.5 * most.z : 0.0);
+    contact.tracked.at[tile].extent.w = slack_of(tile) + (anywhere ? 0.5 * most.z : 0.0);
 }
 
 // The box around all places of the tile's vertices while its lists last, at the start of the tick.
@@ -123,8 +125,8 @@ void run_track(uint tile)
         vec3 now = place.xyz + v * since, then = now + v;
         float at_start = length(start - (anywhere ? then : now)) - place.w, at_end = length(goal - then) - place.w;
         // Pushes may move the particles from where the constraints left them.
-        float most = anywhere ? contact.slack : (1.0 - contact.cap_part) * contact.slack;
-        stays = at_start <= contact.slack && at_end <= most;
+        float slack = slack_of(tile), most = anywhere ? slack : (1.0 - contact.cap_part) * slack;
+        stays = at_start <= slack && at_end <= most;
         strays = vec3(max(at_start, at_end));
         if (!anywhere && i < contact.tiles.at[tile].own_vertices) {
             contact.reached.at[p] = contact.position.at[p];
@@ -155,7 +157,7 @@ void run_check(uint tile)
     vec3 then = place.xyz + contact.velocities.at[vertex_at(tile, i)].xyz * ticks;
     bool back = contact.retreats.at[p] > 0u;
     vec3 farthest = back ? contact.start.at[p].xyz : contact.position.at[p].xyz;
-    float most = back ? contact.slack - contact.most_aside : contact.slack;
+    float slack = slack_of(tile), most = back ? (1.0 - contact.most_aside * contact.cap_part) * slack : slack;
     if (!(length(farthest - then) - place.w <= most)) head.uncovered = 1u;
 }
 
@@ -213,7 +215,8 @@ void run_pair_tiles(uint a)
     if (is_idle_search() || contact.tracked.at[a].outdated == 0u) return;
     vec3 low, high;
     way_of(a, low, high);
-    float thickest = 0.5 * (contact.tiles.at[a].thickness + contact.thickest), apart = thickest + 2.0 * contact.slack;
+    float thickest = 0.5 * (contact.tiles.at[a].thickness + contact.thickest);
+    float apart = thickest + contact.tiles.at[a].slack + contact.most_slack;
     for (uint first = 0u; first < contact.group_count; first += WEFT_GROUP) {
         uint group = first + me();
         meets[me()] = 0u;
