@@ -1,6 +1,7 @@
 #include "collide/particle_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,7 @@ namespace {
 constexpr float most_strayed = 0.3f;
 // How far a tile may leave the common motion before tiles near each other are searched again, in margins.
 constexpr float tile_reach = 3;
+constexpr std::uint32_t no_tile = ~0u;
 // Listed pairs may be this much farther apart, because rounding makes distances inexact: a part of the margin, and of
 // the largest coordinate.
 constexpr float rounding_of_margin = 1e-3f, rounding_of_place = 1e-6f;
@@ -42,10 +44,6 @@ float gap_between(const ParticleBox& a, const ParticleBox& b, Vec3 shift) {
         sum += gap * gap;
     }
     return std::sqrt(sum);
-}
-bool overlap(const ParticleBox& a, const ParticleBox& b) {
-    return a.low[0] <= b.high[0] && b.low[0] <= a.high[0] && a.low[1] <= b.high[1] && b.low[1] <= a.high[1] &&
-           a.low[2] <= b.high[2] && b.low[2] <= a.high[2];
 }
 
 // Particles near a seam keep at most a part of their distance at rest through it, as neighbors on one cloth do.
@@ -113,6 +111,7 @@ void ParticleSearch::set_cloths(const ParticleSearchLoops& loops, std::vector<Se
     rows_.assign(tiles_.size(), {});
     near_.assign(tiles_.size(), {}), fresh_near_.assign(tiles_.size(), {});
     reached_ = false;
+    group_tiles();
 }
 
 // The box around the motions of all particles bounds how far any of them strays from its center. Comparisons leave out
@@ -186,56 +185,58 @@ bool ParticleSearch::any_out_of_reach() const {
     });
 }
 
-// Tiles sorted by strips along one axis, and along another axis within each strip.
-void ParticleSearch::sort_tiles() {
-    std::array<float, 3> spread{}, largest{};
-    ParticleBox centers = empty_box();
-    for (const Tile& tile : tiles_) {
-        const Vec3 c = middle(tile.reach);
-        extend(centers, {c.x, c.y, c.z, 0});
-        for (int k = 0; k < 3; ++k) largest[k] = std::max(largest[k], tile.reach.high[k] - tile.reach.low[k]);
-    }
-    for (int k = 0; k < 3; ++k) spread[k] = centers.high[k] - centers.low[k];
-    axes_[0] = static_cast<int>(std::ranges::max_element(spread) - spread.begin());
-    axes_[1] = spread[(axes_[0] + 1) % 3] > spread[(axes_[0] + 2) % 3] ? (axes_[0] + 1) % 3 : (axes_[0] + 2) % 3;
-    strip_width_ = std::max(largest[axes_[0]], 1e-3f * spread[axes_[0]]) + 1e-30f;
-    sorted_.clear();
+// Tiles of a cloth that follow one another are neighbors. No group has tiles of two cloths, which may be far apart.
+void ParticleSearch::group_tiles() {
+    grouped_.tile.clear(), grouped_.place.clear();
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
-        const Vec3 c = middle(tiles_[t].reach);
-        const std::array<float, 3> center{c.x, c.y, c.z};
-        // Not a number if a position is not; such a tile is near nothing.
-        const float along = (center[axes_[0]] - centers.low[axes_[0]]) / strip_width_;
-        if (!(along >= 0 && along < 1e6f) || !(std::fabs(center[axes_[1]]) < 1e30f)) continue;
-        sorted_.push_back({static_cast<std::int32_t>(along), center[axes_[1]], t});
+        if (t > 0 && tiles_[t].cloth != tiles_[t - 1].cloth)
+            while (grouped_.tile.size() % boxes_together != 0) grouped_.tile.push_back(no_tile);
+        grouped_.place.push_back(static_cast<std::uint32_t>(grouped_.tile.size()));
+        grouped_.tile.push_back(t);
     }
-    std::ranges::sort(sorted_, [](const Sorted& a, const Sorted& b) {
-        if (a.strip != b.strip) return a.strip < b.strip;
-        return a.center != b.center ? a.center < b.center : a.tile < b.tile;
-    });
+    while (grouped_.tile.size() % boxes_together != 0) grouped_.tile.push_back(no_tile);
+    const std::size_t groups = grouped_.tile.size() / boxes_together;
+    grouped_.boxes.assign(grouped_.tile.size(), empty_box());
+    grouped_.groups.resize(groups);
+    grouped_.around.resize(groups);
+    grouped_.outer_groups.resize((groups + boxes_together - 1) / boxes_together);
 }
 
-// Calls visit(tile) for the tiles whose centers are in the window along the second axis, in strips near that of `at`.
-template <class Visit>
-void ParticleSearch::for_each_in_window(const Sorted& at, float window, Visit&& visit) const {
-    float thickest = 0;
-    for (const SearchedParticles& cloth : cloths_) thickest = std::max(thickest, cloth.diameter + cloth.margin);
-    const auto strips = 1 + static_cast<std::int32_t>(std::min(1e6f, std::ceil(thickest / strip_width_)));
-    const auto before = [](const Sorted& a, const Sorted& b) {
-        return a.strip != b.strip ? a.strip < b.strip : a.center < b.center;
-    };
-    auto it = sorted_.begin();
-    for (std::int32_t strip = at.strip - strips; strip <= at.strip + strips; ++strip) {
-        it = std::lower_bound(it, sorted_.end(), Sorted{strip, at.center - window, 0}, before);
-        if (it == sorted_.end()) return;
-        if (it->strip > strip) {
-            strip = it->strip - 1;  // skips strips without tiles
-            continue;
+// From what the tiles' particles can reach, widened by half of what pairs may be apart, and a little for rounding.
+void ParticleSearch::group_boxes() {
+    for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
+        const SearchedParticles& cloth = cloths_[tiles_[t].cloth];
+        const float half = 0.505f * (cloth.diameter + cloth.margin);
+        ParticleBox& box = grouped_.boxes[grouped_.place[t]];
+        box = tiles_[t].reach;
+        for (int k = 0; k < 3; ++k) box.low[k] -= half, box.high[k] += half;
+    }
+    const auto put = [](std::span<const ParticleBox> boxes, std::size_t group, BoxGroup& to) {
+        for (std::size_t i = 0; i < boxes_together; ++i) {
+            const std::size_t at = group * boxes_together + i;
+            const ParticleBox box = at < boxes.size() ? boxes[at] : empty_box();
+            for (int k = 0; k < 3; ++k) to.low[k][i] = box.low[k], to.high[k][i] = box.high[k];
         }
-        for (; it != sorted_.end() && it->strip == strip && it->center <= at.center + window; ++it) visit(it->tile);
+    };
+    for (std::size_t g = 0; g < grouped_.groups.size(); ++g) {
+        put(grouped_.boxes, g, grouped_.groups[g]);
+        grouped_.around[g] = empty_box();
+        for (std::size_t i = 0; i < boxes_together; ++i) {
+            extend(grouped_.around[g], grouped_.boxes[g * boxes_together + i].low);
+            extend(grouped_.around[g], grouped_.boxes[g * boxes_together + i].high);
+        }
     }
+    for (std::size_t g = 0; g < grouped_.outer_groups.size(); ++g) put(grouped_.around, g, grouped_.outer_groups[g]);
 }
 
-// For each tile, those that can come near while all tiles stay within their reach, apart from a common motion.
+bool ParticleSearch::can_meet(std::uint32_t tile, std::uint32_t other) const {
+    const std::uint32_t a = tiles_[tile].cloth, b = tiles_[other].cloth;
+    if (!cloths_[a].with_alike && !cloths_[b].with_alike) return false;
+    return a == b || collide(cloths_[a].filter, cloths_[b].filter);
+}
+
+// For each tile, those that can come near while all tiles stay within their reach, apart from a common motion. A box
+// that is not a number overlaps none.
 void ParticleSearch::find_near_tiles() {
     for (Tile& tile : tiles_) {
         const float reach = tile_reach * margin(tile);
@@ -243,39 +244,37 @@ void ParticleSearch::find_near_tiles() {
         for (int k = 0; k < 3; ++k) tile.reach.low[k] -= reach, tile.reach.high[k] += reach;
     }
     reached_ = true;
-    sort_tiles();
-    // Half of what pairs of the tile's cloth may be apart, and a little for rounding.
-    const auto half = [&](const Tile& tile) {
-        return 0.505f * (cloths_[tile.cloth].diameter + cloths_[tile.cloth].margin);
-    };
-    const auto widened = [&](const Tile& tile) {
-        ParticleBox box = tile.reach;
-        for (int k = 0; k < 3; ++k) box.low[k] -= half(tile), box.high[k] += half(tile);
-        return box;
-    };
-    const auto half_length = [&](const Tile& tile) {
-        return half(tile) + 0.5f * (tile.reach.high[axes_[1]] - tile.reach.low[axes_[1]]);
-    };
-    float longest = 0;
-    for (const Tile& tile : tiles_) longest = std::max(longest, half_length(tile));
+    group_boxes();
     for (auto& list : fresh_near_) list.clear();
-    for (const Sorted& at : sorted_) {
-        const Tile& a = tiles_[at.tile];
-        const ParticleBox box = widened(a);
-        for_each_in_window(at, half_length(a) + longest, [&](std::uint32_t other) {
-            if (other < at.tile) return;
-            const Tile& b = tiles_[other];
-            const SearchedParticles &of_a = cloths_[a.cloth], &of_b = cloths_[b.cloth];
-            if (!of_a.with_alike && !of_b.with_alike) return;
-            if (a.cloth != b.cloth && !collide(of_a.filter, of_b.filter)) return;
-            if (overlap(box, widened(b))) fresh_near_[at.tile].push_back(other);
-        });
-        std::ranges::sort(fresh_near_[at.tile]);
+    const auto groups = static_cast<std::uint32_t>(grouped_.groups.size());
+    // Visits groups in ascending order, so that lists are ascending.
+    for (std::uint32_t g = 0; g < groups; ++g) {
+        for (std::uint32_t outer = g / boxes_together; outer < grouped_.outer_groups.size(); ++outer) {
+            std::uint32_t near = loops_->overlapping(grouped_.outer_groups[outer], grouped_.around[g]);
+            for (; near != 0; near &= near - 1) {
+                const std::uint32_t other = outer * boxes_together + static_cast<std::uint32_t>(std::countr_zero(near));
+                if (other >= g) add_near_tiles(g, other);
+            }
+        }
     }
     for (std::uint32_t t = 0; t < tiles_.size(); ++t) {
         if (near_[t] == fresh_near_[t]) continue;
         std::swap(near_[t], fresh_near_[t]);
         tiles_[t].renewed = true;
+    }
+}
+
+void ParticleSearch::add_near_tiles(std::uint32_t group, std::uint32_t other_group) {
+    for (std::uint32_t i = group * boxes_together; i < (group + 1) * boxes_together; ++i) {
+        const std::uint32_t tile = grouped_.tile[i];
+        if (tile == no_tile) return;
+        std::uint32_t near = loops_->overlapping(grouped_.groups[other_group], grouped_.boxes[i]);
+        for (; near != 0; near &= near - 1) {
+            const std::uint32_t place =
+                other_group * boxes_together + static_cast<std::uint32_t>(std::countr_zero(near));
+            const std::uint32_t other = grouped_.tile[place];
+            if (other != no_tile && other >= tile && can_meet(tile, other)) fresh_near_[tile].push_back(other);
+        }
     }
 }
 

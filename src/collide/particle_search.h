@@ -43,6 +43,12 @@ struct ParticleBox {
     alignas(16) std::array<float, 4> low, high;
 };
 
+/// Boxes that are tested side by side.
+inline constexpr std::uint32_t boxes_together = 16;
+struct BoxGroup {
+    alignas(cache_line) std::array<std::array<float, boxes_together>, 3> low, high;  ///< by axis and box
+};
+
 /// Pairs of particles of the world, as arrays.
 struct ParticlePairs {
     AlignedVector<std::uint32_t> one, two;
@@ -79,6 +85,8 @@ struct TilesToList {
 struct ParticleSearchLoops {
     /// Appends the pairs of two tiles to `pairs`. Returns the least distance of a pair beyond its diameter, m.
     float (*list)(const TilesToList&, ParticlePairs& pairs);
+    /// The boxes of a group that overlap a box, as bits.
+    std::uint32_t (*overlapping)(const BoxGroup&, const ParticleBox&);
 };
 
 class ParticleSearch {
@@ -140,10 +148,14 @@ class ParticleSearch {
         ParticlePairs pairs;
         std::vector<Block> blocks;
     };
-    struct Sorted {
-        std::int32_t strip;
-        float center;
-        std::uint32_t tile;
+    // Boxes of neighbors, in groups, and boxes around the groups, likewise.
+    struct Grouped {
+        std::vector<std::uint32_t> tile;       // by place; none where a group has no further tile
+        std::vector<std::uint32_t> place;      // by tile
+        std::vector<ParticleBox> boxes;        // by place
+        AlignedVector<BoxGroup> groups;        // of places
+        std::vector<ParticleBox> around;       // by group
+        AlignedVector<BoxGroup> outer_groups;  // of groups
     };
 
     float margin(const Tile& tile) const { return cloths_[tile.cloth].margin; }
@@ -151,9 +163,10 @@ class ParticleSearch {
     void list_tile_anew(std::uint32_t tile, const Vec4* positions);
     bool any_out_of_reach() const;
     void find_near_tiles();
-    void sort_tiles();
-    template <class Visit>
-    void for_each_in_window(const Sorted& at, float window, Visit&& visit) const;
+    void group_tiles();
+    void group_boxes();
+    void add_near_tiles(std::uint32_t group, std::uint32_t other_group);
+    bool can_meet(std::uint32_t tile, std::uint32_t other) const;
     Block list_block(std::uint32_t tile, std::uint32_t other, ParticlePairs& pairs) const;
     void relist(std::uint32_t tile, Scratch& scratch);
 
@@ -165,9 +178,7 @@ class ParticleSearch {
     AlignedVector<Vec4> listed_places_;  // by place in a tile, [tile · particle_tile + place]
     std::vector<Row> rows_;
     std::vector<std::vector<std::uint32_t>> near_, fresh_near_;  // by tile: itself and near tiles of higher numbers
-    std::vector<Sorted> sorted_;
-    std::array<int, 2> axes_{};     // along which the tiles spread most
-    float strip_width_ = 1;         // m
+    Grouped grouped_;
     bool reached_ = false;          // find_near_tiles() has run
     std::vector<Scratch> scratch_;  // by worker
 };

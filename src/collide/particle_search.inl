@@ -78,4 +78,15 @@ inline float list_particle_pairs(const TilesToList& tiles, ParticlePairs& pairs)
                          : list_near_pairs<false>(tiles, near_one, near_two, pairs);
 }
 
-constexpr ParticleSearchLoops particle_search_loops{list_particle_pairs};
+inline std::uint32_t overlapping_boxes(const BoxGroup& group, const ParticleBox& box) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < boxes_together; i += lane_count) {
+        const auto meets = [&](int k) {
+            return load(&group.low[k][i]) < real(box.high[k]) && load(&group.high[k][i]) > real(box.low[k]);
+        };
+        bits |= bits_of(meets(0) && meets(1) && meets(2)) << i;
+    }
+    return bits;
+}
+
+constexpr ParticleSearchLoops particle_search_loops{list_particle_pairs, overlapping_boxes};
