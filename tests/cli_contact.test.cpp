@@ -43,8 +43,11 @@ TEST_F(Cli, cloth_of_the_contact_scenes_never_crosses) {
             weft("run " + entry.path().string() + " --seconds 1 --crossings every --stats scene_stats.json --quiet");
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         const Json stats = Json::parse(read_file(folder_ / "scene_stats.json"));
-        EXPECT_EQ(stats["intersections"]["worst"], 0);
-        EXPECT_EQ(stats["tangled"], 0);
+        // One of them starts with crossings, which are gone within a second.
+        const bool starts_crossed = entry.path().stem() == "crossed";
+        EXPECT_EQ(stats["intersections"][starts_crossed ? "triangles" : "worst"], 0);
+        EXPECT_EQ(stats["tangled"] > 0, starts_crossed);
+        EXPECT_EQ(stats["intersections"]["order_lost"], 0);
         EXPECT_EQ(stats["finite"], true);
         EXPECT_GT(stats["searches"], 0);
         EXPECT_LT(stats["stretch"]["mean"], 0.02);

@@ -122,7 +122,11 @@ inline void find_overlapping_pairs(NearPairs& near, const SweepView& view, Overl
         for (int k = 1; k < 4; ++k) gap = gap + load(&near.weight[k][i]) * along[k];
         const real distance = load(&near.distance[i]), thickness = load(&near.thickness[i]);
         const real overlap = cloth_overlap(gap, distance, thickness, real(view.recovery));
-        const std::uint32_t bits = bits_of(overlap < real(0.0f)) & lanes_before(i, near.count);
+        mask pushes = overlap < real(0.0f);
+        if constexpr (kind == PairKind::edge_edge)
+            pushes = pushes && closest_inside_edges(load(&near.weight[0][i]), load(&near.weight[1][i]),
+                                                    load(&near.weight[2][i]), load(&near.weight[3][i]));
+        const std::uint32_t bits = bits_of(pushes) & lanes_before(i, near.count);
         if (bits == 0) continue;
         const mask found = mask_of(bits);
         const std::uint32_t to = overlaps.count;

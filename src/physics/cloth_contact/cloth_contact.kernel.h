@@ -113,6 +113,13 @@ WEFT_FN mask comes_near(bool edges, vec3 x0, vec3 x1, vec3 x2, vec3 x3, vec3 m0,
 WEFT_FN real gap_vertex_triangle(real a0, real a1, real a2, real a3) { return a0 - max(a1, max(a2, a3)); }
 WEFT_FN real gap_edge_edge(real a0, real a1, real a2, real a3) { return min(a0, a1) - max(a2, a3); }
 
+// Whether the closest points of two edges are inside both. If one is an end, its vertex forms a pair with a triangle of
+// the other edge at the same distance, and that pair is pushed. `w0` … `w3`: weights of the closest points.
+WEFT_FN mask closest_inside_edges(real w0, real w1, real w2, real w3)
+{
+    return min(min(abs(w0), abs(w1)), min(abs(w2), abs(w3))) > real(1e-6);
+}
+
 // Negative where a pair has to be pushed apart.
 //   gap        distance of the closest points along the normal, m
 //   distance   their distance at the start of the substep, m

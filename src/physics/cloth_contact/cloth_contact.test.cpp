@@ -107,6 +107,27 @@ TEST(ClothContactKernels, a_gap_along_the_normal_separates_the_sides) {
     }
 }
 
+// Pairs of edges that are not pushed: a vertex and a triangle of the other edge are no farther apart.
+TEST(ClothContactKernels, closest_points_that_are_an_end_of_an_edge_leave_the_push_to_a_vertex_and_a_triangle) {
+    Random random(7);
+    int ends = 0;
+    for (int i = 0; i < 2000; ++i) {
+        vec3 x[4];
+        for (vec3& p : x) p = random.vector(1);
+        const ClosestPoints edges = reference::closest_edge_edge(x[0], x[1], x[2], x[3]);
+        if (reference::closest_inside_edges(edges.w0, edges.w1, edges.w2, edges.w3)) continue;
+        ++ends;
+        double nearest = 1e300;
+        for (int k = 0; k < 4; ++k) {
+            const int other = k < 2 ? 2 : 0;
+            nearest = std::min(
+                nearest, reference::closest_vertex_triangle(x[k], x[other], x[other + 1], random.vector(1)).distance);
+        }
+        EXPECT_LE(nearest, edges.distance + 1e-9);
+    }
+    EXPECT_GT(ends, 500);
+}
+
 TEST(ClothContactKernels, old_overlap_is_removed_at_a_limited_speed) {
     constexpr double thickness = 0.002, recovery = 1e-4;
     EXPECT_NEAR(reference::cloth_overlap(0.0015, 0.003, thickness, recovery), -0.0005, 1e-12) << "new overlap";

@@ -97,7 +97,8 @@ void run_overlaps(uint i)
     float gap = weight.y * along.y + weight.z * along.z + weight.w * along.w;
     float overlap =
         cloth_overlap(gap, pair.distance, pair.thickness, contact.recovery_speed * contact.frame.at.h);
-    bool pushes = overlap < 0.0 && pair_comes_near(pair);
+    bool pushes = overlap < 0.0 && (!pair.edges || closest_inside_edges(weight.x, weight.y, weight.z, weight.w)) &&
+                  pair_comes_near(pair);
     contact.near_pushes.at[near_index(i)] = vec4(0.0, 0.0, 0.0, pushes ? -overlap : 0.0);
     if (!pushes) return;
     WEFT_EACH(add_share, pair.particle, weight)
