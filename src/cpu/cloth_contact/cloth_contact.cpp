@@ -165,10 +165,9 @@ void ClothContact::sweep() {
             of_worker.share = 0;
         });
         for_each_particle(mine, [&](std::uint32_t p) {
-            if (sums_[p].share > 0) {
-                set_place(x_[p], x_[p].xyz() + sum(p, WEFT_PUSH_QUANTA_PER_METER));
-                sums_[p] = {}, unscaled_[p] = {};
-            }
+            if (sums_[p].share == 0) return;
+            set_place(x_[p], x_[p].xyz() + sum(p, WEFT_PUSH_QUANTA_PER_METER));
+            sums_[p] = {}, unscaled_[p] = {};
             keep_in_reach(p);
         });
     });

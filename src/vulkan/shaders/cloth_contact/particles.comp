@@ -18,13 +18,10 @@ void run_move(uint p)
 {
     uint share = contact.share.at[p];
     contact.share.at[p] = 0u;
-    if (is_skipped()) return;
-    vec3 x = place_of(p);
-    if (share > 0u) {
-        x = x + sum_of(contact.scaled_sums, p, WEFT_PUSH_QUANTA_PER_METER);
-        clear_sum(contact.sums, p);
-        clear_sum(contact.scaled_sums, p);
-    }
+    if (is_skipped() || share == 0u) return;
+    vec3 x = place_of(p) + sum_of(contact.scaled_sums, p, WEFT_PUSH_QUANTA_PER_METER);
+    clear_sum(contact.sums, p);
+    clear_sum(contact.scaled_sums, p);
     contact.position.at[p].xyz = in_reach(p, x);
 }
 
