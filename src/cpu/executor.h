@@ -30,7 +30,7 @@ class Executor {
         std::vector<const ClothStep*> steps = {};  ///< by cloth
         std::vector<ClothState*> cloths = {};
         std::vector<Links> links = {};                ///< of the parts that have any
-        std::vector<Bounds*> swept = {};              ///< by cloth: out; empty if nobody wants to know (NearParts)
+        std::vector<Bounds*> swept = {};              ///< by cloth: out; empty if that is not needed (NearParts)
         AdhesionList* adhesion = nullptr;             ///< null if nothing sticks
         ClothContact* cloth_contact = nullptr;        ///< null if no cloth collides exactly
         ParticleContact* particle_contact = nullptr;  ///< null if no cloth collides by particles

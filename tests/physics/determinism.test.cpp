@@ -93,6 +93,27 @@ TEST(Determinism, holds_where_cloth_meets_cloth) {
     }
 }
 
+// Cloths that can collide and are far apart run side by side, and share arrays over the world.
+TEST(Determinism, holds_where_cloths_that_can_collide_are_apart) {
+    for (const SelfCollision contact : {SelfCollision::exact, SelfCollision::fast}) {
+        const auto fall = [&](unsigned workers) {
+            World world = make_world({.solver = {.substeps = 5}}, CpuOptions{workers});
+            for (int i = 0; i < 4; ++i) {
+                SheetDesc sheet{.size = {0.4f, 0.4f}, .resolution = {12, 12}, .rotation_degrees = {80, 20, 45}};
+                sheet.position = {2 * static_cast<float>(i), 0.2f, 0};
+                sheet.velocity = {0, -4, 0};
+                sheet.self_collision = contact;
+                world.add(make_sheet(sheet));
+            }
+            world.add(make_collider({.name = "floor", .shape = PlaneDesc{}}));
+            run(world, 0.2);
+            return world.state_hash();
+        };
+        const std::string expected = fall(0);
+        for (const unsigned workers : {1u, 2u}) EXPECT_EQ(fall(workers), expected) << workers << " workers";
+    }
+}
+
 // If there are more cloths than threads, each cloth runs on one thread. A single cloth runs on all threads. Both give
 // the same bits.
 // Labels: slow no-asan

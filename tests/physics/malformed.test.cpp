@@ -1,6 +1,7 @@
 // Input without a valid solution: the result is finite, and the report names the cause.
 // src/files/malformed.test.cpp tests malformed files.
 
+#include "malformed_meshes.h"
 #include "sheet.h"
 
 #include <algorithm>
@@ -107,34 +108,6 @@ TEST_F(Malformed, extreme_fabrics) {
             step_and_check(world, 1.0 / 60);
         }
     }
-}
-
-// Three triangles at one edge, a triangle given twice and once more with the opposite winding, one that is a point, one
-// that is a line, an unused vertex, and a triangle that is attached at a single corner.
-TriangleMesh messy_mesh() {
-    return {.positions = {{0, 0, 0},
-                          {0, 1, 0},
-                          {1, 0.5f, 0},
-                          {-1, 0.5f, 0.2f},
-                          {0, 0.5f, 1},
-                          {5, 5, 5},
-                          {0, 2, 0},
-                          {0.5f, 3, 0},
-                          {-0.5f, 3, 0.1f}},
-            .triangles = {
-                {0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {1, 2, 0}, {2, 1, 0}, {3, 3, 3}, {0, 1, 6}, {6, 7, 8}, {1, 2, 6}}};
-}
-
-/// Two triangles folded onto each other, with opposite normals.
-TriangleMesh folded_mesh() {
-    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1e-7f, 0, 1}, {1, 1e-7f, 0.1f}},
-            .triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}}};
-}
-
-/// Two very thin triangles and a very small one between them.
-TriangleMesh needle_mesh() {
-    return {.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 1e-6f, 0}, {0.5f, -1e-6f, 1e-6f}, {0.5f, 0, 100}},
-            .triangles = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {1, 4, 2}}};
 }
 
 TriangleMesh scaled(TriangleMesh mesh, float scale, Vec3 offset) {

@@ -28,7 +28,7 @@ class ClothContact {
 
     /// Allocates for these cloths. Keeps the lists if they are the same ones as in the frame before. `arrays` must have
     /// room for all particles of the world, and last until the next call. `swept`: by cloth, gets a box around all
-    /// places at which passes look at its particles; empty if nobody wants to know.
+    /// places at which passes look at its particles; empty if that is not needed.
     void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
                  const std::shared_ptr<const Seams>& seams, ContactArrays& arrays, std::span<Bounds* const> swept);
     /// All workers call it. The first one decides what to do, and all do it.
