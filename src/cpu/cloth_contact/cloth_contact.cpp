@@ -98,8 +98,8 @@ void ClothContact::detect() {
     for (Mine& mine : workers_) mine.pushes.clear();
 }
 
-// What the contact of a substep looks at is near where the particles are when it begins, when the limit begins, or when
-// the frame begins (Reach).
+// All that contact looks at in a substep is near where the particles are when it begins or when the limit begins. How
+// near: reach_of() in near_parts.cpp.
 void ClothContact::sweep_boxes() {
     for (std::size_t i = 0; i < swept_.size(); ++i)
         if (cloths_[i]->model->tiles) swept_[i]->include(cloths_[i]->bounds());
