@@ -100,7 +100,7 @@ TEST_F(Glsl, every_collider_shape_compiles) {
                 "    b.rx0 = b.rx; b.ry0 = b.ry; b.rz0 = b.rz; b.position0 = b.position;\n"                       \
                 "    b.static_friction = n[0]; b.kinetic_friction = n[1]; b.half_thickness = n[2];\n"             \
                 "    b.depenetration = n[3];\n    ContactSum sum = ContactSum(vec3(0), 0.0);\n"                   \
-                "    ShapeNumbers s = ShapeNumbers(n[0], n[1], n[2], n[3]);\n"                                    \
+                "    ShapeNumbers s = ShapeNumbers(n[0], n[1], n[2], n[3], ShapeBlocks(uvec2(0)));\n"             \
                 "    vec3 local = to_body(b, p);\n"                                                               \
                 "    float gap = distance_" #name "(local, s, normal);\n"                                         \
                 "    project_contact(p, x[i + 1].xyz, x[i].w, sum, gap, gap, normal, carried_by(b, local), b);\n" \

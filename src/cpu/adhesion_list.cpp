@@ -11,7 +11,7 @@ scalar::vec3 lane(Vec3 v) {
 
 float distance(const Collider& collider, scalar::vec3 local) {
     const scalar::ShapeNumbers numbers{collider.numbers[0], collider.numbers[1], collider.numbers[2],
-                                       collider.numbers[3]};
+                                       collider.numbers[3], blocks_of(collider)};
     scalar::vec3 normal(0.0f);
     switch (collider.shape) {
 #define WEFT_SHAPE(name, Name) \

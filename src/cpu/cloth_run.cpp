@@ -206,6 +206,7 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine)
         const auto [static_friction, kinetic_friction] = friction_between(model(), collider);
         ContactView view{
             .numbers = collider.numbers,
+            .data = blocks_of(collider),
             .now = input_.poses[(substep + 1) * count + i],
             .before = input_.poses[substep * count + i],
             .static_friction = static_friction,

@@ -47,6 +47,7 @@ struct RowView {
 
 struct ContactView {
     std::array<float, 4> numbers;  ///< of the shape
+    ShapeBlocks data;              ///< of the shape
     Pose now, before;              ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     float half_thickness, depenetration;  ///< m

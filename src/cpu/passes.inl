@@ -326,7 +326,8 @@ WEFT_FN void trace_pass(const ContactView& c, std::size_t i, bool touched, vec3 
 template <class Shape, bool traced>
 inline void contact_pass(const ParticleView& p, const ContactView& c, Range range) {
     const ContactBody body = make_body(c);
-    const ShapeNumbers shape = {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3])};
+    const ShapeNumbers shape = {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3]),
+                                c.data};
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w, unused;
         vec3 x = load_blocks_unordered(p.position + 4 * i, w);

@@ -412,6 +412,7 @@ TEST_P(InstructionSet, touches_every_shape_alike) {
             compare(state, [&](const Passes& passes, Fixture& f) {
                 AlignedVector<Vec4> sums(f.position.size());
                 ContactView view{.numbers = {0.6f, 0.8f, 0, 0.1f},
+                                 .data = {},
                                  .now = here,
                                  .before = there,
                                  .static_friction = 0.4f,
@@ -438,6 +439,7 @@ TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else
             const Fixture state = random_state(seed, seed % 2);
             AlignedVector<Vec4> sums(state.position.size());
             ContactView view{.numbers = {0.6f, 0.8f, 0.3f, 0.1f},
+                             .data = {},
                              .now = {rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}},
                              .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
                              .static_friction = 0.4f,

@@ -12,6 +12,7 @@
 #endif
 
 #include "physics/kernel_language.h"
+#include "physics/shape_blocks.h"
 
 #include <hwy/highway.h>
 
@@ -231,6 +232,40 @@ WEFT_FN void store_integer_blocks(vec3 v, real fourth, std::int32_t* p) {
     const hn::Rebind<std::int32_t, D> tag;
     const auto integers = [&](real x) { return hn::ConvertTo(tag, x.v); };
     hn::StoreInterleaved4(integers(v.x), integers(v.y), integers(v.z), integers(fourth), tag, p);
+}
+
+// Data of a shape. A block or a word of its own for each lane is numbered by a whole number from 0 to 2^24.
+struct Shorts {
+    real s0, s1, s2, s3, s4, s5, s6, s7;
+};
+
+// Integers of one word or block, the same for all lanes.
+WEFT_FN int integer_of(ShapeBlocks d, int word) {
+    std::int32_t number;
+    __builtin_memcpy(&number, d.words + word, sizeof number);
+    return number;
+}
+WEFT_FN vec3 block_of(ShapeBlocks d, int block, real& fourth) {
+    const float* at = d.words + 4 * block;
+    fourth = real(at[3]);
+    return vec3(real(at[0]), real(at[1]), real(at[2]));
+}
+// The float of each lane's word.
+WEFT_FN real number_of(ShapeBlocks d, real word) {
+    return hn::GatherIndex(D(), d.words, hn::ConvertTo(hn::Rebind<std::int32_t, D>(), word.v));
+}
+// The eight signed 16-bit integers of each lane's block; the first one is the lower half of the first word.
+WEFT_FN Shorts shorts_of(ShapeBlocks d, real block) {
+    const hn::Rebind<std::int32_t, D> tag;
+    HWY_ALIGN std::int32_t index[16];
+    hn::Store(hn::ConvertTo(tag, block.v), tag, index);
+    real w;
+    const vec3 words = gather_blocks(d.words, index, w);
+    const auto low = [&](real x) {
+        return real(hn::ConvertTo(D(), hn::ShiftRight<16>(hn::ShiftLeft<16>(hn::BitCast(tag, x.v)))));
+    };
+    const auto high = [&](real x) { return real(hn::ConvertTo(D(), hn::ShiftRight<16>(hn::BitCast(tag, x.v)))); };
+    return {low(words.x), high(words.x), low(words.y), high(words.y), low(words.z), high(words.z), low(w), high(w)};
 }
 
 WEFT_FN void scatter_blocks(vec3 v, real fourth, float* base, const std::uint32_t* index) {

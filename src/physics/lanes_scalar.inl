@@ -60,3 +60,28 @@ WEFT_FN void store_integer_blocks(vec3 v, real fourth, std::int32_t* p) {
     p[2] = static_cast<std::int32_t>(v.z);
     p[3] = static_cast<std::int32_t>(fourth);
 }
+
+// Data of a shape. A block or a word of its own for each lane is numbered by a whole number from 0 to 2^24.
+struct Shorts {
+    real s0, s1, s2, s3, s4, s5, s6, s7;
+};
+// Integers of one word or block, the same for all lanes.
+WEFT_FN int integer_of(ShapeBlocks d, int word) {
+    std::int32_t number;
+    __builtin_memcpy(&number, d.words + word, sizeof number);
+    return number;
+}
+WEFT_FN vec3 block_of(ShapeBlocks d, int block, real& fourth) {
+    const float* at = d.words + 4 * block;
+    fourth = static_cast<real>(at[3]);
+    return vec3(static_cast<real>(at[0]), static_cast<real>(at[1]), static_cast<real>(at[2]));
+}
+// The float of each lane's word.
+WEFT_FN real number_of(ShapeBlocks d, real word) { return static_cast<real>(d.words[static_cast<std::int32_t>(word)]); }
+// The eight signed 16-bit integers of each lane's block; the first one is the lower half of the first word.
+WEFT_FN Shorts shorts_of(ShapeBlocks d, real block) {
+    std::int16_t s[8];
+    __builtin_memcpy(s, d.words + 4 * static_cast<std::int32_t>(block), sizeof s);
+    const auto number = [&](int i) { return static_cast<real>(s[i]); };
+    return {number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7)};
+}

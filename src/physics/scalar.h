@@ -5,6 +5,7 @@
 #include "physics/constraints.data.h"
 #include "physics/contact/contact.data.h"
 #include "physics/kernel_language.h"
+#include "physics/shape_blocks.h"
 
 #include <cmath>
 #include <cstddef>

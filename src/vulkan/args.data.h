@@ -77,8 +77,7 @@ struct ColliderIn {
     uint sticks;  // 1: cloth sticks to it
     float adhesion_distance;    // m
     float adhesion_compliance;  // m/N
-    uint unused0;
-    uint unused1;
+    Uints data;                 // of the shape; 0 if its numbers say everything
 };
 
 struct PoseIn {

@@ -109,8 +109,7 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
                        .sticks = collider.adhesion ? 1u : 0u,
                        .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
                        .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
-                       .unused0 = 0,
-                       .unused1 = 0});
+                       .data = 0});
     }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
     for (std::size_t i = 0; i < input.poses.size(); ++i) put(poses_ + i * sizeof(PoseIn), pose_in(input.poses[i]));

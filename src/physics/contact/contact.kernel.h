@@ -3,6 +3,7 @@
 
 struct ShapeNumbers {
     real n0, n1, n2, n3;
+    ShapeBlocks data;   // of shapes that four numbers do not describe
 };
 
 // A collider's poses at the end and at the start of a substep.

@@ -23,7 +23,7 @@ ContactSum fresh() {
 vec3 on_ground(vec3 start, vec3 x, const ContactBody& body, double w = 1) {
     ContactSum sum = fresh();
     vec3 n;
-    const ShapeNumbers ground{0, 1, 0, 0};
+    const ShapeNumbers ground{0, 1, 0, 0, {}};
     const vec3 local = reference::to_body(body, x);
     const double gap = reference::distance_plane(local, ground, n) - body.half_thickness;
     vec3 unused;
@@ -35,10 +35,10 @@ vec3 on_ground(vec3 start, vec3 x, const ContactBody& body, double w = 1) {
 
 TEST(Contact, distances_and_normals) {
     vec3 n;
-    EXPECT_NEAR(reference::distance_plane({3, 2, 1}, {0, 1, 0, 0.5}, n), 1.5, 1e-15);
-    EXPECT_NEAR(reference::distance_sphere({3, 4, 0}, {2, 0, 0, 0}, n), 3, 1e-15);
+    EXPECT_NEAR(reference::distance_plane({3, 2, 1}, {0, 1, 0, 0.5, {}}, n), 1.5, 1e-15);
+    EXPECT_NEAR(reference::distance_sphere({3, 4, 0}, {2, 0, 0, 0, {}}, n), 3, 1e-15);
     EXPECT_LT(norm(n - vec3(0.6, 0.8, 0)), 1e-15);
-    EXPECT_NEAR(reference::distance_sphere({0, 0, 0}, {2, 0, 0, 0}, n), -2, 1e-15);
+    EXPECT_NEAR(reference::distance_sphere({0, 0, 0}, {2, 0, 0, 0, {}}, n), -2, 1e-15);
     EXPECT_NEAR(norm(n), 1, 1e-15) << "even at the center there is a way out";
 }
 
@@ -47,11 +47,11 @@ TEST(Contact, normals_are_gradients_of_the_distance) {
     for (int i = 0; i < 100; ++i) {
         vec3 p[1] = {random.vector(2)};
         vec3 n, unused;
-        reference::distance_sphere(p[0], {0.7, 0, 0, 0}, n);
+        reference::distance_sphere(p[0], {0.7, 0, 0, 0, {}}, n);
         expect_gradient(
             p, std::span<const vec3>(&n, 1),
             [&] {
-                return reference::distance_sphere(p[0], {0.7, 0, 0, 0}, unused);
+                return reference::distance_sphere(p[0], {0.7, 0, 0, 0, {}}, unused);
             },
             1e-7);
     }
@@ -110,7 +110,7 @@ TEST(Contact, float_survives_degenerate_input) {
     for (const float d : {0.0f, 1e-30f, 1e10f}) {
         scalar::vec3 x(d, -d, d), n;
         scalar::ContactSum sum{scalar::vec3(0.0f), 0};
-        const float gap = scalar::distance_sphere(x, {1, 0, 0, 0}, n);
+        const float gap = scalar::distance_sphere(x, {1, 0, 0, 0, {}}, n);
         scalar::project_contact(x, scalar::vec3(0.0f), 1.0f, sum, gap, -1, n, o, body);
         EXPECT_TRUE(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)) << d;
     }

@@ -66,7 +66,7 @@ double signed_distance(const Collider& collider, Vec3 world, Vec3& out) {
     const Vec3 local = to_local(collider.pose, world);
     const reference::vec3 p(local.x, local.y, local.z);
     const reference::ShapeNumbers numbers{collider.numbers[0], collider.numbers[1], collider.numbers[2],
-                                          collider.numbers[3]};
+                                          collider.numbers[3], blocks_of(collider)};
     reference::vec3 normal{0, 0, 0};
     double distance = 0;
     switch (collider.shape) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "base/transform.h"
+#include "collide/shape_data.h"
 #include "scene/scene_desc.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,13 +36,19 @@ struct Adhesion {
 struct Collider {
     std::string name;
     ShapeKind shape{};
-    std::array<float, 4> numbers{};             ///< defined in the shape's kernel file
-    std::array<float, 2> friction{0.4f, 0.3f};  ///< static, kinetic
-    std::optional<Adhesion> adhesion = {};      ///< nullopt: cloth does not stick
-    Pose pose;                                  ///< current pose
-    std::vector<PoseKey> motion = {};           ///< by ascending time; empty: no motion by keys
-    std::optional<Pose> next_pose = {};         ///< pose at the end of the next frame, set by World::move()
+    std::array<float, 4> numbers{};              ///< defined in the shape's kernel file
+    std::shared_ptr<const ShapeData> data = {};  ///< null if the numbers say everything
+    std::array<float, 2> friction{0.4f, 0.3f};   ///< static, kinetic
+    std::optional<Adhesion> adhesion = {};       ///< nullopt: cloth does not stick
+    Pose pose;                                   ///< current pose
+    std::vector<PoseKey> motion = {};            ///< by ascending time; empty: no motion by keys
+    std::optional<Pose> next_pose = {};          ///< pose at the end of the next frame, set by World::move()
 };
+
+/// What the shape's kernel reads besides the numbers.
+inline ShapeBlocks blocks_of(const Collider& collider) {
+    return collider.data ? collider.data->blocks() : ShapeBlocks{};
+}
 
 Collider make_collider(const ColliderDesc& desc);
 

@@ -120,7 +120,8 @@ void run_contact(uint p)
                                        before.z.xyz, before.position.xyz, collider.static_friction,
                                        collider.kinetic_friction, contact_args.at.frame.at.half_thickness,
                                        contact_args.at.frame.at.depenetration);
-        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w);
+        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
+                                          ShapeBlocks(collider.data));
         uint at = c * contact_args.at.capacity + p;
         ContactSum sum = ContactSum(vec3(0.0), 0.0);
         if (keeps && contact_args.at.first_iteration == 0u) {

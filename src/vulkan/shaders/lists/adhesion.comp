@@ -23,7 +23,8 @@ void main()
         ColliderIn collider = list.members.at[member].colliders.at[c];
         if (collider.sticks == 0u) continue;
         PoseIn pose = list.members.at[member].poses.at[c];
-        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w);
+        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
+                                          ShapeBlocks(collider.data));
         vec3 local = unrotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, x.xyz - pose.position.xyz);
         vec3 normal;
         float gap = 0.0;
