@@ -73,7 +73,7 @@ void AdhesionList::for_each_target(const ListContext& context, const ClothState&
     for (std::uint32_t c = 0; c < input.colliders.size(); ++c) {
         const Collider& collider = input.colliders[c];
         if (!collider.adhesion) continue;
-        const Pose& pose = input.poses[c];  // at the start of the frame
+        const Pose& pose = input.places->pose(c, 0);  // at the start of the frame
         const auto& [rx, ry, rz] = pose.rotation;
         const scalar::vec3 local = scalar::unrotate(lane(rx), lane(ry), lane(rz), lane(x.xyz()) - lane(pose.position));
         const float gap = distance(collider, local) - half_thickness;
@@ -118,7 +118,7 @@ void AdhesionList::aim(const ListContext& context, std::uint32_t substep, Worker
     const Share mine = worker.of(padded(rows_.rows()));
     for (std::uint32_t row = mine.begin; row < std::min(mine.end, rows_.rows()); ++row) {
         const auto& [local, collider] = targets_[row];
-        const Pose& pose = input.poses[std::size_t{substep + 1} * input.colliders.size() + collider];
+        const Pose& pose = input.places->pose(collider, substep + 1);
         const auto& [rx, ry, rz] = pose.rotation;
         const scalar::vec3 target = scalar::rotate(lane(rx), lane(ry), lane(rz), lane(local)) + lane(pose.position);
         rows_.set(row, 0, target.x), rows_.set(row, 1, target.y), rows_.set(row, 2, target.z);

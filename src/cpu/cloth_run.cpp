@@ -78,7 +78,7 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
             run_targets(substep, mine);
             break;
         case PassKind::contact:
-            run_contacts(pass, substep, mine);
+            run_contacts(pass, substep, mine, worker);
             break;
         case PassKind::prolongation:
             passes_.prolongation(view_.position, cloth_.prolongation_to_particles(),
@@ -199,40 +199,50 @@ void ClothRun::run_targets(std::uint32_t substep, Range mine) const {
     }
 }
 
-void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine) const {
-    const std::size_t count = input_.colliders.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Collider& collider = input_.colliders[i];
-        const auto [static_friction, kinetic_friction] = friction_between(model(), collider);
-        ContactView view{
-            .numbers = collider.numbers,
-            .data = blocks_of(collider),
-            .now = input_.poses[(substep + 1) * count + i],
-            .before = input_.poses[substep * count + i],
-            .static_friction = static_friction,
-            .kinetic_friction = kinetic_friction,
-            .half_thickness = numbers_.half_thickness,
-            .depenetration = numbers_.depenetration,
-            .sums = cloth_.contact_sums.empty() ? nullptr : &cloth_.contact_sums[i * model().capacity()].x,
-            .first_iteration = pass.first_iteration,
-        };
-        const auto shape = static_cast<std::uint32_t>(collider.shape);
-        if (cloth_.account.empty()) {
-            passes_.contact[shape](view_, view, mine);
-            continue;
+// Lists made before a tile left its box may miss a collider, so each pass of contact begins with a check.
+ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
+    ColliderPart& part = cloth_.near_colliders.part(worker.number);
+    if (substep == 0 && pass.first_iteration) part.begin_frame({mine.begin, mine.end});
+    const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
+    part.cover(passes_, view_, *input_.places,
+               {.fall = input_.gravity * (0.5f * seconds * seconds),
+                .substeps = left,
+                .margin = numbers_.half_thickness + model().mean_edge});
+    return part;
+}
+
+void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
+    if (input_.colliders.empty()) return;
+    ColliderPart& part = cover_colliders(pass, substep, mine, worker);
+    const bool traces = !cloth_.account.empty();
+    for (const ColliderRun& run : part.runs()) {
+        for (const NearCollider& near : part.near(run)) {
+            const Collider& collider = input_.colliders[near.collider];
+            const auto [static_friction, kinetic_friction] = friction_between(model(), collider);
+            const ContactView view{
+                .numbers = collider.numbers,
+                .data = blocks_of(collider),
+                .now = input_.places->pose(near.collider, substep + 1),
+                .before = input_.places->pose(near.collider, substep),
+                .static_friction = static_friction,
+                .kinetic_friction = kinetic_friction,
+                .half_thickness = numbers_.half_thickness,
+                .depenetration = numbers_.depenetration,
+                .sums = part.sums(near),
+                .first_iteration = pass.first_iteration,
+                .moved = part.moved(near),
+                .turned = part.turned(near),
+            };
+            const auto& loops = traces ? passes_.contact_traced : passes_.contact;
+            loops[static_cast<std::uint32_t>(collider.shape)](view_, view, {run.begin, run.end});
         }
-        view.moved = cloth_.account.moved(i);
-        view.turned = cloth_.account.turned(i);
-        view.first_of_frame = substep == 0 && pass.first_iteration;
-        passes_.contact_traced[shape](view_, view, mine);
     }
 }
 
 void ClothRun::count_contacts(Worker worker) const {
     if (cloth_.account.empty()) return;
-    Share share = worker.of(padded(model().point_count()));
-    share.end = std::min(share.end, model().particle_count);
-    cloth_.account.count(worker.number, share, cloth_.now().position, 1.0f / numbers_.h);
+    cloth_.account.count(worker.number, cloth_.near_colliders.part(worker.number), model().particle_count,
+                         cloth_.now().position, 1.0f / numbers_.h);
 }
 
 void ClothRun::keep_last_good(Worker worker) const {

@@ -31,7 +31,8 @@ class ClothRun {
     Range particles(Worker worker) const;
     bool run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_targets(std::uint32_t substep, Range mine) const;
-    void run_contacts(const Pass& pass, std::uint32_t substep, Range mine) const;
+    ColliderPart& cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
+    void run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
         return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));
     }

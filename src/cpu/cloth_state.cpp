@@ -52,7 +52,6 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     gather = nullptr;
     face_mass.clear();
     levels.clear();
-    contact_sums.clear();
     account = {};
     by_face.assign(std::size_t{model->face_stride} + 1, Vec4{});
     std::ranges::fill(normals(), Vec4{});
@@ -296,9 +295,9 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
         longest = std::max(longest, block.length);
     if (line_scratch.size() < workers) line_scratch.resize(workers);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
-    const std::size_t sums = rounds_of(plan, *model) > 1 ? colliders * model->capacity() : 0;
-    if (contact_sums.size() != sums) contact_sums.assign(sums, Vec4{});
-    account.prepare(contact_forces ? colliders : 0, model->capacity(), workers);
+    near_colliders.prepare(padded(model->point_count()), static_cast<std::uint32_t>(colliders), workers,
+                           rounds_of(plan, *model) > 1, contact_forces);
+    account.prepare(contact_forces ? colliders : 0, workers);
     if (plan.projection == Projection::jacobi && !gather) {
         gather = std::make_unique<const JacobiGather>(build_gather(*model));
         corrections.resize(gather->blocks);

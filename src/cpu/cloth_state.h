@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/aligned.h"
+#include "cpu/collider_lists.h"
 #include "cpu/contact_account.h"
 #include "cpu/passes.h"
 #include "cpu/world_arrays.h"
@@ -40,8 +41,8 @@ struct ClothState {
     /// Stretch multipliers persist between frames. The others persist between iterations; with one iteration they are
     /// empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
-    AlignedVector<Vec4> contact_sums;  ///< [collider · capacity + particle]; empty with one iteration
-    ContactAccount account;            ///< empty without contact_forces
+    ColliderLists near_colliders;
+    ContactAccount account;  ///< empty without contact_forces
     /// Values that particles sum over their triangles: the air's impulse, and at the end of a frame the normals. One
     /// extra element stays zero.
     AlignedVector<Vec4> by_face;

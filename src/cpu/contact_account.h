@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/aligned.h"
-#include "base/workers.h"
+#include "cpu/collider_lists.h"
 #include "solver/state/contact_forces.h"
 
 #include <array>
@@ -15,17 +15,15 @@ namespace weft::cpu {
 class ContactAccount {
   public:
     /// Allocates; nothing if there are no colliders. Only prepare() and collect() allocate, on the calling thread.
-    void prepare(std::size_t colliders, std::size_t capacity, unsigned workers);
+    void prepare(std::size_t colliders, unsigned workers);
 
-    bool empty() const { return moved_.empty(); }
-    /// Blocks of four per particle (ContactTrace).
-    float* moved(std::size_t collider) { return &moved_[collider * capacity_].x; }
-    float* turned(std::size_t collider) { return &turned_[collider * capacity_].x; }
+    bool empty() const { return parts_.empty(); }
 
-    /// Sums the contacts of a worker's particles. `mine` must not contain anchors; `position` must not change until
-    /// collect(). Lists only as many contacts as there is room for, so that it does not allocate; the sums are
-    /// complete.
-    void count(unsigned worker, Share mine, std::span<const Vec4> position, float inv_h);
+    /// Sums the contacts of a worker's particles below `particles`, the number of those that are not anchors. `near`
+    /// and `position` must not change until collect(). Lists only as many contacts as there is room for, so that it
+    /// does not allocate; the sums are complete.
+    void count(unsigned worker, const ColliderPart& near, std::uint32_t particles, std::span<const Vec4> position,
+               float inv_h);
     /// Collects the contacts of all workers, all of them: allocates more room if a list was full. The lists in `to`
     /// stay valid until the call after the next.
     void collect(ClothContactLog& to);
@@ -33,20 +31,20 @@ class ContactAccount {
   private:
     /// Aligned so that no two workers share a cache line.
     struct alignas(cache_line) Part {
-        std::vector<ContactRecord> contacts;  ///< as many as there is room for
-        std::vector<std::size_t> begin;       ///< start of each collider's contacts among all, then their number
+        std::vector<ContactRecord> contacts;  ///< as many as there is room for; of each collider by particle
+        std::size_t found = 0;                ///< contacts in all
         std::vector<ImpulseSum> sums;         ///< per collider
         // Arguments of count(), for listing again in collect().
-        Share mine{};
+        const ColliderPart* near = nullptr;
+        std::uint32_t particles = 0;
         std::span<const Vec4> position = {};
         float inv_h = 0;
     };
 
-    void list(Part& part) const;
+    static void list(Part& part);
 
-    std::size_t capacity_ = 0;
-    AlignedVector<Vec4> moved_, turned_;  ///< [collider · capacity + particle]
-    std::vector<Part> parts_;             ///< per worker
+    std::vector<Part> parts_;        ///< per worker
+    std::vector<std::size_t> next_;  ///< per collider: place of its next contact
     std::array<std::vector<ContactRecord>, 2> lists_;
     std::uint32_t turn_ = 0;
 };

@@ -10,6 +10,8 @@
 #include "solver/world/air.h"
 #include "solver/world/collider.h"
 
+#include <weft/bounds.h>
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -51,11 +53,10 @@ struct ContactView {
     Pose now, before;              ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     float half_thickness, depenetration;  ///< m
-    float* sums;                          ///< a ContactSum per particle; nullptr with a single iteration
-    bool first_iteration;
-    float* moved = nullptr;   ///< blocks of four: ContactTrace, of contact_traced only
+    float* sums;                          ///< a ContactSum per particle of the range; nullptr with a single iteration
+    bool first_iteration;                 ///< of the substep: sums begin anew
+    float* moved = nullptr;   ///< ContactTrace, blocks of four per particle of the range; contact_traced only
     float* turned = nullptr;  ///< likewise
-    bool first_of_frame = false;
 };
 
 /// Where constraints in parallel projection write the corrections of their particles.
@@ -156,8 +157,11 @@ struct Passes {
     void (*prolongation)(float* particle_position, const ProlongationView&, Range);
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
+    /// Boxes of tiles of lane_padding particles, the first of which begins the range: the first tile from `first` on
+    /// that has a particle with a mass outside of its box; the number of tiles if there is none.
+    std::uint32_t (*first_outside)(const float* position, std::span<const Bounds> boxes, Range, std::uint32_t first);
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
-    /// Also logs the displacements of particles. The first contact pass of a frame resets the log.
+    /// Also adds the displacements of particles to the log.
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact_traced;
     /// Adds to the wind of each triangle, or sets it. One entry per kind of wind.
     std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;

@@ -310,17 +310,32 @@ WEFT_FN ContactBody make_body(const ContactView& c) {
 }
 
 // Adds the displacements by a contact to the particles' contact log.
-WEFT_FN void trace_pass(const ContactView& c, std::size_t i, bool touched, vec3 before, vec3 x) {
-    if (!touched && !c.first_of_frame) return;
+WEFT_FN void trace_pass(const ContactView& c, std::size_t i, vec3 before, vec3 x) {
     real unused;
-    ContactTrace trace = {vec3(real(0.0f)), vec3(real(0.0f))};
-    if (!c.first_of_frame) {
-        trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
-        trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
-    }
-    if (touched) trace_contact(trace, before, x, spread(c.now.position));
+    ContactTrace trace;
+    trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
+    trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
+    trace_contact(trace, before, x, spread(c.now.position));
     store_blocks_unordered(trace.moved, real(0.0f), c.moved + 4 * i);
     store_blocks_unordered(trace.turned, real(0.0f), c.turned + 4 * i);
+}
+
+inline std::uint32_t first_outside_pass(const float* position, std::span<const Bounds> boxes, Range range,
+                                        std::uint32_t first) {
+    for (std::uint32_t tile = first; tile < boxes.size(); ++tile) {
+        const vec3 min = spread(boxes[tile].min), max = spread(boxes[tile].max);
+        const std::size_t begin = range.begin + std::size_t{tile} * lane_padding;
+        mask outside = real(0.0f) > real(0.0f);
+        for (std::size_t i = begin; i < begin + lane_padding && i < range.end; i += lane_count) {
+            real w;
+            const vec3 x = load_blocks_unordered(position + 4 * i, w);
+            const mask left = x.x < min.x || x.y < min.y || x.z < min.z || x.x > max.x || x.y > max.y || x.z > max.z;
+            const mask now = left && w > real(0.0f);
+            outside = outside || now;
+        }
+        if (any(outside)) return tile;
+    }
+    return static_cast<std::uint32_t>(boxes.size());
 }
 
 template <class Shape, bool traced>
@@ -333,7 +348,8 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         vec3 x = load_blocks_unordered(p.position + 4 * i, w);
         const vec3 before = x;
         ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
-        if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * i, sum.push);
+        const std::size_t at = i - range.begin;
+        if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
 
         const vec3 local = to_body(body, x);
         vec3 normal;
@@ -349,8 +365,10 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
                             carried_by(body, local), body);
             store_blocks_unordered(x, w, p.position + 4 * i);
         }
-        if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * i);
-        if constexpr (traced) trace_pass(c, i, touches, before, x);
+        if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * at);
+        if constexpr (traced) {
+            if (touches) trace_pass(c, at, before, x);
+        }
     }
 }
 
@@ -454,6 +472,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .node_correction = node_correction_pass,
         .prolongation = prolongation_pass,
         .damp = {},
+        .first_outside = first_outside_pass,
 #define WEFT_SHAPE(name, Name) contact_pass<Name##Shape, false>,
         .contact = {
 #include "physics/contact/shapes.def"

@@ -450,12 +450,12 @@ TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else
                              .first_iteration = true};
             const auto traced = [&](const Passes& passes, Fixture& f, AlignedVector<Vec4>& moved,
                                     AlignedVector<Vec4>& turned) {
-                moved.assign(f.position.size(), {7, 7, 7, 7});  // left from a previous frame
+                moved.assign(f.position.size(), {});
                 turned = moved;
                 view.moved = &moved[0].x;
                 view.turned = &turned[0].x;
                 for (const bool first : {true, false}) {
-                    view.first_iteration = view.first_of_frame = first;
+                    view.first_iteration = first;
                     passes.contact_traced[shape](f.view(), view, all);
                 }
             };

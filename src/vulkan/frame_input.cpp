@@ -112,7 +112,11 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
                        .data = 0});
     }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
-    for (std::size_t i = 0; i < input.poses.size(); ++i) put(poses_ + i * sizeof(PoseIn), pose_in(input.poses[i]));
+    for (std::uint32_t substep = 0; substep <= plan.substeps; ++substep) {
+        for (std::size_t i = 0; i < input.colliders.size(); ++i)
+            put(poses_ + (substep * input.colliders.size() + i) * sizeof(PoseIn),
+                pose_in(input.places->pose(i, substep)));
+    }
     for (std::size_t i = 0; i < cloth.motion_poses.size(); ++i)
         put(motion_poses_ + i * sizeof(PoseIn), pose_in(cloth.motion_poses[i]));
     for (std::size_t i = 0; i < cloth.targets.size(); ++i) {

@@ -16,4 +16,8 @@ inline std::array<float, 4> shape_numbers(const BoxDesc& box) {
     return {box.half_extents.x, box.half_extents.y, box.half_extents.z, 0};
 }
 
+inline Bounds shape_bounds(const BoxDesc& box) {
+    return {-box.half_extents, box.half_extents};
+}
+
 }  // namespace weft

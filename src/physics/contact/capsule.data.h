@@ -18,4 +18,9 @@ inline std::array<float, 4> shape_numbers(const CapsuleDesc& capsule) {
     return {capsule.radius, capsule.half_height, 0, 0};
 }
 
+inline Bounds shape_bounds(const CapsuleDesc& capsule) {
+    const float r = capsule.radius, y = capsule.half_height + r;
+    return {{-r, -y, -r}, {r, y, r}};
+}
+
 }  // namespace weft

@@ -21,6 +21,10 @@ inline std::array<float, 4> shape_numbers(const PlaneDesc& plane) {
     return {n.x, n.y, n.z, plane.offset};
 }
 
+inline Bounds shape_bounds(const PlaneDesc&) {
+    return everywhere;
+}
+
 inline ShapeProblem shape_problem(const PlaneDesc& plane) {
     // A shorter normal counts as zero.
     constexpr double min_normal_length = 1e-9;

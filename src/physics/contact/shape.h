@@ -3,10 +3,12 @@
 
 #include "base/parameter.h"
 
+#include <weft/bounds.h>
 #include <weft/scene.h>
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 
 namespace weft {
@@ -15,6 +17,12 @@ namespace weft {
 struct ShapeProblem {
     std::string_view key = {}, what = {};
 };
+
+/// The box of a shape that has no end.
+inline constexpr Bounds everywhere{{-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
+                                    -std::numeric_limits<float>::infinity()},
+                                   {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
+                                    std::numeric_limits<float>::infinity()}};
 
 /// Default for shapes that need no checks besides the ranges. Other shapes overload it in their *.data.h.
 template <class Desc>

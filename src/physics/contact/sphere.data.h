@@ -16,4 +16,9 @@ inline std::array<float, 4> shape_numbers(const SphereDesc& sphere) {
     return {sphere.radius, 0, 0, 0};
 }
 
+inline Bounds shape_bounds(const SphereDesc& sphere) {
+    const float r = sphere.radius;
+    return {{-r, -r, -r}, {r, r, r}};
+}
+
 }  // namespace weft

@@ -5,6 +5,11 @@
 namespace weft {
 namespace {
 
+bool finite(const Pose& pose) {
+    const auto& [x, y, z] = pose.rotation;
+    return finite(pose.position) && finite(x) && finite(y) && finite(z);
+}
+
 bool finite4(const Vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
@@ -43,12 +48,9 @@ std::string name_input(const StepInput& input, std::span<const Pose> motion_pose
         const bool sound = finite(wind.numbers[0]) && finite(wind.numbers[1]) && finite(wind.numbers[2]);
         if (!sound) return "a wind is not finite";
     }
-    for (std::size_t i = 0; i < input.poses.size(); ++i) {
-        const Pose& pose = input.poses[i];
-        if (!finite(pose.position) || !finite(pose.rotation.x) || !finite(pose.rotation.y) ||
-            !finite(pose.rotation.z)) {
-            return "the pose of collider '" + input.colliders[i % input.colliders.size()].name + "' is not finite";
-        }
+    for (std::size_t i = 0; i < input.colliders.size(); ++i) {
+        if (!finite(input.places->pose(i, 0)) || !finite(input.places->end_pose(i)))
+            return "the pose of collider '" + input.colliders[i].name + "' is not finite";
     }
     for (const Pose& pose : motion_poses) {
         if (!finite(pose.position)) return "the motion of a pin is not finite";

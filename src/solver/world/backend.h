@@ -15,6 +15,7 @@
 #include "solver/state/snapshot.h"
 #include "solver/world/air.h"
 #include "solver/world/collider.h"
+#include "solver/world/collider_places.h"
 
 #include <weft/result.h>
 
@@ -36,9 +37,7 @@ struct StepInput {
     float air_density = 0;                ///< kg/m³
     std::span<const WindNow> winds = {};  ///< evaluated in the middle of the frame
     std::span<const Collider> colliders = {};
-    /// Pose of each collider at the start of the frame and after every substep: [substep · colliders + collider],
-    /// substep = 0 … substeps.
-    std::span<const Pose> poses = {};
+    const ColliderPlaces* places = nullptr;               ///< of the colliders, in this frame
     bool contact_forces = false;                          ///< record contacts
     bool contact_marks = false;                           ///< record what contact between cloths does to each particle
     std::uint32_t list_capacity = default_list_capacity;  ///< initial capacity of dynamic lists

@@ -3,6 +3,8 @@
 #include "physics/contact/shapes.def"
 #include "physics/scalar.h"
 
+#include <algorithm>
+
 namespace weft {
 namespace {
 
@@ -10,6 +12,7 @@ namespace {
     void set_shape(Collider& collider, const Name##Desc& shape) { \
         collider.shape = ShapeKind::name;                         \
         collider.numbers = shape_numbers(shape);                  \
+        collider.bounds = shape_bounds(shape);                    \
     }
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
@@ -22,8 +25,8 @@ struct Between {
 };
 template <class Key>
 Between<Key> find_between(std::span<const Key> keys, double time) {
-    std::size_t after = 0;
-    while (after < keys.size() && keys[after].time <= time) ++after;
+    const auto later = [](double at, const Key& key) { return at < static_cast<double>(key.time); };
+    const auto after = static_cast<std::size_t>(std::upper_bound(keys.begin(), keys.end(), time, later) - keys.begin());
     if (after == 0) return {keys.front(), keys.front(), 0};
     if (after == keys.size()) return {keys.back(), keys.back(), 0};
     const double from = keys[after - 1].time, to = keys[after].time;

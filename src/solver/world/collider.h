@@ -38,6 +38,7 @@ struct Collider {
     ShapeKind shape{};
     std::array<float, 4> numbers{};              ///< defined in the shape's kernel file
     std::shared_ptr<const ShapeData> data = {};  ///< null if the numbers say everything
+    Bounds bounds = {};                          ///< m: box of the shape in its own frame
     std::array<float, 2> friction{0.4f, 0.3f};   ///< static, kinetic
     std::optional<Adhesion> adhesion = {};       ///< nullopt: cloth does not stick
     Pose pose;                                   ///< current pose

@@ -183,6 +183,7 @@ void World::remove(StitchId id) {
 ColliderId World::add(Collider collider) {
     complete_and_resolve();
     const ColliderId id = colliders_.add(std::move(collider));
+    places_->reset();
     replan();
     return id;
 }
@@ -201,6 +202,7 @@ void World::remove(ColliderId id) {
         }
     }
     colliders_.remove(id);
+    places_->reset();
     replan();
 }
 
@@ -268,7 +270,6 @@ void World::replan() {
             cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
         cloth.motion_poses.resize(places * cloth.targets.motions.size());
     }
-    poses_.resize(places * colliders_.size());
     winds_.resize(air ? settings_.air->wind.size() : 0);
 
     make_islands();
@@ -346,20 +347,6 @@ std::vector<std::array<std::uint32_t, 2>> World::colliding_parts(std::span<const
     return ties;
 }
 
-// Computes the pose of every collider at the start of the frame and after each substep.
-void World::place_colliders(double dt) {
-    const std::size_t count = colliders_.size();
-    for (std::uint32_t substep = 0; substep <= settings_.solver.substeps; ++substep) {
-        const double time = frame_.time + dt * substep / settings_.solver.substeps;
-        const float fraction = static_cast<float>(substep) / static_cast<float>(settings_.solver.substeps);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Collider& collider = colliders_[i];
-            poses_[substep * count + i] =
-                collider.next_pose ? between(collider.pose, *collider.next_pose, fraction) : pose_at(collider, time);
-        }
-    }
-}
-
 void World::place_motions(Cloth& cloth, double dt) const {
     const std::size_t count = cloth.targets.motions.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -368,7 +355,7 @@ void World::place_motions(Cloth& cloth, double dt) const {
         for (std::uint32_t substep = 0; substep <= settings_.solver.substeps; ++substep) {
             const double time = frame_.time + dt * substep / settings_.solver.substeps;
             cloth.motion_poses[substep * count + i] = collider < colliders_.size()
-                                                          ? poses_[substep * colliders_.size() + collider]
+                                                          ? places_->pose(collider, substep)
                                                           : Pose{{}, offset_at(motion.offsets, time)};
         }
     }
@@ -381,7 +368,7 @@ void World::advance(double dt) {
     if (settings_.background) pending_.start_next();
     if (watched_serial_ != plan_serial_) watch_tangle();
     watched_serial_ = plan_serial_;
-    place_colliders(dt);
+    places_->begin_frame(colliders_.values(), frame_.time, dt, settings_.solver.substeps);
     for (Cloth& cloth : cloths_) place_motions(cloth, dt);
     for (std::size_t i = 0; i < winds_.size(); ++i) {
         winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
@@ -415,7 +402,7 @@ void World::advance(double dt) {
                        .air_density = settings_.air ? settings_.air->density : 0,
                        .winds = winds_,
                        .colliders = colliders_.values(),
-                       .poses = poses_,
+                       .places = places_.get(),
                        .contact_forces = settings_.contact_forces,
                        .contact_marks = settings_.contact_marks,
                        .list_capacity = settings_.list_capacity,
@@ -424,7 +411,7 @@ void World::advance(double dt) {
     backend_->step(step_);
     running_ = true;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
-        colliders_[i].pose = poses_[settings_.solver.substeps * colliders_.size() + i];
+        colliders_[i].pose = places_->end_pose(i);
         colliders_[i].next_pose.reset();
     }
     frame_.step_ms = ms_since(begin);

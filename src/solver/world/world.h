@@ -195,7 +195,7 @@ class World {
     WorldSettings settings_;
     IdList<Cloth, struct ClothTag> cloths_;
     IdList<Collider, struct ColliderTag> colliders_;
-    std::vector<Pose> poses_;
+    std::unique_ptr<ColliderPlaces> places_ = std::make_unique<ColliderPlaces>();
     std::vector<WindNow> winds_;
     PendingModels pending_;
     AddressSpace space_;

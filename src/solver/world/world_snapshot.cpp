@@ -107,6 +107,7 @@ Result<void> World::restore(const Snapshot& snapshot) {
         edited.push_back(std::move(*model));
     }
     if (auto restored = restore_cloths(snapshot, edited); !restored) return restored;
+    places_->reset();
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = snapshot.colliders[i];
         colliders_[i].next_pose.reset();
