@@ -187,6 +187,23 @@ void expect_same_bits(const std::function<World(const CpuOptions&)>& make, doubl
     }
 }
 
+// The threads share the poses of what moves.
+TEST(Determinism, holds_over_many_moving_colliders) {
+    const WorldSettings settings{.solver = {.substeps = 4, .iterations = 2}, .contact_forces = true};
+    expect_same_bits(
+        [&](const CpuOptions& options) {
+            World world = make_world(
+                settings, {.resolution = {24, 24}, .position = {0, 0.1f, 0}, .layout = settings.layout()}, options);
+            for (int i = 0; i < 16; ++i) {
+                const Vec3 from{0.3f * static_cast<float>(i % 4 - 2), 0, 0.3f * static_cast<float>(i / 4 - 2)};
+                world.add(make_collider({.shape = BoxDesc{{0.05f, 0.05f, 0.03f}},
+                                         .motion = {{0, from, {}}, {0.5f, {from.z, 0.1f, from.x}, {90, 200, 0}}}}));
+            }
+            return world;
+        },
+        0.1);
+}
+
 // Labels: slow no-asan
 TEST(Determinism, holds_along_lines) {
     for (const std::uint32_t iterations : {1u, 3u}) {

@@ -41,9 +41,15 @@ Vec3 mix(Vec3 a, Vec3 b, float fraction) {
 
 Pose pose_at(const Collider& collider, double time) {
     if (collider.motion.empty()) return collider.pose;
-    const auto [before, after, fraction] = find_between(std::span<const PoseKey>(collider.motion), time);
-    return {rotation_from_degrees(mix(before.rotation_degrees, after.rotation_degrees, fraction)),
-            mix(before.position, after.position, fraction)};
+    const PoseKey key = key_at(collider.motion, time);
+    return {rotation_from_degrees(key.rotation_degrees), key.position};
+}
+
+PoseKey key_at(std::span<const PoseKey> keys, double time) {
+    const auto [before, after, fraction] = find_between(keys, time);
+    return {.time = static_cast<float>(time),
+            .position = mix(before.position, after.position, fraction),
+            .rotation_degrees = mix(before.rotation_degrees, after.rotation_degrees, fraction)};
 }
 
 Vec3 offset_at(std::span<const OffsetKey> keys, double time) {

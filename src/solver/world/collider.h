@@ -56,6 +56,8 @@ Collider make_collider(const ColliderDesc& desc);
 /// Pose of the collider at a time in s. Positions and angles are interpolated linearly between keys, and constant
 /// before the first and after the last key.
 Pose pose_at(const Collider& collider, double time);
+/// Its position and angles. There must be a key.
+PoseKey key_at(std::span<const PoseKey> keys, double time);
 /// Offset of a pin in m, interpolated the same way; 0 without keys.
 Vec3 offset_at(std::span<const OffsetKey> keys, double time);
 

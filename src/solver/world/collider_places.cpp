@@ -120,14 +120,16 @@ Bounds ColliderPlaces::swept(const Collider& collider, const Pose& end) const {
     if (collider.next_pose) {
         origins.include(collider.pose.position);
         turns = !(end.rotation == collider.pose.rotation);
+    } else if (collider.motion.empty()) {
+        turns = false;
     } else {
         const auto after = [](double time, const PoseKey& key) { return time < static_cast<double>(key.time); };
         const auto first = std::upper_bound(collider.motion.begin(), collider.motion.end(), time_, after);
         const auto last = std::upper_bound(first, collider.motion.end(), time_ + dt_, after);
         for (auto key = first; key != last; ++key) origins.include(key->position);
-        const Pose start = pose_at(collider, time_);
+        const PoseKey start = key_at(collider.motion, time_), stop = key_at(collider.motion, time_ + dt_);
         origins.include(start.position);
-        turns = first != last || !(end.rotation == start.rotation);
+        turns = first != last || start.rotation_degrees != stop.rotation_degrees;
     }
     if (turns) {
         const float radius = radius_about_origin(collider.bounds);

@@ -368,12 +368,12 @@ void World::advance(double dt) {
     if (settings_.background) pending_.start_next();
     if (watched_serial_ != plan_serial_) watch_tangle();
     watched_serial_ = plan_serial_;
+    const auto begin = std::chrono::steady_clock::now();
     places_->begin_frame(colliders_.values(), frame_.time, dt, settings_.solver.substeps);
     for (Cloth& cloth : cloths_) place_motions(cloth, dt);
     for (std::size_t i = 0; i < winds_.size(); ++i) {
         winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
     }
-    const auto begin = std::chrono::steady_clock::now();
     frame_.index += 1;
     frame_.time += dt;
     frame_.reports = report_none;
