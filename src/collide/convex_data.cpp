@@ -1,0 +1,53 @@
+#include "collide/convex_hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace weft {
+namespace {
+
+void append_block(AlignedVector<float>& words, Vec3 v, float fourth) {
+    words.insert(words.end(), {v.x, v.y, v.z, fourth});
+}
+
+float as_word(std::size_t count) {
+    const auto integer = static_cast<std::int32_t>(count);
+    float word;
+    std::memcpy(&word, &integer, sizeof word);
+    return word;
+}
+
+}  // namespace
+
+// The layout is that of convex.kernel.h.
+ShapeData make_convex_data(const ConvexHull& hull) {
+    ShapeData data;
+    data.bounds = bounds_of(hull.vertices);
+    const Vec3 center = data.bounds.center();
+    append_block(data.words, {as_word(hull.faces.size()), as_word(hull.edges.size()), 0}, 0);
+    append_block(data.words, center, length(data.bounds.size()) * 0.5f);
+    for (const ConvexHull::Face& face : hull.faces) {
+        // Relative to the center, where the rounding of floats is least.
+        double offset = -std::numeric_limits<double>::infinity();
+        for (const Vec3 v : hull.vertices)
+            offset = std::max(offset, double{face.normal.x} * (double{v.x} - center.x) +
+                                          double{face.normal.y} * (double{v.y} - center.y) +
+                                          double{face.normal.z} * (double{v.z} - center.z));
+        append_block(data.words, face.normal, static_cast<float>(offset));
+    }
+    for (const auto& [a, b] : hull.edges) {
+        const Vec3 from = hull.vertices[a], to = hull.vertices[b];
+        const double x = double{to.x} - from.x, y = double{to.y} - from.y, z = double{to.z} - from.z;
+        const double size = std::sqrt(x * x + y * y + z * z);
+        const double scale = size > 0 ? 1 / size : 0;
+        append_block(data.words, from - center, static_cast<float>(size));
+        append_block(data.words,
+                     {static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)}, 0);
+    }
+    return data;
+}
+
+}  // namespace weft
