@@ -252,6 +252,16 @@ struct CapsuleDesc {
     friend bool operator==(const CapsuleDesc&, const CapsuleDesc&) = default;
 };
 
+/// The convex hull of a mesh's vertices. A hull has at most 256 vertices: a finer one is simplified from within.
+struct ConvexDesc {
+    std::string file = {};   ///< read by Options::read_mesh; empty: `mesh` is used
+    float scale = 1;         ///< m per unit of the file, > 0
+    UpAxis up = UpAxis::y;   ///< of the file
+    TriangleMesh mesh = {};  ///< m; its triangles are not used. Only for programs: a scene file must name a file
+    float radius = 0;        ///< m, ≥ 0: everything within this distance of the hull is solid too
+    friend bool operator==(const ConvexDesc&, const ConvexDesc&) = default;
+};
+
 /// Pose of a collider at a time, in place of its transform. Poses are interpolated linearly between keys and constant
 /// before the first and after the last one.
 struct PoseKey {
@@ -264,7 +274,7 @@ struct PoseKey {
 /// A rigid shape that cloth collides with.
 struct ColliderDesc {
     std::string name = {};
-    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc> shape = {};
+    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc, ConvexDesc> shape = {};
     TransformDesc transform = {};               ///< `scale` is ignored
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static and kinetic coefficient, 0…100
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: the collider stays at `transform`

@@ -59,6 +59,16 @@ Mat3 matrix_of(const Quaternion& q) {
 
 }  // namespace
 
+Bounds to_world(const Pose& pose, const Bounds& local) {
+    const Vec3 center = to_world(pose, local.center()), half = local.size() * 0.5f;
+    const auto reach = [&](float x, float y, float z) {
+        return std::abs(x) * half.x + std::abs(y) * half.y + std::abs(z) * half.z;
+    };
+    const Mat3& r = pose.rotation;
+    const Vec3 by{reach(r.x.x, r.y.x, r.z.x), reach(r.x.y, r.y.y, r.z.y), reach(r.x.z, r.y.z, r.z.z)};
+    return {center - by, center + by};
+}
+
 Pose between(const Pose& from, const Pose& to, float fraction) {
     if (fraction <= 0 || from == to) return from;
     if (fraction >= 1) return to;

@@ -1,6 +1,7 @@
 // Placement of meshes and colliders: rotation and position, angles in degrees.
 #pragma once
 
+#include <weft/bounds.h>
 #include <weft/vector.h>
 
 namespace weft {
@@ -34,6 +35,8 @@ struct Pose {
 constexpr Vec3 to_world(const Pose& pose, Vec3 local) {
     return pose.rotation * local + pose.position;
 }
+/// The box around a box that has been placed.
+Bounds to_world(const Pose& pose, const Bounds& local);
 constexpr Vec3 to_local(const Pose& pose, Vec3 world) {
     return transposed(pose.rotation) * (world - pose.position);
 }

@@ -20,6 +20,20 @@ float as_word(std::size_t count) {
     return word;
 }
 
+// Every face has vertices of its own, so that it has its own normal.
+TriangleMesh surface_of(const ConvexHull& hull) {
+    TriangleMesh mesh;
+    for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const std::uint32_t corner : hull.triangles[t]) {
+            mesh.positions.push_back(hull.vertices[corner]);
+            mesh.normals.push_back(hull.faces[hull.face_of_triangle[t]].normal);
+        }
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    return mesh;
+}
+
 }  // namespace
 
 // The layout is that of convex.kernel.h.
@@ -47,6 +61,7 @@ ShapeData make_convex_data(const ConvexHull& hull) {
         append_block(data.words,
                      {static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)}, 0);
     }
+    data.surface = surface_of(hull);
     return data;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/aligned.h"
+#include "mesh/triangle_mesh.h"
 #include "physics/shape_blocks.h"
 
 #include <weft/bounds.h>
@@ -10,7 +11,8 @@ namespace weft {
 
 struct ShapeData {
     AlignedVector<float> words;  ///< for the shape's kernel, whose file says what they hold; whole blocks of four
-    Bounds bounds;               ///< m: of the shape in its own frame
+    Bounds bounds;               ///< m: of the shape in its own frame, without what its numbers add
+    TriangleMesh surface;        ///< the shape's surface, without what its numbers add
 
     ShapeBlocks blocks() const { return {words.data()}; }
 };

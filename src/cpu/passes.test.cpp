@@ -1,6 +1,8 @@
 // Every instruction set against one lane, constraint by constraint, on random and degenerate input: equal to the bit.
 #include "cpu/passes.h"
 
+#include "collide/convex_hull.h"
+
 #include "solver/model/faces_around.h"
 
 #include "base/aligned.h"
@@ -403,6 +405,17 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
     expect_same(spread(*GetParam(), long_numbers), one_by_one, "32 bits");
 }
 
+// Data for shapes that read some. A box at about the place of the particles.
+ShapeBlocks sample_blocks() {
+    static const ShapeData data = [] {
+        std::vector<Vec3> corners;
+        for (int i = 0; i < 8; ++i)
+            corners.push_back({i & 1 ? 0.5f : -0.4f, i & 2 ? 0.4f : -0.5f, i & 4 ? 0.6f : -0.3f});
+        return make_convex_data(*convex_hull(corners));
+    }();
+    return data.blocks();
+}
+
 TEST_P(InstructionSet, touches_every_shape_alike) {
     const Pose here{rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}};
     const Pose there{rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}};
@@ -412,7 +425,7 @@ TEST_P(InstructionSet, touches_every_shape_alike) {
             compare(state, [&](const Passes& passes, Fixture& f) {
                 AlignedVector<Vec4> sums(f.position.size());
                 ContactView view{.numbers = {0.6f, 0.8f, 0, 0.1f},
-                                 .data = {},
+                                 .data = sample_blocks(),
                                  .now = here,
                                  .before = there,
                                  .static_friction = 0.4f,
@@ -439,7 +452,7 @@ TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else
             const Fixture state = random_state(seed, seed % 2);
             AlignedVector<Vec4> sums(state.position.size());
             ContactView view{.numbers = {0.6f, 0.8f, 0.3f, 0.1f},
-                             .data = {},
+                             .data = sample_blocks(),
                              .now = {rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}},
                              .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
                              .static_friction = 0.4f,

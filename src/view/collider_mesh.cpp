@@ -1,8 +1,14 @@
 #include "view/collider_mesh.h"
 
+#include "mesh/procedural.h"
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <tuple>
+#include <utility>
 
 namespace weft {
 namespace {
@@ -48,22 +54,24 @@ TriangleMesh turned(const Outline& outline) {
 
 // A function `mesh_of_<name>` for every shape of shapes.def.
 
-TriangleMesh mesh_of_plane(const Numbers&) {
+TriangleMesh mesh_of_plane(const Collider&) {
     return {};
 }
 
-TriangleMesh mesh_of_capsule(const Numbers& numbers) {
+TriangleMesh mesh_of_capsule(const Collider& collider) {
     Outline outline;
-    add_quarter(outline, numbers[0], numbers[1], true);
-    add_quarter(outline, numbers[0], -numbers[1], false);
+    const auto& [radius, half_height, unused0, unused1] = collider.numbers;
+    add_quarter(outline, radius, half_height, true);
+    add_quarter(outline, radius, -half_height, false);
     return turned(outline);
 }
 
-TriangleMesh mesh_of_sphere(const Numbers& numbers) {
-    return mesh_of_capsule({numbers[0], 0, 0, 0});
+TriangleMesh mesh_of_sphere(const Collider& collider) {
+    return mesh_of_capsule(collider);  // without a height
 }
 
-TriangleMesh mesh_of_box(const Numbers& numbers) {
+TriangleMesh mesh_of_box(const Collider& collider) {
+    const Numbers& numbers = collider.numbers;
     TriangleMesh mesh;
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-1.0f, 1.0f}) {
@@ -85,6 +93,62 @@ TriangleMesh mesh_of_box(const Numbers& numbers) {
     return mesh;
 }
 
+void append(TriangleMesh& mesh, const TriangleMesh& part, Vec3 by) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3 p : part.positions) mesh.positions.push_back(p + by);
+    mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
+    for (const auto& [a, b, c] : part.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+// The side of a cylinder between two points, without its ends.
+TriangleMesh tube(Vec3 from, Vec3 to, float radius) {
+    constexpr std::uint32_t sides = 32;
+    const Vec3 along = normalized(to - from);
+    const Vec3 across = normalized(cross(along, std::abs(along.y) < 0.7f ? Vec3{0, 1, 0} : Vec3{1, 0, 0}));
+    const Vec3 beside = cross(along, across);
+    TriangleMesh mesh;
+    for (std::uint32_t side = 0; side <= sides; ++side) {
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(side % sides) / sides;
+        const Vec3 normal = across * std::cos(angle) + beside * std::sin(angle);
+        for (const Vec3 end : {from, to}) {
+            mesh.positions.push_back(end + normal * radius);
+            mesh.normals.push_back(normal);
+        }
+    }
+    for (std::uint32_t i = 0; i < 2 * sides; i += 2) {
+        mesh.triangles.push_back({i, i + 2, i + 1});
+        mesh.triangles.push_back({i + 1, i + 2, i + 3});
+    }
+    return mesh;
+}
+
+// The faces moved outward, a tube along every side and a ball at every corner. What lies within is not seen.
+TriangleMesh rounded(const TriangleMesh& surface, float radius) {
+    TriangleMesh mesh = surface;
+    if (!(radius > 0)) return mesh;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        mesh.positions[i] = mesh.positions[i] + mesh.normals[i] * radius;
+    const TriangleMesh ball = make_sphere(radius, 3);
+    const auto less = [](Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+    const auto less_pair = [&](const std::pair<Vec3, Vec3>& a, const std::pair<Vec3, Vec3>& b) {
+        return a.first == b.first ? less(a.second, b.second) : less(a.first, b.first);
+    };
+    std::set<Vec3, decltype(less)> corners(less);
+    std::set<std::pair<Vec3, Vec3>, decltype(less_pair)> sides(less_pair);
+    for (const Triangle& triangle : surface.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 a = surface.positions[triangle[k]], b = surface.positions[triangle[(k + 1) % 3]];
+            if (corners.insert(a).second) append(mesh, ball, a);
+            if (sides.insert(std::minmax(a, b, less)).second) append(mesh, tube(a, b, radius), {});
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh mesh_of_convex(const Collider& collider) {
+    return collider.data ? rounded(collider.data->surface, collider.numbers[0]) : TriangleMesh{};
+}
+
 // A function `extent_of_<name>` for every shape: its extent from the center along a unit vector in the shape's own
 // frame, m. Infinite for an unbounded shape.
 
@@ -104,6 +168,11 @@ float extent_of_box(const Numbers& numbers, Vec3 along) {
     return numbers[0] * std::abs(along.x) + numbers[1] * std::abs(along.y) + numbers[2] * std::abs(along.z);
 }
 
+// Shapes with data have a box instead.
+float extent_of_convex(const Numbers&, Vec3) {
+    return 0;
+}
+
 float extent_of(const Collider& collider, Vec3 along) {
     switch (collider.shape) {
 #define WEFT_SHAPE(name, Name) \
@@ -118,6 +187,7 @@ float extent_of(const Collider& collider, Vec3 along) {
 }  // namespace
 
 Bounds bounds_of(const Collider& collider) {
+    if (collider.data) return to_world(collider.pose, collider.bounds);
     const Mat3 to_own = transposed(collider.pose.rotation);
     const Vec3 half{extent_of(collider, to_own.x), extent_of(collider, to_own.y), extent_of(collider, to_own.z)};
     if (!finite(half)) return {};
@@ -128,7 +198,7 @@ TriangleMesh mesh_of(const Collider& collider) {
     switch (collider.shape) {
 #define WEFT_SHAPE(name, Name) \
     case ShapeKind::name:      \
-        return mesh_of_##name(collider.numbers);
+        return mesh_of_##name(collider);
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
     }

@@ -93,7 +93,7 @@ FrameInput::FrameInput(const InputShape& shape) {
 }
 
 void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-                       double substep_seconds, bool again) {
+                       double substep_seconds, const ShapeBuffers& shapes, bool again) {
     const auto put = [&](std::uint64_t at, const auto& value) { std::memcpy(host_ + at, &value, sizeof value); };
     put(0, std::uint32_t{report_none});
     put(frame_, frame_in(model, plan, input, cloth, substep_seconds, again));
@@ -109,7 +109,7 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
                        .sticks = collider.adhesion ? 1u : 0u,
                        .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
                        .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
-                       .data = 0});
+                       .data = shapes.address(collider.data.get())});
     }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
     for (std::uint32_t substep = 0; substep <= plan.substeps; ++substep) {

@@ -5,6 +5,7 @@
 #include "gpu/device.h"
 #include "solver/world/backend.h"
 #include "vulkan/args.data.h"
+#include "vulkan/shape_buffers.h"
 
 #include <cstddef>
 #include <span>
@@ -34,7 +35,7 @@ class FrameInput {
     /// The device must have finished the previous frame. `substep_seconds`: that frame's lambda_seconds().
     /// `again`: second run of a frame, from the same state.
     void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-               double substep_seconds, bool again);
+               double substep_seconds, const ShapeBuffers& shapes, bool again);
 
     std::uint64_t report() const { return address_; }
     std::uint64_t frame() const { return address_ + frame_; }

@@ -267,7 +267,8 @@ Result<void> FrameRun::record_passes(bool timings) {
     return end_recording();
 }
 
-Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again) {
+Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps,
+                                       const ShapeBuffers& shapes, bool again) {
     if (contacts_) {
         if (auto prepared = contacts_->prepare(); !prepared) return prepared.errors();
     }
@@ -276,7 +277,7 @@ Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const C
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
         buffers_.input(i).write(member.cloth->model(), plan_, input, *steps[i], member.cloth->state().substep_seconds,
-                                again);
+                                shapes, again);
         seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();

@@ -10,6 +10,7 @@
 #include "vulkan/frame_input.h"
 #include "vulkan/lists/adhesion_list.h"
 #include "vulkan/particle_contact/particle_contact.h"
+#include "vulkan/shape_buffers.h"
 
 #include <array>
 #include <memory>
@@ -71,7 +72,8 @@ class FrameRun {
 
     /// Submits a step for each member and returns without waiting for the device. `again`: repeats a frame of which a
     /// list was full.
-    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again = false);
+    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps,
+                                 const ShapeBuffers& shapes, bool again = false);
     /// The adhesion list of the last finished frame; null without a list. If the list was full, the state is the one
     /// before the frame.
     const AdhesionList* adhesion() const { return adhesion_.get(); }

@@ -157,7 +157,14 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         counts_ = {};
         contact_counts_ = {};
         group(step);
-        for (Group& group : groups_) submit(step, group);
+        const auto shapes = shapes_.hold(*device_, step.input.colliders);
+        for (Group& group : groups_) {
+            if (!shapes) {
+                fail(group, shapes.error());
+            } else {
+                submit(step, group);
+            }
+        }
         last_ = device_->submitted();
     }
 
@@ -326,7 +333,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         auto run = find_run(step, group);
         if (!run) return fail(group, run.error());
-        const auto value = (*run)->submit(step.input, group.steps);
+        const auto value = (*run)->submit(step.input, group.steps, shapes_);
         if (!value) return fail(group, value.error());
         group.run = *run;
         mark_changed(step, group);
@@ -381,7 +388,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             if (!run)
                 std::tie(list_capacity_, contact_room_, particle_pairs_) = before;  // the next frame may need less
             if (!run) return fail(group, run.error()), false;
-            const auto value = (*run)->submit(step_->input, group.steps, true);
+            const auto value = (*run)->submit(step_->input, group.steps, shapes_, true);
             if (!value) return fail(group, value.error()), false;
             mark_changed(*step_, group);
             if (auto done = device_->wait(*value); !done) return fail(group, done.error()), false;
@@ -453,7 +460,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint32_t list_capacity_ = 0;        ///< grown capacity of dynamic lists, in constraints
     vulkan::ClothContactRoom contact_room_;  ///< the same for contact between cloths
     std::uint32_t particle_pairs_ = 0;       ///< the same for contact between particles
-    ClothContactCounts contact_counts_;      ///< of the last frame
+    vulkan::ShapeBuffers shapes_;
+    ClothContactCounts contact_counts_;  ///< of the last frame
 };
 
 Result<Execution> execution_of(const VulkanOptions& options) {

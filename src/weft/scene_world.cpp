@@ -101,8 +101,11 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
     std::vector<SceneCollider> colliders = std::exchange(scene.colliders, {});
     std::vector<StitchDesc> stitches = std::exchange(scene.stitches, {});
     made.scene_ = std::move(scene);
-    for (SceneCollider& collider : colliders) made.add(std::move(collider));
     Errors errors;
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        auto added = made.add(std::move(colliders[i]), "/colliders/" + std::to_string(i));
+        if (!added) errors.insert(errors.end(), added.errors().begin(), added.errors().end());
+    }
     for (std::size_t i = 0; i < cloths.size(); ++i) {
         auto added = made.add(std::move(cloths[i]), "/cloths/" + std::to_string(i));
         if (!added) errors.insert(errors.end(), added.errors().begin(), added.errors().end());
@@ -160,8 +163,10 @@ void SceneWorld::remove(StitchId id) {
     scene_.stitches.erase(scene_.stitches.begin() + place);
 }
 
-ColliderId SceneWorld::add(SceneCollider collider) {
-    const ColliderId id = world_->add(make_collider(collider));
+Result<ColliderId> SceneWorld::add(SceneCollider collider, const std::string& pointer) {
+    auto data = shapes_.data_of(collider, files_, pointer, notes_);
+    if (!data) return data.errors();
+    const ColliderId id = world_->add(make_collider(collider, std::move(*data)));
     scene_.colliders.push_back(std::move(collider));
     return id;
 }
@@ -358,7 +363,7 @@ Result<void> SceneWorld::change_to(SceneDesc next) {
 
 Result<void> SceneWorld::follow(const SceneDesc& next) {
     remove_what_is_not_in(next);
-    change_colliders(next);
+    if (auto changed = change_colliders(next); !changed) return changed;
     scene_.gravity = next.gravity;
     set_air(next.air);
     if (next.solver != scene_.solver) {
@@ -394,11 +399,12 @@ Result<void> SceneWorld::change_stitches(const SceneDesc& next) {
     return {};
 }
 
-void SceneWorld::change_colliders(const SceneDesc& next) {
-    for (const SceneCollider& wanted : next.colliders) {
+Result<void> SceneWorld::change_colliders(const SceneDesc& next) {
+    for (std::size_t i = 0; i < next.colliders.size(); ++i) {
+        const SceneCollider& wanted = next.colliders[i];
         const SceneCollider* there = find_named(scene_.colliders, wanted.name);
         if (!there) {
-            add(wanted);
+            if (auto added = add(wanted, "/colliders/" + std::to_string(i)); !added) return added.errors();
             continue;
         }
         const auto place = static_cast<std::size_t>(there - scene_.colliders.data());
@@ -408,6 +414,7 @@ void SceneWorld::change_colliders(const SceneDesc& next) {
         if (there->transform != wanted.transform || there->motion != wanted.motion)
             move(id, wanted.transform.position, wanted.transform.rotation_degrees);
     }
+    return {};
 }
 
 Result<void> SceneWorld::change_cloths(const SceneDesc& next) {

@@ -5,6 +5,7 @@
 #include "solver/world/world.h"
 #include "weft/backends.h"
 #include "weft/cloth_building.h"
+#include "weft/shape_building.h"
 
 #include <weft/result.h>
 #include <weft/simulation.h>
@@ -43,7 +44,8 @@ class SceneWorld {
 
     /// `pointer` is the place of the cloth in errors.
     Result<ClothId> add(SceneCloth cloth, const std::string& pointer = {});
-    ColliderId add(SceneCollider collider);
+    /// `pointer`: the place of the collider in errors.
+    Result<ColliderId> add(SceneCollider collider, const std::string& pointer = "");
     /// Stitches existing cloths together at their current positions.
     Result<StitchId> add(StitchDesc stitches, const std::string& pointer = {});
     void remove(StitchId id);
@@ -104,12 +106,13 @@ class SceneWorld {
     Result<bool> target_at_once(std::size_t place, const Pinned& pinned);
     Result<void> change_stitches(const SceneDesc& next);
     void remove_what_is_not_in(const SceneDesc& next);
-    void change_colliders(const SceneDesc& next);
+    Result<void> change_colliders(const SceneDesc& next);
     Result<void> change_cloths(const SceneDesc& next);
     Result<void> follow(const SceneDesc& next);
 
     SceneDesc scene_;
     MeshFiles files_;
+    ShapeLibrary shapes_;
     std::vector<ClothSource> sources_;  ///< per cloth, in the order of the document
     std::vector<StitchId> stitch_ids_;  ///< per StitchDesc, in the order of the document
     std::unique_ptr<World> world_;

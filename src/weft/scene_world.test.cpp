@@ -85,7 +85,7 @@ TEST(SceneWorld, starts_from_its_document_after_any_change) {
     expect_document_says_all(world);
     world.remove(a);
     ASSERT_TRUE(world.add(sheet("c", {1, 1, 1})).ok());
-    world.add(ColliderDesc{.name = "box", .shape = BoxDesc{}});
+    ASSERT_TRUE(world.add(ColliderDesc{.name = "box", .shape = BoxDesc{}}).ok());
     EXPECT_EQ(scene.cloths[1].name, "c");
     expect_document_says_all(world);
 }

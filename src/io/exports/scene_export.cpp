@@ -31,7 +31,10 @@ void for_each_file(Scene& scene, Change&& change) {
         if (cloth.render_mesh) in_mesh(*cloth.render_mesh);
         in_material(cloth.material);
     }
-    for (auto& collider : scene.colliders) in_material(collider.material);
+    for (auto& collider : scene.colliders) {
+        in_material(collider.material);
+        if (auto* convex = std::get_if<ConvexDesc>(&collider.shape)) change(convex->file);
+    }
     change(scene.light.environment.file);
 }
 
@@ -73,6 +76,13 @@ std::vector<MeshToWrite> name_meshes(SceneDesc& scene, const fs::path& path) {
     for (SceneCloth& cloth : scene.cloths) {
         name(cloth.mesh);
         if (cloth.render_mesh) name(*cloth.render_mesh);
+    }
+    for (SceneCollider& collider : scene.colliders) {
+        auto* convex = std::get_if<ConvexDesc>(&collider.shape);
+        if (!convex || !convex->file.empty()) continue;
+        MeshDesc mesh = std::move(convex->mesh);
+        name(mesh);
+        *convex = {.file = std::get<MeshFileDesc>(mesh).file, .radius = convex->radius};
     }
     return meshes;
 }

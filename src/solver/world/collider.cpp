@@ -58,9 +58,14 @@ Vec3 offset_at(std::span<const OffsetKey> keys, double time) {
     return mix(before.offset, after.offset, fraction);
 }
 
-Collider make_collider(const ColliderDesc& desc) {
+Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData> data) {
     Collider collider{.name = desc.name, .friction = desc.friction, .pose = {}, .motion = desc.motion, .next_pose = {}};
     std::visit([&](const auto& shape) { set_shape(collider, shape); }, desc.shape);
+    if (data) {
+        collider.bounds.min = collider.bounds.min + data->bounds.min;
+        collider.bounds.max = collider.bounds.max + data->bounds.max;
+    }
+    collider.data = std::move(data);
     collider.pose = {rotation_from_degrees(desc.transform.rotation_degrees), desc.transform.position};
     collider.pose = pose_at(collider, 0);
     return collider;

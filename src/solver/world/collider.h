@@ -51,7 +51,8 @@ inline ShapeBlocks blocks_of(const Collider& collider) {
     return collider.data ? collider.data->blocks() : ShapeBlocks{};
 }
 
-Collider make_collider(const ColliderDesc& desc);
+/// `data`: of the shape, if its kernel reads any.
+Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData> data = {});
 
 /// Pose of the collider at a time in s. Positions and angles are interpolated linearly between keys, and constant
 /// before the first and after the last key.

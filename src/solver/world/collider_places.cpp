@@ -23,16 +23,6 @@ Bounds with_rounding(Bounds box) {
     return {box.min - by, box.max + by};
 }
 
-Bounds box_around(const Bounds& local, const Pose& pose) {
-    const Vec3 center = to_world(pose, local.center()), half = local.size() * 0.5f;
-    const auto reach = [&](float x, float y, float z) {
-        return std::abs(x) * half.x + std::abs(y) * half.y + std::abs(z) * half.z;
-    };
-    const Mat3& r = pose.rotation;
-    const Vec3 by{reach(r.x.x, r.y.x, r.z.x), reach(r.x.y, r.y.y, r.z.y), reach(r.x.z, r.y.z, r.z.z)};
-    return with_rounding({center - by, center + by});
-}
-
 float radius_about_origin(const Bounds& local) {
     const auto far = [](float a, float b) { return std::max(std::abs(a), std::abs(b)); };
     return length({far(local.min.x, local.max.x), far(local.min.y, local.max.y), far(local.min.z, local.max.z)});
@@ -78,7 +68,7 @@ void ColliderPlaces::sort_by_motion() {
         if (collider.next_pose || !collider.motion.empty()) {
             moving_place_[i] = static_cast<std::uint32_t>(moving_.size());
             moving_.push_back(i);
-        } else if (const Bounds box = box_around(collider.bounds, collider.pose); is_bounded(box)) {
+        } else if (const Bounds box = with_rounding(to_world(collider.pose, collider.bounds)); is_bounded(box)) {
             resting_.push_back(i);
             boxes.push_back(box);
         } else {
@@ -136,7 +126,7 @@ Bounds ColliderPlaces::swept(const Collider& collider, const Pose& end) const {
         const Vec3 by{radius, radius, radius};
         return with_rounding({origins.min - by, origins.max + by});
     }
-    const Bounds box = box_around(collider.bounds, {end.rotation, {}});
+    const Bounds box = to_world({end.rotation, {}}, collider.bounds);
     return with_rounding({origins.min + box.min, origins.max + box.max});
 }
 

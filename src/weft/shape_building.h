@@ -1,0 +1,31 @@
+// Builds the data of collider shapes that have some.
+#pragma once
+
+#include "collide/shape_data.h"
+#include "weft/cloth_building.h"
+
+#include <weft/result.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+/// Colliders with the same shape share its data.
+class ShapeLibrary {
+  public:
+    /// The data of the collider's shape; null if it has none. Reads the shape's mesh file, if it names one. `pointer`:
+    /// the place of the collider in errors. Appends one line per warning to `notes`.
+    Result<std::shared_ptr<const ShapeData>> data_of(const ColliderDesc& collider, const MeshFiles& files,
+                                                     const std::string& pointer, std::vector<std::string>& notes);
+
+  private:
+    struct Entry {
+        decltype(ColliderDesc::shape) shape;
+        std::weak_ptr<const ShapeData> data;
+    };
+    std::vector<Entry> known_;
+};
+
+}  // namespace weft
