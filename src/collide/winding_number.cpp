@@ -54,8 +54,8 @@ double half_solid_angle(const Wide& p, Vec3 corner_a, Vec3 corner_b, Vec3 corner
 
 constexpr double per_half_angle = 0.5 / std::numbers::pi;
 
-// Axes of the ten products of three coordinates, in the order of WindingGroup::third, and in how many orders the axes of
-// each can stand.
+// Axes of the ten products of three coordinates, in the order of WindingGroup::third, and in how many orders the axes
+// of each can stand.
 struct Product {
     std::size_t i, j, k;
     double orders;
@@ -141,8 +141,12 @@ WindingGroup group_of(const WindingSums& sums) {
     group.dipole = narrow(sums.dipole);
     const auto& m = sums.second;
     const double third_of_trace = (m[0][0] + m[1][1] + m[2][2]) / 3;
-    const double second[] = {m[0][0] - third_of_trace, m[1][1] - third_of_trace, m[2][2] - third_of_trace,
-                             2 * m[0][1],              2 * m[0][2],              2 * m[1][2]};
+    const double second[] = {m[0][0] - third_of_trace,
+                             m[1][1] - third_of_trace,
+                             m[2][2] - third_of_trace,
+                             2 * m[0][1],
+                             2 * m[0][2],
+                             2 * m[1][2]};
     for (std::size_t p = 0; p < 6; ++p) group.second[p] = static_cast<float>(-3 * second[p]);
     const auto& s = sums.third;
     const Axes trace{s[0] + s[5] + s[7], s[3] + s[1] + s[8], s[4] + s[6] + s[2]};

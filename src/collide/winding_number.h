@@ -1,8 +1,8 @@
 // Generalized winding number of a set of triangles: how often they wind around a point.
 //
-// It is 1 inside a closed surface that faces outward, -1 inside one that faces inward and 0 outside. Closed surfaces add
-// up where they overlap. At a hole the number changes smoothly instead of jumping, so "at least one half" is a robust
-// test for inside on surfaces with holes, gaps and overlaps.
+// It is 1 inside a closed surface that faces outward, -1 inside one that faces inward and 0 outside. Closed surfaces
+// add up where they overlap. At a hole the number changes smoothly instead of jumping, so "at least one half" is a
+// robust test for inside on surfaces with holes, gaps and overlaps.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
@@ -20,11 +20,11 @@ double exact_winding_number(Vec3 point, std::span<const Vec3> positions, std::sp
 
 /// A group of triangles that are close together, and the expansion that replaces them far away.
 struct WindingGroup {
-    Vec3 center{};                   ///< of the expansion
-    float squared_radius = 0;        ///< of a ball around the center that contains all triangles
-    Vec3 dipole{};                   ///< sum of the area vectors
-    std::array<float, 6> second{};   ///< coefficients of xx, yy, zz, xy, xz, yz
-    std::array<float, 10> third{};   ///< of xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
+    Vec3 center{};                  ///< of the expansion
+    float squared_radius = 0;       ///< of a ball around the center that contains all triangles
+    Vec3 dipole{};                  ///< sum of the area vectors
+    std::array<float, 6> second{};  ///< coefficients of xx, yy, zz, xy, xz, yz
+    std::array<float, 10> third{};  ///< of xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz
     /// Groups are in depth-first order: the first part is the next group. A traversal that has finished a group
     /// continues at `skip`.
     std::uint32_t skip = 0;

@@ -70,8 +70,9 @@ TEST(WindingNumber, equals_the_sum_of_all_triangles) {
         const char* name;
         TriangleMesh mesh;
     } cases[] = {
-        {"sphere", make_sphere(1, 4)}, {"box", make_box({2, 1, 1.5f}, {12, 7, 9})}, {"half shell", half_shell()},
-        {"overlapping spheres", two},  {"flipped triangles", flipped},
+        {"sphere", make_sphere(1, 4)},  {"box", make_box({2, 1, 1.5f}, {12, 7, 9})},
+        {"half shell", half_shell()},   {"overlapping spheres", two},
+        {"flipped triangles", flipped},
     };
     for (const auto& [name, mesh] : cases) {
         const double error = largest_error(mesh);
