@@ -207,16 +207,20 @@ class FieldBuilder {
         }
         for (const float distance : corners_) inside = inside || to_short(double{distance}, coarse_unit) < 0;
         if (inside) has_inside = true;
+        std::vector<BrickNodes> nodes(bricks_.size());
+        const std::vector<std::uint32_t> brick_of = brick_of_places();
         for_all(team_, bricks_.size(), 1, [&](std::size_t b) {
-            float* to = &words[words_per_block * (first_brick_block() + blocks_per_brick * b)];
-            if (write_brick(bricks_[b], fine_unit, to)) has_inside = true;
+            if (sample_brick(bricks_[b], brick_of, fine_unit, nodes[b])) has_inside = true;
+        });
+        for_all(team_, bricks_.size(), 16, [&](std::size_t b) {
+            copy_shared_nodes(b, brick_of, nodes);
+            write_brick(nodes[b], &words[words_per_block * (first_brick_block() + blocks_per_brick * b)]);
         });
     }
 
     // One sample of the surface per cell.
     std::vector<SurfaceSample> samples() const {
-        std::vector<std::uint32_t> brick_of(grid_.count(), 0);
-        for (std::uint32_t b = 0; b < bricks_.size(); ++b) brick_of[bricks_[b]] = b;
+        const std::vector<std::uint32_t> brick_of = brick_of_places();
         std::vector<bool> taken(bricks_.size() * blocks_per_brick, false);
         return sample_surface(surface_, [&](Vec3 p) {
             const auto x = static_cast<std::uint32_t>(p.x), y = static_cast<std::uint32_t>(p.y),
@@ -235,6 +239,12 @@ class FieldBuilder {
         return header_blocks + (grid_.count() + words_per_block - 1) / words_per_block;
     }
     std::size_t first_brick_block() const { return first_coarse_block() + grid_.count(); }
+
+    std::vector<std::uint32_t> brick_of_places() const {
+        std::vector<std::uint32_t> brick_of(grid_.count(), none);
+        for (std::uint32_t b = 0; b < bricks_.size(); ++b) brick_of[bricks_[b]] = b;
+        return brick_of;
+    }
 
     void mark_places_near(std::size_t t) {
         std::array<Vec3, 3> corners;
@@ -285,34 +295,66 @@ class FieldBuilder {
         store_shorts(shorts, block);
     }
 
-    // Returns whether a corner of a cell is inside.
-    bool write_brick(std::uint32_t place, double unit, float* blocks) const {
+    // Distances at the corners of a brick's cells. Neighbors share those on the side between them, which belong to the
+    // brick where they are first.
+    using BrickNodes = std::array<std::int16_t, nodes_side * nodes_side * nodes_side>;
+    static std::uint32_t node(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return x + nodes_side * (y + nodes_side * z);
+    }
+    // The brick of `place` or of the next ones, as far as the node is on the side between them; none if there is none.
+    std::uint32_t owner(std::uint32_t place, std::span<const std::uint32_t> brick_of, std::uint32_t x, std::uint32_t y,
+                        std::uint32_t z) const {
+        auto [px, py, pz] = grid_.at(place);
+        px += x / side, py += y / side, pz += z / side;
+        const bool in_grid = px < grid_.places[0] && py < grid_.places[1] && pz < grid_.places[2];
+        return in_grid ? brick_of[grid_.number(px, py, pz)] : none;
+    }
+
+    // All nodes but those of other bricks. Returns whether one is inside.
+    bool sample_brick(std::uint32_t place, std::span<const std::uint32_t> brick_of, double unit,
+                      BrickNodes& nodes) const {
         const auto [px, py, pz] = grid_.at(place);
         const Vec3 low = Vec3{static_cast<float>(px), static_cast<float>(py), static_cast<float>(pz)} * float{side};
         constexpr float half = 0.5f * side;
         SignedDistanceWalk walk(surface_, surface_.winding_gradient_bound(low + Vec3{half, half, half}, 1.7321 * half));
-        std::array<std::int16_t, nodes_side * nodes_side * nodes_side> nodes;
         bool inside = false;
         // There and back, so that the next node is always a neighbor.
         for (std::uint32_t i = 0; i < nodes.size(); ++i) {
             const std::uint32_t row = i / nodes_side, z = row / nodes_side;
             const std::uint32_t y = z % 2 ? side - row % nodes_side : row % nodes_side;
             const std::uint32_t x = row % 2 ? side - i % nodes_side : i % nodes_side;
+            const bool shared = x == side || y == side || z == side;
+            if (shared && owner(place, brick_of, x, y, z) != none) continue;
             const double distance =
                 walk.distance_at(low + Vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
             const std::int16_t rounded = to_short(distance, unit);
             inside = inside || rounded < 0;  // a point on the surface may count as inside
-            nodes[x + nodes_side * (y + nodes_side * z)] = rounded;
+            nodes[node(x, y, z)] = rounded;
         }
+        return inside;
+    }
+
+    // Reads only nodes that sample_brick() has written.
+    void copy_shared_nodes(std::size_t brick, std::span<const std::uint32_t> brick_of,
+                           std::span<BrickNodes> nodes) const {
+        for (std::uint32_t z = 0; z < nodes_side; ++z) {
+            for (std::uint32_t y = 0; y < nodes_side; ++y) {
+                for (std::uint32_t x = z == side || y == side ? 0 : side; x < nodes_side; ++x) {
+                    const std::uint32_t other = owner(bricks_[brick], brick_of, x, y, z);
+                    if (other == none) continue;
+                    nodes[brick][node(x, y, z)] = nodes[other][node(x % side, y % side, z % side)];
+                }
+            }
+        }
+    }
+
+    static void write_brick(const BrickNodes& nodes, float* blocks) {
         for (std::uint32_t cell = 0; cell < blocks_per_brick; ++cell) {
             const std::uint32_t x = cell % side, y = cell / side % side, z = cell / side / side;
             std::array<std::int16_t, 8> shorts;
-            for (std::uint32_t k = 0; k < 8; ++k) {
-                shorts[k] = nodes[x + k % 2 + nodes_side * (y + k / 2 % 2 + nodes_side * (z + k / 4))];
-            }
+            for (std::uint32_t k = 0; k < 8; ++k) shorts[k] = nodes[node(x + k % 2, y + k / 2 % 2, z + k / 4)];
             store_shorts(shorts, blocks + words_per_block * cell);
         }
-        return inside;
     }
 
     const FieldGrid& grid_;

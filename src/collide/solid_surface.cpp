@@ -56,12 +56,52 @@ class OrientedSets {
     std::vector<std::uint8_t> turned_;  // relative to the parent
 };
 
+struct Offset {
+    double x, y, z;
+    Offset(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+    Offset(Vec3 from, Vec3 to) : x(double{to.x} - from.x), y(double{to.y} - from.y), z(double{to.z} - from.z) {}
+};
+double dot(const Offset& a, const Offset& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Offset cross(const Offset& a, const Offset& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 double area_of(Vec3 a, Vec3 b, Vec3 c) {
-    const auto d = [](Vec3 p, Vec3 q) {
-        return std::array<double, 3>{double{p.x} - q.x, double{p.y} - q.y, double{p.z} - q.z};
-    };
-    const auto u = d(b, a), v = d(c, a);
-    return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    const Offset normal = cross(Offset(a, b), Offset(a, c));
+    return 0.5 * std::sqrt(dot(normal, normal));
+}
+
+// To the point `t` of the way along `side` from where `to_start` leads.
+double squared_distance_along(const Offset& to_start, const Offset& side, double t) {
+    const Offset d(to_start.x + t * side.x, to_start.y + t * side.y, to_start.z + t * side.z);
+    return dot(d, d);
+}
+
+// Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: finds the corner, side or face that is nearest.
+// Several times faster than closest_on_triangle(), but needs a triangle with an area.
+double squared_distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+    const Offset ab(a, b), ac(a, c), pa(p, a), pb(p, b), pc(p, c);
+    const double a_ab = -dot(ab, pa), a_ac = -dot(ac, pa);
+    if (a_ab <= 0 && a_ac <= 0) return dot(pa, pa);
+    const double b_ab = -dot(ab, pb), b_ac = -dot(ac, pb);
+    if (b_ab >= 0 && b_ac <= b_ab) return dot(pb, pb);
+    const double c_ab = -dot(ab, pc), c_ac = -dot(ac, pc);
+    if (c_ac >= 0 && c_ab <= c_ac) return dot(pc, pc);
+    if (a_ab * b_ac - b_ab * a_ac <= 0 && a_ab >= 0 && b_ab <= 0) {
+        return squared_distance_along(pa, ab, a_ab / (a_ab - b_ab));
+    }
+    if (c_ab * a_ac - a_ab * c_ac <= 0 && a_ac >= 0 && c_ac <= 0) {
+        return squared_distance_along(pa, ac, a_ac / (a_ac - c_ac));
+    }
+    const double b_bc = b_ac - b_ab, c_cb = c_ab - c_ac;
+    if (b_ab * c_ac - c_ab * b_ac <= 0 && b_bc >= 0 && c_cb >= 0) {
+        return squared_distance_along(pb, Offset(b, c), b_bc / (b_bc + c_cb));
+    }
+    const Offset normal = cross(ab, ac);
+    const double height = dot(normal, pa);
+    return height * height / dot(normal, normal);
 }
 
 // Calls visit(uses) with all uses of one edge, edge by edge. `low` is the edge's lower corner.
@@ -179,7 +219,7 @@ SolidSurface::Nearest SolidSurface::nearest(Vec3 point, std::uint32_t guess) con
     Nearest found{std::numeric_limits<double>::infinity(), none};
     const auto visit = [&](std::uint32_t t) {
         const auto [a, b, c] = oriented_.triangles[t];
-        const double d2 = closest_on_triangle(point, positions_[a], positions_[b], positions_[c]).squared_distance;
+        const double d2 = squared_distance_to_triangle(point, positions_[a], positions_[b], positions_[c]);
         if (d2 < found.squared_distance) found = {d2, t};
         return found.squared_distance;
     };
