@@ -53,9 +53,9 @@ struct DistanceField {
 ///   - a mesh turned inside out is the same solid, and so are meshes some of whose triangles are;
 ///   - parts that overlap are one solid. If one of them is turned inside out as a whole, the overlap is outside;
 ///   - a closed part inside another one is a cavity if its orientation is the opposite, else part of the solid;
-///   - a hole is closed by the surface on which the winding number is one half. Close to a hole the value is the
-///     distance to the triangles, not to that surface, and jumps at it;
-///   - half a shell is solid only below that surface, which bulges a little into the bowl; a flat sheet has no inside.
+///   - a hole is closed by the surface on which the winding number is one half. There the value is an estimate of the
+///     distance to that surface, so that it does not jump;
+///   - half a shell is solid up to that surface, near the plane of its opening; a flat sheet has no inside.
 ///
 /// Errors: no triangle has an area; a position is not finite; a triangle has an invalid corner; `cells` is out of
 /// range; the mesh is too small, too large or too far from the origin for floats; the field needs more memory than

@@ -331,6 +331,26 @@ TEST(DistanceField, closes_holes) {
     for (const Vec3 p : {Vec3{0, 1.15f, 0}, Vec3{0, 3, 0}}) EXPECT_GT(read(field, p).distance, 0) << p.y;
 }
 
+// Across a hole 16 cells wide, the value passes through zero as it does at the surface.
+TEST(DistanceField, is_continuous_across_holes) {
+    const DistanceField field = field_of(bowl(0.87f), 64);
+    for (const float x : {0.0f, 0.15f, -0.3f}) {
+        const float step = 0.1f * field.cell;
+        float before = read(field, {x, 0.3f, 0.1f}).distance;
+        int crossings = 0;
+        for (float y = 0.3f + step; y < 1.3f; y += step) {
+            const auto [distance, normal] = read(field, {x, y, 0.1f});
+            EXPECT_LT(std::abs(distance - before), 3 * step) << y;
+            if (distance > 0 && before <= 0) {
+                ++crossings;
+                EXPECT_GT(normal.y, 0.7f);
+            }
+            before = distance;
+        }
+        EXPECT_EQ(crossings, 1);
+    }
+}
+
 // Half a shell is solid up to the surface of winding number one half, which is near the plane of the opening.
 TEST(DistanceField, fills_half_a_shell) {
     const DistanceField field = field_of(bowl(0), 64);

@@ -242,6 +242,11 @@ double SolidSurface::winding_gradient_bound(Vec3 center, double radius) const {
     return boundary_length_ / (4 * std::numbers::pi * gap * gap);
 }
 
+double SolidSurface::distance_to_limit(Vec3 point, double winding) const {
+    const auto [x, y, z] = winding_.gradient_at(point);
+    return distance_from_limit(winding) / std::max(std::hypot(x, y, z), 1e-30);
+}
+
 // Where both balls of radius "distance" around two points cover the line between them, the line does not meet the
 // surface, and the winding number changes along it at most by the bound on its gradient.
 double SignedDistanceWalk::distance_at(Vec3 point) {
@@ -250,10 +255,21 @@ double SignedDistanceWalk::distance_at(Vec3 point) {
     const bool clear = step < 0.999 * (distance + distance_before_) && nearest_ != none;
     if (clear) drift_ += step * gradient_bound_;
     // Twice the margin: the evaluated number has an error of up to one.
-    const double spare = std::abs(std::abs(winding_) - (0.5 + SolidSurface::margin)) - 2 * SolidSurface::margin;
+    const double spare = SolidSurface::distance_from_limit(winding_) - 2 * SolidSurface::margin;
     if (!clear || !(drift_ < spare)) winding_ = surface_.winding(point), drift_ = 0;
     before_ = point, distance_before_ = distance, nearest_ = found.triangle;
-    return SolidSurface::is_inside(winding_) ? -distance : distance;
+    const double size = std::min(distance, distance_to_closing_surface(point, distance));
+    return SolidSurface::is_inside(winding_) ? -size : size;
+}
+
+// Infinite where it is not needed: on closed surfaces, and where even the bound on the gradient lets the winding number
+// reach the limit only farther away than the surface. Close to the surface it would make no difference.
+double SignedDistanceWalk::distance_to_closing_surface(Vec3 point, double distance) {
+    constexpr double close = 0.5;
+    const double spare = SolidSurface::distance_from_limit(winding_) - drift_ - SolidSurface::margin;
+    if (distance < close || spare > distance * gradient_bound_) return std::numeric_limits<double>::infinity();
+    if (drift_ > 0) winding_ = surface_.winding(point), drift_ = 0;
+    return surface_.distance_to_limit(point, winding_);
 }
 
 }  // namespace weft

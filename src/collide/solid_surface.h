@@ -10,6 +10,7 @@
 #include "mesh/triangle_mesh.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,6 +50,10 @@ class SolidSurface {
     /// a time; with this margin, which is more than the error of the winding number, none of them is inside.
     static constexpr double margin = 0.01;
     double winding(Vec3 point) const { return winding_.at(point); }
+    /// How far the winding number is from where a point counts as inside.
+    static double distance_from_limit(double winding) { return std::abs(std::abs(winding) - (0.5 + margin)); }
+    /// Where the winding number changes from inside to outside in a hole, at first order. In the unit of length.
+    double distance_to_limit(Vec3 point, double winding) const;
     static bool is_inside(double winding) { return winding > 0.5 + margin || winding < -0.5 - margin; }
     bool inside(Vec3 point) const { return is_inside(winding(point)); }
 
@@ -74,10 +79,12 @@ class SignedDistanceWalk {
     /// `gradient_bound`: of the winding number, in the region of the walk.
     SignedDistanceWalk(const SolidSurface& surface, double gradient_bound)
         : surface_(surface), gradient_bound_(gradient_bound) {}
-    /// Negative inside.
+    /// Negative inside. In and near a hole, the estimated distance to the surface that closes it if that is less.
     double distance_at(Vec3 point);
 
   private:
+    double distance_to_closing_surface(Vec3 point, double distance);
+
     const SolidSurface& surface_;
     double gradient_bound_;
     Vec3 before_{};

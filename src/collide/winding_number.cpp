@@ -236,6 +236,26 @@ double expansion(const WindingGroup& g, const Wide& r, double r2) {
     return inverse3 * (dot(wide(g.dipole), r) + inverse2 * (second + inverse2 * third));
 }
 
+// 4 pi times the gradient of the winding number of the group's triangles, of the first term alone.
+Wide expansion_gradient(const WindingGroup& g, const Wide& r, double r2) {
+    const double inverse2 = 1 / r2, inverse3 = inverse2 * std::sqrt(inverse2);
+    const Wide dipole = wide(g.dipole);
+    return (r * (3 * dot(dipole, r) * inverse2) - dipole) * inverse3;
+}
+
+// Twice the gradient of half_solid_angle(), which depends only on the triangle's sides: each adds the field that a
+// current along it has by the law of Biot and Savart.
+Wide solid_angle_gradient(const Wide& p, Vec3 corner_a, Vec3 corner_b, Vec3 corner_c) {
+    const Wide corners[] = {wide(corner_a) - p, wide(corner_b) - p, wide(corner_c) - p};
+    Wide sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Wide &a = corners[i], &b = corners[(i + 1) % 3];
+        const double la = std::sqrt(dot(a, a)), lb = std::sqrt(dot(b, b)), along = la * lb * (la * lb + dot(a, b));
+        if (along > 0) sum = sum + cross(a, b) * ((la + lb) / along);
+    }
+    return sum;
+}
+
 }  // namespace
 
 double exact_winding_number(Vec3 point, std::span<const Vec3> positions, std::span<const Triangle> triangles) {
@@ -253,26 +273,51 @@ WindingNumber::WindingNumber(std::span<const Vec3> positions, std::span<const Tr
     WindingTreeBuilder(positions, triangles, groups_, items_).build(0, static_cast<std::uint32_t>(items_.size()));
 }
 
-double WindingNumber::at(Vec3 point, double accuracy) const {
-    const Wide p = wide(point);
+namespace {
+
+// Calls far(group, r, r2) for groups that their expansions replace, and near(a, b, c) for all triangles of the others.
+template <class Far, class Near>
+void sum_windings(std::span<const WindingGroup> groups, std::span<const std::uint32_t> items,
+                  std::span<const Triangle> triangles, const Wide& p, double accuracy, Far&& far, Near&& near) {
     const double accuracy2 = accuracy * accuracy;
-    double far = 0, near = 0;
-    for (std::uint32_t n = 0; n < groups_.size();) {
-        const WindingGroup& group = groups_[n];
+    for (std::uint32_t n = 0; n < groups.size();) {
+        const WindingGroup& group = groups[n];
         const Wide r = wide(group.center) - p;
         const double r2 = dot(r, r);
         if (r2 > accuracy2 * double{group.squared_radius}) {
-            far += expansion(group, r, r2);
+            far(group, r, r2);
             n = group.skip;
             continue;
         }
-        for (std::uint32_t k = group.first; k < group.first + group.count; ++k) {
-            const auto [a, b, c] = triangles_[items_[k]];
-            near += half_solid_angle(p, positions_[a], positions_[b], positions_[c]);
-        }
+        for (std::uint32_t k = group.first; k < group.first + group.count; ++k) near(triangles[items[k]]);
         ++n;  // the group's first part, or the next group after one without parts
     }
-    return far * (0.5 * per_half_angle) + near * per_half_angle;
+}
+
+}  // namespace
+
+double WindingNumber::at(Vec3 point, double accuracy) const {
+    const Wide p = wide(point);
+    double of_groups = 0, of_triangles = 0;
+    sum_windings(
+        groups_, items_, triangles_, p, accuracy,
+        [&](const WindingGroup& group, const Wide& r, double r2) { of_groups += expansion(group, r, r2); },
+        [&](const Triangle& t) {
+            of_triangles += half_solid_angle(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+        });
+    return of_groups * (0.5 * per_half_angle) + of_triangles * per_half_angle;
+}
+
+std::array<double, 3> WindingNumber::gradient_at(Vec3 point, double accuracy) const {
+    const Wide p = wide(point);
+    Wide sum;
+    sum_windings(
+        groups_, items_, triangles_, p, accuracy,
+        [&](const WindingGroup& group, const Wide& r, double r2) { sum = sum + expansion_gradient(group, r, r2); },
+        [&](const Triangle& t) {
+            sum = sum + solid_angle_gradient(p, positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+        });
+    return axes(sum * (0.5 * per_half_angle));
 }
 
 }  // namespace weft

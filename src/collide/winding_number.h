@@ -47,6 +47,9 @@ class WindingNumber {
     /// With the default accuracy the error is below 0.01 on the meshes of the test.
     double at(Vec3 point, double accuracy = default_accuracy) const;
 
+    /// The gradient, per unit of length, within about a tenth. Large close to the edge of a hole.
+    std::array<double, 3> gradient_at(Vec3 point, double accuracy = default_accuracy) const;
+
   private:
     std::span<const Vec3> positions_;
     std::span<const Triangle> triangles_;

@@ -98,6 +98,26 @@ TEST(WindingNumber, of_half_a_sphere_is_one_half_in_the_middle_of_the_opening) {
     EXPECT_LT(winding.at({0, 0.5f, 0}), 0.35);
 }
 
+TEST(WindingNumber, has_a_gradient_near_holes) {
+    const TriangleMesh mesh = half_shell();
+    const WindingNumber winding(mesh.positions, mesh.triangles);
+    for (const Vec3 p :
+         {Vec3{0, 0, 0}, Vec3{0.3f, 0.1f, -0.2f}, Vec3{0.1f, -0.5f, 0}, Vec3{0, 0.8f, 0.5f}, Vec3{0.7f, 0.05f, 0.1f}}) {
+        const auto slope = [&](Vec3 d) {
+            return (exact_winding_number(p + d * 0.01f, mesh.positions, mesh.triangles) -
+                    exact_winding_number(p - d * 0.01f, mesh.positions, mesh.triangles)) /
+                   0.02;
+        };
+        const auto gradient = winding.gradient_at(p), exact = winding.gradient_at(p, 1e6);
+        const double expected[] = {slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
+        const double size = std::hypot(expected[0], expected[1], expected[2]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(exact[k], expected[k], 1e-3 * size);
+            EXPECT_NEAR(gradient[k], expected[k], 0.1 * size);
+        }
+    }
+}
+
 TEST(WindingNumber, of_degenerate_meshes_is_finite) {
     EXPECT_EQ(WindingNumber().at({1, 2, 3}), 0);
     EXPECT_EQ(WindingNumber({}, {}).at({1, 2, 3}), 0);
@@ -107,6 +127,7 @@ TEST(WindingNumber, of_degenerate_meshes_is_finite) {
     const WindingNumber winding(mesh.positions, mesh.triangles);
     for (const Vec3 p : {Vec3{1, 1, 1}, Vec3{1, 0, 0}, Vec3{0.5f, 0, 0}, Vec3{3, 1, 0}}) {
         EXPECT_TRUE(std::isfinite(winding.at(p)));
+        EXPECT_TRUE(std::isfinite(winding.gradient_at(p)[0]));
     }
     const TriangleMesh fan = testing_meshes::fan(1000);
     EXPECT_TRUE(std::isfinite(WindingNumber(fan.positions, fan.triangles).at(fan.positions[0])));
