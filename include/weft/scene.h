@@ -262,6 +262,17 @@ struct ConvexDesc {
     friend bool operator==(const ConvexDesc&, const ConvexDesc&) = default;
 };
 
+/// A mesh as a solid. It may have holes, flipped triangles and parts that overlap: inside is where the mesh winds
+/// around a point more than half a time. Parts that are thinner than two cells of the distance field are not reliable.
+struct SolidMeshDesc {
+    std::string file = {};          ///< read by Options::read_mesh; empty: `mesh` is used
+    float scale = 1;                ///< m per unit of the file, > 0
+    UpAxis up = UpAxis::y;          ///< of the file
+    TriangleMesh mesh = {};         ///< m. Only for programs: a scene file must name a file
+    std::uint32_t resolution = 96;  ///< cells of the distance field along the longest side of the mesh, 4…1024
+    friend bool operator==(const SolidMeshDesc&, const SolidMeshDesc&) = default;
+};
+
 /// Pose of a collider at a time, in place of its transform. Poses are interpolated linearly between keys and constant
 /// before the first and after the last one.
 struct PoseKey {
@@ -271,10 +282,17 @@ struct PoseKey {
     friend bool operator==(const PoseKey&, const PoseKey&) = default;
 };
 
+/// Calls visit(shape) if the shape is made from a mesh: ConvexDesc or SolidMeshDesc, const or not.
+template <class Shape, class Visit>
+void with_mesh_shape(Shape& shape, Visit&& visit) {
+    if (auto* convex = std::get_if<ConvexDesc>(&shape)) visit(*convex);
+    if (auto* solid = std::get_if<SolidMeshDesc>(&shape)) visit(*solid);
+}
+
 /// A rigid shape that cloth collides with.
 struct ColliderDesc {
     std::string name = {};
-    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc, ConvexDesc> shape = {};
+    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc, ConvexDesc, SolidMeshDesc> shape = {};
     TransformDesc transform = {};               ///< `scale` is ignored
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static and kinetic coefficient, 0…100
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: the collider stays at `transform`

@@ -2,6 +2,8 @@
 #include "cpu/passes.h"
 
 #include "collide/convex_hull.h"
+#include "collide/distance_field.h"
+#include "mesh/procedural.h"
 
 #include "solver/model/faces_around.h"
 
@@ -405,15 +407,21 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
     expect_same(spread(*GetParam(), long_numbers), one_by_one, "32 bits");
 }
 
-// Data for shapes that read some. A box at about the place of the particles.
-ShapeBlocks sample_blocks() {
-    static const ShapeData data = [] {
+// Data for shapes that read some, at about the place of the particles.
+ShapeBlocks sample_blocks(std::uint32_t shape) {
+    static const ShapeData convex = [] {
         std::vector<Vec3> corners;
         for (int i = 0; i < 8; ++i)
             corners.push_back({i & 1 ? 0.5f : -0.4f, i & 2 ? 0.4f : -0.5f, i & 4 ? 0.6f : -0.3f});
         return make_convex_data(*convex_hull(corners));
     }();
-    return data.blocks();
+    static const ShapeData mesh = [] {
+        const TriangleMesh sphere = make_sphere(0.6f, 3);
+        return build_distance_field(sphere.positions, sphere.triangles, {.cells = 24, .threads = 1})->data;
+    }();
+    if (shape == static_cast<std::uint32_t>(ShapeKind::convex)) return convex.blocks();
+    if (shape == static_cast<std::uint32_t>(ShapeKind::mesh)) return mesh.blocks();
+    return {};
 }
 
 TEST_P(InstructionSet, touches_every_shape_alike) {
@@ -425,7 +433,7 @@ TEST_P(InstructionSet, touches_every_shape_alike) {
             compare(state, [&](const Passes& passes, Fixture& f) {
                 AlignedVector<Vec4> sums(f.position.size());
                 ContactView view{.numbers = {0.6f, 0.8f, 0, 0.1f},
-                                 .data = sample_blocks(),
+                                 .data = sample_blocks(shape),
                                  .now = here,
                                  .before = there,
                                  .static_friction = 0.4f,
@@ -452,7 +460,7 @@ TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else
             const Fixture state = random_state(seed, seed % 2);
             AlignedVector<Vec4> sums(state.position.size());
             ContactView view{.numbers = {0.6f, 0.8f, 0.3f, 0.1f},
-                             .data = sample_blocks(),
+                             .data = sample_blocks(shape),
                              .now = {rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}},
                              .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
                              .static_friction = 0.4f,

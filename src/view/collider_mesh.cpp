@@ -149,6 +149,10 @@ TriangleMesh mesh_of_convex(const Collider& collider) {
     return collider.data ? rounded(collider.data->surface, collider.numbers[0]) : TriangleMesh{};
 }
 
+TriangleMesh mesh_of_mesh(const Collider& collider) {
+    return collider.data ? collider.data->surface : TriangleMesh{};
+}
+
 // A function `extent_of_<name>` for every shape: its extent from the center along a unit vector in the shape's own
 // frame, m. Infinite for an unbounded shape.
 
@@ -170,6 +174,9 @@ float extent_of_box(const Numbers& numbers, Vec3 along) {
 
 // Shapes with data have a box instead.
 float extent_of_convex(const Numbers&, Vec3) {
+    return 0;
+}
+float extent_of_mesh(const Numbers&, Vec3) {
     return 0;
 }
 

@@ -95,6 +95,7 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
     name_unnamed(scene);
     SceneWorld made;
     made.files_ = {options.read_mesh, folder};
+    made.shapes_ = ShapeLibrary(std::max(1u, options.threads));
     const WorldSettings host{.contact_forces = options.contact_forces, .background = options.threads > 1};
     made.world_ = std::make_unique<World>(std::move(*backend), settings_of(scene, scene.solver, host));
     std::vector<SceneCloth> cloths = std::exchange(scene.cloths, {});

@@ -1,6 +1,7 @@
 #include "weft/shape_building.h"
 
 #include "collide/convex_hull.h"
+#include "collide/distance_field.h"
 #include "scene/problems.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@ struct ShapeSource {
     const MeshFiles& files;
     const std::string& collider;
     std::vector<std::string>& notes;
+    unsigned threads;
 
     void note(const std::string& what) const { notes.push_back("collider '" + collider + "': " + what); }
 };
@@ -51,6 +53,50 @@ Result<SharedShape> build_shape(const ConvexDesc& convex, const ShapeSource& sou
     return std::make_shared<const ShapeData>(make_convex_data(*hull));
 }
 
+// Means over the triangles around each vertex, by their areas.
+void add_normals(TriangleMesh& mesh) {
+    if (!mesh.normals.empty()) return;
+    mesh.normals.assign(mesh.positions.size(), {});
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 normal = cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        for (const std::uint32_t corner : {a, b, c}) mesh.normals[corner] = mesh.normals[corner] + normal;
+    }
+    for (Vec3& normal : mesh.normals) {
+        const float size = length(normal);
+        normal = size > 0 ? normal * (1 / size) : Vec3{0, 1, 0};
+    }
+}
+
+void note_field(const DistanceField& field, const ShapeSource& source) {
+    const auto count = [&](std::uint32_t number, const std::string& what) {
+        if (number > 0) source.note(std::to_string(number) + ' ' + what);
+    };
+    count(field.zero_area, "triangles without an area left out");
+    count(field.flipped, "triangles face the other way than their neighbors; turned around");
+    if (!field.has_inside) source.note("the mesh encloses nothing, so cloth passes through it");
+    if (!field.closed && field.has_inside) source.note("the mesh is open; its holes count as closed");
+    if (field.thin.thin > 0) {
+        const Vec3 at = field.thin.place;
+        source.note("thinner than two cells of the distance field (" + number_text(2 * field.cell) + " m) in " +
+                    number_text(100.0 * field.thin.thin / field.thin.samples) + " % of its surface, thinnest near (" +
+                    number_text(at.x) + ", " + number_text(at.y) + ", " + number_text(at.z) +
+                    "); a higher resolution helps");
+    }
+}
+
+Result<SharedShape> build_shape(const SolidMeshDesc& solid, const ShapeSource& source) {
+    auto mesh = mesh_of_shape(solid, source);
+    if (!mesh) return mesh.errors();
+    auto field =
+        build_distance_field(mesh->positions, mesh->triangles, {.cells = solid.resolution, .threads = source.threads});
+    if (!field) return field.errors();
+    note_field(*field, source);
+    add_normals(*mesh);
+    field->data.bounds = bounds_of(mesh->positions);
+    field->data.surface = std::move(*mesh);
+    return std::make_shared<const ShapeData>(std::move(field->data));
+}
+
 }  // namespace
 
 Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const MeshFiles& files,
@@ -58,7 +104,7 @@ Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const Me
     std::erase_if(known_, [](const Entry& entry) { return entry.data.expired(); });
     const auto known = std::ranges::find(known_, collider.shape, &Entry::shape);
     if (known != known_.end()) return known->data.lock();
-    const ShapeSource source{files, collider.name, notes};
+    const ShapeSource source{files, collider.name, notes, threads_};
     auto built = std::visit([&](const auto& shape) { return build_shape(shape, source); }, collider.shape);
     if (!built) {
         Errors placed;

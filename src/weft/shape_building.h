@@ -15,6 +15,9 @@ namespace weft {
 /// Colliders with the same shape share its data.
 class ShapeLibrary {
   public:
+    /// `threads`: that build shapes, the calling one included.
+    explicit ShapeLibrary(unsigned threads = 1) : threads_(threads) {}
+
     /// The data of the collider's shape; null if it has none. Reads the shape's mesh file, if it names one. `pointer`:
     /// the place of the collider in errors. Appends one line per warning to `notes`.
     Result<std::shared_ptr<const ShapeData>> data_of(const ColliderDesc& collider, const MeshFiles& files,
@@ -25,6 +28,7 @@ class ShapeLibrary {
         decltype(ColliderDesc::shape) shape;
         std::weak_ptr<const ShapeData> data;
     };
+    unsigned threads_;
     std::vector<Entry> known_;
 };
 

@@ -33,7 +33,7 @@ void for_each_file(Scene& scene, Change&& change) {
     }
     for (auto& collider : scene.colliders) {
         in_material(collider.material);
-        if (auto* convex = std::get_if<ConvexDesc>(&collider.shape)) change(convex->file);
+        with_mesh_shape(collider.shape, [&](auto& shape) { change(shape.file); });
     }
     change(scene.light.environment.file);
 }
@@ -78,11 +78,14 @@ std::vector<MeshToWrite> name_meshes(SceneDesc& scene, const fs::path& path) {
         if (cloth.render_mesh) name(*cloth.render_mesh);
     }
     for (SceneCollider& collider : scene.colliders) {
-        auto* convex = std::get_if<ConvexDesc>(&collider.shape);
-        if (!convex || !convex->file.empty()) continue;
-        MeshDesc mesh = std::move(convex->mesh);
-        name(mesh);
-        *convex = {.file = std::get<MeshFileDesc>(mesh).file, .radius = convex->radius};
+        with_mesh_shape(collider.shape, [&](auto& shape) {
+            if (!shape.file.empty()) return;
+            MeshDesc mesh = std::exchange(shape.mesh, {});
+            name(mesh);
+            shape.file = std::get<MeshFileDesc>(mesh).file;
+            shape.scale = 1;
+            shape.up = UpAxis::y;
+        });
     }
     return meshes;
 }

@@ -219,8 +219,9 @@ class RandomScene {
     if (kind-- == 0) fill(name##_parameters, &collider.shape.emplace<Name##Desc>());
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
-        if (auto* convex = std::get_if<ConvexDesc>(&collider.shape); convex && convex->file.empty())
-            convex->file = "stone.obj";
+        with_mesh_shape(collider.shape, [](auto& shape) {
+            if (shape.file.empty()) shape.file = "stone.obj";
+        });
         if (auto* plane = std::get_if<PlaneDesc>(&collider.shape)) plane->normal.y = 0.3f;
         fill(pose_keys, &collider.transform);
         draw_keys(collider.motion, pose_key_keys,

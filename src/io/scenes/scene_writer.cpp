@@ -251,8 +251,9 @@ Child SceneWriter::motion(const ColliderDesc& collider, const std::string& place
 }
 
 JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, const std::string& place) {
-    if (const auto* convex = std::get_if<ConvexDesc>(&desc.shape); convex && convex->file.empty())
-        problems_.add(at(place, "convex"), "is a mesh in memory, for which a scene file must name a file");
+    with_mesh_shape(desc.shape, [&](const auto& shape) {
+        if (shape.file.empty()) problems_.add(place, "has a mesh in memory, for which a scene file must name a file");
+    });
     ColliderDesc defaults;
     defaults.name = "collider " + std::to_string(index);
     return object(collider_keys, static_cast<const ColliderDesc&>(desc), defaults, place,

@@ -1,0 +1,34 @@
+// A mesh as a solid. Scene keys; the math is in mesh.kernel.h, the distance field in collide/.
+#pragma once
+
+#include "physics/contact/shape.h"
+
+namespace weft {
+
+inline constexpr std::string_view mesh_what = "a mesh as a solid, by a distance field";
+
+inline constexpr Parameter mesh_parameters[] = {
+    {.key = "file", .kind = ParameterKind::text, .offset = offsetof(SolidMeshDesc, file),
+     .what = "name of a mesh file"},
+    {.key = "scale", .offset = offsetof(SolidMeshDesc, scale), .min = 0, .max = far_away, .min_excluded = true,
+     .unit = "m", .what = "length of the file's unit"},
+    {.key = "up", .kind = ParameterKind::choice, .offset = offsetof(SolidMeshDesc, up),
+     .what = "the file's axis that points up", .choices = "x|y|z"},
+    {.key = "resolution", .kind = ParameterKind::integer, .offset = offsetof(SolidMeshDesc, resolution), .min = 4,
+     .max = 1024, .what = "cells of the field along the longest side of the mesh"},
+};
+
+inline std::array<float, 4> shape_numbers(const SolidMeshDesc&) {
+    return {};
+}
+
+inline Bounds shape_bounds(const SolidMeshDesc&) {
+    return {{}, {}};
+}
+
+inline ShapeProblem shape_problem(const SolidMeshDesc& solid) {
+    if (solid.file.empty() && solid.mesh.positions.empty()) return {"file", "must name a file"};
+    return {};
+}
+
+}  // namespace weft
