@@ -251,6 +251,13 @@ struct CapsuleDesc {
     float half_height = 0.5f;  ///< m, ≥ 0: half the distance between the centers of its two ends
     friend bool operator==(const CapsuleDesc&, const CapsuleDesc&) = default;
 };
+/// A capsule along the collider's local y axis whose ends differ in radius: two balls and the cone that touches both.
+/// If one ball holds the other, the shape is the larger ball.
+struct TaperedCapsuleDesc {
+    std::array<float, 2> radius{0.1f, 0.05f};  ///< m, > 0: of the ball at -y and of the one at +y
+    float half_height = 0.5f;                  ///< m, ≥ 0: half the distance between the centers of the two balls
+    friend bool operator==(const TaperedCapsuleDesc&, const TaperedCapsuleDesc&) = default;
+};
 
 /// Pose of a collider at a time, in place of its transform. Poses are interpolated linearly between keys and constant
 /// before the first and after the last one.
@@ -264,7 +271,7 @@ struct PoseKey {
 /// A rigid shape that cloth collides with.
 struct ColliderDesc {
     std::string name = {};
-    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc> shape = {};
+    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc, TaperedCapsuleDesc> shape = {};
     TransformDesc transform = {};               ///< `scale` is ignored
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static and kinetic coefficient, 0…100
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: the collider stays at `transform`
