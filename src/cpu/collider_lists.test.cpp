@@ -5,7 +5,7 @@
 namespace weft::cpu {
 namespace {
 
-constexpr std::uint32_t particle_count = 3 * lane_padding;  // three tiles, 10 m apart
+constexpr std::uint32_t listed_particles = 3 * lane_padding;  // three tiles, 10 m apart
 
 struct Tiles {
     Tiles() {
@@ -13,7 +13,7 @@ struct Tiles {
             colliders.push_back(make_collider(
                 {.shape = SphereDesc{0.5f}, .transform = {.position = {10 * static_cast<float>(i), 0, 0}}}));
         places.begin_frame(colliders, 0, 0.1, 10);
-        for (std::uint32_t p = 0; p < particle_count; ++p)
+        for (std::uint32_t p = 0; p < listed_particles; ++p)
             position[p] =
                 start[p] = {10 * static_cast<float>(p / lane_padding), 0.01f * static_cast<float>(p % 16), 0, 1};
     }
@@ -37,7 +37,7 @@ struct Tiles {
 
     std::vector<Collider> colliders;
     ColliderPlaces places;
-    AlignedVector<Vec4> position = AlignedVector<Vec4>(particle_count), start = position;
+    AlignedVector<Vec4> position = AlignedVector<Vec4>(listed_particles), start = position;
     ColliderPart part;
 };
 
@@ -45,7 +45,7 @@ using Colliders = std::vector<std::uint32_t>;
 
 TEST(ColliderLists, list_what_is_near_each_tile) {
     Tiles tiles;
-    tiles.part.begin_frame({0, particle_count});
+    tiles.part.begin_frame({0, listed_particles});
     tiles.cover();
     for (std::uint32_t tile = 0; tile < 3; ++tile) EXPECT_EQ(tiles.near(tile), Colliders{tile});
 }
@@ -53,7 +53,7 @@ TEST(ColliderLists, list_what_is_near_each_tile) {
 TEST(ColliderLists, a_tile_that_leaves_its_box_keeps_its_colliders_and_their_sums) {
     Tiles tiles;
     tiles.part.reserve(3, 4, true, true);
-    tiles.part.begin_frame({0, particle_count});
+    tiles.part.begin_frame({0, listed_particles});
     tiles.cover();
     for (const ColliderRun& run : tiles.part.runs()) {
         for (const NearCollider& near : tiles.part.near(run)) {
@@ -77,7 +77,7 @@ TEST(ColliderLists, a_tile_that_leaves_its_box_keeps_its_colliders_and_their_sum
             }
         }
     }
-    tiles.part.begin_frame({0, particle_count});
+    tiles.part.begin_frame({0, listed_particles});
     tiles.start = tiles.position;
     tiles.cover();
     EXPECT_EQ(tiles.near(2), Colliders{3}) << "the next frame lists anew";
@@ -87,7 +87,7 @@ TEST(ColliderLists, neighbors_with_the_same_colliders_are_one_run) {
     Tiles tiles;
     tiles.move_tile(1, {-10, 0, 0});
     tiles.start = tiles.position;
-    tiles.part.begin_frame({0, particle_count});
+    tiles.part.begin_frame({0, listed_particles});
     tiles.cover();
     ASSERT_EQ(tiles.part.runs().size(), 2u);
     EXPECT_EQ(tiles.part.runs()[0].end, 2u * lane_padding);
@@ -96,7 +96,7 @@ TEST(ColliderLists, neighbors_with_the_same_colliders_are_one_run) {
 TEST(ColliderLists, leave_out_particles_without_a_mass) {
     Tiles tiles;
     for (Vec4& x : tiles.position) x.w = 0;
-    tiles.part.begin_frame({0, particle_count});
+    tiles.part.begin_frame({0, listed_particles});
     tiles.cover();
     EXPECT_TRUE(tiles.part.runs().empty());
 }
