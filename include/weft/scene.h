@@ -251,6 +251,13 @@ struct CapsuleDesc {
     float half_height = 0.5f;  ///< m, ≥ 0: half the distance between the centers of its two ends
     friend bool operator==(const CapsuleDesc&, const CapsuleDesc&) = default;
 };
+/// A capsule along the collider's local y axis whose ends differ in radius: two balls and the cone that touches both.
+/// If one ball holds the other, the shape is the larger ball.
+struct TaperedCapsuleDesc {
+    std::array<float, 2> radius{0.1f, 0.05f};  ///< m, > 0: of the ball at -y and of the one at +y
+    float half_height = 0.5f;                  ///< m, ≥ 0: half the distance between the centers of the two balls
+    friend bool operator==(const TaperedCapsuleDesc&, const TaperedCapsuleDesc&) = default;
+};
 
 /// The convex hull of a mesh's vertices. A hull has at most 256 vertices: a finer one is simplified from within.
 struct ConvexDesc {
@@ -292,7 +299,7 @@ void with_mesh_shape(Shape& shape, Visit&& visit) {
 /// A rigid shape that cloth collides with.
 struct ColliderDesc {
     std::string name = {};
-    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc, ConvexDesc, SolidMeshDesc> shape = {};
+    std::variant<PlaneDesc, SphereDesc, BoxDesc, CapsuleDesc, TaperedCapsuleDesc, ConvexDesc, SolidMeshDesc> shape = {};
     TransformDesc transform = {};               ///< `scale` is ignored
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static and kinetic coefficient, 0…100
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: the collider stays at `transform`

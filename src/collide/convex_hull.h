@@ -22,7 +22,7 @@ struct ConvexHull {
     };
 
     std::vector<Vec3> vertices;                       ///< m; some of the points, in their order
-    std::vector<Face> faces;                          ///< the largest one first
+    std::vector<Face> faces;                          ///< the one with the largest triangle first
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< vertices of each edge between two faces, ascending
     std::vector<Triangle> triangles;                  ///< of all faces, counterclockwise from outside
     std::vector<std::uint32_t> face_of_triangle;      ///< the same number for the triangles of one face

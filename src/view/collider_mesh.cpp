@@ -22,10 +22,12 @@ struct Outline {
     std::vector<Vec2> points, normals;
 };
 
-void add_quarter(Outline& outline, float radius, float height, bool upper) {
+constexpr float half_turn = std::numbers::pi_v<float>;
+
+// Part of a circle around a point of the axis. Angles are from the top, in radians.
+void add_arc(Outline& outline, float radius, float height, float from, float to) {
     for (std::uint32_t i = 0; i <= rings; ++i) {
-        const float part = static_cast<float>(i) / rings;
-        const float angle = std::numbers::pi_v<float> / 2 * (upper ? part : 1 + part);
+        const float angle = from + (to - from) * static_cast<float>(i) / rings;
         const Vec2 normal{std::sin(angle), std::cos(angle)};
         outline.points.push_back({radius * normal.x, height + radius * normal.y});
         outline.normals.push_back(normal);
@@ -61,8 +63,18 @@ TriangleMesh mesh_of_plane(const Collider&) {
 TriangleMesh mesh_of_capsule(const Collider& collider) {
     Outline outline;
     const auto& [radius, half_height, unused0, unused1] = collider.numbers;
-    add_quarter(outline, radius, half_height, true);
-    add_quarter(outline, radius, -half_height, false);
+    add_arc(outline, radius, half_height, 0, half_turn / 2);
+    add_arc(outline, radius, -half_height, half_turn / 2, half_turn);
+    return turned(outline);
+}
+
+TriangleMesh mesh_of_tapered_capsule(const Collider& collider) {
+    const auto& [below, above, half_height, slope] = collider.numbers;
+    // The cone touches the balls at the angle of its normal. If one ball holds the other, it is drawn alone.
+    const float angle = std::acos(slope);
+    Outline outline;
+    if (slope < 1) add_arc(outline, above, half_height, 0, angle);
+    if (slope > -1) add_arc(outline, below, -half_height, angle, half_turn);
     return turned(outline);
 }
 
@@ -153,8 +165,8 @@ TriangleMesh mesh_of_mesh(const Collider& collider) {
     return collider.data ? collider.data->surface : TriangleMesh{};
 }
 
-// A function `extent_of_<name>` for every shape: its extent from the center along a unit vector in the shape's own
-// frame, m. Infinite for an unbounded shape.
+// A function `extent_of_<name>` for every shape: its extent from the origin of its own frame along a unit vector in
+// that frame, m. Infinite for an unbounded shape.
 
 float extent_of_plane(const Numbers&, Vec3) {
     return std::numeric_limits<float>::infinity();
@@ -162,6 +174,10 @@ float extent_of_plane(const Numbers&, Vec3) {
 
 float extent_of_capsule(const Numbers& numbers, Vec3 along) {
     return numbers[0] + numbers[1] * std::abs(along.y);
+}
+
+float extent_of_tapered_capsule(const Numbers& numbers, Vec3 along) {
+    return std::max(numbers[0] - numbers[2] * along.y, numbers[1] + numbers[2] * along.y);
 }
 
 float extent_of_sphere(const Numbers& numbers, Vec3) {
@@ -196,9 +212,10 @@ float extent_of(const Collider& collider, Vec3 along) {
 Bounds bounds_of(const Collider& collider) {
     if (collider.data) return to_world(collider.pose, collider.bounds);
     const Mat3 to_own = transposed(collider.pose.rotation);
-    const Vec3 half{extent_of(collider, to_own.x), extent_of(collider, to_own.y), extent_of(collider, to_own.z)};
-    if (!finite(half)) return {};
-    return {collider.pose.position - half, collider.pose.position + half};
+    const Vec3 above{extent_of(collider, to_own.x), extent_of(collider, to_own.y), extent_of(collider, to_own.z)};
+    const Vec3 below{extent_of(collider, -to_own.x), extent_of(collider, -to_own.y), extent_of(collider, -to_own.z)};
+    if (!finite(above) || !finite(below)) return {};
+    return {collider.pose.position - below, collider.pose.position + above};
 }
 
 TriangleMesh mesh_of(const Collider& collider) {

@@ -99,7 +99,10 @@ TEST(FollowingCamera, takes_a_steered_camera_along) {
 
 TEST(BoundsOfColliders, are_those_of_their_meshes) {
     for (const ColliderDesc& desc : {ColliderDesc{.shape = SphereDesc{0.3f}}, ColliderDesc{.shape = CapsuleDesc{}},
-                                     ColliderDesc{.shape = BoxDesc{}}}) {
+                                     ColliderDesc{.shape = BoxDesc{}}, ColliderDesc{.shape = TaperedCapsuleDesc{}},
+                                     ColliderDesc{.shape = TaperedCapsuleDesc{{0.2f, 0.5f}, 0.4f}},
+                                     ColliderDesc{.shape = TaperedCapsuleDesc{{0.2f, 0.5f}, 0.1f}},
+                                     ColliderDesc{.shape = TaperedCapsuleDesc{{0.5f, 0.2f}, 0.1f}}}) {
         Collider collider = make_collider(desc);
         collider.pose = {rotation_from_degrees({20, 40, 70}), {1, 2, 3}};
         Bounds of_mesh;

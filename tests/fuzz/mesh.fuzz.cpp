@@ -117,6 +117,7 @@ void add_colliders(World& world, ByteReader& in) {
     if (which & 2) world.add(make_collider({.name = "ball", .shape = SphereDesc{.radius = 0.3f}}));
     if (which & 4) world.add(make_collider({.name = "crate", .shape = BoxDesc{{0.2f, 0.3f, 0.1f}}}));
     if (which & 8) world.add(make_collider({.name = "limb", .shape = CapsuleDesc{}}));
+    if (which & 16) world.add(make_collider({.name = "thigh", .shape = TaperedCapsuleDesc{}}));
 }
 
 void simulate(TriangleMesh mesh, ByteReader& in) {

@@ -34,6 +34,10 @@ TEST(Shapes, signed_distance_is_that_of_the_true_surface) {
     EXPECT_NEAR(at(capsule, {2, 0.9f, 0}), 1.5, 1e-6);
     EXPECT_NEAR(at(capsule, {3, 5, 0}), 4.5, 1e-6) << "round end: 3 and 4 from its center";
     EXPECT_NEAR(at(capsule, {0, 0.2f, 0}), -0.5, 1e-6);
+    const ColliderDesc tapered{.shape = TaperedCapsuleDesc{{1.1f, 0.5f}, 0.5f}};
+    EXPECT_NEAR(at(tapered, {0, -3, 0}), 1.4, 1e-6) << "the ball at -y";
+    EXPECT_NEAR(at(tapered, {0, 3, 0}), 2, 1e-6) << "the ball at +y";
+    EXPECT_NEAR(at(tapered, {1.6f, 0.7f, 0}), 0.9, 1e-6) << "2 from the center at -y, along the normal of the cone";
 }
 
 // A sheet on a table that starts to move at walking speed. Static friction moves it along; without friction it stays

@@ -235,6 +235,7 @@ TEST(ContactsOverlay, finds_a_particle_three_millimeters_deep) {
 TEST(ContactsOverlay, leads_from_every_penetration_to_the_surface) {
     for (const auto& shape : {ColliderDesc{.shape = BoxDesc{{0.3f, 0.2f, 0.25f}}},
                               {.shape = CapsuleDesc{0.15f, 0.2f}},
+                              {.shape = TaperedCapsuleDesc{{0.25f, 0.1f}, 0.2f}},
                               {.shape = SphereDesc{0.3f}},
                               {.shape = PlaneDesc{{0, 1, 0}, 0.05f}}}) {
         ColliderDesc desc = shape;

@@ -52,6 +52,8 @@ void add_colliders(World& world) {
     world.add(make_collider({.shape = SphereDesc{0.1f}}));
     world.add(make_collider(
         {.shape = CapsuleDesc{0.05f, 0.1f}, .transform = {.position = {0.3f, 0, 0}, .rotation_degrees = {20, 0, 30}}}));
+    world.add(make_collider({.shape = TaperedCapsuleDesc{{0.09f, 0.04f}, 0.08f},
+                             .transform = {.position = {0.05f, 0.02f, 0.15f}, .rotation_degrees = {10, 40, 80}}}));
     world.add(make_collider({.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
                              .friction = {0.8f, 0.6f},
                              .motion = {{0, {-0.3f, 0, 0}, {}}, {1, {-0.1f, 0.1f, 0}, {0, 40, 0}}}}));
