@@ -5,6 +5,7 @@
 #include "scene/problems.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -76,11 +77,12 @@ void note_field(const DistanceField& field, const ShapeSource& source) {
     if (!field.has_inside) source.note("the mesh encloses nothing, so cloth passes through it");
     if (!field.closed && field.has_inside) source.note("the mesh is open; its holes count as closed");
     if (field.thin.thin > 0) {
+        const auto rounded = [](double x, double digits) { return number_text(std::round(x * digits) / digits); };
         const Vec3 at = field.thin.place;
-        source.note("thinner than two cells of the distance field (" + number_text(2 * field.cell) + " m) in " +
-                    number_text(100.0 * field.thin.thin / field.thin.samples) + " % of its surface, thinnest near (" +
-                    number_text(at.x) + ", " + number_text(at.y) + ", " + number_text(at.z) +
-                    "); a higher resolution helps");
+        source.note(rounded(100.0 * field.thin.thin / field.thin.samples, 100) +
+                    " % of its surface are thinner than two cells of the distance field (" +
+                    rounded(2 * field.cell, 1e5) + " m), most of all near (" + rounded(at.x, 1e4) + ", " +
+                    rounded(at.y, 1e4) + ", " + rounded(at.z, 1e4) + "); a higher resolution helps");
     }
 }
 
