@@ -58,8 +58,9 @@ void ColliderPart::begin_frame(Share mine) {
 void ColliderPart::cover(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
                          const TileReach& reach) {
     const Range mine{mine_.begin, mine_.end};
-    if (passes.first_outside(particles.position, boxes_, mine, 0) == tiles()) return;
-    search(passes, particles, places, reach);
+    const std::uint32_t outside = passes.first_outside(particles.position, boxes_, mine, 0);
+    if (outside == tiles()) return;
+    search(passes, particles, places, reach, outside);
     std::swap(runs_, last_runs_), std::swap(near_, last_near_);
     join_tiles();
     if (keeps_sums_) carry_over(last_runs_, last_near_, sums_, scratch_);
@@ -83,13 +84,12 @@ Bounds ColliderPart::box_of(const ParticleView& particles, std::uint32_t tile, c
     return box.empty() ? box : grown(box, reach.margin + slack_per_way * way * reach.substeps);
 }
 
-// Searches the tiles that have left their boxes. The other lists stay as they are.
+// Searches the tiles that have left their boxes, the first of which is `outside`. The other lists stay as they are.
 void ColliderPart::search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
-                          const TileReach& reach) {
+                          const TileReach& reach, std::uint32_t outside) {
     const Range mine{mine_.begin, mine_.end};
     next_lists_.colliders.clear();
     next_lists_.begin.clear();
-    std::uint32_t outside = passes.first_outside(particles.position, boxes_, mine, 0);
     for (std::uint32_t tile = 0; tile < tiles(); ++tile) {
         next_lists_.begin.push_back(static_cast<std::uint32_t>(next_lists_.colliders.size()));
         const std::span<const std::uint32_t> before = lists_.of(tile);

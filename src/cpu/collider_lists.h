@@ -75,7 +75,7 @@ class ColliderPart {
     std::uint32_t tiles() const { return static_cast<std::uint32_t>(boxes_.size()); }
     Bounds box_of(const ParticleView& particles, std::uint32_t tile, const TileReach& reach) const;
     void search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
-                const TileReach& reach);
+                const TileReach& reach, std::uint32_t outside);
     void join_tiles();
     void carry_over(std::span<const ColliderRun> runs, std::span<const NearCollider> near, AlignedVector<Vec4>& sums,
                     AlignedVector<Vec4>& scratch) const;

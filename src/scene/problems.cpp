@@ -123,4 +123,10 @@ Errors Problems::take(std::string_view name) && {
     return std::move(errors_);
 }
 
+Errors within(const std::string& place, const Errors& errors) {
+    Errors placed;
+    for (const Error& error : errors) placed.push_back({place, error.message(), error.fault});
+    return placed;
+}
+
 }  // namespace weft

@@ -51,4 +51,7 @@ class Problems {
     std::size_t left_out_ = 0;
 };
 
+/// The errors with `where` set to a place in the scene, and their own `where` in the text.
+Errors within(const std::string& place, const Errors& errors);
+
 }  // namespace weft

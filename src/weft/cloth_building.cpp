@@ -45,13 +45,6 @@ Result<LoadedMesh> load_placed(const MeshDesc& desc, const TransformDesc& transf
     return loaded;
 }
 
-// Sets `where` of the errors to a place in the scene, and puts their own `where` into the text.
-Errors within(const std::string& place, const Errors& errors) {
-    Errors placed;
-    for (const Error& error : errors) placed.push_back({place, error.message(), error.fault});
-    return placed;
-}
-
 void note_report(const std::string& cloth, const TopologyReport& report, std::vector<std::string>& notes) {
     const auto note = [&](std::uint32_t count, std::string_view what) {
         if (count > 0) notes.push_back("cloth '" + cloth + "': " + std::to_string(count) + ' ' + std::string(what));

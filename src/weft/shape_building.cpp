@@ -108,12 +108,7 @@ Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const Me
     if (known != known_.end()) return known->data.lock();
     const ShapeSource source{files, collider.name, notes, threads_};
     auto built = std::visit([&](const auto& shape) { return build_shape(shape, source); }, collider.shape);
-    if (!built) {
-        Errors placed;
-        for (const Error& error : built.errors())
-            placed.push_back({pointer, error.where.empty() ? error.what : error.message(), error.fault});
-        return placed;
-    }
+    if (!built) return within(pointer, built.errors());
     if (*built) known_.push_back({collider.shape, *built});
     return built;
 }
