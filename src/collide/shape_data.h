@@ -11,6 +11,7 @@ namespace weft {
 
 struct ShapeData {
     AlignedVector<float> words;  ///< for the shape's kernel, whose file says what they hold; whole blocks of four
+    float steepness = 1;         ///< the most that the kernel's distance changes per meter, at least 1
     Bounds bounds;               ///< m: of the shape in its own frame, without what its numbers add
     TriangleMesh surface;        ///< the shape's surface, without what its numbers add
 

@@ -41,6 +41,10 @@ Range ClothRun::particles(Worker worker) const {
 bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {
     const Pass& pass = island_pass.pass;
     if (!island_pass.all && !takes_part(planned_, pass)) return false;
+    if (is_face_contact(pass.kind)) {
+        run_face_contact(pass, substep, worker);
+        return false;
+    }
     switch (pass_info(pass.kind).over) {
         case Over::particles:
             return run_particles(pass, substep, worker);
@@ -197,52 +201,6 @@ void ClothRun::run_targets(std::uint32_t substep, Range mine) const {
         Vec4& position = positions[it->particle];
         position = {x.x, x.y, x.z, position.w};
     }
-}
-
-// Lists made before a tile left its box may miss a collider, so each pass of contact begins with a check.
-ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
-    ColliderPart& part = cloth_.near_colliders.part(worker.number);
-    if (substep == 0 && pass.first_iteration) part.begin_frame({mine.begin, mine.end});
-    const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
-    part.cover(passes_, view_, *input_.places,
-               {.fall = input_.gravity * (0.5f * seconds * seconds),
-                .substeps = left,
-                .margin = numbers_.half_thickness + model().mean_edge});
-    return part;
-}
-
-void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
-    if (input_.colliders.empty()) return;
-    ColliderPart& part = cover_colliders(pass, substep, mine, worker);
-    const bool traces = !cloth_.account.empty();
-    for (const ColliderRun& run : part.runs()) {
-        for (const NearCollider& near : part.near(run)) {
-            const Collider& collider = input_.colliders[near.collider];
-            const auto [static_friction, kinetic_friction] = friction_between(model(), collider);
-            const ContactView view{
-                .numbers = collider.numbers,
-                .data = blocks_of(collider),
-                .now = input_.places->pose(near.collider, substep + 1),
-                .before = input_.places->pose(near.collider, substep),
-                .static_friction = static_friction,
-                .kinetic_friction = kinetic_friction,
-                .half_thickness = numbers_.half_thickness,
-                .depenetration = numbers_.depenetration,
-                .sums = part.sums(near),
-                .first_iteration = pass.first_iteration,
-                .moved = part.moved(near),
-                .turned = part.turned(near),
-            };
-            const auto& loops = traces ? passes_.contact_traced : passes_.contact;
-            loops[static_cast<std::uint32_t>(collider.shape)](view_, view, {run.begin, run.end});
-        }
-    }
-}
-
-void ClothRun::count_contacts(Worker worker) const {
-    if (cloth_.account.empty()) return;
-    cloth_.account.count(worker.number, cloth_.near_colliders.part(worker.number), model().particle_count,
-                         cloth_.now().position, 1.0f / numbers_.h);
 }
 
 void ClothRun::keep_last_good(Worker worker) const {

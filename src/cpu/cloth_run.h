@@ -33,6 +33,9 @@ class ClothRun {
     void run_targets(std::uint32_t substep, Range mine) const;
     ColliderPart& cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
+    /// Without what run_contacts() adds.
+    ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;
+    void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
         return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));
     }

@@ -4,6 +4,7 @@
 #include "base/aligned.h"
 #include "cpu/collider_lists.h"
 #include "cpu/contact_account.h"
+#include "cpu/face_contacts.h"
 #include "cpu/passes.h"
 #include "cpu/world_arrays.h"
 #include "solver/model/cloth_model.h"
@@ -42,6 +43,7 @@ struct ClothState {
     /// empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     ColliderLists near_colliders;
+    FaceContacts face_contacts;
     ContactAccount account;  ///< empty without contact_forces
     /// Values that particles sum over their triangles: the air's impulse, and at the end of a frame the normals. One
     /// extra element stays zero.

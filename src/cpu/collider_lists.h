@@ -63,6 +63,9 @@ class ColliderPart {
         return std::span(turned_).subspan(near.sums, run.end - run.begin);
     }
 
+    bool has(std::uint32_t particle) const { return particle >= mine_.begin && particle < mine_.end; }
+    void trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 from_collider);
+
   private:
     struct Lists {
         std::vector<std::uint32_t> colliders;  ///< tile by tile
@@ -98,6 +101,8 @@ class ColliderLists {
     void prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers, bool keeps_sums, bool traces);
     ColliderPart& part(unsigned worker) { return parts_[worker].part; }
     const ColliderPart& part(unsigned worker) const { return parts_[worker].part; }
+    /// Adds to the trace of a particle and a collider that a contact moved it `by`; `position`: of the collider.
+    void trace(std::uint32_t particle, std::uint32_t collider, const ParticleView& particles, Vec3 by, Vec3 position);
 
   private:
     /// Aligned so that no two workers share a cache line.

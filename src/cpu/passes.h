@@ -48,15 +48,44 @@ struct RowView {
 };
 
 struct ContactView {
+    int kind;                      ///< of the shape
     std::array<float, 4> numbers;  ///< of the shape
     ShapeBlocks data;              ///< of the shape
+    float steepness, roundness;    ///< of the shape (swept.kernel.h)
     Pose now, before;              ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     float half_thickness, depenetration;  ///< m
-    float* sums;                          ///< a ContactSum per particle of the range; nullptr with a single iteration
-    bool first_iteration;                 ///< of the substep: sums begin anew
+    float* sums = nullptr;                ///< a ContactSum per particle of the range; nullptr with a single iteration
+    bool first_iteration = true;          ///< of the substep: sums begin anew
     float* moved = nullptr;   ///< ContactTrace, blocks of four per particle of the range; contact_traced only
     float* turned = nullptr;  ///< likewise
+};
+
+/// Triangles in the order of FacesByTile, and what decides about their contact with a collider.
+struct FaceView {
+    const std::uint32_t* corners;  ///< [corner · stride + triangle]
+    std::uint32_t stride;
+    float nearest;  ///< m: nearest_of_faces()
+    float static_friction, kinetic_friction;
+};
+
+/// Contacts of faces with colliders: blocks of four floats per contact (FaceRow in face.kernel.h). Arrays must have
+/// room for all that are appended, and lane_padding more.
+struct FaceRows {
+    std::size_t count = 0;
+    float* weights = nullptr;       ///< of the corners; static friction
+    float* plane = nullptr;         ///< normal, offset
+    float* start = nullptr;         ///< the point at the start; its gap there
+    float* sum = nullptr;           ///< ContactSum
+    float* displacement = nullptr;  ///< of the last sweep, per inverse mass and weight; kinetic friction
+    std::array<std::uint32_t*, 3> corners{};
+};
+
+/// Sums over the contacts of a particle's faces.
+struct FaceSums {
+    void* sums;
+    /// Adds a push of a contact and its length to the sums of a particle, in quanta (cloth_contact.kernel.h).
+    void (*add)(const FaceSums&, std::uint32_t particle, const std::int32_t* quanta, bool last);
 };
 
 /// Where constraints in parallel projection write the corrections of their particles.
@@ -163,6 +192,12 @@ struct Passes {
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
     /// Also adds the displacements of particles to the log.
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact_traced;
+    /// Appends the contacts of a range of triangles with a collider.
+    std::array<void (*)(const ParticleView&, const ContactView&, const FaceView&, Range, FaceRows&), shape_kind_count>
+        find_faces;
+    /// Adds the pushes of all contacts to the particles' sums. `last`: of the sweep that keeps faces from passing.
+    void (*push_faces)(const ParticleView&, const FaceRows&, bool last, float depenetration, float nearest,
+                       const FaceSums&);
     /// Adds to the wind of each triangle, or sets it. One entry per kind of wind.
     std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;
     void (*air)(const AirView&, Range, float h);

@@ -302,84 +302,7 @@ inline void damp_pass(const ParticleView& p, const RowView& rows, Range range, f
 
 WEFT_FN vec3 spread(Vec3 v) { return vec3(real(v.x), real(v.y), real(v.z)); }
 
-WEFT_FN ContactBody make_body(const ContactView& c) {
-    return {spread(c.now.rotation.x),    spread(c.now.rotation.y),    spread(c.now.rotation.z),
-            spread(c.now.position),      spread(c.before.rotation.x), spread(c.before.rotation.y),
-            spread(c.before.rotation.z), spread(c.before.position),   real(c.static_friction),
-            real(c.kinetic_friction),    real(c.half_thickness),      real(c.depenetration)};
-}
-
-// Adds the displacements by a contact to the particles' contact log.
-WEFT_FN void trace_pass(const ContactView& c, std::size_t i, vec3 before, vec3 x) {
-    real unused;
-    ContactTrace trace;
-    trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
-    trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
-    trace_contact(trace, before, x, spread(c.now.position));
-    store_blocks_unordered(trace.moved, real(0.0f), c.moved + 4 * i);
-    store_blocks_unordered(trace.turned, real(0.0f), c.turned + 4 * i);
-}
-
-inline std::uint32_t first_outside_pass(const float* position, std::span<const Bounds> boxes, Range range,
-                                        std::uint32_t first) {
-    for (std::uint32_t tile = first; tile < boxes.size(); ++tile) {
-        const vec3 min = spread(boxes[tile].min), max = spread(boxes[tile].max);
-        const std::size_t begin = range.begin + std::size_t{tile} * lane_padding;
-        mask outside = real(0.0f) > real(0.0f);
-        for (std::size_t i = begin; i < begin + lane_padding && i < range.end; i += lane_count) {
-            real w;
-            const vec3 x = load_blocks_unordered(position + 4 * i, w);
-            const mask left = x.x < min.x || x.y < min.y || x.z < min.z || x.x > max.x || x.y > max.y || x.z > max.z;
-            const mask now = left && w > real(0.0f);
-            outside = outside || now;
-        }
-        if (any(outside)) return tile;
-    }
-    return static_cast<std::uint32_t>(boxes.size());
-}
-
-template <class Shape, bool traced>
-inline void contact_pass(const ParticleView& p, const ContactView& c, Range range) {
-    const ContactBody body = make_body(c);
-    const ShapeNumbers shape = {real(c.numbers[0]), real(c.numbers[1]), real(c.numbers[2]), real(c.numbers[3]),
-                                c.data};
-    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
-        real w, unused;
-        vec3 x = load_blocks_unordered(p.position + 4 * i, w);
-        const vec3 before = x;
-        ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
-        const std::size_t at = i - range.begin;
-        if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
-
-        const vec3 local = to_body(body, x);
-        vec3 normal;
-        const real gap = Shape::distance(local, shape, normal) - body.half_thickness;
-        // Most of a cloth touches nothing.
-        const bool touches = any(gap < real(0.0f) || sum.push > real(0.0f));
-        if (touches) {
-            const vec3 start = load_blocks_unordered(p.start + 4 * i, unused);
-            vec3 normal_at_start;
-            const real gap_at_start =
-                Shape::distance(to_body_at_start(body, start), shape, normal_at_start) - body.half_thickness;
-            project_contact(x, start, w, sum, gap, gap_at_start, rotate(body.rx, body.ry, body.rz, normal),
-                            carried_by(body, local), body);
-            store_blocks_unordered(x, w, p.position + 4 * i);
-        }
-        if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * at);
-        if constexpr (traced) {
-            if (touches) trace_pass(c, at, before, x);
-        }
-    }
-}
-
-#define WEFT_SHAPE(name, Name)                                                      \
-    struct Name##Shape {                                                            \
-        WEFT_FN static real distance(vec3 p, const ShapeNumbers& shape, vec3& normal) { \
-            return distance_##name(p, shape, normal);                               \
-        }                                                                           \
-    };
-#include "physics/contact/shapes.def"
-#undef WEFT_SHAPE
+#include "cpu/contact.inl"
 
 #define WEFT_WIND(name, Name)                                    \
     struct Name##Wind {                                          \
@@ -483,6 +406,12 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+#define WEFT_SHAPE(name, Name) find_faces_pass<Name##Shape>,
+        .find_faces = {
+#include "physics/contact/shapes.def"
+        },
+#undef WEFT_SHAPE
+        .push_faces = push_faces_pass,
 #define WEFT_WIND(name, Name) wind_pass<Name##Wind>,
         .wind = {
 #include "physics/air/winds.def"

@@ -2,6 +2,8 @@
 #pragma once
 
 #define WEFT_FN inline __attribute__((always_inline))
+// A function that is large or rarely runs.
+#define WEFT_OUTLINED_FN inline __attribute__((noinline))
 #define inout_(T) T&
 #define out_(T) T&
 #define WEFT_ROW_MEMBER(name) real name;

@@ -35,4 +35,6 @@
 #define WEFT_SHAPE_KERNELS
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE_KERNELS
+#include "physics/contact/swept.kernel.h"
+#include "physics/contact/face.kernel.h"
 // clang-format on

@@ -4,6 +4,7 @@
 #define WEFT_LANES_GLSL
 
 #define WEFT_FN
+#define WEFT_OUTLINED_FN
 #define inout_(T) inout T
 #define out_(T) out T
 

@@ -147,6 +147,9 @@ class Compiler {
             case PassKind::place:
             case PassKind::list:
             case PassKind::aim:
+            case PassKind::find_faces:
+            case PassKind::push_faces:
+            case PassKind::move_faces:
             case PassKind::detect:
             case PassKind::cloth_contact:
             case PassKind::limit:

@@ -137,6 +137,9 @@ class TrafficCounter {
             case PassKind::list:
             case PassKind::aim:
                 return {};  // of dynamic lists
+            case PassKind::find_faces:
+            case PassKind::push_faces:
+            case PassKind::move_faces:
             case PassKind::detect:
             case PassKind::cloth_contact:
             case PassKind::limit:
@@ -149,7 +152,7 @@ class TrafficCounter {
             case PassKind::move_particles:
             case PassKind::hold_particles:
             case PassKind::settle_particles:
-                return {};           // the number of pairs is known only during the run
+                return {};           // the number of pairs and contacts is known only during the run
             case PassKind::predict:  // four arrays read, four written
                 return {.own = 0, .shared = 8 * block * points};
             case PassKind::velocities:  // four read, two written; all but the last are merged with the next prediction
@@ -157,8 +160,8 @@ class TrafficCounter {
             case PassKind::advance:  // counted as its two halves
             case PassKind::targets:  // few particles are kinematic targets
                 return {};
-            case PassKind::contact:  // most particles touch nothing and are only read
-                return {.own = 0, .shared = colliders_ * block * points};
+            case PassKind::contact:  // most particles touch nothing, and only where they are and were is read
+                return {.own = 0, .shared = 2 * colliders_ * block * points};
             case PassKind::project:
                 return projected(table, table.batches[pass.batch]);
             case PassKind::correct: {  // a share read, a correction written per particle that a constraint may move

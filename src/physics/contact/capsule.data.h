@@ -23,4 +23,8 @@ inline Bounds shape_bounds(const CapsuleDesc& capsule) {
     return {{-r, -y, -r}, {r, y, r}};
 }
 
+constexpr float shape_roundness(const CapsuleDesc& capsule) {
+    return capsule.radius;
+}
+
 }  // namespace weft

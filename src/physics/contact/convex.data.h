@@ -26,6 +26,10 @@ inline Bounds shape_bounds(const ConvexDesc& convex) {
     return {{-r, -r, -r}, {r, r, r}};
 }
 
+constexpr float shape_roundness(const ConvexDesc& convex) {
+    return convex.radius;
+}
+
 inline ShapeProblem shape_problem(const ConvexDesc& convex) {
     if (convex.file.empty() && convex.mesh.positions.empty()) return {"file", "must name a file"};
     return {};

@@ -33,4 +33,8 @@ inline ShapeProblem shape_problem(const PlaneDesc& plane) {
     return {};
 }
 
+constexpr float shape_roundness(const PlaneDesc&) {
+    return std::numeric_limits<float>::infinity();
+}
+
 }  // namespace weft

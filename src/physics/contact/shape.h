@@ -24,6 +24,12 @@ inline constexpr Bounds everywhere{{-std::numeric_limits<float>::infinity(), -st
                                    {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
                                     std::numeric_limits<float>::infinity()}};
 
+/// Default for shapes with edges or corners. m: the least radius to which the surface is curved outward.
+template <class Desc>
+constexpr float shape_roundness(const Desc&) {
+    return 0;
+}
+
 /// Default for shapes that need no checks besides the ranges. Other shapes overload it in their *.data.h.
 template <class Desc>
 constexpr ShapeProblem shape_problem(const Desc&) {

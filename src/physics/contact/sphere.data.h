@@ -21,4 +21,8 @@ inline Bounds shape_bounds(const SphereDesc& sphere) {
     return {{-r, -r, -r}, {r, r, r}};
 }
 
+constexpr float shape_roundness(const SphereDesc& sphere) {
+    return sphere.radius;
+}
+
 }  // namespace weft

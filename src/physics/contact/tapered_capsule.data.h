@@ -26,6 +26,10 @@ inline std::array<float, 4> shape_numbers(const TaperedCapsuleDesc& capsule) {
     return {capsule.radius[0], capsule.radius[1], capsule.half_height, static_cast<float>(slope)};
 }
 
+constexpr float shape_roundness(const TaperedCapsuleDesc& capsule) {
+    return std::min(capsule.radius[0], capsule.radius[1]);
+}
+
 inline Bounds shape_bounds(const TaperedCapsuleDesc& capsule) {
     const float r = std::max(capsule.radius[0], capsule.radius[1]), y = capsule.half_height;
     const float low = std::min(-y - capsule.radius[0], y - capsule.radius[1]);

@@ -67,6 +67,7 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
         }
     }
     model.faces = std::move(faces);
+    model.faces_by_tile = std::make_shared<const FacesByTile>(lay_out_by_tile(model.triangles(), model.particle_count));
     model.face_area = std::vector<float>(rest.area);
 }
 
@@ -98,7 +99,9 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
         const Edge& edge = topology.edges[e];
         const float cos2 = rest.cos2_to_warp[e];
         axial[e] = cos2 >= cos2_10_degrees || cos2 <= 1 - cos2_10_degrees;
-        sum += length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
+        const float edge_length = length(topology.rest_positions[edge.a] - topology.rest_positions[edge.b]);
+        sum += edge_length;
+        model.longest_edge = std::max(model.longest_edge, edge_length);
     }
     model.mean_edge = static_cast<float>(sum / static_cast<double>(count));
 

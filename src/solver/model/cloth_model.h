@@ -11,6 +11,7 @@
 #include "solver/model/build_times.h"
 #include "solver/model/constraint_table.h"
 #include "solver/model/faces_around.h"
+#include "solver/model/faces_by_tile.h"
 #include "solver/model/hierarchy.h"
 #include "solver/model/pin_spans.h"
 
@@ -110,7 +111,8 @@ struct ClothModel {
     std::uint32_t triangle_count = 0, face_stride = 0;
     std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< its `nothing` is face_stride
     std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();
-    float mean_edge = 0;                             ///< m
+    std::shared_ptr<const FacesByTile> faces_by_tile = std::make_shared<FacesByTile>();
+    float mean_edge = 0, longest_edge = 0;           ///< m, at rest
     std::shared_ptr<const std::vector<Tile>> tiles;  ///< null if the cloth has no exact contact with cloth
     /// Particles along a curve through the cloth; null if the cloth does not collide with cloth.
     std::shared_ptr<const std::vector<std::uint32_t>> along_curve;

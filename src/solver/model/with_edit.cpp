@@ -131,6 +131,8 @@ class Editor {
         const std::vector<std::uint32_t> offsets = around.offsets;
         model_->around = std::make_shared<const FacesAround>(
             lay_out_around({std::move(around.offsets), std::move(around.items)}, model.face_stride));
+        model_->faces_by_tile =
+            std::make_shared<const FacesByTile>(lay_out_by_tile(model.triangles(), model.particle_count));
         AlignedVector<float> mass =
             lump_masses(model.face_area, model.triangles(), model.particle_count, model.fabric.body.density);
         AlignedVector<Vec4> start(model.start.begin(), model.start.end());

@@ -29,6 +29,17 @@ std::array<float, 2> friction_between(const ClothModel& model, const Collider& c
     return {std::sqrt(cloth.friction[0] * collider.friction[0]), std::sqrt(cloth.friction[1] * collider.friction[1])};
 }
 
+bool faces_touch(const ClothModel& model, const Collider& collider) {
+    // The largest circle around a triangle whose edges are stretched that much, and how far a sphere that touches the
+    // corners reaches beyond their plane.
+    constexpr float circle_per_edge = 0.57735f;
+    const float half_thickness = 0.5f * model.fabric.contact.thickness;
+    const float radius = collider.roundness + half_thickness, circle = circle_per_edge * widest_face(model);
+    if (!(circle < radius)) return true;
+    const float sagitta = circle * circle / (radius + std::sqrt((radius - circle) * (radius + circle)));
+    return sagitta > half_thickness - nearest_of_faces(half_thickness);
+}
+
 double lambda_seconds(const WorldPlan& plan, double dt) {
     return plan.method == Method::pbd ? 0 : static_cast<double>(static_cast<float>(dt / plan.substeps));
 }

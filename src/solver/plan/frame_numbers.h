@@ -23,6 +23,21 @@ FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, doubl
 /// Static and kinetic friction between a cloth and a collider.
 std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider);
 
+/// m: how near the middle surface of a face may come to a collider. Particles stay half a thickness away. With less for
+/// faces, those of a fine mesh on a smooth collider touch nothing.
+inline float nearest_of_faces(float half_thickness) {
+    return 0.5f * half_thickness;
+}
+
+/// m: the longest edge that a face is expected to have. Its colliders are looked for that far around each corner.
+inline float widest_face(const ClothModel& model) {
+    return 1.2f * model.longest_edge;
+}
+
+/// Whether faces of the cloth may touch the collider where their corners do not: it has edges or corners, or is round
+/// and small for the cloth's edges.
+bool faces_touch(const ClothModel& model, const Collider& collider);
+
 /// Length of the substep in s, for reading the lambda of stretch. 0 for plain position-based dynamics, which has no
 /// compliance: its residual is C itself.
 double lambda_seconds(const WorldPlan& plan, double dt);

@@ -27,7 +27,7 @@ enum class PassFor : std::uint8_t { all_cloths, exact_cloths, fast_cloths };
 struct Pass {
     PassKind kind;
     ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list
-    std::uint32_t batch = 0;      ///< of project, coarse_limit and damp; the round of cloth_contact
+    std::uint32_t batch = 0;      ///< of project, coarse_limit and damp; round of cloth_contact; sweep of push_faces
     bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0
     std::uint32_t level = 0;      ///< of restriction, interpolation, coarse_limit, node_correction
     RowSource source = RowSource::model;
@@ -55,10 +55,12 @@ enum class Data : std::uint8_t {
     finest_displacement,   ///< node_displacement of the finest level
     correction,
     all_corrections,
-    found,      ///< of a dynamic list: number of constraints per particle
-    places,     ///< of a dynamic list: index of each particle's first constraint
-    list_rows,  ///< of a dynamic list: the constraints
-    pairs,      ///< of features of cloth that are near each other
+    found,          ///< of a dynamic list: number of constraints per particle
+    places,         ///< of a dynamic list: index of each particle's first constraint
+    list_rows,      ///< of a dynamic list: the constraints
+    face_contacts,  ///< of faces with colliders
+    face_sums,      ///< of their pushes, per particle
+    pairs,          ///< of features of cloth that are near each other
 };
 
 struct Access {

@@ -41,6 +41,7 @@ class Planner {
             add_constraints(i == 0, plan.substep);
             if (i + 1 == settings_.solver.iterations) add_particle_contact(plan.substep);
             add_contact(i == 0, plan.substep);
+            add_face_contact(plan.substep);
         }
         add_later_sweeps(plan.substep);
         if (exact) {
@@ -127,6 +128,7 @@ class Planner {
             if (round > 0) add_constraints(false, passes);
             passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
             add_contact(false, passes);
+            if (round + 1 == contact_rounds) add_face_contact(passes);
             leave_to(PassFor::exact_cloths, passes, first);
         }
         passes.push_back({.kind = PassKind::limit});
@@ -162,6 +164,16 @@ class Planner {
     // Contacts come last in an iteration, so that no particle is inside a collider after it.
     void add_contact(bool first, Passes& passes) const {
         if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
+    }
+
+    // After contact of particles, so that only faces which are deeper than their corners are pushed.
+    void add_face_contact(Passes& passes) const {
+        if (!settings_.faces) return;
+        passes.push_back({.kind = PassKind::find_faces});
+        for (std::uint32_t sweep = 0; sweep <= face_sweeps; ++sweep) {
+            passes.push_back({.kind = PassKind::push_faces, .batch = sweep});
+            passes.push_back({.kind = PassKind::move_faces, .batch = sweep});
+        }
     }
 
     void add_constraints(bool first, Passes& passes) const {
@@ -269,6 +281,10 @@ bool has_particle_contact(std::span<const PlannedCloth> cloths) {
 
 bool has_particle_contact(const WorldPlan& plan) {
     return std::ranges::any_of(plan.substep, [](const Pass& pass) { return is_particle_contact(pass.kind); });
+}
+
+bool has_face_contact(const WorldPlan& plan) {
+    return std::ranges::any_of(plan.substep, [](const Pass& pass) { return is_face_contact(pass.kind); });
 }
 
 std::uint32_t rounds_of(const WorldPlan& plan, const ClothModel& model) {

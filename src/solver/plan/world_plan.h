@@ -20,11 +20,15 @@ constexpr Projection resolve(Projection projection, Method method) {
     return method == Method::xpbd ? Projection::lines : Projection::gauss_seidel;
 }
 
+/// Sweeps over the contacts of faces with colliders. One more follows, which keeps faces from passing.
+inline constexpr std::uint32_t face_sweeps = 3;
+
 /// Settings that select the passes of a plan, together with the cloths. Models without coarse levels have no work in
 /// the passes of `solver.hierarchy`.
 struct StepSettings {
     SolverDesc solver = {};
     bool contacts = true;   ///< there are colliders
+    bool faces = false;     ///< faces of a cloth may touch a collider where their corners do not
     bool air = false;       ///< there is air
     bool wind = false;      ///< the air moves
     bool adhesion = false;  ///< a collider has adhesion
@@ -56,6 +60,11 @@ struct WorldPlan : SolverDesc {
 WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth> cloths,
                      std::span<const LinkTables* const> links = {});
 
+/// Whether a pass is one of contact of faces with colliders.
+constexpr bool is_face_contact(PassKind kind) {
+    return kind == PassKind::find_faces || kind == PassKind::push_faces || kind == PassKind::move_faces;
+}
+bool has_face_contact(const WorldPlan& plan);
 /// Whether a pass is one of contact between cloths.
 constexpr bool is_cloth_contact(PassKind kind) {
     return kind == PassKind::detect || kind == PassKind::cloth_contact || kind == PassKind::limit ||

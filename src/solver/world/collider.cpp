@@ -13,6 +13,7 @@ namespace {
         collider.shape = ShapeKind::name;                         \
         collider.numbers = shape_numbers(shape);                  \
         collider.bounds = shape_bounds(shape);                    \
+        collider.roundness = shape_roundness(shape);              \
     }
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE

@@ -39,12 +39,18 @@ struct Collider {
     std::array<float, 4> numbers{};              ///< defined in the shape's kernel file
     std::shared_ptr<const ShapeData> data = {};  ///< null if the numbers say everything
     Bounds bounds = {};                          ///< m: box of the shape in its own frame
+    float roundness = 0;                         ///< m: the least radius to which the surface is curved outward
     std::array<float, 2> friction{0.4f, 0.3f};   ///< static, kinetic
     std::optional<Adhesion> adhesion = {};       ///< nullopt: cloth does not stick
     Pose pose;                                   ///< current pose
     std::vector<PoseKey> motion = {};            ///< by ascending time; empty: no motion by keys
     std::optional<Pose> next_pose = {};          ///< pose at the end of the next frame, set by World::move()
 };
+
+/// The most that the distance to the shape changes per meter.
+inline float steepness_of(const Collider& collider) {
+    return collider.data ? collider.data->steepness : 1.0f;
+}
 
 /// What the shape's kernel reads besides the numbers.
 inline ShapeBlocks blocks_of(const Collider& collider) {

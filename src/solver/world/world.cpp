@@ -2,6 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/hash.h"
+#include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -255,9 +256,13 @@ const Frame& World::frame() const {
 
 void World::replan() {
     const bool air = settings_.air && settings_.air->density > 0;
+    const auto faces_touch_any = [&](const Cloth& cloth) {
+        return std::ranges::any_of(colliders_, [&](const Collider& c) { return faces_touch(*cloth.model, c); });
+    };
     const StepSettings settings{
         .solver = settings_.solver,
         .contacts = !colliders_.empty(),
+        .faces = std::ranges::any_of(cloths_, faces_touch_any),
         .air = air,
         .wind = air && !settings_.air->wind.empty(),
         .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),

@@ -1,0 +1,138 @@
+#include "cpu/face_contacts.h"
+
+#include "physics/scalar.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace weft::cpu {
+namespace {
+
+constexpr float meters_per_quantum = static_cast<float>(1.0 / WEFT_PUSH_QUANTA_PER_METER);
+
+constexpr std::size_t blocks_per_contact = 5;
+
+struct FaceTarget {
+    FaceSum* sums;
+    std::vector<std::uint32_t>* pushed;
+};
+
+// One more than the length, so that it is not 0.
+std::uint32_t length_of_push(const std::int32_t* quanta) {
+    return static_cast<std::uint32_t>(quanta[3]) + 1;
+}
+
+void add_alone(const FaceSums& to, std::uint32_t particle, const std::int32_t* quanta, bool last) {
+    const auto& [sums, pushed] = *static_cast<const FaceTarget*>(to.sums);
+    FaceSum& sum = sums[particle];
+    if (sum[3] == 0) pushed->push_back(particle);
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<std::uint32_t>(quanta[axis]);
+    sum[3] = last ? std::max(sum[3], length_of_push(quanta)) : sum[3] + 1;
+}
+
+// While other threads do so too.
+void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* quanta, bool last) {
+    const auto& [sums, pushed] = *static_cast<const FaceTarget*>(to.sums);
+    FaceSum& sum = sums[particle];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        std::atomic_ref(sum[axis]).fetch_add(static_cast<std::uint32_t>(quanta[axis]), std::memory_order_relaxed);
+    std::atomic_ref counter(sum[3]);
+    std::uint32_t before = 0;
+    if (last) {
+        const std::uint32_t size = length_of_push(quanta);
+        before = counter.load(std::memory_order_relaxed);
+        while (before < size && !counter.compare_exchange_weak(before, size, std::memory_order_relaxed)) {
+        }
+    } else {
+        before = counter.fetch_add(1, std::memory_order_relaxed);
+    }
+    if (before == 0) pushed->push_back(particle);
+}
+
+}  // namespace
+
+void FaceContacts::prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers) {
+    workers_ = colliders > 0 ? workers : 0;
+    if (workers_ == 0) return;
+    if (parts_.size() < workers) parts_.resize(workers);
+    if (sums_.size() < particles) sums_.resize(particles);
+    for (Part& part : parts_) {
+        part.pushed.reserve(particles);
+        part.groups.reserve(std::max(part.groups.capacity(), 2 * part.groups.size() + colliders));
+        make_room(part, std::max<std::size_t>(particles / 2, 2 * part.rows.count));
+        part.rows.count = 0;
+        part.groups.clear();
+    }
+}
+
+// Keeps the contacts.
+void FaceContacts::make_room(Part& part, std::size_t rows) {
+    const std::size_t room = part.corners.size() / 3;
+    if (rows + lane_padding <= room) return;
+    const std::size_t more = padded(static_cast<std::uint32_t>(rows + rows / 2)) + lane_padding;
+    AlignedVector<Vec4> blocks(blocks_per_contact * more);
+    AlignedVector<std::uint32_t> corners(3 * more);
+    for (std::size_t i = 0; i < blocks_per_contact && room > 0; ++i)
+        std::copy_n(part.blocks.begin() + static_cast<std::ptrdiff_t>(i * room), part.rows.count,
+                    blocks.begin() + static_cast<std::ptrdiff_t>(i * more));
+    for (std::size_t k = 0; k < 3 && room > 0; ++k)
+        std::copy_n(part.corners.begin() + static_cast<std::ptrdiff_t>(k * room), part.rows.count,
+                    corners.begin() + static_cast<std::ptrdiff_t>(k * more));
+    part.blocks = std::move(blocks), part.corners = std::move(corners);
+    float** const arrays[blocks_per_contact] = {&part.rows.weights, &part.rows.plane, &part.rows.start, &part.rows.sum,
+                                                &part.rows.displacement};
+    for (std::size_t i = 0; i < blocks_per_contact; ++i) *arrays[i] = &part.blocks[i * more].x;
+    for (std::size_t k = 0; k < 3; ++k) part.rows.corners[k] = &part.corners[k * more];
+}
+
+void FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+                        const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest) {
+    const auto tiles = static_cast<std::uint32_t>(faces.begin.size() - 1);
+    const Range range{faces.begin[std::min(run.begin / lane_padding, tiles)],
+                      faces.begin[std::min((run.end + lane_padding - 1) / lane_padding, tiles)]};
+    if (range.begin == range.end) return;
+    Part& part = parts_[worker];
+    make_room(part, part.rows.count + (range.end - range.begin));
+    const std::size_t before = part.rows.count;
+    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](
+        particles, contact,
+        {faces.corners.data(), faces.stride, nearest, contact.static_friction, contact.kinetic_friction}, range,
+        part.rows);
+    if (part.rows.count > before) part.groups.push_back({collider, part.rows.count});
+}
+
+void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last,
+                        float depenetration, float nearest) {
+    Part& part = parts_[worker];
+    part.pushed.clear();
+    FaceTarget target{sums_.data(), &part.pushed};
+    // Lanes beyond the last contact read valid particles.
+    for (std::size_t k = 0; k < 3 && part.rows.count > 0; ++k)
+        std::fill_n(part.rows.corners[k] + part.rows.count, lane_padding, 0u);
+    passes.push_faces(particles, part.rows, last, depenetration, nearest,
+                      {&target, workers_ > 1 ? add_shared : add_alone});
+}
+
+Vec3 FaceContacts::total(const FaceSum& sum) {
+    const auto axis = [&](std::size_t k) {
+        return static_cast<float>(static_cast<std::int32_t>(sum[k])) * meters_per_quantum;
+    };
+    return {axis(0), axis(1), axis(2)};
+}
+
+float FaceContacts::last_share(const FaceSum& sum) {
+    return std::min(static_cast<float>(sum[3]) * meters_per_quantum / std::max(length(total(sum)), 1e-9f), 1.0f);
+}
+
+void FaceContacts::move(unsigned worker, const ParticleView& particles, bool last) {
+    for (const std::uint32_t p : parts_[worker].pushed) {
+        FaceSum& sum = sums_[p];
+        const float share = last ? last_share(sum) : 1.0f / static_cast<float>(sum[3]);
+        const Vec3 by = total(sum) * share;
+        float* x = particles.position + 4 * std::size_t{p};
+        x[0] += by.x, x[1] += by.y, x[2] += by.z;
+        sum = {};
+    }
+}
+
+}  // namespace weft::cpu

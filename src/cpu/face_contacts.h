@@ -1,0 +1,91 @@
+// Contacts of a cloth's faces with colliders on the CPU.
+#pragma once
+
+#include "base/aligned.h"
+#include "base/workers.h"
+#include "cpu/collider_lists.h"
+#include "cpu/passes.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft::cpu {
+
+/// Sum of pushes in quanta, by axis; then their number, or in the last sweep the length of the longest.
+using FaceSum = std::array<std::uint32_t, 4>;
+
+/// Each worker lists the contacts of the faces of its own particles' tiles. All then add their pushes to sums per
+/// particle, in integers, so that the result does not depend on the number of threads.
+class FaceContacts {
+  public:
+    /// Allocates, on the calling thread; `colliders`: 0 if no pass uses this.
+    void prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers);
+
+    /// Starts the list of a worker anew.
+    void begin(unsigned worker) { parts_[worker].rows.count = 0; }
+    /// Appends the contacts of a run of particles with a collider.
+    void find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+              const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest);
+    /// Adds the pushes of a worker's contacts. `last`: of the sweep that keeps faces from passing.
+    void push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last, float depenetration,
+              float nearest);
+    /// Moves the particles whose first push came from a contact of this worker.
+    void move(unsigned worker, const ParticleView& particles, bool last);
+    /// Calls visit(particle, collider, push): what each contact's push does to a particle. Between push() and move().
+    template <class Visit>
+    void for_each_push(const ParticleView& particles, bool last, Visit&& visit) const;
+
+    unsigned workers() const { return workers_; }
+
+  private:
+    /// Contacts of the same collider, up to number `end`.
+    struct Group {
+        std::uint32_t collider;
+        std::size_t end;
+    };
+    /// Aligned so that no two workers share a cache line.
+    struct alignas(cache_line) Part {
+        FaceRows rows;
+        AlignedVector<Vec4> blocks;
+        AlignedVector<std::uint32_t> corners;
+        std::vector<Group> groups;
+        std::vector<std::uint32_t> pushed;
+    };
+
+    static void make_room(Part& part, std::size_t rows);
+    /// m: the sum of the pushes.
+    static Vec3 total(const FaceSum& sum);
+    /// The part of each push that the last sweep takes: it moves a particle by the longest push in their mean
+    /// direction, at most by their sum.
+    static float last_share(const FaceSum& sum);
+
+    unsigned workers_ = 0;
+    std::vector<Part> parts_;
+    AlignedVector<FaceSum> sums_;  ///< per particle; 0 between two sweeps
+};
+
+template <class Visit>
+void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit&& visit) const {
+    for (unsigned worker = 0; worker < workers_; ++worker) {
+        const Part& part = parts_[worker];
+        std::size_t i = 0;
+        for (const Group& group : part.groups) {
+            for (; i < group.end; ++i) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t p = part.rows.corners[k][i];
+                    const float w = particles.position[4 * std::size_t{p} + 3];
+                    const FaceSum& sum = sums_[p];
+                    if (!(w > 0) || sum[3] == 0) continue;
+                    const float* by = part.rows.displacement + 4 * i;
+                    const float share =
+                        last ? last_share(sum) : w * part.rows.weights[4 * i + k] / static_cast<float>(sum[3]);
+                    visit(p, group.collider, Vec3{by[0], by[1], by[2]} * share);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace weft::cpu

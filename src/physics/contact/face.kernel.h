@@ -1,0 +1,299 @@
+// Contact of a triangle of cloth with a collider: where the collider's distance is least on the triangle, and when the
+// triangle first touches (law: contact.md). One text for all shapes.
+
+struct Corners {
+    vec3 a, b, c;
+};
+
+WEFT_FN Corners to_body(ContactBody body, Corners x)
+{
+    Corners local;
+    local.a = to_body(body, x.a);
+    local.b = to_body(body, x.b);
+    local.c = to_body(body, x.c);
+    return local;
+}
+WEFT_FN Corners to_body_at_start(ContactBody body, Corners x)
+{
+    Corners local;
+    local.a = to_body_at_start(body, x.a);
+    local.b = to_body_at_start(body, x.b);
+    local.c = to_body_at_start(body, x.c);
+    return local;
+}
+WEFT_FN vec3 point_of(Corners x, vec3 weights) { return x.a * weights.x + x.b * weights.y + x.c * weights.z; }
+WEFT_FN Corners between(Corners from, Corners to, real time)
+{
+    Corners x;
+    x.a = from.a + (to.a - from.a) * time;
+    x.b = from.b + (to.b - from.b) * time;
+    x.c = from.c + (to.c - from.c) * time;
+    return x;
+}
+WEFT_FN real longest_of(vec3 a, vec3 b, vec3 c) { return sqrt(max(dot(a, a), max(dot(b, b), dot(c, c)))); }
+// The longest way of a corner.
+WEFT_FN real longest_way(Corners from, Corners to)
+{
+    return longest_of(to.a - from.a, to.b - from.b, to.c - from.c);
+}
+// The largest distance of a corner from a point.
+WEFT_FN real radius_around(Corners x, vec3 center) { return longest_of(x.a - center, x.b - center, x.c - center); }
+
+struct FacePoint {
+    vec3 weights;   // of the corners
+    real distance;  // m
+    vec3 normal;    // in the body's frame
+};
+
+WEFT_FN FacePoint face_point(Solid solid, Corners x, vec3 weights)
+{
+    FacePoint point;
+    point.weights = weights;
+    point.distance = solid_distance(solid, point_of(x, weights), point.normal);
+    return point;
+}
+WEFT_FN FacePoint choose(mask m, FacePoint yes, FacePoint no)
+{
+    FacePoint point;
+    point.weights = select(m, yes.weights, no.weights);
+    point.distance = select(m, yes.distance, no.distance);
+    point.normal = select(m, yes.normal, no.normal);
+    return point;
+}
+WEFT_FN FacePoint nearer(FacePoint one, FacePoint other) { return choose(other.distance < one.distance, other, one); }
+WEFT_FN vec3 center_weights() { return vec3(real(1.0 / 3.0), real(1.0 / 3.0), real(1.0 / 3.0)); }
+
+// A part of a straight line on the triangle that holds the line's least distance.
+struct Interval {
+    FacePoint low, high;
+};
+
+// The least distance between two points of the triangle. Each step goes to where the tangents at the ends of the interval
+// meet: a distance whose slope only grows lies above both.
+//   best   the nearest point so far; takes what is nearer
+WEFT_FN Interval search_between(Solid solid, Corners x, Interval ends, inout_(FacePoint) best, real enough, mask searches)
+{
+    for (int step = 0; step < 3 && any(searches); ++step) {
+        vec3 along = point_of(x, ends.high.weights) - point_of(x, ends.low.weights);
+        real fall = dot(ends.low.normal, along), rise = dot(ends.high.normal, along);
+        mask between = fall < real(0) && rise > real(0);
+        real part = (ends.high.distance - rise - ends.low.distance) / select(between, fall - rise, real(1));
+        part = clamp01(part);
+        real bound = ends.low.distance + fall * part;
+        searches = searches && between && bound < enough && bound < best.distance;
+        FacePoint next = face_point(solid, x, ends.low.weights * (real(1) - part) + ends.high.weights * part);
+        mask falls = dot(next.normal, along) < real(0);
+        ends.low = choose(searches && falls, next, ends.low);
+        ends.high = choose(searches && !falls, next, ends.high);
+        best = choose(searches && next.distance < best.distance, next, best);
+    }
+    return ends;
+}
+WEFT_FN void search_edge(Solid solid, Corners x, FacePoint p, FacePoint q, inout_(FacePoint) best, real enough,
+                         mask searches)
+{
+    Interval edge;
+    edge.low = p;
+    edge.high = q;
+    search_between(solid, x, edge, best, enough, searches);
+}
+
+// Where a way from a point leaves the triangle: weights. `normal`: of the triangle, as long as twice its area.
+WEFT_FN vec3 end_of_way(Corners x, vec3 weights, vec3 way, vec3 normal)
+{
+    real scale = real(1) / max(dot(normal, normal), real(1e-36));
+    real v = dot(cross(way, x.c - x.a), normal) * scale, w = dot(cross(x.b - x.a, way), normal) * scale;
+    real u = -v - w;
+    real far = real(1e18);
+    real t = min(select(u < real(0), weights.x / max(-u, real(1e-18)), far),
+                 min(select(v < real(0), weights.y / max(-v, real(1e-18)), far),
+                     select(w < real(0), weights.z / max(-w, real(1e-18)), far)));
+    vec3 end = weights + vec3(u, v, w) * select(t < far, t, real(0));
+    end = vec3(max(end.x, real(0)), max(end.y, real(0)), max(end.z, real(0)));
+    return end * (real(1) / (end.x + end.y + end.z));
+}
+
+// Where the distance is least on a triangle:
+// 1. on its edges, where they cross edges of the body;
+// 2. at the foot of the body's nearest point, or of the center of its rounding (Macklin et al. 2020, "Local Optimization
+//    for Robust Signed Distance Field Collision"), where the body is round;
+// 3. down the slope; then along the ridge on which that ends, if there is one: to a corner of the body.
+//   point    where to start
+//   enough   m: a triangle that cannot come nearer than this, if the slope only grows, is left alone
+WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point, real enough)
+{
+    vec3 center = point_of(x, point.weights);
+    real zero = real(0), one = real(1);
+    real lowest = point.distance + min(dot(point.normal, x.a - center),
+                                       min(dot(point.normal, x.b - center), dot(point.normal, x.c - center)));
+    mask searches = lowest < enough;
+    if (!any(searches)) return point;
+
+    FacePoint a = face_point(solid, x, vec3(one, zero, zero)), b = face_point(solid, x, vec3(zero, one, zero)),
+              c = face_point(solid, x, vec3(zero, zero, one));
+    FacePoint best = nearer(nearer(point, a), nearer(b, c));
+    search_edge(solid, x, a, b, best, enough, searches);
+    search_edge(solid, x, b, c, best, enough, searches);
+    search_edge(solid, x, c, a, best, enough, searches);
+
+    vec3 normal = cross(x.b - x.a, x.c - x.a);
+    vec3 up = normal * (one / sqrt(max(dot(normal, normal), real(1e-36))));
+    vec3 inner = point_of(x, best.weights) - best.normal * abs(best.distance + solid.roundness);
+    ClosestPoints foot = closest_vertex_triangle(inner, x.a, x.b, x.c);
+    best = nearer(best, face_point(solid, x, vec3(-foot.w1, -foot.w2, -foot.w3)));
+
+    vec3 slope = best.normal - up * dot(best.normal, up);
+    for (int line = 0; line < 2; ++line) {
+        Interval way;
+        way.low = best;
+        way.high = face_point(solid, x, end_of_way(x, best.weights, -slope, normal));
+        best = nearer(best, way.high);
+        way = search_between(solid, x, way, best, enough, searches);
+        vec3 fall = way.low.normal - up * dot(way.low.normal, up);
+        vec3 rise = way.high.normal - up * dot(way.high.normal, up);
+        vec3 turn = rise - fall;
+        slope = fall + turn * clamp01(-dot(fall, turn) / max(dot(turn, turn), real(1e-12)));
+    }
+    return choose(searches, best, point);
+}
+
+// What a triangle and a body do in a substep.
+struct FaceContact {
+    mask touches;
+    vec3 weights;       // of the point that touches
+    vec3 normal;        // in the body's frame
+    real gap;           // of that point along the normal at the end of the substep, m
+    real gap_at_start;  // m
+};
+
+// Conservative advancement of the triangle's least distance.
+WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
+                                        FacePoint first, real half_thickness)
+{
+    real speed = max(longest_way(from, to) * solid.steepness, real(1e-30));
+    real least = touching_distance(first.distance, half_thickness);
+    FacePoint now = first;
+    real time = real(0);
+    for (int step = 0; step < 32 && any(now.distance > least && time < real(1)); ++step) {
+        mask goes_on = now.distance > least && time < real(1);
+        real next = min(time + (now.distance - real(0.5) * least) / speed, real(1));
+        Corners there = between(from, to, next);
+        // Another part of the body may have come nearer.
+        FacePoint point = nearer(face_point(solid, there, now.weights),
+                                 face_point(solid, there, center_weights()));
+        point = least_on_face(solid, there, point, least);
+        time = select(goes_on, next, time);
+        now.weights = select(goes_on, point.weights, now.weights);
+        now.distance = select(goes_on, point.distance, now.distance);
+        now.normal = select(goes_on, point.normal, now.normal);
+    }
+    FaceContact contact;
+    contact.touches = !(now.distance > least) || time < real(1);
+    contact.weights = now.weights;
+    contact.normal = now.normal;
+    vec3 touched = point_of(between(from, to, time), now.weights);
+    contact.gap = dot(now.normal, point_of(to, now.weights) - touched) + now.distance;
+    contact.gap_at_start = first.distance;
+    return contact;
+}
+
+// Whether any point of a triangle may come nearer than `nearest` during the substep. `center`: the middle of the
+// triangle at the end, with the distance there.
+WEFT_FN mask face_may_touch(Corners from, Corners to, FacePoint center, Solid solid, real nearest)
+{
+    real farthest = radius_around(to, point_of(to, center.weights)) + longest_way(from, to);
+    return center.distance < nearest + farthest * solid.steepness;
+}
+
+// Contact of a triangle that may touch the body. A face is kept at `nearest` from the surface, which is less than the
+// corners are, so that faces of a fine mesh on a smooth body touch nothing.
+//   from, to  the triangle at the start and at the end of the substep, in the body's frame
+WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoint center,
+                                 real nearest, real half_thickness)
+{
+    FacePoint last = least_on_face(solid, to, center, nearest);
+    FaceContact contact;
+    contact.weights = last.weights;
+    contact.normal = last.normal;
+    contact.gap = last.distance - nearest;
+    contact.gap_at_start = real(0);
+    contact.touches = contact.gap < real(0);
+
+    // A triangle that moves less than its least distance at the start cannot have passed.
+    real way = longest_way(from, to) * solid.steepness;
+    mask may_pass = last.distance < real(2) * way;
+    if (any(may_pass || contact.touches)) {
+        FacePoint first = face_point(solid, from, last.weights);
+        contact.gap_at_start = first.distance - nearest;
+        if (any(may_pass)) {
+            first = nearer(first, face_point(solid, from, center_weights()));
+            first = least_on_face(solid, from, first, way);
+            mask fast = first.distance > real(0) && first.distance < way;
+            if (any(fast)) {
+                FaceContact swept = swept_face(solid, from, to, first, half_thickness);
+                mask stopped = fast && swept.touches;
+                contact.weights = select(stopped, swept.weights, contact.weights);
+                contact.normal = select(stopped, swept.normal, contact.normal);
+                contact.gap = select(stopped, swept.gap - nearest, contact.gap);
+                contact.gap_at_start = select(stopped, swept.gap_at_start - nearest, contact.gap_at_start);
+                mask overlaps = contact.gap < real(0);
+                contact.touches = (stopped && overlaps) || (!stopped && contact.touches);
+            }
+        }
+    }
+    // Corners have contact of their own.
+    vec3 w = contact.weights;
+    mask inside = max(w.x, max(w.y, w.z)) < real(0.999);
+    contact.touches = contact.touches && inside;
+    return contact;
+}
+
+// A contact of a face keeps the point with these weights on one side of a plane.
+struct FaceRow {
+    vec3 weights;
+    vec3 normal;                              // world
+    real offset;                              // m: normal·point + offset is the gap
+    real gap_at_start;                        // m
+    vec3 start;                               // the point at the start of the substep, plus how far the body carried it
+    real static_friction, kinetic_friction;
+    real depenetration;                       // m
+};
+
+// `x`, `start`: the triangle at the end and at the start of the substep; `local`: at the end, in the body's frame.
+WEFT_FN FaceRow face_row(ContactBody body, FaceContact contact, Corners x, Corners start, Corners local)
+{
+    FaceRow row;
+    row.weights = contact.weights;
+    row.normal = rotate(body.rx, body.ry, body.rz, contact.normal);
+    row.offset = contact.gap - dot(row.normal, point_of(x, contact.weights));
+    row.gap_at_start = contact.gap_at_start;
+    row.start = point_of(start, contact.weights) + carried_by(body, point_of(local, contact.weights));
+    row.static_friction = body.static_friction;
+    row.kinetic_friction = body.kinetic_friction;
+    row.depenetration = body.depenetration;
+    return row;
+}
+
+// How far the particles of a row have to move, per inverse mass and weight.
+//   point  the row's point now; inverse_mass  of the point: the sum of w_i weight_i²
+WEFT_FN vec3 face_displacement(FaceRow row, vec3 point, real inverse_mass, inout_(ContactSum) sum)
+{
+    ContactBody body;
+    body.static_friction = row.static_friction;
+    body.kinetic_friction = row.kinetic_friction;
+    body.depenetration = row.depenetration;
+    vec3 x = point;
+    project_contact(x, row.start, inverse_mass, sum, dot(row.normal, point) + row.offset, row.gap_at_start, row.normal,
+                    vec3(real(0)), body);
+    return (x - point) * select(inverse_mass > real(0), real(1) / max(inverse_mass, real(1e-30)), real(0));
+}
+
+// The last sweep keeps faces from passing, where the sweeps before have not sufficed. How far the three corners have to
+// move together. `free_weight`: sum of the weights of the corners that can move.
+WEFT_FN vec3 face_retreat(FaceRow row, vec3 point, real free_weight, real nearest)
+{
+    real goal = min(real(-0.75) * nearest, row.gap_at_start);
+    real missing = max(goal - (dot(row.normal, point) + row.offset), real(0));
+    missing = select(free_weight > real(0), missing / max(free_weight, real(0.25)), real(0));
+    return row.normal * missing;
+}

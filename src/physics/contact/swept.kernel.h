@@ -1,0 +1,114 @@
+// Contact of a particle that moves fast: finds where it first touches a collider during the substep, so that it does not
+// pass (law: contact.md). One text for all shapes.
+
+// `kind`: number of the shape in shapes.def.
+WEFT_OUTLINED_FN real shape_distance(int kind, vec3 p, ShapeNumbers s, out_(vec3) normal)
+{
+    int number = 0;
+    real distance = real(0);
+    normal = vec3(real(0), real(1), real(0));
+#define WEFT_SHAPE(name, Name) if (kind == number++) distance = distance_##name(p, s, normal);
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+    return distance;
+}
+
+// A shape, and what is known of it everywhere.
+struct Solid {
+    int kind;
+    ShapeNumbers numbers;
+    real steepness;  // most that its distance changes per meter, at least 1
+    real roundness;  // m: the least radius to which its surface is curved outward
+};
+
+WEFT_FN real solid_distance(Solid solid, vec3 p, out_(vec3) normal)
+{
+    return shape_distance(solid.kind, p, solid.numbers, normal);
+}
+
+// The first touch of a point that moves straight in the body's frame.
+struct Touch {
+    mask touches;
+    real time;      // part of the way before it
+    real distance;  // there, m, > 0
+    vec3 normal;    // there
+};
+
+// The distance at which a point is said to touch: less than the thickness asks, so that the normal is well defined.
+WEFT_FN real touching_distance(real distance_at_start, real half_thickness)
+{
+    return real(0.5) * min(distance_at_start, max(half_thickness, real(1e-5)));
+}
+
+// Conservative advancement: every step is as long as the distance allows. A point that has not arrived after the last
+// step is said to touch there, which only restricts it to one side of a plane.
+//   distance  at `from`, m
+//   least     m, at most half of `distance`; the point comes no nearer than half of it
+WEFT_FN Touch first_touch(Solid solid, vec3 from, vec3 to, real distance, real least)
+{
+    vec3 way = to - from;
+    real speed = max(sqrt(dot(way, way)) * solid.steepness, real(1e-30));
+    Touch touch;
+    touch.time = real(0);
+    touch.distance = distance;
+    touch.normal = vec3(real(0), real(1), real(0));
+    // Without a return in the loop, which some drivers compile wrongly.
+    for (int step = 0; step < 32 && any(touch.distance > least && touch.time < real(1)); ++step) {
+        mask goes_on = touch.distance > least && touch.time < real(1);
+        real next = min(touch.time + (touch.distance - real(0.5) * least) / speed, real(1));
+        vec3 normal;
+        real there = solid_distance(solid, from + way * next, normal);
+        touch.time = select(goes_on, next, touch.time);
+        touch.distance = select(goes_on, there, touch.distance);
+        touch.normal = select(goes_on, normal, touch.normal);
+    }
+    touch.touches = !(touch.distance > least) || touch.time < real(1);
+    return touch;
+}
+
+// Whether a particle may touch the body during the substep. `gap`: at the end of the substep; `way`: relative to the
+// body, m. A particle that ends farther away than twice its way began farther away than its way.
+WEFT_FN mask may_touch(real gap, ContactSum sum, real way, Solid solid, ContactBody body)
+{
+    return gap < real(0) || sum.push > real(0) ||
+           gap + body.half_thickness < real(2) * solid.steepness * way;
+}
+
+// Contact of a particle that may touch the body.
+//   x, start       the particle now and at the start of the substep
+//   local, local_at_start   the same in the body's frame
+//   gap, normal    at `local`: distance minus half the thickness; in the body's frame
+WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec3 start, real w,
+                              inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal)
+{
+    vec3 unused;
+    real distance_at_start = solid_distance(solid, local_at_start, unused);
+    vec3 way = local - local_at_start;
+    // A particle whose way is shorter than its distance at the start cannot reach the surface: the distance at its end
+    // decides.
+    mask fast = distance_at_start > real(0) && sqrt(dot(way, way)) * solid.steepness > distance_at_start;
+    mask stopped = fast;
+    vec3 at = local_at_start;
+    real distance_there = distance_at_start;
+    if (any(fast)) {
+        Touch touch = first_touch(solid, local_at_start, local, distance_at_start,
+                                  touching_distance(distance_at_start, body.half_thickness));
+        stopped = fast && touch.touches;
+        at = local_at_start + way * touch.time;
+        distance_there = touch.distance;
+        gap = select(stopped, dot(touch.normal, local - at) + touch.distance - body.half_thickness, gap);
+        normal = select(stopped, touch.normal, normal);
+    }
+    project_contact(x, start, w, sum, gap, distance_at_start - body.half_thickness,
+                    rotate(body.rx, body.ry, body.rz, normal), carried_by(body, local), body);
+    if (!any(stopped)) return;
+
+    // The particle may slide along the plane where it touched, but not into another part of the body.
+    vec3 to = to_body(body, x);
+    vec3 slide = to - at;
+    mask slides_far = stopped && w > real(0) && sqrt(dot(slide, slide)) * solid.steepness > distance_there;
+    if (!any(slides_far)) return;
+    Touch touch = first_touch(solid, at, to, distance_there, real(0.5) * distance_there);
+    vec3 there = rotate(body.rx, body.ry, body.rz, at + slide * touch.time) + body.position;
+    x = select(slides_far && touch.touches, there, x);
+}
