@@ -51,32 +51,75 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .depenetration = numbers_.depenetration};
 }
 
+template <class Visit>
+void ClothRun::for_each_near_face(unsigned worker, Visit&& visit) const {
+    if (input_.colliders.empty()) return;
+    const ColliderPart& part = cloth_.near_colliders.part(worker);
+    for (const ColliderRun& run : part.runs()) {
+        for (const NearCollider& near : part.near(run))
+            if (faces_touch(model(), input_.colliders[near.collider])) visit(run, near);
+    }
+}
+
 void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const {
     FaceContacts& contacts = cloth_.face_contacts;
     const float nearest = nearest_of_faces(numbers_.half_thickness);
-    const bool last = pass.batch == face_sweeps;
-    if (pass.kind == PassKind::find_faces) {
-        contacts.begin(worker.number);
-        if (input_.colliders.empty()) return;
-        const ColliderPart& part = cloth_.near_colliders.part(worker.number);
-        for (const ColliderRun& run : part.runs()) {
-            for (const NearCollider& near : part.near(run)) {
-                if (faces_touch(model(), input_.colliders[near.collider]))
-                    contacts.find(passes_, worker.number, view_, *model().faces_by_tile, run, near.collider,
-                                  contact_view(near, substep), nearest);
-            }
-        }
-    } else if (pass.kind == PassKind::push_faces) {
-        contacts.push(passes_, worker.number, view_, last, numbers_.depenetration, nearest);
-    } else if (cloth_.account.empty()) {
-        contacts.move(worker.number, view_, last);
-    } else if (worker.number == 0) {
-        // The log adds up floats, so one thread adds them in the order of the contacts.
-        contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by) {
-            cloth_.near_colliders.trace(particle, collider, view_, by,
-                                        input_.places->pose(collider, substep + 1).position);
+    const FacesByTile& faces = *model().faces_by_tile;
+    switch (pass.kind) {
+        case PassKind::find_faces:
+            contacts.begin(worker.number);
+            for_each_near_face(worker.number, [&](const ColliderRun& run, const NearCollider& near) {
+                contacts.find(passes_, worker.number, view_, faces, run, near.collider, contact_view(near, substep),
+                              nearest);
+            });
+            break;
+        case PassKind::push_faces:
+            contacts.push(passes_, worker.number, view_, pass.batch == face_sweeps, numbers_.depenetration, nearest);
+            break;
+        case PassKind::move_faces:
+            move_faces(pass.batch == face_sweeps, substep, worker);
+            break;
+        case PassKind::hold_faces:
+            if (!contacts.any_swept()) break;
+            for_each_near_face(worker.number, [&](const ColliderRun& run, const NearCollider& near) {
+                contacts.hold(passes_, worker.number, view_, faces, run, near.collider, contact_view(near, substep),
+                              nearest, pass.batch > 0);
+            });
+            break;
+        default:  // settle_faces
+            if (contacts.any_swept()) settle_faces(substep, worker);
+            break;
+    }
+}
+
+// The log of contacts adds up floats, so with a log one thread does this for all, in the order of the contacts.
+void ClothRun::move_faces(bool last, std::uint32_t substep, Worker worker) const {
+    FaceContacts& contacts = cloth_.face_contacts;
+    if (cloth_.account.empty()) return contacts.move(worker.number, view_, last);
+    if (worker.number != 0) return;
+    contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by) {
+        cloth_.near_colliders.trace(particle, collider, view_, by, input_.places->pose(collider, substep + 1).position);
+    });
+    for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_, last);
+}
+
+// Likewise.
+void ClothRun::settle_faces(std::uint32_t substep, Worker worker) const {
+    const bool logs = !cloth_.account.empty();
+    if (logs && worker.number != 0) return;
+    for (unsigned of = logs ? 0 : worker.number; of < (logs ? worker.count : worker.number + 1); ++of) {
+        cloth_.face_contacts.for_each_held(of, [&](std::uint32_t p, std::uint32_t collider, float part) {
+            float* x = view_.position + 4 * std::size_t{p};
+            const float* start = view_.start + 4 * std::size_t{p};
+            if (!(x[3] > 0)) return;
+            const Pose now = input_.places->pose(collider, substep + 1),
+                       before = input_.places->pose(collider, substep);
+            const Vec3 at{x[0], x[1], x[2]};
+            const Vec3 from = to_local(before, {start[0], start[1], start[2]}), to = to_local(now, at);
+            const Vec3 place = to_world(now, from + (to - from) * part);
+            if (logs) cloth_.near_colliders.trace(p, collider, view_, place - at, now.position);
+            x[0] = place.x, x[1] = place.y, x[2] = place.z;
         });
-        for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_, last);
     }
 }
 

@@ -92,68 +92,123 @@ WEFT_FN Corners load_corners(const float* blocks, const std::uint32_t* corners, 
 }
 
 // Appends the contacts of the lanes in `listed`.
-WEFT_FN void append_rows(const FaceView& faces, std::size_t i, mask listed, const FaceRow& row, FaceRows& to) {
-    alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16];
-    store_blocks(row.weights, real(0.0f), weights);
+WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, const FaceRow& row, FaceRows& to) {
+    alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16], swept[16];
+    // The third weight is what the others leave.
+    store_blocks(vec3(row.weights.x, row.weights.y, row.static_friction), row.kinetic_friction, weights);
     store_blocks(row.normal, row.offset, plane);
     store_blocks(row.start, row.gap_at_start, start);
+    store(row.swept, swept);
     for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
         const std::size_t at = to.count++;
-        __builtin_memcpy(to.weights + 4 * at, weights + 4 * lane, 3 * sizeof(float));
-        to.weights[4 * at + 3] = faces.static_friction;
+        __builtin_memcpy(to.weights + 4 * at, weights + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.plane + 4 * at, plane + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.start + 4 * at, start + 4 * lane, 4 * sizeof(float));
         for (int axis = 0; axis < 4; ++axis) to.sum[4 * at + axis] = 0;
-        to.displacement[4 * at + 3] = faces.kinetic_friction;
-        for (std::size_t k = 0; k < 3; ++k)
-            to.corners[k][at] = faces.corners[k * faces.stride + i + lane];
+        to.displacement[4 * at + 3] = swept[lane];
+        to.any_swept = to.any_swept || swept[lane] > 0;
+        for (std::size_t k = 0; k < 3; ++k) to.corners[k][at] = corners[k][lane];
     }
 }
 
+// Marks the corners of the lanes in `passed`.
+WEFT_FN void hold_faces(const FaceView& faces, const std::uint32_t (&corners)[3][16], mask passed, real time) {
+    if (!any(passed)) return;
+    alignas(64) float part[16];
+    store(floor(time * real(static_cast<float>(WEFT_HOLD_PARTS))), part);
+    for (std::uint32_t bits = bits_of(passed); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+        for (std::size_t k = 0; k < 3; ++k) faces.hold(faces, corners[k][lane], static_cast<std::uint32_t>(part[lane]));
+    }
+}
+
+WEFT_FN Corners load_corners(const float* blocks, const std::uint32_t (&corners)[3][16]) {
+    real unused;
+    Corners x;
+    x.a = gather_blocks(blocks, corners[0], unused);
+    x.b = gather_blocks(blocks, corners[1], unused);
+    x.c = gather_blocks(blocks, corners[2], unused);
+    return x;
+}
+
+// Contact of the triangles numbered `items`, of which `mine` count.
+template <class Shape>
+inline void touch_faces(const ParticleView& p, const ContactView& c, const FaceView& faces, const std::uint32_t* items,
+                        mask mine, FaceRows& to) {
+    const ContactBody body = make_body(c);
+    const Solid solid = solid_of(c);
+    const real nearest = real(faces.nearest);
+    alignas(64) std::uint32_t corners[3][16];
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t lane = 0; lane < lane_count; ++lane)
+            corners[k][lane] = faces.corners[k * faces.stride + items[lane]];
+    }
+    const Corners x = load_corners(p.position, corners), start = load_corners(p.start, corners);
+    const Corners local = to_body(body, x), local_at_start = to_body_at_start(body, start);
+    FacePoint center;
+    center.weights = center_weights();
+    center.distance = Shape::distance(point_of(local, center.weights), solid.numbers, center.normal);
+    const FaceContact contact =
+        face_contact(solid, local_at_start, local, center, nearest, body.half_thickness);
+    if (faces.hold) return hold_faces(faces, corners, mine && has_passed(contact, nearest), contact.time);
+    const mask listed = mine && touches_beside_corners(contact);
+    if (any(listed)) append_rows(corners, listed, face_row(body, contact, x, start, local), to);
+}
+
+// Most triangles near a collider touch nothing. The others are collected, so that all lanes have work.
 template <class Shape>
 inline void find_faces_pass(const ParticleView& p, const ContactView& c, const FaceView& faces, Range range,
                             FaceRows& to) {
     const ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
-    const real nearest = real(faces.nearest);
+    alignas(64) std::uint32_t items[48], waiting[16];
+    std::size_t count = 0;
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
-        const Corners x = load_corners(p.position, faces.corners, faces.stride, i);
-        const Corners local = to_body(body, x);
+        const Corners local = to_body(body, load_corners(p.position, faces.corners, faces.stride, i));
+        const Corners local_at_start = to_body_at_start(body, load_corners(p.start, faces.corners, faces.stride, i));
         FacePoint center;
         center.weights = center_weights();
         center.distance = Shape::distance(point_of(local, center.weights), solid.numbers, center.normal);
-        const Corners start = load_corners(p.start, faces.corners, faces.stride, i);
-        const Corners local_at_start = to_body_at_start(body, start);
         const std::size_t left = range.end - i;
         const mask mine = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu);
-        if (!any(mine && face_may_touch(local_at_start, local, center, solid, nearest))) continue;
-        const FaceContact contact = face_contact(solid, local_at_start, local, center, nearest,
-                                                 body.half_thickness);
-        const mask listed = mine && contact.touches;
-        if (!any(listed)) continue;
-        append_rows(faces, i, listed, face_row(body, contact, x, start, local), to);
+        const mask may = mine && face_may_touch(local_at_start, local, center, solid, real(faces.nearest));
+        if (!any(may)) continue;
+        for (std::size_t lane = 0; lane < lane_count; ++lane) waiting[lane] = static_cast<std::uint32_t>(i + lane);
+        compress(waiting, may, items + count);
+        count += static_cast<std::size_t>(__builtin_popcount(bits_of(may)));
+        if (count < lane_count) continue;
+        touch_faces<Shape>(p, c, faces, items, mask_of(0xffff), to);
+        count -= lane_count;
+        for (std::size_t k = 0; k < count; ++k) items[k] = items[lane_count + k];
     }
+    if (count == 0) return;
+    for (std::size_t k = count; k < lane_count; ++k) items[k] = items[0];
+    touch_faces<Shape>(p, c, faces, items, mask_of((1u << count) - 1u), to);
 }
 
 WEFT_FN FaceRow load_row(const FaceRows& rows, std::size_t i, float depenetration) {
     FaceRow row;
-    row.weights = load_blocks(rows.weights + 4 * i, row.static_friction);
+    const vec3 packed = load_blocks(rows.weights + 4 * i, row.kinetic_friction);
+    row.weights = vec3(packed.x, packed.y, real(1.0f) - packed.x - packed.y);
+    row.static_friction = packed.z;
     row.normal = load_blocks(rows.plane + 4 * i, row.offset);
     row.start = load_blocks(rows.start + 4 * i, row.gap_at_start);
-    load_blocks(rows.displacement + 4 * i, row.kinetic_friction);
+    load_blocks(rows.displacement + 4 * i, row.swept);
     row.depenetration = real(depenetration);
     return row;
 }
 
-// Adds the pushes of the lanes' rows to the sums of their particles: of the corner that stands in `corners`.
-WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, real size, mask acts, bool last,
-                             const FaceSums& to) {
+// Adds the pushes of the lanes' contacts to the sums of one of their corners.
+WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts, bool last, const FaceSums& to) {
     const real scale = real(static_cast<float>(WEFT_PUSH_QUANTA_PER_METER));
+    const real size2 = dot(push, push);
+    acts = acts && size2 > real(0.0f);
+    if (!any(acts)) return;
     alignas(64) std::int32_t quanta[16][4];
     store_integer_blocks(vec3(to_contact_quanta(push.x, scale), to_contact_quanta(push.y, scale),
                               to_contact_quanta(push.z, scale)),
-                         to_contact_quanta(size, scale), quanta[0]);
+                         to_contact_quanta(sqrt(size2), scale), quanta[0]);
     for (std::uint32_t bits = bits_of(acts); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
         to.add(to, corners[lane], quanta[lane], last);
@@ -163,35 +218,33 @@ WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, real size,
 inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, bool last, float depenetration, float nearest,
                             const FaceSums& to) {
     for (std::size_t i = 0; i < rows.count; i += lane_count) {
-        FaceRow row = load_row(rows, i, depenetration);
+        const FaceRow row = load_row(rows, i, depenetration);
+        const std::size_t left = rows.count - i;
+        const mask mine = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu);
         real w[3];
-        Corners x;
-        x.a = gather_blocks(p.position, rows.corners[0] + i, w[0]);
-        x.b = gather_blocks(p.position, rows.corners[1] + i, w[1]);
-        x.c = gather_blocks(p.position, rows.corners[2] + i, w[2]);
-        const vec3 point = point_of(x, row.weights);
+        vec3 x[3];
+        for (int k = 0; k < 3; ++k) x[k] = gather_blocks(p.position, rows.corners[static_cast<std::size_t>(k)] + i, w[k]);
         const real weights[3] = {row.weights.x, row.weights.y, row.weights.z};
-        vec3 displacement;
+        const vec3 point = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
+        vec3 push[3];
         if (last) {
-            real free = real(0.0f);
-            for (int k = 0; k < 3; ++k) free = free + select(w[k] > real(0.0f), weights[k], real(0.0f));
-            displacement = face_retreat(row, point, free, real(nearest));
+            real missing[3];
+            for (int k = 0; k < 3; ++k) {
+                missing[k] = face_retreat(row, point, x[k], real(nearest));
+                push[k] = row.normal * missing[k];
+            }
+            store_blocks(vec3(missing[0], missing[1], missing[2]), row.swept, rows.displacement + 4 * i);
         } else {
             real inverse_mass = real(0.0f);
             for (int k = 0; k < 3; ++k) inverse_mass = inverse_mass + w[k] * weights[k] * weights[k];
             ContactSum sum;
             sum.friction = load_blocks(rows.sum + 4 * i, sum.push);
-            displacement = face_displacement(row, point, inverse_mass, sum);
+            const vec3 displacement = face_displacement(row, point, inverse_mass, sum);
             store_blocks(sum.friction, sum.push, rows.sum + 4 * i);
+            store_blocks(displacement, row.swept, rows.displacement + 4 * i);
+            for (int k = 0; k < 3; ++k) push[k] = displacement * (w[k] * weights[k]);
         }
-        store_blocks(displacement, row.kinetic_friction, rows.displacement + 4 * i);
-        const real size2 = dot(displacement, displacement);
-        const std::size_t left = rows.count - i;
-        const mask acts = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu) && size2 > real(0.0f);
-        if (!any(acts)) continue;
-        for (int k = 0; k < 3; ++k) {
-            const real part = last ? select(w[k] > real(0.0f), real(1.0f), real(0.0f)) : w[k] * weights[k];
-            add_face_pushes(rows.corners[k] + i, displacement * part, sqrt(size2), acts && part > real(0.0f), last, to);
-        }
+        for (int k = 0; k < 3; ++k)
+            add_face_pushes(rows.corners[static_cast<std::size_t>(k)] + i, push[k], mine && w[k] > real(0.0f), last, to);
     }
 }

@@ -55,9 +55,9 @@ void FaceContacts::prepare(std::uint32_t particles, std::uint32_t colliders, uns
     workers_ = colliders > 0 ? workers : 0;
     if (workers_ == 0) return;
     if (parts_.size() < workers) parts_.resize(workers);
-    if (sums_.size() < particles) sums_.resize(particles);
+    if (sums_.size() < particles) sums_.resize(particles), holds_.resize(particles);
     for (Part& part : parts_) {
-        part.pushed.reserve(particles);
+        part.pushed.reserve(particles), part.held.reserve(particles);
         part.groups.reserve(std::max(part.groups.capacity(), 2 * part.groups.size() + colliders));
         make_room(part, std::max<std::size_t>(particles / 2, 2 * part.rows.count));
         part.rows.count = 0;
@@ -85,19 +85,66 @@ void FaceContacts::make_room(Part& part, std::size_t rows) {
     for (std::size_t k = 0; k < 3; ++k) part.rows.corners[k] = &part.corners[k * more];
 }
 
+void FaceContacts::begin(unsigned worker) {
+    Part& part = parts_[worker];
+    part.rows.count = 0;
+    part.rows.any_swept = false;
+    part.groups.clear();
+    part.held.clear();
+}
+
+namespace {
+
+Range faces_of(const FacesByTile& faces, const ColliderRun& run) {
+    const auto tiles = static_cast<std::uint32_t>(faces.begin.size() - 1);
+    return {faces.begin[std::min(run.begin / lane_padding, tiles)],
+            faces.begin[std::min((run.end + lane_padding - 1) / lane_padding, tiles)]};
+}
+
+struct HoldTarget {
+    std::uint32_t* holds;
+    std::vector<std::uint32_t>* held;
+    std::uint32_t collider;
+    bool still;
+};
+
+void hold_corner(const FaceView& faces, std::uint32_t particle, std::uint32_t part) {
+    const auto& [holds, held, collider, still] = *static_cast<const HoldTarget*>(faces.holds);
+    const std::uint32_t mark = (WEFT_HOLD_PARTS - (still ? 0 : part) + 1) * WEFT_HOLD_COLLIDERS + collider;
+    std::atomic_ref most(holds[particle]);
+    std::uint32_t before = most.load(std::memory_order_relaxed);
+    while (before < mark && !most.compare_exchange_weak(before, mark, std::memory_order_relaxed)) {
+    }
+    if (before == 0) held->push_back(particle);
+}
+
+}  // namespace
+
+bool FaceContacts::any_swept() const {
+    const auto first = parts_.begin();
+    return std::any_of(first, first + workers_, [](const Part& part) { return part.rows.any_swept; });
+}
+
+void FaceContacts::hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+                        const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest,
+                        bool still) {
+    const Range range = faces_of(faces, run);
+    if (range.begin == range.end) return;
+    Part& part = parts_[worker];
+    HoldTarget target{holds_.data(), &part.held, collider % WEFT_HOLD_COLLIDERS, still};
+    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](
+        particles, contact, {faces.corners.data(), faces.stride, nearest, hold_corner, &target}, range, part.rows);
+}
+
 void FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
                         const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest) {
-    const auto tiles = static_cast<std::uint32_t>(faces.begin.size() - 1);
-    const Range range{faces.begin[std::min(run.begin / lane_padding, tiles)],
-                      faces.begin[std::min((run.end + lane_padding - 1) / lane_padding, tiles)]};
+    const Range range = faces_of(faces, run);
     if (range.begin == range.end) return;
     Part& part = parts_[worker];
     make_room(part, part.rows.count + (range.end - range.begin));
     const std::size_t before = part.rows.count;
     passes.find_faces[static_cast<std::uint32_t>(contact.kind)](
-        particles, contact,
-        {faces.corners.data(), faces.stride, nearest, contact.static_friction, contact.kinetic_friction}, range,
-        part.rows);
+        particles, contact, {faces.corners.data(), faces.stride, nearest}, range, part.rows);
     if (part.rows.count > before) part.groups.push_back({collider, part.rows.count});
 }
 
@@ -111,6 +158,15 @@ void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleVie
         std::fill_n(part.rows.corners[k] + part.rows.count, lane_padding, 0u);
     passes.push_faces(particles, part.rows, last, depenetration, nearest,
                       {&target, workers_ > 1 ? add_shared : add_alone});
+}
+
+Vec3 FaceContacts::push_of(const FaceRows& rows, std::size_t contact, std::size_t corner, bool last) {
+    const float* by = rows.displacement + 4 * contact;
+    const float* plane = rows.plane + 4 * contact;
+    if (last) return Vec3{plane[0], plane[1], plane[2]} * by[corner];
+    const float* weights = rows.weights + 4 * contact;
+    const float third = 1.0f - weights[0] - weights[1];
+    return Vec3{by[0], by[1], by[2]} * (corner < 2 ? weights[corner] : third);
 }
 
 Vec3 FaceContacts::total(const FaceSum& sum) {

@@ -5,6 +5,7 @@
 #include "base/workers.h"
 #include "cpu/collider_lists.h"
 #include "cpu/passes.h"
+#include "physics/scalar.h"
 
 #include <array>
 #include <cstdint>
@@ -24,7 +25,7 @@ class FaceContacts {
     void prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers);
 
     /// Starts the list of a worker anew.
-    void begin(unsigned worker) { parts_[worker].rows.count = 0; }
+    void begin(unsigned worker);
     /// Appends the contacts of a run of particles with a collider.
     void find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
               const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest);
@@ -37,7 +38,15 @@ class FaceContacts {
     template <class Visit>
     void for_each_push(const ParticleView& particles, bool last, Visit&& visit) const;
 
-    unsigned workers() const { return workers_; }
+    /// Whether faces may have passed. Valid for all workers after all have found their contacts.
+    bool any_swept() const;
+    /// Marks particles of faces that have passed, after all pushes. `still`: they go no part of their way, otherwise
+    /// the part before the touch.
+    void hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+              const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest, bool still);
+    /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them.
+    template <class Visit>
+    void for_each_held(unsigned worker, Visit&& visit);
 
   private:
     /// Contacts of the same collider, up to number `end`.
@@ -51,10 +60,12 @@ class FaceContacts {
         AlignedVector<Vec4> blocks;
         AlignedVector<std::uint32_t> corners;
         std::vector<Group> groups;
-        std::vector<std::uint32_t> pushed;
+        std::vector<std::uint32_t> pushed, held;
     };
 
     static void make_room(Part& part, std::size_t rows);
+    /// What a contact does to a corner; in other than the last sweep, per inverse mass.
+    static Vec3 push_of(const FaceRows& rows, std::size_t contact, std::size_t corner, bool last);
     /// m: the sum of the pushes.
     static Vec3 total(const FaceSum& sum);
     /// The part of each push that the last sweep takes: it moves a particle by the longest push in their mean
@@ -63,7 +74,8 @@ class FaceContacts {
 
     unsigned workers_ = 0;
     std::vector<Part> parts_;
-    AlignedVector<FaceSum> sums_;  ///< per particle; 0 between two sweeps
+    AlignedVector<FaceSum> sums_;       ///< per particle; 0 between two sweeps
+    std::vector<std::uint32_t> holds_;  ///< per particle; 0 for those that are not held
 };
 
 template <class Visit>
@@ -78,14 +90,22 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
                     const float w = particles.position[4 * std::size_t{p} + 3];
                     const FaceSum& sum = sums_[p];
                     if (!(w > 0) || sum[3] == 0) continue;
-                    const float* by = part.rows.displacement + 4 * i;
-                    const float share =
-                        last ? last_share(sum) : w * part.rows.weights[4 * i + k] / static_cast<float>(sum[3]);
-                    visit(p, group.collider, Vec3{by[0], by[1], by[2]} * share);
+                    visit(p, group.collider,
+                          push_of(part.rows, i, k, last) * (last ? last_share(sum) : w / static_cast<float>(sum[3])));
                 }
             }
         }
     }
+}
+
+template <class Visit>
+void FaceContacts::for_each_held(unsigned worker, Visit&& visit) {
+    for (const std::uint32_t p : parts_[worker].held) {
+        const std::uint32_t part = WEFT_HOLD_PARTS - (holds_[p] / WEFT_HOLD_COLLIDERS - 1);
+        visit(p, holds_[p] % WEFT_HOLD_COLLIDERS, static_cast<float>(part) / static_cast<float>(WEFT_HOLD_PARTS));
+        holds_[p] = 0;
+    }
+    parts_[worker].held.clear();
 }
 
 }  // namespace weft::cpu

@@ -66,18 +66,23 @@ struct FaceView {
     const std::uint32_t* corners;  ///< [corner · stride + triangle]
     std::uint32_t stride;
     float nearest;  ///< m: nearest_of_faces()
-    float static_friction, kinetic_friction;
+    /// If set, contacts are not appended: the corners of faces that have passed are held at a part of their way.
+    void (*hold)(const FaceView&, std::uint32_t particle, std::uint32_t part) = nullptr;
+    void* holds = nullptr;
 };
 
 /// Contacts of faces with colliders: blocks of four floats per contact (FaceRow in face.kernel.h). Arrays must have
 /// room for all that are appended, and lane_padding more.
 struct FaceRows {
     std::size_t count = 0;
-    float* weights = nullptr;       ///< of the corners; static friction
-    float* plane = nullptr;         ///< normal, offset
-    float* start = nullptr;         ///< the point at the start; its gap there
-    float* sum = nullptr;           ///< ContactSum
-    float* displacement = nullptr;  ///< of the last sweep, per inverse mass and weight; kinetic friction
+    bool any_swept = false;    ///< whether a face touches on its way
+    float* weights = nullptr;  ///< of the first two corners; static and kinetic friction
+    float* plane = nullptr;    ///< normal, offset
+    float* start = nullptr;    ///< the point at the start; its gap there
+    float* sum = nullptr;      ///< ContactSum
+    /// By the sweep before, m: displacement per inverse mass and weight; of the last sweep, by corner, along the
+    /// normal. The fourth float is 1 if the face touches on its way.
+    float* displacement = nullptr;
     std::array<std::uint32_t*, 3> corners{};
 };
 

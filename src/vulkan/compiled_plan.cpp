@@ -150,6 +150,8 @@ class Compiler {
             case PassKind::find_faces:
             case PassKind::push_faces:
             case PassKind::move_faces:
+            case PassKind::hold_faces:
+            case PassKind::settle_faces:
             case PassKind::detect:
             case PassKind::cloth_contact:
             case PassKind::limit:

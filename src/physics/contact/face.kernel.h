@@ -63,6 +63,13 @@ WEFT_FN FacePoint choose(mask m, FacePoint yes, FacePoint no)
 WEFT_FN FacePoint nearer(FacePoint one, FacePoint other) { return choose(other.distance < one.distance, other, one); }
 WEFT_FN vec3 center_weights() { return vec3(real(1.0 / 3.0), real(1.0 / 3.0), real(1.0 / 3.0)); }
 
+// What a triangle cannot come nearer than, if the slope of the distance only grows. `point`: any point of it.
+WEFT_FN real lowest_of(Corners x, FacePoint point)
+{
+    vec3 at = point_of(x, point.weights);
+    return point.distance + min(dot(point.normal, x.a - at), min(dot(point.normal, x.b - at), dot(point.normal, x.c - at)));
+}
+
 // A part of a straight line on the triangle that holds the line's least distance.
 struct Interval {
     FacePoint low, high;
@@ -122,11 +129,8 @@ WEFT_FN vec3 end_of_way(Corners x, vec3 weights, vec3 way, vec3 normal)
 //   enough   m: a triangle that cannot come nearer than this, if the slope only grows, is left alone
 WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point, real enough)
 {
-    vec3 center = point_of(x, point.weights);
     real zero = real(0), one = real(1);
-    real lowest = point.distance + min(dot(point.normal, x.a - center),
-                                       min(dot(point.normal, x.b - center), dot(point.normal, x.c - center)));
-    mask searches = lowest < enough;
+    mask searches = lowest_of(x, point) < enough;
     if (!any(searches)) return point;
 
     FacePoint a = face_point(solid, x, vec3(one, zero, zero)), b = face_point(solid, x, vec3(zero, one, zero)),
@@ -160,10 +164,13 @@ WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point
 // What a triangle and a body do in a substep.
 struct FaceContact {
     mask touches;
+    mask swept;         // it touches on the way
     vec3 weights;       // of the point that touches
     vec3 normal;        // in the body's frame
     real gap;           // of that point along the normal at the end of the substep, m
     real gap_at_start;  // m
+    real time;          // part of the way before it touches, 1 if it does not touch on the way
+    real last;          // m: the least distance at the end of the substep
 };
 
 // Conservative advancement of the triangle's least distance.
@@ -181,7 +188,8 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
         // Another part of the body may have come nearer.
         FacePoint point = nearer(face_point(solid, there, now.weights),
                                  face_point(solid, there, center_weights()));
-        point = least_on_face(solid, there, point, least);
+        // What the rest of the way cannot reach need not be exact.
+        point = least_on_face(solid, there, point, least + speed * (real(1) - next));
         time = select(goes_on, next, time);
         now.weights = select(goes_on, point.weights, now.weights);
         now.distance = select(goes_on, point.distance, now.distance);
@@ -194,15 +202,19 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
     vec3 touched = point_of(between(from, to, time), now.weights);
     contact.gap = dot(now.normal, point_of(to, now.weights) - touched) + now.distance;
     contact.gap_at_start = first.distance;
+    contact.swept = contact.touches;
+    contact.time = time;
+    contact.last = now.distance;
     return contact;
 }
 
-// Whether any point of a triangle may come nearer than `nearest` during the substep. `center`: the middle of the
-// triangle at the end, with the distance there.
+// Whether contact of a triangle has to be computed. `center`: the middle of the triangle at the end of the substep.
 WEFT_FN mask face_may_touch(Corners from, Corners to, FacePoint center, Solid solid, real nearest)
 {
-    real farthest = radius_around(to, point_of(to, center.weights)) + longest_way(from, to);
-    return center.distance < nearest + farthest * solid.steepness;
+    real way = longest_way(from, to);
+    real farthest = (radius_around(to, point_of(to, center.weights)) + way) * solid.steepness;
+    return center.distance < nearest + farthest &&
+           lowest_of(to, center) < max(nearest, real(2) * way * solid.steepness);
 }
 
 // Contact of a triangle that may touch the body. A face is kept at `nearest` from the surface, which is less than the
@@ -217,18 +229,21 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     contact.normal = last.normal;
     contact.gap = last.distance - nearest;
     contact.gap_at_start = real(0);
+    contact.time = real(1);
+    contact.last = last.distance;
     contact.touches = contact.gap < real(0);
 
     // A triangle that moves less than its least distance at the start cannot have passed.
     real way = longest_way(from, to) * solid.steepness;
-    mask may_pass = last.distance < real(2) * way;
-    if (any(may_pass || contact.touches)) {
+    mask moves_far = last.distance < real(2) * way;
+    contact.swept = contact.touches && !contact.touches;
+    if (any(moves_far || contact.touches)) {
         FacePoint first = face_point(solid, from, last.weights);
         contact.gap_at_start = first.distance - nearest;
-        if (any(may_pass)) {
+        if (any(moves_far)) {
             first = nearer(first, face_point(solid, from, center_weights()));
             first = least_on_face(solid, from, first, way);
-            mask fast = first.distance > real(0) && first.distance < way;
+            mask fast = may_pass(first.distance, longest_way(from, to), solid, half_thickness);
             if (any(fast)) {
                 FaceContact swept = swept_face(solid, from, to, first, half_thickness);
                 mask stopped = fast && swept.touches;
@@ -238,14 +253,25 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
                 contact.gap_at_start = select(stopped, swept.gap_at_start - nearest, contact.gap_at_start);
                 mask overlaps = contact.gap < real(0);
                 contact.touches = (stopped && overlaps) || (!stopped && contact.touches);
+                contact.swept = stopped;
+                contact.time = select(stopped, swept.time, real(1));
             }
         }
     }
-    // Corners have contact of their own.
-    vec3 w = contact.weights;
-    mask inside = max(w.x, max(w.y, w.z)) < real(0.999);
-    contact.touches = contact.touches && inside;
     return contact;
+}
+
+// Corners have contact of their own.
+WEFT_FN mask touches_beside_corners(FaceContact contact)
+{
+    vec3 w = contact.weights;
+    return contact.touches && max(w.x, max(w.y, w.z)) < real(0.999);
+}
+
+// Whether a face is still, or again, beyond where it touched on its way, or inside the body: what pushes have left.
+WEFT_FN mask has_passed(FaceContact contact, real nearest)
+{
+    return contact.swept && (contact.gap < real(-0.75) * nearest || contact.last < real(0.25) * nearest);
 }
 
 // A contact of a face keeps the point with these weights on one side of a plane.
@@ -257,6 +283,7 @@ struct FaceRow {
     vec3 start;                               // the point at the start of the substep, plus how far the body carried it
     real static_friction, kinetic_friction;
     real depenetration;                       // m
+    real swept;                               // 1 if the face touches on its way, 0 otherwise
 };
 
 // `x`, `start`: the triangle at the end and at the start of the substep; `local`: at the end, in the body's frame.
@@ -271,6 +298,7 @@ WEFT_FN FaceRow face_row(ContactBody body, FaceContact contact, Corners x, Corne
     row.static_friction = body.static_friction;
     row.kinetic_friction = body.kinetic_friction;
     row.depenetration = body.depenetration;
+    row.swept = select(contact.swept, real(1), real(0));
     return row;
 }
 
@@ -288,12 +316,25 @@ WEFT_FN vec3 face_displacement(FaceRow row, vec3 point, real inverse_mass, inout
     return (x - point) * select(inverse_mass > real(0), real(1) / max(inverse_mass, real(1e-30)), real(0));
 }
 
-// The last sweep keeps faces from passing, where the sweeps before have not sufficed. How far the three corners have to
-// move together. `free_weight`: sum of the weights of the corners that can move.
-WEFT_FN vec3 face_retreat(FaceRow row, vec3 point, real free_weight, real nearest)
+// The last sweep keeps faces from passing, where the sweeps before have not sufficed: no corner stays behind the plane on
+// which the face touched. That holds a face back as a whole, whereas a point of it alone would let it turn into a body
+// that moves fast. How far a corner has to move along the normal.
+//   point, corner  the row's point and the corner now
+WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real nearest)
 {
     real goal = min(real(-0.75) * nearest, row.gap_at_start);
-    real missing = max(goal - (dot(row.normal, point) + row.offset), real(0));
-    missing = select(free_weight > real(0), missing / max(free_weight, real(0.25)), real(0));
-    return row.normal * missing;
+    mask acts = row.swept > real(0) || dot(row.normal, point) + row.offset < goal;
+    real missing = max(goal - (dot(row.normal, corner) + row.offset), real(0));
+    return select(acts, missing, real(0));
 }
+
+// A particle that is held goes only a part of its way relative to the body. `from`, `to`: in the body's frame.
+WEFT_FN vec3 held_place(ContactBody body, vec3 from, vec3 to, real part)
+{
+    return rotate(body.rx, body.ry, body.rz, from + (to - from) * part) + body.position;
+}
+
+// Which part of its way a particle may go, and for which collider, in one integer: the largest over all faces of the
+// particle is the least part, whatever their order. 0: it is not held.
+#define WEFT_HOLD_PARTS 2047
+#define WEFT_HOLD_COLLIDERS 1048576u

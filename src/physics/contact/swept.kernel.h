@@ -40,27 +40,34 @@ WEFT_FN real touching_distance(real distance_at_start, real half_thickness)
     return real(0.5) * min(distance_at_start, max(half_thickness, real(1e-5)));
 }
 
+// Whether something with this distance at the start and this way, m, may pass to the body's other side. What is deeper
+// inside is on no side: it is pushed out where it is.
+WEFT_FN mask may_pass(real distance_at_start, real way, Solid solid, real half_thickness)
+{
+    return distance_at_start > real(-0.5) * half_thickness && way * solid.steepness > max(distance_at_start, real(0));
+}
+
 // Conservative advancement: every step is as long as the distance allows. A point that has not arrived after the last
 // step is said to touch there, which only restricts it to one side of a plane.
-//   distance  at `from`, m
+//   distance, normal   at `from`, m; a point that is inside touches there
 //   least     m, at most half of `distance`; the point comes no nearer than half of it
-WEFT_FN Touch first_touch(Solid solid, vec3 from, vec3 to, real distance, real least)
+WEFT_FN Touch first_touch(Solid solid, vec3 from, vec3 to, real distance, vec3 normal, real least)
 {
     vec3 way = to - from;
     real speed = max(sqrt(dot(way, way)) * solid.steepness, real(1e-30));
     Touch touch;
     touch.time = real(0);
     touch.distance = distance;
-    touch.normal = vec3(real(0), real(1), real(0));
+    touch.normal = normal;
     // Without a return in the loop, which some drivers compile wrongly.
     for (int step = 0; step < 32 && any(touch.distance > least && touch.time < real(1)); ++step) {
         mask goes_on = touch.distance > least && touch.time < real(1);
         real next = min(touch.time + (touch.distance - real(0.5) * least) / speed, real(1));
-        vec3 normal;
-        real there = solid_distance(solid, from + way * next, normal);
+        vec3 normal_there;
+        real there = solid_distance(solid, from + way * next, normal_there);
         touch.time = select(goes_on, next, touch.time);
         touch.distance = select(goes_on, there, touch.distance);
-        touch.normal = select(goes_on, normal, touch.normal);
+        touch.normal = select(goes_on, normal_there, touch.normal);
     }
     touch.touches = !(touch.distance > least) || touch.time < real(1);
     return touch;
@@ -81,21 +88,23 @@ WEFT_FN mask may_touch(real gap, ContactSum sum, real way, Solid solid, ContactB
 WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec3 start, real w,
                               inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal)
 {
-    vec3 unused;
-    real distance_at_start = solid_distance(solid, local_at_start, unused);
+    vec3 normal_at_start;
+    real distance_at_start = solid_distance(solid, local_at_start, normal_at_start);
     vec3 way = local - local_at_start;
     // A particle whose way is shorter than its distance at the start cannot reach the surface: the distance at its end
     // decides.
-    mask fast = distance_at_start > real(0) && sqrt(dot(way, way)) * solid.steepness > distance_at_start;
+    mask fast = may_pass(distance_at_start, sqrt(dot(way, way)), solid, body.half_thickness);
     mask stopped = fast;
     vec3 at = local_at_start;
     real distance_there = distance_at_start;
+    vec3 normal_there = normal_at_start;
     if (any(fast)) {
-        Touch touch = first_touch(solid, local_at_start, local, distance_at_start,
+        Touch touch = first_touch(solid, local_at_start, local, distance_at_start, normal_at_start,
                                   touching_distance(distance_at_start, body.half_thickness));
         stopped = fast && touch.touches;
         at = local_at_start + way * touch.time;
         distance_there = touch.distance;
+        normal_there = touch.normal;
         gap = select(stopped, dot(touch.normal, local - at) + touch.distance - body.half_thickness, gap);
         normal = select(stopped, touch.normal, normal);
     }
@@ -108,7 +117,7 @@ WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec
     vec3 slide = to - at;
     mask slides_far = stopped && w > real(0) && sqrt(dot(slide, slide)) * solid.steepness > distance_there;
     if (!any(slides_far)) return;
-    Touch touch = first_touch(solid, at, to, distance_there, real(0.5) * distance_there);
+    Touch touch = first_touch(solid, at, to, distance_there, normal_there, real(0.5) * distance_there);
     vec3 there = rotate(body.rx, body.ry, body.rz, at + slide * touch.time) + body.position;
     x = select(slides_far && touch.touches, there, x);
 }

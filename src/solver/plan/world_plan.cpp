@@ -174,6 +174,10 @@ class Planner {
             passes.push_back({.kind = PassKind::push_faces, .batch = sweep});
             passes.push_back({.kind = PassKind::move_faces, .batch = sweep});
         }
+        for (std::uint32_t hold = 0; hold < face_holds; ++hold) {
+            passes.push_back({.kind = PassKind::hold_faces, .batch = hold});
+            passes.push_back({.kind = PassKind::settle_faces, .batch = hold});
+        }
     }
 
     void add_constraints(bool first, Passes& passes) const {

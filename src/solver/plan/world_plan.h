@@ -22,6 +22,8 @@ constexpr Projection resolve(Projection projection, Method method) {
 
 /// Sweeps over the contacts of faces with colliders. One more follows, which keeps faces from passing.
 inline constexpr std::uint32_t face_sweeps = 3;
+/// How often particles of faces that have passed in spite of that are held.
+inline constexpr std::uint32_t face_holds = 2;
 
 /// Settings that select the passes of a plan, together with the cloths. Models without coarse levels have no work in
 /// the passes of `solver.hierarchy`.
@@ -62,7 +64,8 @@ WorldPlan plan_world(const StepSettings& settings, std::span<const PlannedCloth>
 
 /// Whether a pass is one of contact of faces with colliders.
 constexpr bool is_face_contact(PassKind kind) {
-    return kind == PassKind::find_faces || kind == PassKind::push_faces || kind == PassKind::move_faces;
+    return kind == PassKind::find_faces || kind == PassKind::push_faces || kind == PassKind::move_faces ||
+           kind == PassKind::hold_faces || kind == PassKind::settle_faces;
 }
 bool has_face_contact(const WorldPlan& plan);
 /// Whether a pass is one of contact between cloths.
