@@ -1,8 +1,6 @@
 // Contact of a cloth with colliders, worker by worker.
 #include "cpu/cloth_run.h"
 
-#include <cmath>
-
 namespace weft::cpu {
 
 // Lists made before a tile left its box may miss a collider, so each pass of contact begins with a check.
@@ -14,7 +12,7 @@ ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep,
         passes_, view_, *input_.places,
         {.fall = input_.gravity * (0.5f * seconds * seconds),
          .substeps = left,
-         .margin = numbers_.half_thickness + model().mean_edge + (has_face_contact(plan_) ? widest_face(model()) : 0)});
+         .margin = numbers_.tile_margin});
     return part;
 }
 
@@ -42,7 +40,7 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .numbers = collider.numbers,
             .data = blocks_of(collider),
             .steepness = steepness_of(collider),
-            .roundness = std::isfinite(collider.roundness) ? collider.roundness : 0,
+            .roundness = roundness_of(collider),
             .now = input_.places->pose(near.collider, substep + 1),
             .before = input_.places->pose(near.collider, substep),
             .static_friction = static_friction,

@@ -63,6 +63,18 @@ WEFT_FN FacePoint choose(mask m, FacePoint yes, FacePoint no)
 WEFT_FN FacePoint nearer(FacePoint one, FacePoint other) { return choose(other.distance < one.distance, other, one); }
 WEFT_FN vec3 center_weights() { return vec3(real(1.0 / 3.0), real(1.0 / 3.0), real(1.0 / 3.0)); }
 
+// Whether a body may touch a face whose corners it does not: it has edges or corners, or a ball that touches the corners
+// reaches far beyond their plane.
+//   circle  radius of the circle around the face, m
+WEFT_FN mask reaches_faces(real roundness, real half_thickness, real nearest, real circle)
+{
+    real radius = roundness + half_thickness;
+    mask small = !(circle < radius);
+    real rest = select(small, real(0), (radius - circle) * (radius + circle));
+    real sagitta = circle * circle / (radius + sqrt(rest));
+    return small || sagitta > half_thickness - nearest;
+}
+
 // What a triangle cannot come nearer than, if the slope of the distance only grows. `point`: any point of it.
 WEFT_FN real lowest_of(Corners x, FacePoint point)
 {

@@ -1,5 +1,6 @@
 #include "solver/plan/frame_numbers.h"
 
+#include "physics/scalar.h"
 #include "solver/plan/tension.h"
 
 #include <algorithm>
@@ -21,7 +22,9 @@ FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, doubl
             .max_speed = static_cast<float>(std::min(capped_edges_per_substep * reach / h, 1e18)),
             .viscous = std::max(static_cast<float>(model.fabric.body.damping * dt), 1e-30f),
             .half_thickness = 0.5f * model.fabric.contact.thickness,
-            .depenetration = depenetration_speed * static_cast<float>(h)};
+            .depenetration = depenetration_speed * static_cast<float>(h),
+            .tile_margin = 0.5f * model.fabric.contact.thickness + model.mean_edge +
+                           (has_face_contact(plan) ? widest_face(model) : 0)};
 }
 
 std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider) {
@@ -30,14 +33,9 @@ std::array<float, 2> friction_between(const ClothModel& model, const Collider& c
 }
 
 bool faces_touch(const ClothModel& model, const Collider& collider) {
-    // The largest circle around a triangle whose edges are stretched that much, and how far a sphere that touches the
-    // corners reaches beyond their plane.
-    constexpr float circle_per_edge = 0.57735f;
     const float half_thickness = 0.5f * model.fabric.contact.thickness;
-    const float radius = collider.roundness + half_thickness, circle = circle_per_edge * widest_face(model);
-    if (!(circle < radius)) return true;
-    const float sagitta = circle * circle / (radius + std::sqrt((radius - circle) * (radius + circle)));
-    return sagitta > half_thickness - nearest_of_faces(half_thickness);
+    return scalar::reaches_faces(roundness_of(collider), half_thickness, nearest_of_faces(half_thickness),
+                                 circle_of_faces(model));
 }
 
 double lambda_seconds(const WorldPlan& plan, double dt) {

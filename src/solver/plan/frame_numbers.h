@@ -10,12 +10,16 @@ namespace weft {
 /// too slow to throw the cloth.
 inline constexpr float depenetration_speed = 1.0f;
 
+/// A tile whose particles move is expected to stay in a box that is larger by this part of their way.
+inline constexpr float tile_slack_per_way = 0.25f;
+
 struct FrameNumbers {
     float h;               ///< s: length of a substep
     float max_speed;       ///< m/s
     float viscous;         ///< s²: retardation time times length of the frame
     float half_thickness;  ///< m
     float depenetration;   ///< m per substep
+    float tile_margin;     ///< m: a tile's colliders are searched this far around it, for contact and constraints
 };
 
 FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt);
@@ -32,6 +36,12 @@ inline float nearest_of_faces(float half_thickness) {
 /// m: the longest edge that a face is expected to have. Its colliders are looked for that far around each corner.
 inline float widest_face(const ClothModel& model) {
     return 1.2f * model.longest_edge;
+}
+
+/// m: radius of the largest circle around a face.
+inline float circle_of_faces(const ClothModel& model) {
+    constexpr float circle_per_edge = 0.57735f;  // of an equilateral triangle
+    return circle_per_edge * widest_face(model);
 }
 
 /// Whether faces of the cloth may touch the collider where their corners do not: it has edges or corners, or is round

@@ -52,6 +52,12 @@ inline float steepness_of(const Collider& collider) {
     return collider.data ? collider.data->steepness : 1.0f;
 }
 
+/// Its roundness, finite: a plane counts as a ball that is as large as any collider.
+inline float roundness_of(const Collider& collider) {
+    constexpr auto largest = static_cast<float>(far_away);
+    return collider.roundness < largest ? collider.roundness : largest;
+}
+
 /// What the shape's kernel reads besides the numbers.
 inline ShapeBlocks blocks_of(const Collider& collider) {
     return collider.data ? collider.data->blocks() : ShapeBlocks{};
