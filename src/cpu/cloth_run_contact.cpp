@@ -1,18 +1,29 @@
 // Contact of a cloth with colliders, worker by worker.
 #include "cpu/cloth_run.h"
+#include "physics/scalar.h"
 
 namespace weft::cpu {
+namespace {
+
+scalar::ContactBody body_between(const Pose& before, const Pose& now) {
+    const auto of = [](Vec3 v) { return scalar::vec3(v.x, v.y, v.z); };
+    scalar::ContactBody body;
+    body.rx = of(now.rotation.x), body.ry = of(now.rotation.y), body.rz = of(now.rotation.z);
+    body.position = of(now.position);
+    body.rx0 = of(before.rotation.x), body.ry0 = of(before.rotation.y), body.rz0 = of(before.rotation.z);
+    body.position0 = of(before.position);
+    return body;
+}
+
+}  // namespace
 
 // Lists made before a tile left its box may miss a collider, so each pass of contact begins with a check.
 ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
     ColliderPart& part = cloth_.near_colliders.part(worker.number);
     if (substep == 0 && pass.first_iteration) part.begin_frame({mine.begin, mine.end});
     const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
-    part.cover(
-        passes_, view_, *input_.places,
-        {.fall = input_.gravity * (0.5f * seconds * seconds),
-         .substeps = left,
-         .margin = numbers_.tile_margin});
+    part.cover(passes_, view_, *input_.places,
+               {.fall = input_.gravity * (0.5f * seconds * seconds), .substeps = left, .margin = numbers_.tile_margin});
     return part;
 }
 
@@ -110,12 +121,13 @@ void ClothRun::settle_faces(std::uint32_t substep, Worker worker) const {
             float* x = view_.position + 4 * std::size_t{p};
             const float* start = view_.start + 4 * std::size_t{p};
             if (!(x[3] > 0)) return;
-            const Pose now = input_.places->pose(collider, substep + 1),
-                       before = input_.places->pose(collider, substep);
-            const Vec3 at{x[0], x[1], x[2]};
-            const Vec3 from = to_local(before, {start[0], start[1], start[2]}), to = to_local(now, at);
-            const Vec3 place = to_world(now, from + (to - from) * part);
-            if (logs) cloth_.near_colliders.trace(p, collider, view_, place - at, now.position);
+            const Pose now = input_.places->pose(collider, substep + 1);
+            const scalar::ContactBody body = body_between(input_.places->pose(collider, substep), now);
+            const scalar::vec3 at{x[0], x[1], x[2]};
+            const scalar::vec3 held =
+                held_place(body, to_body_at_start(body, {start[0], start[1], start[2]}), to_body(body, at), part);
+            const Vec3 place{held.x, held.y, held.z};
+            if (logs) cloth_.near_colliders.trace(p, collider, view_, place - Vec3{x[0], x[1], x[2]}, now.position);
             x[0] = place.x, x[1] = place.y, x[2] = place.z;
         });
     }

@@ -176,14 +176,16 @@ Vec3 FaceContacts::total(const FaceSum& sum) {
     return {axis(0), axis(1), axis(2)};
 }
 
-float FaceContacts::last_share(const FaceSum& sum) {
-    return std::min(static_cast<float>(sum[3]) * meters_per_quantum / std::max(length(total(sum)), 1e-9f), 1.0f);
+float FaceContacts::share_of(const FaceSum& sum, bool last) {
+    const Vec3 all = total(sum);
+    const auto count = static_cast<float>(sum[3]);
+    return scalar::face_share(last, last ? count * meters_per_quantum : count, {all.x, all.y, all.z});
 }
 
 void FaceContacts::move(unsigned worker, const ParticleView& particles, bool last) {
     for (const std::uint32_t p : parts_[worker].pushed) {
         FaceSum& sum = sums_[p];
-        const float share = last ? last_share(sum) : 1.0f / static_cast<float>(sum[3]);
+        const float share = share_of(sum, last);
         const Vec3 by = total(sum) * share;
         float* x = particles.position + 4 * std::size_t{p};
         x[0] += by.x, x[1] += by.y, x[2] += by.z;

@@ -68,9 +68,8 @@ class FaceContacts {
     static Vec3 push_of(const FaceRows& rows, std::size_t contact, std::size_t corner, bool last);
     /// m: the sum of the pushes.
     static Vec3 total(const FaceSum& sum);
-    /// The part of each push that the last sweep takes: it moves a particle by the longest push in their mean
-    /// direction, at most by their sum.
-    static float last_share(const FaceSum& sum);
+    /// The part of each push that is taken (face_share()).
+    static float share_of(const FaceSum& sum, bool last);
 
     unsigned workers_ = 0;
     std::vector<Part> parts_;
@@ -90,8 +89,7 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
                     const float w = particles.position[4 * std::size_t{p} + 3];
                     const FaceSum& sum = sums_[p];
                     if (!(w > 0) || sum[3] == 0) continue;
-                    visit(p, group.collider,
-                          push_of(part.rows, i, k, last) * (last ? last_share(sum) : w / static_cast<float>(sum[3])));
+                    visit(p, group.collider, push_of(part.rows, i, k, last) * share_of(sum, last) * (last ? 1.0f : w));
                 }
             }
         }

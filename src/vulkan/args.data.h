@@ -73,6 +73,10 @@ struct FrameIn {
     float tile_margin;      // m    FrameNumbers
     float static_friction;  // of the cloth alone
     float kinetic_friction;
+    float nearest_of_faces;  // m
+    float circle_of_faces;   // m
+    float unused0;
+    float unused1;
 };
 
 // Words of a report.
@@ -223,6 +227,33 @@ struct ContactArgs {
     uint substep;
     uint first_iteration;
 };
+
+// Contact of faces with colliders.
+struct FaceContactArgs {
+    Vec4s position;
+    Vec4s start;
+    Uints faces;     // corners in the order of tiles, [corner · stride + face]; the first face of each tile, and the end;
+                     // the face of each triangle (FacesByTile)
+    Vec4s contacts;  // face_contact.glsl
+    Uints sums;      // per particle: pushes by axis, their number or longest, hold; then whether a face touches on its way
+    Vec4s contact_log;  // as in ContactArgs
+    Uints offsets;      // triangles around each particle
+    Uints items;
+    FrameRef frame;
+    CollidersRef colliders;
+    NearTileRef tiles;
+    Uints slots;
+    uint stride;
+    uint faces_per_tile;
+    uint particles;
+    uint capacity;  // slots
+    uint substep;
+    uint sweep;
+};
+
+#define WEFT_FACE_CONTACT_BLOCKS 5  // of four floats per face and slot
+#define WEFT_FACE_SWEEPS 3u  // face_sweeps
+#define WEFT_FACE_HOLDS 2u   // face_holds
 
 // Triangles.
 struct FaceArgs {

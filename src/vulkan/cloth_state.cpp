@@ -68,6 +68,11 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
         work.near_slots = work.arena.reserve(slots * sizeof(std::uint32_t));
         if (rounds_of(plan, model) > 1) work.contact_sums = work.arena.reserve(sums);
         if (shape.contact_forces) work.contact_log = work.arena.reserve(2 * sums);
+        if (has_face_contact(plan)) {
+            work.face_contacts = work.arena.reserve(std::uint64_t{slots} * model.faces_by_tile->most_in_tile *
+                                                    WEFT_FACE_CONTACT_BLOCKS * block);
+            work.face_sums = work.arena.reserve((std::uint64_t{5} * model.particle_count + 1) * sizeof(std::uint32_t));
+        }
     }
     const ConstraintTable& stretch = model.table(ConstraintKind::stretch);
     if (plan.projection == Projection::lines && !stretch.blocks.empty())

@@ -36,9 +36,10 @@ struct WorkBuffers {
     Slot near_slots;                                 ///< colliders in the lists
     std::uint32_t slot_count = 0;                    ///< room of near_slots
     Slot contact_sums;                               ///< by slot and particle in the tile
-    Slot contact_log;  ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
-    Slot corrections;  ///< as floats, or
-    Slot sums;         ///< in fixed point
+    Slot contact_log;               ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
+    Slot face_contacts, face_sums;  ///< FaceContactArgs
+    Slot corrections;               ///< as floats, or
+    Slot sums;                      ///< in fixed point
     Slot gather_offsets, gather_items;
     std::array<Slot, constraint_kind_count> share, corrections_of;
     Slot line_scratch;

@@ -23,8 +23,8 @@ struct ColliderIn {
     Uints data;                 // of the shape; 0 if its numbers say everything
     uint first_pose;  // in CollidersIn::poses: the pose after n substeps is number first_pose + n · pose_step
     uint pose_step;   // 0: the collider rests in this frame
-    uint unused0;
-    uint unused1;
+    float steepness;  // swept.kernel.h
+    float roundness;  // m
 };
 
 struct CollidersIn {

@@ -147,11 +147,6 @@ class Compiler {
             case PassKind::place:
             case PassKind::list:
             case PassKind::aim:
-            case PassKind::find_faces:
-            case PassKind::push_faces:
-            case PassKind::move_faces:
-            case PassKind::hold_faces:
-            case PassKind::settle_faces:
             case PassKind::detect:
             case PassKind::cloth_contact:
             case PassKind::limit:
@@ -180,6 +175,13 @@ class Compiler {
                 break;
             case PassKind::contact:
                 add_contacts(list, pass, substep);
+                break;
+            case PassKind::find_faces:
+            case PassKind::push_faces:
+            case PassKind::move_faces:
+            case PassKind::hold_faces:
+            case PassKind::settle_faces:
+                add_face_contact(list, pass, substep);
                 break;
             case PassKind::restriction:
             case PassKind::interpolation:
@@ -444,6 +446,32 @@ class Compiler {
         if (shape_.colliders == 0) return;
         add(list, "cover", args, near_tiles_of(model_), pass, substep);
         add(list, "contact", args, args.count, pass, substep);
+    }
+
+    void add_face_contact(List& list, const Pass& pass, std::uint32_t substep) {
+        if (shape_.colliders == 0) return;
+        const FacesByTile& faces = *model_.faces_by_tile;
+        const FaceContactArgs args{.position = state(PointArray::position),
+                                   .start = state(PointArray::start),
+                                   .faces = of_model(buffers_.faces_by_tile),
+                                   .contacts = work(work_.face_contacts),
+                                   .sums = work(work_.face_sums),
+                                   .contact_log = work(work_.contact_log),
+                                   .offsets = of_model(buffers_.around_offsets),
+                                   .items = of_model(buffers_.around_items),
+                                   .frame = input_.frame(),
+                                   .colliders = island_.colliders,
+                                   .tiles = work(work_.near_tiles),
+                                   .slots = work(work_.near_slots),
+                                   .stride = faces.stride,
+                                   .faces_per_tile = faces.most_in_tile,
+                                   .particles = model_.particle_count,
+                                   .capacity = work_.slot_count,
+                                   .substep = substep,
+                                   .sweep = pass.batch};
+        const bool by_particle = pass.kind == PassKind::move_faces || pass.kind == PassKind::settle_faces;
+        add(list, std::string(pass_info(pass.kind).name), args,
+            by_particle ? model_.particle_count : faces.begin.back(), pass, substep);
     }
 
     void add_level(List& list, const Pass& pass, std::uint32_t substep) {

@@ -10,7 +10,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(FrameIn) == 88 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 && sizeof(TargetIn) == 32);
+static_assert(sizeof(FrameIn) == 104 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 && sizeof(TargetIn) == 32);
 
 constexpr std::uint64_t report_bytes = WEFT_REPORT_WORDS * sizeof(std::uint32_t);
 
@@ -62,7 +62,11 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .substeps = plan.substeps,
             .tile_margin = numbers.tile_margin,
             .static_friction = model.fabric.contact.friction[0],
-            .kinetic_friction = model.fabric.contact.friction[1]};
+            .kinetic_friction = model.fabric.contact.friction[1],
+            .nearest_of_faces = nearest_of_faces(numbers.half_thickness),
+            .circle_of_faces = circle_of_faces(model),
+            .unused0 = 0,
+            .unused1 = 0};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 // Arrays that the arena reads when it is built.
 struct Lists {
     std::vector<std::vector<std::uint32_t>> blocks, prolongation_nodes;
-    std::vector<std::uint32_t> offsets, items, span_ends;
+    std::vector<std::uint32_t> faces_by_tile, offsets, items, span_ends;
     std::vector<float> masses, span_lengths;
 };
 
@@ -69,7 +69,12 @@ Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
         lists.span_ends.insert(lists.span_ends.end(), {span.a, span.b});
         lists.span_lengths.push_back(span.length);
     }
+    for (const auto& part : {std::span<const std::uint32_t>(model.faces_by_tile->corners),
+                             std::span<const std::uint32_t>(model.faces_by_tile->begin),
+                             std::span<const std::uint32_t>(model.faces_by_tile->place)})
+        lists.faces_by_tile.insert(lists.faces_by_tile.end(), part.begin(), part.end());
     self->faces = arena.add_array(model.faces);
+    self->faces_by_tile = arena.add_array(lists.faces_by_tile);
     self->face_mass = arena.add_array(lists.masses);
     self->around_offsets = arena.add_array(lists.offsets);
     self->around_items = arena.add_array(lists.items);

@@ -32,7 +32,7 @@ class ModelBuffers {
 
     std::array<TableBuffers, constraint_kind_count> tables;
     std::vector<LevelBuffers> levels;
-    Slot faces, face_mass, around_offsets, around_items;
+    Slot faces, faces_by_tile, face_mass, around_offsets, around_items;
     Slot span_ends, span_lengths;
 
     /// Created on first use.

@@ -146,8 +146,8 @@ void WorldColliders::write_colliders(std::span<const Collider> colliders, const 
                  .data = shapes_.address(collider.data.get()),
                  .first_pose = moves ? moving_first + moving++ * (places.substeps() + 1) : resting++,
                  .pose_step = moves ? 1u : 0u,
-                 .unused0 = 0,
-                 .unused1 = 0};
+                 .steepness = steepness_of(collider),
+                 .roundness = roundness_of(collider)};
     }
 }
 

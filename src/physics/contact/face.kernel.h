@@ -340,6 +340,14 @@ WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real nearest)
     return select(acts, missing, real(0));
 }
 
+// The part of its pushes that moves a particle, so that many faces do not push it too far: their mean, or in the last
+// sweep the longest push in their mean direction.
+//   count  of the pushes; in the last sweep the length of the longest one, m
+WEFT_FN real face_share(mask last, real count, vec3 total)
+{
+    return select(last, min(count / max(sqrt(dot(total, total)), real(1e-9)), real(1)), real(1) / count);
+}
+
 // A particle that is held goes only a part of its way relative to the body. `from`, `to`: in the body's frame.
 WEFT_FN vec3 held_place(ContactBody body, vec3 from, vec3 to, real part)
 {

@@ -18,7 +18,11 @@ FacesByTile lay_out_by_tile(const TriangleView& triangles, std::uint32_t particl
     faces.begin = std::move(groups.offsets);
     faces.stride = padded(faces.begin.back()) + lane_padding;
     faces.corners.resize(std::size_t{3} * faces.stride);
+    for (std::size_t tile = 0; tile + 1 < faces.begin.size(); ++tile)
+        faces.most_in_tile = std::max(faces.most_in_tile, faces.begin[tile + 1] - faces.begin[tile]);
+    faces.place.assign(triangles.size(), none);
     for (std::size_t i = 0; i < groups.items.size(); ++i) {
+        faces.place[groups.items[i]] = static_cast<std::uint32_t>(i);
         const auto corners = triangles[groups.items[i]];
         for (std::size_t k = 0; k < 3; ++k) faces.corners[k * faces.stride + i] = corners[k];
     }

@@ -13,7 +13,9 @@ namespace weft {
 /// number.
 struct FacesByTile {
     std::vector<std::uint32_t> begin = {0};  ///< per tile: its first triangle in `corners`; then the end
+    std::uint32_t most_in_tile = 0;          ///< triangles
     std::uint32_t stride = 0;                ///< padded, and at least lane_padding more than the last triangle
+    std::vector<std::uint32_t> place;        ///< of each triangle in `corners`; `none` for a removed one
     AlignedVector<std::uint32_t> corners;    ///< [corner · stride + triangle]; padding has corners 0
 };
 

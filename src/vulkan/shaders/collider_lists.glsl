@@ -18,17 +18,17 @@ ContactBody body_of(CollidersRef world, ColliderIn collider, FrameRef frame, uin
                        frame.at.depenetration);
 }
 
+Solid solid_of(ColliderIn collider)
+{
+    ShapeNumbers numbers = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
+                                        ShapeBlocks(collider.data));
+    return Solid(int(collider.shape), numbers, collider.steepness, collider.roundness);
+}
+
 // m, to the shape's surface; `local` is in the collider's frame of reference, as is the normal.
 float distance_to(ColliderIn collider, vec3 local, out vec3 normal)
 {
-    ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
-                                      ShapeBlocks(collider.data));
-    float distance = 0.0;
-    uint kind = 0u;
-#define WEFT_SHAPE(name, Name) if (collider.shape == kind++) distance = distance_##name(local, shape, normal);
-#include "physics/contact/shapes.def"
-#undef WEFT_SHAPE
-    return distance;
+    return solid_distance(solid_of(collider), local, normal);
 }
 
 // The slots of the particle's tile: x ≤ slot < y. A slot holds the number of a collider, and its place in arrays of

@@ -23,6 +23,7 @@ WEFT_COMMAND(ParticleArgs)
 WEFT_COMMAND(TargetArgs)
 WEFT_COMMAND(AverageArgs)
 WEFT_COMMAND(ContactArgs)
+WEFT_COMMAND(FaceContactArgs)
 WEFT_COMMAND(KeepArgs)
 WEFT_COMMAND(LevelArgs)
 WEFT_COMMAND(FaceArgs)
@@ -44,6 +45,9 @@ WEFT_COMMAND(RowArgs)
 #endif
 #ifndef WEFT_PUSHES_contact_args
 #define contact_args ContactArgsRef(command)
+#endif
+#ifndef WEFT_PUSHES_face_contact_args
+#define face_contact_args FaceContactArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_keep_args
 #define keep_args KeepArgsRef(command)

@@ -33,17 +33,13 @@ void meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
         vec4 kept = contact_args.at.sums.at[at];
         sum = ContactSum(kept.xyz, kept.w);
     }
-    vec3 local = to_body(body, x.xyz);
-    vec3 normal, normal_at_start;
-    float gap = distance_to(collider, local, normal) - body.half_thickness;
+    Solid solid = solid_of(collider);
+    vec3 local = to_body(body, x.xyz), local_at_start = to_body_at_start(body, start), way = local - local_at_start;
+    vec3 normal;
+    float gap = solid_distance(solid, local, normal) - body.half_thickness;
     vec3 x_before = x.xyz;
-    bool touches = gap < 0.0 || sum.push > 0.0;
-    if (touches) {
-        float gap_at_start =
-            distance_to(collider, to_body_at_start(body, start), normal_at_start) - body.half_thickness;
-        project_contact(x.xyz, start, x.w, sum, gap, gap_at_start, rotate(body.rx, body.ry, body.rz, normal),
-                        carried_by(body, local), body);
-    }
+    bool touches = may_touch(gap, sum, sqrt(dot(way, way)), solid, body);
+    if (touches) contact_particle(solid, body, x.xyz, start, x.w, sum, local, local_at_start, gap, normal);
     if (keeps) contact_args.at.sums.at[at] = vec4(sum.friction, sum.push);
     if (traces) trace(at, touches, x_before, x.xyz, body.position);
 }

@@ -1,0 +1,268 @@
+// Contact of the cloth's faces with the colliders near their tiles (face.kernel.h). A face and a collider of its tile have
+// a place of their own for a contact, so that results do not depend on the order of invocations.
+#ifndef WEFT_FACE_CONTACT_GLSL
+#define WEFT_FACE_CONTACT_GLSL
+
+#include "vulkan/shaders/collider_lists.glsl"
+
+uint face_substep() { return face_contact_args.at.substep + substeps_before; }
+float nearest_of_faces() { return face_contact_args.at.frame.at.nearest_of_faces; }
+bool logs_faces() { return !is_none(uvec2(face_contact_args.at.contact_log)); }
+
+// A face by its number in the order of tiles.
+uvec3 corners_of_face(uint f)
+{
+    uint stride = face_contact_args.at.stride;
+    return uvec3(face_contact_args.at.faces.at[f], face_contact_args.at.faces.at[stride + f],
+                 face_contact_args.at.faces.at[2u * stride + f]);
+}
+uint tile_of_face(uvec3 corner) { return min(corner.x, min(corner.y, corner.z)) / WEFT_COLLIDER_TILE; }
+uint first_face_of(uint tile) { return face_contact_args.at.faces.at[3u * face_contact_args.at.stride + tile]; }
+// Of a triangle, or 0xffffffff for one that has been removed.
+uint face_of_triangle(uint t)
+{
+    uint tiles = (face_contact_args.at.particles + WEFT_COLLIDER_TILE - 1u) / WEFT_COLLIDER_TILE;
+    return face_contact_args.at.faces.at[3u * face_contact_args.at.stride + tiles + 1u + t];
+}
+
+// Five blocks per place: weights of the first two corners and friction; normal and offset; start and the gap there;
+// ContactSum; displacement by the sweep before, and whether there is a contact: 0 none, 1 a slow one, 2 one on the way.
+uint place_of_contact(uint slot, uint f, uint tile)
+{
+    return 5u * (slot * face_contact_args.at.faces_per_tile + f - first_face_of(tile));
+}
+float state_of_contact(uint place) { return face_contact_args.at.contacts.at[place + 4u].w; }
+
+void store_contact(uint place, FaceRow row)
+{
+    face_contact_args.at.contacts.at[place] =
+        vec4(row.weights.xy, row.static_friction, row.kinetic_friction);
+    face_contact_args.at.contacts.at[place + 1u] = vec4(row.normal, row.offset);
+    face_contact_args.at.contacts.at[place + 2u] = vec4(row.start, row.gap_at_start);
+    face_contact_args.at.contacts.at[place + 3u] = vec4(0.0);
+    face_contact_args.at.contacts.at[place + 4u] = vec4(vec3(0.0), row.swept > 0.0 ? 2.0 : 1.0);
+}
+FaceRow load_contact(uint place)
+{
+    vec4 packed = face_contact_args.at.contacts.at[place], plane = face_contact_args.at.contacts.at[place + 1u],
+         start = face_contact_args.at.contacts.at[place + 2u];
+    FaceRow row;
+    row.weights = vec3(packed.xy, 1.0 - packed.x - packed.y);
+    row.static_friction = packed.z;
+    row.kinetic_friction = packed.w;
+    row.normal = plane.xyz;
+    row.offset = plane.w;
+    row.start = start.xyz;
+    row.gap_at_start = start.w;
+    row.depenetration = face_contact_args.at.frame.at.depenetration;
+    row.swept = state_of_contact(place) > 1.0 ? 1.0 : 0.0;
+    return row;
+}
+
+struct FacePoints {
+    Corners x, start;
+    vec3 w;  // inverse masses
+};
+FacePoints points_of_face(uvec3 corner)
+{
+    vec4 a = load_point(face_contact_args.at.position, corner.x), b = load_point(face_contact_args.at.position, corner.y),
+         c = load_point(face_contact_args.at.position, corner.z);
+    FacePoints face;
+    face.x = Corners(a.xyz, b.xyz, c.xyz);
+    face.start = Corners(face_contact_args.at.start.at[corner.x].xyz, face_contact_args.at.start.at[corner.y].xyz,
+                         face_contact_args.at.start.at[corner.z].xyz);
+    face.w = vec3(a.w, b.w, c.w);
+    return face;
+}
+
+bool reaches(ColliderIn collider)
+{
+    return reaches_faces(collider.roundness, face_contact_args.at.frame.at.half_thickness, nearest_of_faces(),
+                         face_contact_args.at.frame.at.circle_of_faces);
+}
+
+// Returns a contact that does not touch if the face is far away.
+FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face)
+{
+    Solid solid = solid_of(collider);
+    Corners local = to_body(body, face.x), local_at_start = to_body_at_start(body, face.start);
+    FacePoint center = face_point(solid, local, center_weights());
+    FaceContact none = FaceContact(false, false, center.weights, center.normal, 0.0, 0.0, 1.0, 0.0);
+    if (!face_may_touch(local_at_start, local, center, solid, nearest_of_faces())) return none;
+    return face_contact(solid, local_at_start, local, center, nearest_of_faces(), body.half_thickness);
+}
+
+// Whether a face of the cloth touches on its way, in a word after the sums.
+uint swept_word() { return 5u * face_contact_args.at.particles; }
+
+void run_find_faces(uint f)
+{
+    uvec3 corner = corners_of_face(f);
+    uint tile = tile_of_face(corner);
+    FacePoints face = points_of_face(corner);
+    uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
+    for (uint slot = slots.x; slot < slots.y; ++slot) {
+        uint place = place_of_contact(slot, f, tile);
+        ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[face_contact_args.at.slots.at[slot]];
+        face_contact_args.at.contacts.at[place + 4u].w = 0.0;
+        if (!reaches(collider)) continue;
+        ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
+        FaceContact contact = contact_of(collider, body, face);
+        if (!touches_beside_corners(contact)) continue;
+        if (contact.swept) atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
+        store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
+    }
+}
+
+void add_to_faces(uint particle, vec3 push)
+{
+    float size2 = dot(push, push);
+    if (!(size2 > 0.0)) return;
+    for (uint axis = 0u; axis < 3u; ++axis)
+        atomicAdd(face_contact_args.at.sums.at[5u * particle + axis],
+                  uint(int(to_contact_quanta(push[axis], WEFT_PUSH_QUANTA_PER_METER))));
+    if (face_contact_args.at.sweep == WEFT_FACE_SWEEPS) {
+        uint size = uint(int(to_contact_quanta(sqrt(size2), WEFT_PUSH_QUANTA_PER_METER))) + 1u;
+        atomicMax(face_contact_args.at.sums.at[5u * particle + 3u], size);
+    } else {
+        atomicAdd(face_contact_args.at.sums.at[5u * particle + 3u], 1u);
+    }
+}
+
+void run_push_faces(uint f)
+{
+    uvec3 corner = corners_of_face(f);
+    uint tile = tile_of_face(corner);
+    uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
+    for (uint slot = slots.x; slot < slots.y; ++slot) {
+        uint place = place_of_contact(slot, f, tile);
+        float state = state_of_contact(place);
+        if (!(state > 0.0)) continue;
+        FacePoints face = points_of_face(corner);
+        FaceRow row = load_contact(place);
+        vec3 point = point_of(face.x, row.weights);
+        vec3 a, b, c, by;
+        if (face_contact_args.at.sweep == WEFT_FACE_SWEEPS) {
+            by = vec3(face_retreat(row, point, face.x.a, nearest_of_faces()),
+                      face_retreat(row, point, face.x.b, nearest_of_faces()),
+                      face_retreat(row, point, face.x.c, nearest_of_faces()));
+            a = row.normal * by.x;
+            b = row.normal * by.y;
+            c = row.normal * by.z;
+        } else {
+            float inverse_mass = 0.0;
+            for (uint k = 0u; k < 3u; ++k) inverse_mass = inverse_mass + face.w[k] * row.weights[k] * row.weights[k];
+            vec4 kept = face_contact_args.at.contacts.at[place + 3u];
+            ContactSum sum = ContactSum(kept.xyz, kept.w);
+            by = face_displacement(row, point, inverse_mass, sum);
+            face_contact_args.at.contacts.at[place + 3u] = vec4(sum.friction, sum.push);
+            a = by * (face.w.x * row.weights.x);
+            b = by * (face.w.y * row.weights.y);
+            c = by * (face.w.z * row.weights.z);
+        }
+        face_contact_args.at.contacts.at[place + 4u] = vec4(by, state);
+        if (face.w.x > 0.0) add_to_faces(corner.x, a);
+        if (face.w.y > 0.0) add_to_faces(corner.y, b);
+        if (face.w.z > 0.0) add_to_faces(corner.z, c);
+    }
+}
+
+// Adds to the log of a particle and a collider.
+void log_push(uint p, uint collider, vec3 by, vec3 from_collider)
+{
+    uvec2 slots = slots_near(face_contact_args.at.tiles, p);
+    uint turned = face_contact_args.at.capacity * WEFT_COLLIDER_TILE;
+    for (uint slot = slots.x; slot < slots.y; ++slot) {
+        if (face_contact_args.at.slots.at[slot] != collider) continue;
+        uint at = place_in_slot(slot, p);
+        face_contact_args.at.contact_log.at[at].xyz = face_contact_args.at.contact_log.at[at].xyz + by;
+        face_contact_args.at.contact_log.at[turned + at].xyz =
+            face_contact_args.at.contact_log.at[turned + at].xyz + cross(from_collider, by);
+        return;
+    }
+}
+
+// What the contacts of the particle's faces do to it, one after another.
+void log_pushes(uint p, vec4 x, float share)
+{
+    bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
+    uint end = face_contact_args.at.offsets.at[p + 1u];
+    for (uint k = face_contact_args.at.offsets.at[p]; k < end; ++k) {
+        uint f = face_of_triangle(face_contact_args.at.items.at[k]);
+        if (f == 0xffffffffu) continue;
+        uvec3 corner = corners_of_face(f);
+        uint tile = tile_of_face(corner), mine = corner.x == p ? 0u : corner.y == p ? 1u : 2u;
+        uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
+        for (uint slot = slots.x; slot < slots.y; ++slot) {
+            uint place = place_of_contact(slot, f, tile);
+            if (!(state_of_contact(place) > 0.0)) continue;
+            FaceRow row = load_contact(place);
+            vec3 by = face_contact_args.at.contacts.at[place + 4u].xyz;
+            vec3 push = last ? row.normal * by[mine] : by * row.weights[mine];
+            uint collider = face_contact_args.at.slots.at[slot];
+            ColliderIn of = face_contact_args.at.colliders.at.colliders.at[collider];
+            vec3 position = pose_after(face_contact_args.at.colliders, of, face_substep() + 1u).position.xyz;
+            log_push(p, collider, push * share, x.xyz - position);
+        }
+    }
+}
+
+void run_move_faces(uint p)
+{
+    uint count = face_contact_args.at.sums.at[5u * p + 3u];
+    if (count == 0u) return;
+    vec4 x = load_point(face_contact_args.at.position, p);
+    vec3 total = vec3(0.0);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        total[axis] = float(int(face_contact_args.at.sums.at[5u * p + axis])) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER);
+        face_contact_args.at.sums.at[5u * p + axis] = 0u;
+    }
+    face_contact_args.at.sums.at[5u * p + 3u] = 0u;
+    bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
+    float share = face_share(last, last ? float(count) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER) : float(count), total);
+    if (logs_faces()) log_pushes(p, x, last ? share : share * x.w);
+    store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
+}
+
+void hold_corner(uint p, uint mark) { atomicMax(face_contact_args.at.sums.at[5u * p + 4u], mark); }
+
+void run_hold_faces(uint f)
+{
+    if (face_contact_args.at.sums.at[swept_word()] == 0u) return;
+    uvec3 corner = corners_of_face(f);
+    uint tile = tile_of_face(corner);
+    FacePoints face = points_of_face(corner);
+    uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
+    for (uint slot = slots.x; slot < slots.y; ++slot) {
+        uint number = face_contact_args.at.slots.at[slot];
+        ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
+        if (!reaches(collider)) continue;
+        ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
+        FaceContact contact = contact_of(collider, body, face);
+        if (!has_passed(contact, nearest_of_faces())) continue;
+        uint part = face_contact_args.at.sweep > 0u ? 0u : uint(floor(contact.time * float(WEFT_HOLD_PARTS)));
+        uint mark = (uint(WEFT_HOLD_PARTS) - part + 1u) * WEFT_HOLD_COLLIDERS + number % WEFT_HOLD_COLLIDERS;
+        hold_corner(corner.x, mark);
+        hold_corner(corner.y, mark);
+        hold_corner(corner.z, mark);
+    }
+}
+
+void run_settle_faces(uint p)
+{
+    if (p == 0u && face_contact_args.at.sweep + 1u == WEFT_FACE_HOLDS) face_contact_args.at.sums.at[swept_word()] = 0u;
+    uint mark = face_contact_args.at.sums.at[5u * p + 4u];
+    if (mark == 0u) return;
+    face_contact_args.at.sums.at[5u * p + 4u] = 0u;
+    vec4 x = load_point(face_contact_args.at.position, p);
+    if (!(x.w > 0.0)) return;
+    uint number = mark % WEFT_HOLD_COLLIDERS;
+    float part = float(uint(WEFT_HOLD_PARTS) - (mark / WEFT_HOLD_COLLIDERS - 1u)) / float(WEFT_HOLD_PARTS);
+    ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
+    ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
+    vec3 place = held_place(body, to_body_at_start(body, face_contact_args.at.start.at[p].xyz), to_body(body, x.xyz), part);
+    if (logs_faces()) log_push(p, number, place - x.xyz, x.xyz - body.position);
+    store_point(face_contact_args.at.position, p, vec4(place, x.w));
+}
+
+#endif
