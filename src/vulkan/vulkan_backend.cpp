@@ -158,6 +158,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         counts_ = {};
         contact_counts_ = {};
         group(step);
+        if (groups_.empty()) return;
         const auto copied = colliders_.update(*device_, step.input.colliders, *step.input.places);
         for (Group& group : groups_) {
             if (!copied) {

@@ -271,6 +271,16 @@ TEST(VulkanManyColliders, are_copied_only_if_they_have_changed) {
     EXPECT_EQ(submits_of_a_frame(world), at_rest + 1) << "the poses too";
 }
 
+TEST(VulkanManyColliders, need_no_cloth) {
+    World world(checked_vulkan_backend(), {.solver = {.substeps = 2}});
+    const ColliderId ball = world.add(make_collider({.shape = SphereDesc{0.1f}}));
+    for (int i = 0; i < 6; ++i) {
+        world.move(ball, {{}, {0, 0.1f * static_cast<float>(i), 0}});
+        if (i == 3) world.add(sheet_over_pegs(9, {0, 0.4f, 0}, {}, world.settings().layout()));
+        EXPECT_EQ(world.step(frame_seconds).reports & ~report_speed_capped, report_none);
+    }
+}
+
 // Sums and the contact log have room for what is near a tile.
 TEST(VulkanManyColliders, far_away_take_little_memory) {
     const auto bytes = [](int colliders) {
