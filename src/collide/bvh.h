@@ -25,6 +25,23 @@ class Bvh {
     /// boxes. Queries stay fast while boxes that were close stay close.
     void refit(std::span<const Bounds> boxes);
 
+    /// Depth-first order: the left child is the next node, the right child follows the left subtree. A traversal that
+    /// has finished or rejected a node continues at `skip`, so it needs no stack.
+    struct Node {
+        Bounds bounds;
+        std::uint32_t skip = 0;
+        std::uint32_t first = 0;  ///< of the node's entries in items() and boxes()
+        std::uint32_t count = 0;  ///< 0: an inner node
+    };
+    /// The largest count of a leaf. On a crumpled cloth of 70 000 triangles, sizes 2, 4 and 8 take the same time within
+    /// 3 %. Larger leaves make smaller trees.
+    static constexpr std::uint32_t leaf_size = 4;
+
+    // For backends that search on a device.
+    std::span<const Node> nodes() const { return nodes_; }
+    std::span<const std::uint32_t> items() const { return items_; }
+    std::span<const Bounds> boxes() const { return boxes_; }
+
     std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
     Bounds bounds() const { return nodes_.empty() ? Bounds{} : nodes_[0].bounds; }
 
@@ -100,15 +117,6 @@ class Bvh {
                      z = gap(box.min.z, box.max.z, p.z);
         return x * x + y * y + z * z;
     }
-
-    /// Depth-first order: the left child is the next node, the right child follows the left subtree. A traversal that
-    /// has finished or rejected a node continues at `skip`, so it needs no stack.
-    struct Node {
-        Bounds bounds;
-        std::uint32_t skip = 0;
-        std::uint32_t first = 0;  // of the leaf's entries in items_ and boxes_
-        std::uint32_t count = 0;  // 0: an inner node
-    };
 
     template <class VisitLeaf>
     void walk(std::uint32_t from, const Bounds& box, VisitLeaf&& visit_leaf) const {

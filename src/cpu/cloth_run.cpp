@@ -205,9 +205,7 @@ ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep,
     if (substep == 0 && pass.first_iteration) part.begin_frame({mine.begin, mine.end});
     const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
     part.cover(passes_, view_, *input_.places,
-               {.fall = input_.gravity * (0.5f * seconds * seconds),
-                .substeps = left,
-                .margin = numbers_.half_thickness + model().mean_edge});
+               {.fall = input_.gravity * (0.5f * seconds * seconds), .substeps = left, .margin = numbers_.tile_margin});
     return part;
 }
 

@@ -1,5 +1,7 @@
 #include "cpu/collider_lists.h"
 
+#include "solver/plan/frame_numbers.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,9 +14,6 @@ constexpr std::uint32_t tile_size = lane_padding;
 
 // What a tile of a cloth usually touches at most.
 constexpr std::uint32_t colliders_per_tile = 4;
-
-// A tile whose particles move gets a box that is larger by this part of their way.
-constexpr float slack_per_way = 0.25f;
 
 Vec3 place_of(const float* blocks, std::size_t particle) {
     const float* at = blocks + 4 * particle;
@@ -81,7 +80,7 @@ Bounds ColliderPart::box_of(const ParticleView& particles, std::uint32_t tile, c
         box.include(x + by * reach.substeps + reach.fall);
         way = std::max(way, length(by));
     }
-    return box.empty() ? box : grown(box, reach.margin + slack_per_way * way * reach.substeps);
+    return box.empty() ? box : grown(box, reach.margin + tile_slack_per_way * way * reach.substeps);
 }
 
 // Searches the tiles that have left their boxes, the first of which is `outside`. The other lists stay as they are.

@@ -19,6 +19,8 @@ using Floats = std::uint64_t;
 using Uints = std::uint64_t;
 using FrameRef = std::uint64_t;
 using ColliderRef = std::uint64_t;
+using CollidersRef = std::uint64_t;
+using NearTileRef = std::uint64_t;
 using PoseRef = std::uint64_t;
 using WindRef = std::uint64_t;
 using TargetRef = std::uint64_t;
@@ -38,6 +40,8 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer Uints {
 };
 layout(buffer_reference) buffer FrameRef;
 layout(buffer_reference) buffer ColliderRef;
+layout(buffer_reference) buffer CollidersRef;
+layout(buffer_reference) buffer NearTileRef;
 layout(buffer_reference) buffer PoseRef;
 layout(buffer_reference) buffer WindRef;
 layout(buffer_reference) buffer TargetRef;
@@ -65,20 +69,16 @@ struct FrameIn {
     uint motions;
     float strain_per_lambda;  // rest length times strain over lambda of stretch in the last frame; 0: no lambda yet
     uint again;               // 1: second run of the frame from the same state, because a list was full
-    uint unused1;
-    uint unused2;
+    uint substeps;
+    float tile_margin;      // m    FrameNumbers
+    float static_friction;  // of the cloth alone
+    float kinetic_friction;
 };
 
-struct ColliderIn {
-    vec4 numbers;
-    float static_friction;  // of the pair of cloth and collider
-    float kinetic_friction;
-    uint shape;
-    uint sticks;  // 1: cloth sticks to it
-    float adhesion_distance;    // m
-    float adhesion_compliance;  // m/N
-    Uints data;                 // of the shape; 0 if its numbers say everything
-};
+// Words of a report.
+#define WEFT_REPORT_BITS 0
+#define WEFT_REPORT_NEAR_SLOTS 1  // slots that the lists of near colliders took in the frame, or had no room for
+#define WEFT_REPORT_WORDS 2
 
 struct PoseIn {
     vec4 x;  // columns of the rotation
@@ -207,16 +207,19 @@ struct LevelArgs {
     uint count;
 };
 
+// Contact with colliders, and the lists of those near each tile.
 struct ContactArgs {
     Vec4s position;
     Vec4s start;
-    Vec4s sums;  // [collider · capacity + particle]; 0 with one iteration
-    Vec4s contact_log;  // [collider · capacity + particle]: ContactTrace::moved, then turned; 0 without contact forces
+    Vec4s sums;  // [slot · tile + particle in the tile]: ContactSum; 0 with one iteration
+    Vec4s contact_log;  // likewise: ContactTrace::moved, then turned; 0 without contact forces
     FrameRef frame;
-    ColliderRef colliders;
-    PoseRef poses;  // [substep · colliders + collider]
+    CollidersRef colliders;
+    NearTileRef tiles;
+    Uints slots;  // colliders
+    Uints report;
     uint count;
-    uint capacity;
+    uint capacity;  // slots
     uint substep;
     uint first_iteration;
 };
@@ -291,9 +294,6 @@ struct LimitArgs {
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer FrameRef {
     FrameIn at;
 };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ColliderRef {
-    ColliderIn at[];
-};
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PoseRef {
     PoseIn at[];
 };
@@ -307,5 +307,7 @@ layout(buffer_reference, std430, buffer_reference_align = 8) buffer LimitsRef {
     LimitsIn at;
 };
 #endif
+
+#include "vulkan/colliders.data.h"
 
 #endif

@@ -1,5 +1,6 @@
 #include "vulkan/cloth_state.h"
 
+#include "solver/state/list_counts.h"
 #include "vulkan/args.data.h"
 
 #include <algorithm>
@@ -22,10 +23,23 @@ bool has(const std::vector<Pass>& passes, PassKind kind) {
     return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
 }
 
+// What a tile usually touches at most.
+constexpr std::uint32_t usual_colliders = 4;
+
 }  // namespace
 
+std::uint32_t near_tiles_of(const ClothModel& model) {
+    return (model.point_count() + WEFT_COLLIDER_TILE - 1) / WEFT_COLLIDER_TILE;
+}
+
+std::uint32_t first_near_slots(const ClothModel& model, std::uint32_t colliders, std::uint32_t list_capacity) {
+    const double usual = static_cast<double>(near_tiles_of(model)) * std::min(colliders, usual_colliders);
+    const double part = std::min(1.0, static_cast<double>(list_capacity) / default_list_capacity);
+    return static_cast<std::uint32_t>(std::clamp(usual * part, 1.0, static_cast<double>(most_near_slots)));
+}
+
 Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& model, const WorldPlan& plan,
-                                        const InputShape& shape) {
+                                        const InputShape& shape, std::uint32_t slots) {
     constexpr std::uint64_t block = sizeof(Vec4);
     WorkBuffers work;
     if (has(plan.frame_begin, PassKind::wind)) work.wind = work.arena.reserve(model.face_stride * block);
@@ -47,10 +61,14 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             work.lambda[static_cast<std::uint32_t>(table.kind)] =
                 work.arena.reserve(table.lambda_count() * sizeof(float));
     }
-    if (rounds_of(plan, model) > 1)
-        work.contact_sums = work.arena.reserve(std::uint64_t{shape.colliders} * model.capacity() * block);
-    if (shape.contact_forces)
-        work.contact_log = work.arena.reserve(2 * std::uint64_t{shape.colliders} * model.capacity() * block);
+    if (shape.colliders > 0) {
+        const std::uint64_t sums = std::uint64_t{slots} * WEFT_COLLIDER_TILE * block;
+        work.slot_count = slots;
+        work.near_tiles = work.arena.reserve(near_tiles_of(model) * sizeof(NearTileIn));
+        work.near_slots = work.arena.reserve(slots * sizeof(std::uint32_t));
+        if (rounds_of(plan, model) > 1) work.contact_sums = work.arena.reserve(sums);
+        if (shape.contact_forces) work.contact_log = work.arena.reserve(2 * sums);
+    }
     const ConstraintTable& stretch = model.table(ConstraintKind::stretch);
     if (plan.projection == Projection::lines && !stretch.blocks.empty())
         work.line_scratch = work.arena.reserve(2 * std::uint64_t{stretch.stride} * block);

@@ -15,6 +15,13 @@
 
 namespace weft::vulkan {
 
+/// Tiles of particles that share a list of near colliders.
+std::uint32_t near_tiles_of(const ClothModel& model);
+/// Slots that the first lists of near colliders get. `list_capacity`: see StepInput.
+std::uint32_t first_near_slots(const ClothModel& model, std::uint32_t colliders, std::uint32_t list_capacity);
+/// The most slots that shaders can number.
+inline constexpr std::uint32_t most_near_slots = 1u << 27;
+
 /// Buffers that a plan needs beside the particles. Their contents are valid within one frame only.
 struct WorkBuffers {
     struct Level {
@@ -25,16 +32,20 @@ struct WorkBuffers {
     Slot wind;
     std::vector<Level> levels;
     std::array<Slot, constraint_kind_count> lambda;  ///< of constraints other than stretch, with several iterations
-    Slot contact_sums;
-    Slot contact_log;  ///< effect of the contacts in the frame: moved, then turned (ContactArgs)
+    Slot near_tiles;                                 ///< lists of colliders near each tile (colliders.data.h)
+    Slot near_slots;                                 ///< colliders in the lists
+    std::uint32_t slot_count = 0;                    ///< room of near_slots
+    Slot contact_sums;                               ///< by slot and particle in the tile
+    Slot contact_log;  ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
     Slot corrections;  ///< as floats, or
     Slot sums;         ///< in fixed point
     Slot gather_offsets, gather_items;
     std::array<Slot, constraint_kind_count> share, corrections_of;
     Slot line_scratch;
 
+    /// `slots`: room for lists of near colliders.
     static Result<WorkBuffers> create(gpu::Device& device, const ClothModel& model, const WorldPlan& plan,
-                                      const InputShape& shape);
+                                      const InputShape& shape, std::uint32_t slots);
 };
 
 /// Buffers whose contents outlive a frame.
@@ -56,6 +67,8 @@ class ClothState {
     const WorldParticles& world() const { return world_; }
     std::uint32_t base() const { return base_; }
     std::uint64_t offset(PointArray array) const { return world_.offset(array, base_); }
+
+    std::uint32_t near_slots = 0;  ///< room that lists of near colliders have grown to; 0: not yet
 
     Slot weights;  ///< current inverse masses, 0 for pinned particles
     Slot by_face, lambda, limits;

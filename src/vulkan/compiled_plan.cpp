@@ -82,7 +82,7 @@ class Compiler {
             for (std::size_t i = before; i < list.size(); ++i) {
                 list[i].single = single && !is_for_all(pass);
                 // The commands before the first pass are not in the plan, so the plan has no barrier after them.
-                list[i].needs_barrier = barrier || first_pass_;
+                list[i].needs_barrier = barrier || first_pass_ || i > before;
                 first_pass_ = false;
             }
         }
@@ -428,13 +428,17 @@ class Compiler {
                                .sums = work(work_.contact_sums),
                                .contact_log = work(work_.contact_log),
                                .frame = input_.frame(),
-                               .colliders = input_.colliders(),
-                               .poses = input_.poses(),
+                               .colliders = island_.colliders,
+                               .tiles = work(work_.near_tiles),
+                               .slots = work(work_.near_slots),
+                               .report = input_.report(),
                                .count = model_.point_count(),
-                               .capacity = model_.capacity(),
+                               .capacity = work_.slot_count,
                                .substep = substep,
                                .first_iteration = pass.first_iteration ? 1u : 0u};
-        if (shape_.colliders > 0) add(list, "contact", args, args.count, pass, substep);
+        if (shape_.colliders == 0) return;
+        add(list, "cover", args, near_tiles_of(model_), pass, substep);
+        add(list, "contact", args, args.count, pass, substep);
     }
 
     void add_level(List& list, const Pass& pass, std::uint32_t substep) {

@@ -55,11 +55,12 @@ struct CompiledPlan {
     std::size_t roll_back = 0;  ///< the command that rolls back
 };
 
-/// Data of the island that a cloth belongs to.
+/// Data of the island that a cloth belongs to, and of the world.
 struct IslandPart {
     std::uint64_t report = 0;            ///< address of the report of the island's first cloth
     const LinkTables* tables = nullptr;  ///< only for the first of several cloths that are stitched together
     const LinkBuffers* links = nullptr;  ///< likewise
+    std::uint64_t colliders = 0;         ///< address of the world's colliders
 };
 
 Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const WorkBuffers& work,

@@ -1,6 +1,7 @@
 #include "vulkan/frame_input.h"
 
 #include "solver/plan/frame_numbers.h"
+#include "vulkan/pose_in.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,15 +10,12 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(FrameIn) == 80 && sizeof(ColliderIn) == 48 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 &&
-              sizeof(TargetIn) == 32);
+static_assert(sizeof(FrameIn) == 88 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 && sizeof(TargetIn) == 32);
+
+constexpr std::uint64_t report_bytes = WEFT_REPORT_WORDS * sizeof(std::uint32_t);
 
 Vec4 with(Vec3 v, float w) {
     return {v.x, v.y, v.z, w};
-}
-
-PoseIn pose_in(const Pose& pose) {
-    return {with(pose.rotation.x, 0), with(pose.rotation.y, 0), with(pose.rotation.z, 0), with(pose.position, 0)};
 }
 
 WindIn wind_in(const WindNow& wind) {
@@ -61,8 +59,10 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .motions = cloth.motions,
             .strain_per_lambda = strain_per_lambda(model, substep_seconds),
             .again = again ? 1u : 0u,
-            .unused1 = 0,
-            .unused2 = 0};
+            .substeps = plan.substeps,
+            .tile_margin = numbers.tile_margin,
+            .static_friction = model.fabric.contact.friction[0],
+            .kinetic_friction = model.fabric.contact.friction[1]};
 }
 
 }  // namespace
@@ -83,40 +83,19 @@ FrameInput::FrameInput(const InputShape& shape) {
         bytes_ += (bytes + 63) / 64 * 64;
         return at;
     };
-    take(sizeof(std::uint32_t));  // the report
+    take(report_bytes);
     frame_ = take(sizeof(FrameIn));
-    colliders_ = take(shape.colliders * sizeof(ColliderIn));
     winds_ = take(shape.winds * sizeof(WindIn));
-    poses_ = take(places * shape.colliders * sizeof(PoseIn));
     motion_poses_ = take(places * shape.motions * sizeof(PoseIn));
     targets_ = take(shape.targets * sizeof(TargetIn));
 }
 
 void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-                       double substep_seconds, const ShapeBuffers& shapes, bool again) {
+                       double substep_seconds, bool again) {
     const auto put = [&](std::uint64_t at, const auto& value) { std::memcpy(host_ + at, &value, sizeof value); };
     put(0, std::uint32_t{report_none});
     put(frame_, frame_in(model, plan, input, cloth, substep_seconds, again));
-    for (std::size_t i = 0; i < input.colliders.size(); ++i) {
-        const Collider& collider = input.colliders[i];
-        const auto [static_friction, kinetic_friction] = friction_between(model, collider);
-        const auto& n = collider.numbers;
-        put(colliders_ + i * sizeof(ColliderIn),
-            ColliderIn{.numbers = {n[0], n[1], n[2], n[3]},
-                       .static_friction = static_friction,
-                       .kinetic_friction = kinetic_friction,
-                       .shape = static_cast<std::uint32_t>(collider.shape),
-                       .sticks = collider.adhesion ? 1u : 0u,
-                       .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
-                       .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
-                       .data = shapes.address(collider.data.get())});
-    }
     for (std::size_t i = 0; i < input.winds.size(); ++i) put(winds_ + i * sizeof(WindIn), wind_in(input.winds[i]));
-    for (std::uint32_t substep = 0; substep <= plan.substeps; ++substep) {
-        for (std::size_t i = 0; i < input.colliders.size(); ++i)
-            put(poses_ + (substep * input.colliders.size() + i) * sizeof(PoseIn),
-                pose_in(input.places->pose(i, substep)));
-    }
     for (std::size_t i = 0; i < cloth.motion_poses.size(); ++i)
         put(motion_poses_ + i * sizeof(PoseIn), pose_in(cloth.motion_poses[i]));
     for (std::size_t i = 0; i < cloth.targets.size(); ++i) {
@@ -139,7 +118,7 @@ Result<FrameBuffers> FrameBuffers::create(gpu::Device& device, std::span<const I
     auto buffer = device.memory().buffer(bytes, gpu::MemoryKind::device, "frame of " + name);
     if (!buffer) return buffer.errors();
     auto reports =
-        device.memory().buffer(shapes.size() * sizeof(std::uint32_t), gpu::MemoryKind::readback, "reports of " + name);
+        device.memory().buffer(shapes.size() * report_bytes, gpu::MemoryKind::readback, "reports of " + name);
     if (!reports) return reports.errors();
     self.upload_ = std::move(*upload);
     self.buffer_ = std::move(*buffer);
@@ -155,10 +134,14 @@ void FrameBuffers::record_begin(gpu::Commands& commands) const {
     commands.copy(upload_, buffer_, buffer_.size());
 }
 
+void FrameBuffers::record_reports(gpu::Commands& commands, std::uint32_t report) const {
+    for (const std::uint64_t offset : offsets_) commands.fill(buffer_, report, sizeof report, offset);
+}
+
 void FrameBuffers::record_end(gpu::Commands& commands) const {
     commands.barrier();
     for (std::size_t i = 0; i < offsets_.size(); ++i)
-        commands.copy(buffer_, reports_, sizeof(std::uint32_t), offsets_[i], i * sizeof(std::uint32_t));
+        commands.copy(buffer_, reports_, report_bytes, offsets_[i], i * report_bytes);
     commands.host_barrier();
 }
 

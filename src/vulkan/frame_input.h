@@ -1,11 +1,10 @@
-// Inputs of a frame from the host: settings, colliders, winds, and the poses in each substep.
+// Inputs of a frame from the host for each cloth: settings, winds, and the targets of pins in each substep.
 #pragma once
 
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "solver/world/backend.h"
 #include "vulkan/args.data.h"
-#include "vulkan/shape_buffers.h"
 
 #include <cstddef>
 #include <span>
@@ -13,6 +12,10 @@
 #include <vector>
 
 namespace weft::vulkan {
+
+/// Internal report: there were too few slots for lists of near colliders, and the frame must run again. Finished frames
+/// never have this bit.
+inline constexpr std::uint32_t report_near_full = 1u << 30;
 
 /// Numbers of elements. They determine the layout of the buffer.
 struct InputShape {
@@ -35,18 +38,16 @@ class FrameInput {
     /// The device must have finished the previous frame. `substep_seconds`: that frame's lambda_seconds().
     /// `again`: second run of a frame, from the same state.
     void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-               double substep_seconds, const ShapeBuffers& shapes, bool again);
+               double substep_seconds, bool again);
 
     std::uint64_t report() const { return address_; }
     std::uint64_t frame() const { return address_ + frame_; }
-    std::uint64_t colliders() const { return address_ + colliders_; }
     std::uint64_t winds() const { return address_ + winds_; }
-    std::uint64_t poses() const { return address_ + poses_; }
     std::uint64_t motion_poses() const { return address_ + motion_poses_; }
     std::uint64_t targets() const { return address_ + targets_; }
 
   private:
-    std::uint64_t frame_ = 0, colliders_ = 0, winds_ = 0, poses_ = 0, motion_poses_ = 0, targets_ = 0, bytes_ = 0;
+    std::uint64_t frame_ = 0, winds_ = 0, motion_poses_ = 0, targets_ = 0, bytes_ = 0;
     std::byte* host_ = nullptr;
     std::uint64_t address_ = 0;
 };
@@ -63,10 +64,18 @@ class FrameBuffers {
     /// Uploads the inputs and thereby clears the reports.
     void record_begin(gpu::Commands& commands) const;
     void record_end(gpu::Commands& commands) const;
+    /// Sets the reports of all cloths.
+    void record_reports(gpu::Commands& commands, std::uint32_t report) const;
     /// Report of the last frame, which the device must have finished.
-    std::uint32_t report(std::size_t cloth) const { return reports_.as<std::uint32_t>()[cloth]; }
+    std::uint32_t report(std::size_t cloth) const { return word(cloth, WEFT_REPORT_BITS); }
+    /// Slots that lists of near colliders needed in it.
+    std::uint32_t near_slots(std::size_t cloth) const { return word(cloth, WEFT_REPORT_NEAR_SLOTS); }
 
   private:
+    std::uint32_t word(std::size_t cloth, std::size_t which) const {
+        return reports_.as<std::uint32_t>()[cloth * WEFT_REPORT_WORDS + which];
+    }
+
     std::vector<FrameInput> inputs_;
     std::vector<std::uint64_t> offsets_;
     gpu::Buffer upload_, buffer_, reports_;

@@ -24,7 +24,7 @@ Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs
                                                    std::uint64_t serial, std::span<const Member> members,
                                                    Execution execution, bool timings, const Lists& lists) {
     auto self = std::unique_ptr<FrameRun>(new FrameRun(device, programs, plan, serial, members, execution));
-    if (auto compiled = self->compile_members(); !compiled) return compiled.errors();
+    if (auto compiled = self->compile_members(lists); !compiled) return compiled.errors();
     if (auto made = self->make_lists(lists); !made) return made.errors();
     for (Member& member : self->members_) member.seams = nullptr;  // valid only during create()
     auto recorded = execution == Execution::fused ? self->record_fused(timings) : self->record_passes(timings);
@@ -39,16 +39,22 @@ Result<void> FrameRun::prepare_contact_forces() {
     std::vector<ContactReadback::Member> members;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const ClothState& cloth = members_[i].cloth->state();
-        const std::uint64_t contact_log = work_[i].arena.address(work_[i].contact_log);
+        const Arena& work = work_[i].arena;
+        const std::uint64_t contact_log = work.address(work_[i].contact_log);
         members.push_back({.account = {.position = cloth.address(PointArray::position),
                                        .moved = contact_log,
                                        .turned = contact_log + work_[i].contact_log.bytes / 2,
                                        .report = buffers_.input(first_of_island(i)).report(),
                                        .frame = buffers_.input(i).frame(),
                                        .sums = 0,
-                                       .capacity = cloth.model().capacity(),
-                                       .particles = cloth.model().particle_count},
-                           .colliders = members_[i].shape.colliders});
+                                       .tiles = work.address(work_[i].near_tiles),
+                                       .slots = work.address(work_[i].near_slots),
+                                       .tile_count = near_tiles_of(cloth.model()),
+                                       .particles = cloth.model().particle_count,
+                                       .first_slot = 0,
+                                       .first_pair = 0},
+                           .colliders = members_[i].shape.colliders,
+                           .slots = work_[i].slot_count});
     }
     auto contacts = ContactReadback::create(device_, programs_, members, name());
     if (!contacts) return contacts.errors();
@@ -66,7 +72,7 @@ void FrameRun::add_contact_marks(const Cloth& cloth, std::span<std::uint32_t> ma
     if (particle_contact_ && cloth.model().along_curve) particle_contact_->add_marks(base, marks);
 }
 
-Result<void> FrameRun::compile_members() {
+Result<void> FrameRun::compile_members(const Lists& lists) {
     std::vector<InputShape> shapes;
     for (const Member& member : members_) shapes.push_back(member.shape);
     auto buffers = FrameBuffers::create(device_, shapes, name());
@@ -76,10 +82,13 @@ Result<void> FrameRun::compile_members() {
     links_.reserve(members_.size());
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
-        auto work = WorkBuffers::create(device_, member.cloth->model(), plan_, member.shape);
+        const std::uint32_t slots =
+            std::max(member.cloth->state().near_slots,
+                     first_near_slots(member.cloth->model(), member.shape.colliders, lists.first_capacity));
+        auto work = WorkBuffers::create(device_, member.cloth->model(), plan_, member.shape, slots);
         if (!work) return work.errors();
         work_.push_back(std::move(*work));
-        IslandPart island{.report = buffers_.input(first_of_island(i)).report()};
+        IslandPart island{.report = buffers_.input(first_of_island(i)).report(), .colliders = lists.colliders};
         if (member.links) {
             auto links = LinkBuffers::create(device_, *member.links, plan_);
             if (!links) return links.errors();
@@ -98,7 +107,7 @@ Result<void> FrameRun::compile_members() {
 }
 
 Result<void> FrameRun::make_lists(const Lists& lists) {
-    if (auto made = make_adhesion(lists.adhesion); !made) return made;
+    if (auto made = make_adhesion(lists); !made) return made;
     if (auto made = make_cloth_contact(lists); !made) return made;
     return make_particle_contact(lists);
 }
@@ -145,7 +154,7 @@ Result<void> FrameRun::record_for_all(gpu::Commands& commands, const Pass& pass,
     return cloth_contact_->record(commands, pass, substep);
 }
 
-Result<void> FrameRun::make_adhesion(std::uint32_t capacity) {
+Result<void> FrameRun::make_adhesion(const Lists& lists) {
     const auto& begin = plan_.frame_begin;
     if (std::ranges::find(begin, PassKind::find, &Pass::kind) == begin.end()) return {};
     std::vector<AdhesionList::Member> members;
@@ -153,15 +162,14 @@ Result<void> FrameRun::make_adhesion(std::uint32_t capacity) {
         const ClothState& cloth = members_[i].cloth->state();
         const FrameInput& input = buffers_.input(i);
         members.push_back({.frame = input.frame(),
-                           .colliders = input.colliders(),
-                           .poses = input.poses(),
+                           .colliders = lists.colliders,
                            .report = input.report(),
                            .base = cloth.base(),
                            .particles = cloth.model().particle_count});
     }
     const ClothState& first = members_.front().cloth->state();
     auto made = AdhesionList::create(device_, programs_, plan_, members, first.world().address(PointArray::position, 0),
-                                     first.address(first.limits), capacity, name());
+                                     first.address(first.limits), lists.adhesion, name());
     if (!made) return made.errors();
     adhesion_ = std::move(*made);
     return {};
@@ -267,8 +275,7 @@ Result<void> FrameRun::record_passes(bool timings) {
     return end_recording();
 }
 
-Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps,
-                                       const ShapeBuffers& shapes, bool again) {
+Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again) {
     if (contacts_) {
         if (auto prepared = contacts_->prepare(); !prepared) return prepared.errors();
     }
@@ -277,11 +284,35 @@ Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const C
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
         buffers_.input(i).write(member.cloth->model(), plan_, input, *steps[i], member.cloth->state().substep_seconds,
-                                shapes, again);
+                                again);
         seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();
     return value && contacts_ ? contacts_->submit() : value;
+}
+
+bool FrameRun::near_list_was_full() const {
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        if (buffers_.report(i) & report_near_full) return true;
+    return false;
+}
+
+Result<void> FrameRun::roll_back_and_grow() {
+    auto done = gpu::run_once(device_, [&](gpu::Commands& commands) {
+        buffers_.record_reports(commands, report_list_full);
+        commands.barrier();
+        for (const CompiledPlan& plan : plans_) record(commands, plan.commands[plan.roll_back], 0, device_.limits());
+    });
+    if (!done) return done;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        if (!(buffers_.report(i) & report_near_full)) continue;
+        // The count of a tile that had no room leaves out what it would have found later in the frame.
+        const std::uint64_t before = work_[i].slot_count, wanted = buffers_.near_slots(i);
+        if (before == most_near_slots) return Error{"", "too many colliders near tiles of " + name()};
+        members_[i].cloth->state().near_slots = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(std::max(2 * before, wanted + wanted / 2), most_near_slots));
+    }
+    return {};
 }
 
 void FrameRun::finish(std::array<double, stage_count>& stage_ms) {

@@ -10,7 +10,6 @@
 #include "vulkan/frame_input.h"
 #include "vulkan/lists/adhesion_list.h"
 #include "vulkan/particle_contact/particle_contact.h"
-#include "vulkan/shape_buffers.h"
 
 #include <array>
 #include <memory>
@@ -43,8 +42,9 @@ class FrameRun {
         const Seams* seams = nullptr;       ///< likewise
     };
 
-    /// Sizes of lists that are found on the device.
+    /// Sizes of lists that are found on the device, and the colliders that they are about.
     struct Lists {
+        std::uint64_t colliders = 0;       ///< address of the world's colliders
         std::uint32_t first_capacity = 0;  ///< StepInput::list_capacity
         std::uint32_t adhesion = 0;        ///< constraints
         ClothContactRoom cloth_contact{};
@@ -72,16 +72,21 @@ class FrameRun {
 
     /// Submits a step for each member and returns without waiting for the device. `again`: repeats a frame of which a
     /// list was full.
-    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps,
-                                 const ShapeBuffers& shapes, bool again = false);
+    Result<std::uint64_t> submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again = false);
     /// The adhesion list of the last finished frame; null without a list. If the list was full, the state is the one
     /// before the frame.
     const AdhesionList* adhesion() const { return adhesion_.get(); }
     /// Likewise for contact between cloths.
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
     const ParticleContact* particle_contact() const { return particle_contact_.get(); }
+    /// Whether a cloth had too few slots for its lists of near colliders in the last finished frame. Then the state is
+    /// undefined until roll_back_and_grow().
+    bool near_list_was_full() const;
+    /// Restores all cloths to the start of the last frame, and gives those whose lists were full more slots, which the
+    /// next run that is recorded has.
+    Result<void> roll_back_and_grow();
     bool list_was_full() const {
-        return (adhesion_ && adhesion_->wanted() > adhesion_->capacity()) ||
+        return near_list_was_full() || (adhesion_ && adhesion_->wanted() > adhesion_->capacity()) ||
                (particle_contact_ && particle_contact_->wanted() > particle_contact_->capacity()) ||
                (cloth_contact_ && !cloth_contact_->room().holds(cloth_contact_->wanted()));
     }
@@ -104,9 +109,9 @@ class FrameRun {
 
     FrameRun(gpu::Device& device, Programs& programs, const WorldPlan& plan, std::uint64_t serial,
              std::span<const Member> members, Execution execution);
-    Result<void> compile_members();
+    Result<void> compile_members(const Lists& lists);
     Result<void> make_lists(const Lists& lists);
-    Result<void> make_adhesion(std::uint32_t capacity);
+    Result<void> make_adhesion(const Lists& lists);
     Result<void> make_cloth_contact(const Lists& lists);
     Result<void> make_particle_contact(const Lists& lists);
     Result<void> record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,

@@ -2,13 +2,11 @@
 
 #include "vulkan/arena.h"
 
-#include <algorithm>
-
 namespace weft::vulkan {
 
 Result<void> ShapeBuffers::hold(gpu::Device& device, std::span<const Collider> colliders) {
     // Nobody else has it if no collider has it.
-    std::erase_if(entries_, [](const Entry& entry) { return entry.data.use_count() == 1; });
+    std::erase_if(entries_, [](const auto& entry) { return entry.second.data.use_count() == 1; });
     for (const Collider& collider : colliders) {
         if (!collider.data || address(collider.data.get()) != 0) continue;
         const auto bytes = std::as_bytes(std::span(collider.data->words));
@@ -16,15 +14,15 @@ Result<void> ShapeBuffers::hold(gpu::Device& device, std::span<const Collider> c
             device.memory().buffer(bytes.size(), gpu::MemoryKind::device, "shape of collider '" + collider.name + "'");
         if (!buffer) return buffer.errors();
         if (auto done = upload(device, *buffer, 0, bytes); !done) return done;
-        entries_.push_back({collider.data, std::move(*buffer)});
+        entries_[collider.data.get()] = {collider.data, std::move(*buffer)};
     }
     return {};
 }
 
 std::uint64_t ShapeBuffers::address(const ShapeData* data) const {
     if (!data) return 0;
-    const auto entry = std::ranges::find(entries_, data, [](const Entry& one) { return one.data.get(); });
-    return entry == entries_.end() ? 0 : entry->buffer.address();
+    const auto entry = entries_.find(data);
+    return entry == entries_.end() ? 0 : entry->second.buffer.address();
 }
 
 }  // namespace weft::vulkan

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
+#include <unordered_map>
 
 namespace weft::vulkan {
 
@@ -24,7 +24,7 @@ class ShapeBuffers {
         std::shared_ptr<const ShapeData> data;
         gpu::Buffer buffer;
     };
-    std::vector<Entry> entries_;
+    std::unordered_map<const ShapeData*, Entry> entries_;
 };
 
 }  // namespace weft::vulkan

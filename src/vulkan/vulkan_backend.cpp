@@ -4,6 +4,7 @@
 #include "solver/measures/diagnosis.h"
 #include "vulkan/frame_run.h"
 #include "vulkan/interop.h"
+#include "vulkan/world_colliders.h"
 
 #include <algorithm>
 #include <cassert>
@@ -157,10 +158,11 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         counts_ = {};
         contact_counts_ = {};
         group(step);
-        const auto shapes = shapes_.hold(*device_, step.input.colliders);
+        if (groups_.empty()) return;
+        const auto copied = colliders_.update(*device_, step.input.colliders, *step.input.places);
         for (Group& group : groups_) {
-            if (!shapes) {
-                fail(group, shapes.error());
+            if (!copied) {
+                fail(group, copied.error());
             } else {
                 submit(step, group);
             }
@@ -333,7 +335,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         auto run = find_run(step, group);
         if (!run) return fail(group, run.error());
-        const auto value = (*run)->submit(step.input, group.steps, shapes_);
+        const auto value = (*run)->submit(step.input, group.steps);
         if (!value) return fail(group, value.error());
         group.run = *run;
         mark_changed(step, group);
@@ -354,7 +356,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
         auto run = FrameRun::create(
             *device_, programs_, *step.plan, step.plan_serial, group.members, group.execution, timings_,
-            {.first_capacity = step.input.list_capacity,
+            {.colliders = colliders_.address(),
+             .first_capacity = step.input.list_capacity,
              .adhesion = std::max(list_capacity_, first_list_capacity(step.input.list_capacity)),
              .cloth_contact = contact_room_,
              .particle_pairs = particle_pairs_,
@@ -374,6 +377,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     bool complete_lists(Group& group) {
         while (group.run->list_was_full()) {
             ++counts_.repeats;
+            std::vector<std::uint32_t> slots_before;
+            for (const FrameRun::Member& member : group.members)
+                slots_before.push_back(member.cloth->state().near_slots);
+            if (group.run->near_list_was_full()) {
+                if (auto grown = group.run->roll_back_and_grow(); !grown) return fail(group, grown.error()), false;
+            }
             const auto before = std::tuple(list_capacity_, contact_room_, particle_pairs_);
             if (const auto* list = group.run->adhesion(); list && list->wanted() > list->capacity())
                 list_capacity_ = grown_list_capacity(list->wanted());
@@ -385,10 +394,13 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
             auto run = find_run(*step_, group);
-            if (!run)
-                std::tie(list_capacity_, contact_room_, particle_pairs_) = before;  // the next frame may need less
-            if (!run) return fail(group, run.error()), false;
-            const auto value = (*run)->submit(step_->input, group.steps, shapes_, true);
+            if (!run) {  // the next frame may need less
+                std::tie(list_capacity_, contact_room_, particle_pairs_) = before;
+                for (std::size_t i = 0; i < group.members.size(); ++i)
+                    group.members[i].cloth->state().near_slots = slots_before[i];
+                return fail(group, run.error()), false;
+            }
+            const auto value = (*run)->submit(step_->input, group.steps, true);
             if (!value) return fail(group, value.error()), false;
             mark_changed(*step_, group);
             if (auto done = device_->wait(*value); !done) return fail(group, done.error()), false;
@@ -460,7 +472,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint32_t list_capacity_ = 0;        ///< grown capacity of dynamic lists, in constraints
     vulkan::ClothContactRoom contact_room_;  ///< the same for contact between cloths
     std::uint32_t particle_pairs_ = 0;       ///< the same for contact between particles
-    vulkan::ShapeBuffers shapes_;
+    vulkan::WorldColliders colliders_;
     ClothContactCounts contact_counts_;  ///< of the last frame
 };
 

@@ -21,7 +21,8 @@ FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, doubl
             .max_speed = static_cast<float>(std::min(capped_edges_per_substep * reach / h, 1e18)),
             .viscous = std::max(static_cast<float>(model.fabric.body.damping * dt), 1e-30f),
             .half_thickness = 0.5f * model.fabric.contact.thickness,
-            .depenetration = depenetration_speed * static_cast<float>(h)};
+            .depenetration = depenetration_speed * static_cast<float>(h),
+            .tile_margin = 0.5f * model.fabric.contact.thickness + model.mean_edge};
 }
 
 std::array<float, 2> friction_between(const ClothModel& model, const Collider& collider) {

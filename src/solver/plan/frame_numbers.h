@@ -10,12 +10,16 @@ namespace weft {
 /// too slow to throw the cloth.
 inline constexpr float depenetration_speed = 1.0f;
 
+/// A tile whose particles move is expected to stay in a box that is larger by this part of their way.
+inline constexpr float tile_slack_per_way = 0.25f;
+
 struct FrameNumbers {
     float h;               ///< s: length of a substep
     float max_speed;       ///< m/s
     float viscous;         ///< s²: retardation time times length of the frame
     float half_thickness;  ///< m
     float depenetration;   ///< m per substep
+    float tile_margin;     ///< m: a tile's colliders are searched this far around it, for contact and constraints
 };
 
 FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, double dt);

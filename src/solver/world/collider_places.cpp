@@ -57,6 +57,7 @@ void ColliderPlaces::begin_frame(std::span<const Collider> colliders, double tim
 
 // A collider counts as moving from its first motion on.
 void ColliderPlaces::sort_by_motion() {
+    ++order_;
     count_ = colliders_.size();
     moving_place_.assign(count_, none);
     moving_.clear(), resting_.clear(), unbounded_.clear();

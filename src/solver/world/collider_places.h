@@ -25,6 +25,16 @@ class ColliderPlaces {
 
     std::size_t size() const { return count_; }
     std::uint32_t substeps() const { return substeps_; }
+    /// Changes whenever the colliders, the trees at rest, the poses at rest, or the set of those that move change.
+    std::uint64_t order() const { return order_; }
+    /// Colliders that rest and that move, as the trees number them.
+    std::span<const std::uint32_t> resting() const { return resting_; }
+    std::span<const std::uint32_t> moving() const { return moving_; }
+    /// Those that no box contains, which are not in the trees; at rest, and moving.
+    std::span<const std::uint32_t> unbounded() const { return unbounded_; }
+    std::span<const std::uint32_t> unbounded_moving() const { return unbounded_moving_; }
+    const Bvh& resting_tree() const { return resting_tree_; }
+    const Bvh& moving_tree() const { return moving_tree_; }
     /// Whether the collider may move in this frame.
     bool moves(std::size_t collider) const { return moving_place_[collider] != none; }
     /// After a substep: 0, the start of the frame, … substeps().
@@ -52,6 +62,7 @@ class ColliderPlaces {
     bool misses(std::uint32_t collider, const Bounds& box) const;
 
     bool known_ = false;
+    std::uint64_t order_ = 0;
     std::span<const Collider> colliders_;
     std::size_t count_ = 0;
     double time_ = 0, dt_ = 0;

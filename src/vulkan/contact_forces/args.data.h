@@ -23,30 +23,38 @@ layout(buffer_reference) buffer PacketRef;
 // Contact data of one cloth.
 struct AccountIn {
     Vec4s position;
-    Vec4s moved;   // [collider · capacity + particle], as is `turned` (contact_forces.kernel.h)
+    Vec4s moved;  // [slot · tile + particle in the tile], as is `turned` (contact_forces.kernel.h)
     Vec4s turned;
     Uints report;
     FrameRef frame;
-    Uints sums;    // per collider
-    uint capacity;
+    Uints sums;  // per collider
+    NearTileRef tiles;
+    Uints slots;  // colliders
+    uint tile_count;
     uint particles;
+    uint first_slot;  // slots of all cloths are numbered one after another, as are pairs of a cloth and a collider
+    uint first_pair;
 };
 
-// Work of one workgroup: consecutive particles of a cloth, and a collider. Packets are in the order of the list.
+// Work of one workgroup: consecutive tiles of a cloth.
 struct PacketIn {
     uint cloth;
-    uint collider;
     uint first;
-    uint unused;
 };
 
 struct ContactListArgs {
     AccountRef accounts;
     PacketRef packets;
-    Uints flags;     // per invocation: 1 for a contact; after the scan: number of contacts up to this one
+    // Keys to sort the slots by, and the slots. Those that no list uses come last and have the number 0xffffffff.
+    Uints pairs;
+    Uints tiles;
+    Uints slots;
+    Uints flags;     // per slot and particle: 1 for a contact; after the scan: number of contacts up to this one
     Uints contacts;  // the list
-    uint count;      // packets
-    uint room;       // contacts
+    uint cloths;
+    uint packet_count;
+    uint slot_count;
+    uint room;  // contacts
 };
 
 #ifdef __cplusplus
@@ -55,7 +63,7 @@ struct ContactListArgs {
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer AccountRef {
     AccountIn at[];
 };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer PacketRef {
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer PacketRef {
     PacketIn at[];
 };
 #endif

@@ -1,10 +1,12 @@
 #include "vulkan/contact_forces/contact_readback.h"
 
 #include "solver/state/frame.h"
+#include "vulkan/primitives/radix_sort.h"
 #include "vulkan/primitives/scan.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 namespace weft::vulkan {
 namespace {
@@ -16,7 +18,7 @@ constexpr std::uint64_t word = sizeof(std::uint32_t);
 constexpr std::uint64_t contacts_per_particle = 2, least_room = 256;
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(AccountIn) == 56 && sizeof(PacketIn) == 16 && sizeof(ContactListArgs) == 40);
+static_assert(sizeof(AccountIn) == 80 && sizeof(PacketIn) == 8 && sizeof(ContactListArgs) == 72);
 static_assert(sizeof(ContactRecord) == WEFT_RECORD_WORDS * word && offsetof(ContactRecord, particle) == 3 * word &&
               offsetof(ContactRecord, impulse) == 4 * word && offsetof(ContactRecord, collider) == 7 * word);
 
@@ -32,40 +34,47 @@ Result<std::unique_ptr<ContactReadback>> ContactReadback::create(gpu::Device& de
 
 Result<void> ContactReadback::make_arrays() {
     std::vector<PacketIn> packets;
-    std::uint64_t elements = 0, points = 0;
-    for (const Member& member : members_) {
-        elements += std::uint64_t{member.colliders} * groups_of(member.account.particles, WEFT_GROUP) * WEFT_GROUP;
-        points += member.account.particles;
-    }
-    if (elements > most_elements) return too_many(elements, "pairs of particles and colliders, for contact_forces");
-    packets.reserve(elements / WEFT_GROUP);
+    std::uint64_t slots = 0, points = 0, pairs = 0;
+    std::uint32_t most_tiles = 0;
     for (std::uint32_t m = 0; m < members_.size(); ++m) {
-        first_sum_.push_back(sum_count_);
-        sum_count_ += members_[m].colliders;
-        for (std::uint32_t c = 0; c < members_[m].colliders; ++c) {
-            for (std::uint32_t p = 0; p < members_[m].account.particles; p += WEFT_GROUP)
-                packets.push_back({.cloth = m, .collider = c, .first = p, .unused = 0});
-        }
+        AccountIn& account = members_[m].account;
+        account.first_slot = static_cast<std::uint32_t>(slots);
+        account.first_pair = static_cast<std::uint32_t>(pairs);
+        slots += members_[m].slots;
+        pairs += members_[m].colliders;
+        points += account.particles;
+        most_tiles = std::max(most_tiles, account.tile_count);
+        for (std::uint32_t tile = 0; tile < account.tile_count; tile += WEFT_GROUP) packets.push_back({m, tile});
     }
+    const std::uint64_t places = slots * WEFT_COLLIDER_TILE;
+    if (places > most_elements) return too_many(places, "pairs of particles and near colliders, for contact_forces");
+    if (pairs >= most_elements) return too_many(pairs, "pairs of cloths and colliders, for contact_forces");
+    slot_count_ = static_cast<std::uint32_t>(slots);
+    pair_count_ = static_cast<std::uint32_t>(pairs);
     packet_count_ = static_cast<std::uint32_t>(packets.size());
+    key_bits_ = bits_below(std::max(pair_count_ + 1, most_tiles));
     wanted_ = static_cast<std::uint32_t>(std::max<std::uint64_t>(contacts_per_particle * points, least_room));
 
+    const SortScratch sort = sort_scratch(slot_count_);
     accounts_ = arena_.reserve(members_.size() * sizeof(AccountIn));
     packets_ = arena_.add_array(packets);
-    flags_ = arena_.reserve(elements * word);
-    scratch_ = arena_.reserve(scan_scratch(static_cast<std::uint32_t>(elements)));
-    sums_ = arena_.reserve(std::uint64_t{sum_count_} * WEFT_SUM_WORDS * word);
+    keys_ = arena_.reserve(6 * slots * word);
+    flags_ = arena_.reserve(places * word);
+    scratch_ = arena_.reserve(scan_scratch(static_cast<std::uint32_t>(places)));
+    sort_places_ = arena_.reserve(sort.places);
+    sort_sums_ = arena_.reserve(sort.sums);
+    sums_ = arena_.reserve(pairs * WEFT_SUM_WORDS * word);
     if (auto built = arena_.build(device_, "contacts of " + name_); !built) return built;
     std::vector<AccountIn> accounts;
-    for (std::size_t m = 0; m < members_.size(); ++m) {
-        accounts.push_back(members_[m].account);
-        accounts.back().sums = arena_.address(sums_) + first_sum_[m] * WEFT_SUM_WORDS * word;
+    for (Member& member : members_) {
+        member.account.sums = arena_.address(sums_) + std::uint64_t{member.account.first_pair} * WEFT_SUM_WORDS * word;
+        accounts.push_back(member.account);
     }
     return upload(device_, arena_, accounts_, std::as_bytes(std::span(accounts)));
 }
 
 std::uint64_t ContactReadback::head_bytes() const {
-    return std::uint64_t{sum_count_} * WEFT_SUM_WORDS * word;
+    return std::uint64_t{pair_count_} * WEFT_SUM_WORDS * word;
 }
 
 Result<ContactReadback::Slot> ContactReadback::make_slot() const {
@@ -78,24 +87,48 @@ Result<ContactReadback::Slot> ContactReadback::make_slot() const {
     auto commands = gpu::Commands::create(device_);
     if (!commands) return commands.errors();
     if (auto begun = commands->begin(); !begun) return begun.errors();
-    commands->fill(arena_.buffer(), 0, sums_.bytes, sums_.offset);
-    Recorder passes(device_, programs_, *commands);
-    const ContactListArgs args{.accounts = arena_.address(accounts_),
-                               .packets = arena_.address(packets_),
-                               .flags = arena_.address(flags_),
-                               .contacts = slot.back.address() + head_bytes(),
-                               .count = packet_count_,
-                               .room = slot.room};
-    passes.run("count_contacts", args, packet_count_);
-    record_scan(passes, args.flags, args.flags, packet_count_ * WEFT_GROUP, arena_.address(scratch_), true);
-    passes.run("list_contacts", args, packet_count_);
-    if (auto recorded = passes.end(); !recorded) return recorded.errors();
-    commands->barrier();
-    commands->copy(arena_.buffer(), slot.back, sums_.bytes, sums_.offset, 0);
-    commands->host_barrier();
+    if (auto recorded = record(*commands, slot); !recorded) return recorded.errors();
     if (auto ended = commands->end(); !ended) return ended.errors();
     slot.commands = std::move(*commands);
     return slot;
+}
+
+Result<void> ContactReadback::record(gpu::Commands& commands, const Slot& slot) const {
+    const std::uint64_t words = std::uint64_t{slot_count_} * word, keys = arena_.address(keys_);
+    const auto arrays = [&](std::uint64_t at) { return KeyArrays{at, at + words, at + 2 * words}; };
+    commands.fill(arena_.buffer(), 0, sums_.bytes, sums_.offset);
+    // Slots that no list uses have the largest key and no number.
+    const std::uint32_t last_key = static_cast<std::uint32_t>((std::uint64_t{1} << key_bits_) - 1);
+    commands.fill(arena_.buffer(), last_key, words, keys_.offset);
+    commands.fill(arena_.buffer(), 0, words, keys_.offset + words);
+    commands.fill(arena_.buffer(), ~0u, words, keys_.offset + 2 * words);
+    Recorder passes(device_, programs_, commands);
+    const auto args = [&](const KeyArrays& sorted) {
+        return ContactListArgs{.accounts = arena_.address(accounts_),
+                               .packets = arena_.address(packets_),
+                               .pairs = sorted.high,
+                               .tiles = sorted.low,
+                               .slots = sorted.value,
+                               .flags = arena_.address(flags_),
+                               .contacts = slot.back.address() + head_bytes(),
+                               .cloths = static_cast<std::uint32_t>(members_.size()),
+                               .packet_count = packet_count_,
+                               .slot_count = slot_count_,
+                               .room = slot.room};
+    };
+    passes.run("key_contacts", args(arrays(keys)), packet_count_);
+    const ContactListArgs sorted =
+        args(record_sort(passes, arrays(keys), arrays(keys + 3 * words), slot_count_, key_bits_,
+                         {arena_.address(sort_places_), arena_.address(sort_sums_)}));
+    const std::uint32_t places = slot_count_ * WEFT_COLLIDER_TILE, groups = groups_of(places, WEFT_GROUP);
+    passes.run("count_contacts", sorted, groups);
+    record_scan(passes, sorted.flags, sorted.flags, places, arena_.address(scratch_), true);
+    passes.run("list_contacts", sorted, groups);
+    if (auto recorded = passes.end(); !recorded) return recorded;
+    commands.barrier();
+    commands.copy(arena_.buffer(), slot.back, sums_.bytes, sums_.offset, 0);
+    commands.host_barrier();
+    return {};
 }
 
 Result<void> ContactReadback::prepare() {
@@ -111,19 +144,24 @@ Result<void> ContactReadback::prepare() {
 }
 
 std::span<const std::uint32_t> ContactReadback::sums_of(std::size_t member, std::uint32_t collider) const {
-    const std::size_t at = std::size_t{first_sum_[member] + collider} * WEFT_SUM_WORDS;
+    const std::size_t at = std::size_t{members_[member].account.first_pair + collider} * WEFT_SUM_WORDS;
     return std::span<const std::uint32_t>(ring_[turn_].back.as<std::uint32_t>()).subspan(at, WEFT_SUM_WORDS);
 }
 
+std::uint64_t ContactReadback::contacts_of(std::size_t member) const {
+    std::uint64_t contacts = 0;
+    for (std::uint32_t c = 0; c < members_[member].colliders; ++c) contacts += sums_of(member, c)[WEFT_SUM_CONTACTS];
+    return contacts;
+}
+
 std::uint32_t ContactReadback::read(std::size_t member, ClothContactLog& to) {
-    std::uint64_t before = 0, mine = 0, all = 0;
-    for (std::size_t m = 0; m < members_.size(); ++m) {
-        for (std::uint32_t c = 0; c < members_[m].colliders; ++c) {
-            const std::uint32_t contacts = sums_of(m, c)[WEFT_SUM_CONTACTS];
-            all += contacts;
-            (m < member ? before : mine) += m <= member ? contacts : 0;
-        }
+    if (member == 0) {
+        counts_.clear();
+        for (std::size_t m = 0; m < members_.size(); ++m) counts_.push_back(contacts_of(m));
     }
+    const auto before =
+        std::accumulate(counts_.begin(), counts_.begin() + static_cast<std::ptrdiff_t>(member), std::uint64_t{0});
+    const std::uint64_t mine = counts_[member], all = std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
     to.sums.assign(members_[member].colliders, {});
     for (std::uint32_t c = 0; c < members_[member].colliders; ++c) {
         const auto words = sums_of(member, c);
@@ -137,7 +175,7 @@ std::uint32_t ContactReadback::read(std::size_t member, ClothContactLog& to) {
     // The next list gets room for half as many again.
     if (all > slot.room)
         wanted_ = static_cast<std::uint32_t>(
-            std::min<std::uint64_t>(all + all / 2, std::uint64_t{packet_count_} * WEFT_GROUP));
+            std::min<std::uint64_t>(all + all / 2, std::uint64_t{slot_count_} * WEFT_COLLIDER_TILE));
     return before + mine > slot.room && mine > 0 ? report_contacts_full : report_none;
 }
 

@@ -19,8 +19,9 @@ namespace weft::vulkan {
 class ContactReadback {
   public:
     struct Member {
-        AccountIn account;  ///< without the address of its sums
+        AccountIn account;  ///< without what create() sets: sums, first_slot, first_pair
         std::uint32_t colliders = 0;
+        std::uint32_t slots = 0;  ///< of the lists of near colliders
     };
 
     static Result<std::unique_ptr<ContactReadback>> create(gpu::Device& device, Programs& programs,
@@ -31,7 +32,7 @@ class ContactReadback {
     /// Call after the submission of the frame's own commands.
     Result<std::uint64_t> submit() { return ring_[turn_].commands->submit(); }
     /// Reads the last frame, which the device must have finished. `to` stays valid until the second call of prepare()
-    /// from here. Returns flags to report.
+    /// from here. Returns flags to report. Members must be read in their order.
     std::uint32_t read(std::size_t member, ClothContactLog& to);
 
   private:
@@ -46,20 +47,23 @@ class ContactReadback {
         : device_(device), programs_(programs), members_(members.begin(), members.end()), name_(std::move(name)) {}
     Result<void> make_arrays();
     Result<Slot> make_slot() const;
+    Result<void> record(gpu::Commands& commands, const Slot& slot) const;
     /// Bytes of a slot before its list.
     std::uint64_t head_bytes() const;
     std::span<const std::uint32_t> sums_of(std::size_t member, std::uint32_t collider) const;
+    std::uint64_t contacts_of(std::size_t member) const;
 
     gpu::Device& device_;
     Programs& programs_;
     std::vector<Member> members_;
     std::string name_;
-    std::vector<std::uint32_t> first_sum_;  ///< of each member
-    std::uint32_t sum_count_ = 0;           ///< pairs of a cloth and a collider
-    std::uint32_t packet_count_ = 0;
+    std::uint32_t pair_count_ = 0;  ///< pairs of a cloth and a collider
+    std::uint32_t slot_count_ = 0, packet_count_ = 0;
+    std::uint32_t key_bits_ = 0;
     Arena arena_;
-    vulkan::Slot accounts_, packets_, flags_, scratch_, sums_;
-    std::uint32_t wanted_ = 0;  ///< contacts that a list should have room for
+    vulkan::Slot accounts_, packets_, keys_, flags_, scratch_, sort_places_, sort_sums_, sums_;
+    std::vector<std::uint64_t> counts_;  ///< contacts of each member in the last frame
+    std::uint32_t wanted_ = 0;           ///< contacts that a list should have room for
     std::array<Slot, 2> ring_;
     std::uint32_t turn_ = 0;
 };

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t size_of_word = sizeof(std::uint32_t);
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ListMemberIn) == 48 && sizeof(ListArgs) == 112);
+static_assert(sizeof(ListMemberIn) == 32 && sizeof(ListArgs) == 112);
 
 }  // namespace
 
@@ -26,12 +26,9 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
     for (const Member& member : members) {
         list.push_back({.frame = member.frame,
                         .colliders = member.colliders,
-                        .poses = member.poses,
                         .report = member.report,
                         .base = member.base,
-                        .first = static_cast<std::uint32_t>(items),
-                        .unused0 = 0,
-                        .unused1 = 0});
+                        .first = static_cast<std::uint32_t>(items)});
         self->first_item_.push_back(static_cast<std::uint32_t>(items));
         items += member.particles;
     }

@@ -21,7 +21,7 @@ class AdhesionList {
   public:
     /// A cloth: addresses of its frame inputs, its first particle and its number of particles.
     struct Member {
-        std::uint64_t frame = 0, colliders = 0, poses = 0, report = 0;
+        std::uint64_t frame = 0, colliders = 0, report = 0;
         std::uint32_t base = 0, particles = 0;
     };
 

@@ -19,13 +19,10 @@ layout(buffer_reference) buffer ListMemberRef;
 // A cloth of a list. Its particles are the list's items from `first` on.
 struct ListMemberIn {
     FrameRef frame;
-    ColliderRef colliders;
-    PoseRef poses;  // [substep · colliders + collider]
+    CollidersRef colliders;
     Uints report;
     uint base;  // its first particle in the world
     uint first;
-    uint unused0;
-    uint unused1;
 };
 
 struct ListArgs {
@@ -53,7 +50,7 @@ struct ListArgs {
 #ifdef __cplusplus
 }  // namespace weft::vulkan
 #else
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ListMemberRef {
+layout(buffer_reference, std430, buffer_reference_align = 16) buffer ListMemberRef {
     ListMemberIn at[];
 };
 #endif

@@ -94,5 +94,6 @@ bool is_finite(vec4 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.
 #define WEFT_REPORT_SPEED_CAPPED 1u
 #define WEFT_REPORT_NON_FINITE 2u
 #define WEFT_REPORT_LIST_FULL 0x80000000u
+#define WEFT_REPORT_NEAR_FULL 0x40000000u  // report_near_full
 
 #endif

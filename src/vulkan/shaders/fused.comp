@@ -6,6 +6,7 @@
 #define WEFT_LINE_ROWS_ID 5
 #include "vulkan/shaders/workgroup_barrier.glsl"
 #include "vulkan/shaders/common.glsl"
+#include "vulkan/shaders/cover.glsl"
 #include "vulkan/shaders/faces.glsl"
 #include "vulkan/shaders/levels.glsl"
 #include "vulkan/shaders/limits.glsl"
@@ -92,6 +93,7 @@ void run_command(uint me, uint all)
     WEFT_EACH(advance)
     WEFT_EACH(targets)
     WEFT_EACH(average)
+    WEFT_EACH(cover)
     WEFT_EACH(contact)
     WEFT_EACH(keep)
     WEFT_EACH(check)

@@ -4,6 +4,7 @@
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/dispatch.glsl"
 #include "vulkan/shaders/particles.glsl"
+#include "vulkan/shaders/cover.glsl"
 #include "vulkan/shaders/faces.glsl"
 #include "vulkan/shaders/levels.glsl"
 

@@ -92,75 +92,13 @@ void run_average(uint p)
     store_point(average_args.at.position, p, vec4(x.xyz + sum, x.w));
 }
 
-// Adds the effect of a contact to the particle's sums of the frame. The first contact pass of a frame resets the sums.
-void trace(uint collider, uint p, bool touches, vec3 before, vec3 x, vec3 position)
-{
-    bool begins = contact_args.at.substep + substeps_before == 0u && contact_args.at.first_iteration == 1u;
-    if (!touches && !begins) return;
-    uint at = collider * contact_args.at.capacity + p;
-    uint turned = contact_args.at.frame.at.colliders * contact_args.at.capacity + at;
-    ContactTrace sum = ContactTrace(vec3(0.0), vec3(0.0));
-    if (!begins) sum = ContactTrace(contact_args.at.contact_log.at[at].xyz, contact_args.at.contact_log.at[turned].xyz);
-    if (touches) trace_contact(sum, before, x, position);
-    contact_args.at.contact_log.at[at] = vec4(sum.moved, 0.0);
-    contact_args.at.contact_log.at[turned] = vec4(sum.turned, 0.0);
-}
-
-void run_contact(uint p)
-{
-    vec4 x = load_point(contact_args.at.position, p);
-    vec3 start = contact_args.at.start.at[p].xyz;
-    uint colliders = contact_args.at.frame.at.colliders, substep = contact_args.at.substep + substeps_before;
-    bool keeps = !is_none(uvec2(contact_args.at.sums)), traces = !is_none(uvec2(contact_args.at.contact_log));
-    for (uint c = 0u; c < colliders; ++c) {
-        ColliderIn collider = contact_args.at.colliders.at[c];
-        PoseIn now = contact_args.at.poses.at[(substep + 1u) * colliders + c];
-        PoseIn before = contact_args.at.poses.at[substep * colliders + c];
-        ContactBody body = ContactBody(now.x.xyz, now.y.xyz, now.z.xyz, now.position.xyz, before.x.xyz, before.y.xyz,
-                                       before.z.xyz, before.position.xyz, collider.static_friction,
-                                       collider.kinetic_friction, contact_args.at.frame.at.half_thickness,
-                                       contact_args.at.frame.at.depenetration);
-        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
-                                          ShapeBlocks(collider.data));
-        uint at = c * contact_args.at.capacity + p;
-        ContactSum sum = ContactSum(vec3(0.0), 0.0);
-        if (keeps && contact_args.at.first_iteration == 0u) {
-            vec4 kept = contact_args.at.sums.at[at];
-            sum = ContactSum(kept.xyz, kept.w);
-        }
-        vec3 local = to_body(body, x.xyz);
-        vec3 normal, normal_at_start;
-        float gap = 0.0, gap_at_start = 0.0;
-        uint kind = 0u;
-#define WEFT_SHAPE(name, Name) if (collider.shape == kind++) gap = distance_##name(local, shape, normal);
-#include "physics/contact/shapes.def"
-#undef WEFT_SHAPE
-        gap = gap - body.half_thickness;
-        vec3 x_before = x.xyz;
-        bool touches = gap < 0.0 || sum.push > 0.0;
-        if (touches) {
-            vec3 local_at_start = to_body_at_start(body, start);
-            kind = 0u;
-#define WEFT_SHAPE(name, Name) \
-    if (collider.shape == kind++) gap_at_start = distance_##name(local_at_start, shape, normal_at_start);
-#include "physics/contact/shapes.def"
-#undef WEFT_SHAPE
-            gap_at_start = gap_at_start - body.half_thickness;
-            project_contact(x.xyz, start, x.w, sum, gap, gap_at_start, rotate(body.rx, body.ry, body.rz, normal),
-                            carried_by(body, local), body);
-        }
-        if (keeps) contact_args.at.sums.at[at] = vec4(sum.friction, sum.push);
-        if (traces) trace(c, p, touches, x_before, x.xyz, body.position);
-    }
-    store_point(contact_args.at.position, p, x);
-}
-
 // Saves the state at the beginning of the frame, for run_roll_back().
 void run_keep(uint p)
 {
     keep_args.at.good_position.at[p] = vec4(load_point(keep_args.at.position, p).xyz, keep_args.at.start.at[p].w);
     keep_args.at.good_velocity.at[p] = keep_args.at.velocity.at[p];
     keep_args.at.good_compensation.at[p] = keep_args.at.compensation.at[p];
+    if (p == 0u) keep_args.at.report.at[WEFT_REPORT_NEAR_SLOTS] = 0u;
 }
 
 void run_check(uint p)

@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/contact_forces/account.glsl"
 
-shared uint sums[WEFT_SUM_WORDS];   // of the workgroup
+// Of each slot that the workgroup works on.
+shared uint sums[WEFT_GROUP / WEFT_COLLIDER_TILE * WEFT_SUM_WORDS];
 
 // The number as 64 bits, low word first. It must be less than 2^63. The two words represent the float exactly.
 uvec2 words_of(float quanta)
@@ -29,40 +30,40 @@ void add_here(uint at, float quanta)
 
 void main()
 {
-    uint group = workgroup(), me = gl_LocalInvocationID.x;
-    if (group >= args.count) return;
-    if (me < WEFT_SUM_WORDS) sums[me] = 0u;
+    uint me = gl_LocalInvocationID.x, flag = 0u;
+    if (me < sums.length()) sums[me] = 0u;
     barrier();
 
-    PacketIn packet = args.packets.at[group];
-    uint p = packet.first + me, flag = 0u;
+    ContactPlace contact;
+    bool found = find_contact(contact), counts = found && contact.particle < WEFT_ACCOUNT.particles;
+    uint here = me / WEFT_COLLIDER_TILE * WEFT_SUM_WORDS;
     // A frame with non-finite numbers is rolled back, so its contacts do not count.
-    if (p < WEFT_ACCOUNT.particles && (WEFT_ACCOUNT.report.at[0] & WEFT_REPORT_NON_FINITE) == 0u) {
-        uint at = packet.collider * WEFT_ACCOUNT.capacity + p;
-        vec3 moved = WEFT_ACCOUNT.moved.at[at].xyz;
+    if (counts && (WEFT_ACCOUNT.report.at[WEFT_REPORT_BITS] & WEFT_REPORT_NON_FINITE) == 0u) {
+        vec3 moved = WEFT_ACCOUNT.moved.at[contact.at].xyz;
         if (moved != vec3(0.0)) {
-            float momentum = contact_momentum(WEFT_ACCOUNT.position.at[p].w, WEFT_ACCOUNT.frame.at.inv_h);
+            float momentum = contact_momentum(WEFT_ACCOUNT.position.at[contact.particle].w, WEFT_ACCOUNT.frame.at.inv_h);
             vec3 linear = quanta_of(moved, momentum);
             if (linear != vec3(0.0)) {
-                vec3 angular = quanta_of(WEFT_ACCOUNT.turned.at[at].xyz, momentum);
+                vec3 angular = quanta_of(WEFT_ACCOUNT.turned.at[contact.at].xyz, momentum);
                 for (uint axis = 0u; axis < 3u; ++axis) {
-                    add_here(2u * axis, linear[axis]);
-                    add_here(2u * axis + 6u, angular[axis]);
+                    add_here(here + 2u * axis, linear[axis]);
+                    add_here(here + 2u * axis + 6u, angular[axis]);
                 }
-                atomicAdd(sums[WEFT_SUM_CONTACTS], 1u);
+                atomicAdd(sums[here + WEFT_SUM_CONTACTS], 1u);
                 flag = 1u;
             }
         }
     }
-    args.flags.at[group * WEFT_GROUP + me] = flag;
+    if (invocation() < args.slot_count * WEFT_COLLIDER_TILE) args.flags.at[invocation()] = flag;
     barrier();
 
-    if (sums[WEFT_SUM_CONTACTS] == 0u) return;
-    uint to = packet.collider * WEFT_SUM_WORDS;
-    if (me < 6u) {
-        uint low = sums[2u * me];
-        uint before = atomicAdd(WEFT_ACCOUNT.sums.at[to + 2u * me], low);
-        atomicAdd(WEFT_ACCOUNT.sums.at[to + 2u * me + 1u], sums[2u * me + 1u] + (before + low < before ? 1u : 0u));
+    if (!found || sums[here + WEFT_SUM_CONTACTS] == 0u) return;
+    uint word = me % WEFT_COLLIDER_TILE, to = contact.collider * WEFT_SUM_WORDS;
+    if (word < 6u) {
+        uint low = sums[here + 2u * word];
+        uint before = atomicAdd(WEFT_ACCOUNT.sums.at[to + 2u * word], low);
+        uint high = sums[here + 2u * word + 1u] + (before + low < before ? 1u : 0u);
+        atomicAdd(WEFT_ACCOUNT.sums.at[to + 2u * word + 1u], high);
     }
-    if (me == 6u) atomicAdd(WEFT_ACCOUNT.sums.at[to + WEFT_SUM_CONTACTS], sums[WEFT_SUM_CONTACTS]);
+    if (word == 6u) atomicAdd(WEFT_ACCOUNT.sums.at[to + WEFT_SUM_CONTACTS], sums[here + WEFT_SUM_CONTACTS]);
 }

@@ -20,18 +20,12 @@ void main()
     uint colliders = list.members.at[member].frame.at.colliders;
     float half_thickness = list.members.at[member].frame.at.half_thickness;
     for (uint c = 0u; c < colliders; ++c) {
-        ColliderIn collider = list.members.at[member].colliders.at[c];
+        ColliderIn collider = list.members.at[member].colliders.at.colliders.at[c];
         if (collider.sticks == 0u) continue;
-        PoseIn pose = list.members.at[member].poses.at[c];
-        ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
-                                          ShapeBlocks(collider.data));
+        PoseIn pose = pose_after(list.members.at[member].colliders, collider, 0u);
         vec3 local = unrotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, x.xyz - pose.position.xyz);
         vec3 normal;
-        float gap = 0.0;
-        uint kind = 0u;
-#define WEFT_SHAPE(name, Name) if (collider.shape == kind++) gap = distance_##name(local, shape, normal);
-#include "physics/contact/shapes.def"
-#undef WEFT_SHAPE
+        float gap = distance_to(collider, local, normal);
         if (!adheres(gap - half_thickness, collider.adhesion_distance, x.w)) continue;
 #ifdef WEFT_FINDS
         ++found;

@@ -8,9 +8,9 @@ void main()
     uint row = invocation();
     if (row >= first_row(list.items)) return;
     vec4 on_collider = list.targets.at[row];
-    // All cloths of a frame have the same poses.
-    uint colliders = list.members.at[0].frame.at.colliders;
-    PoseIn pose = list.members.at[0].poses.at[(list.substep + 1u) * colliders + floatBitsToUint(on_collider.w)];
+    // All cloths have the same colliders.
+    ColliderIn collider = list.members.at[0].colliders.at.colliders.at[floatBitsToUint(on_collider.w)];
+    PoseIn pose = pose_after(list.members.at[0].colliders, collider, list.substep + 1u);
     vec3 target = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, on_collider.xyz) + pose.position.xyz;
     list.fields.at[row] = target.x;
     list.fields.at[list.stride + row] = target.y;

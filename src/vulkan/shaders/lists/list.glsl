@@ -4,6 +4,7 @@
 
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/lists/args.data.h"
+#include "vulkan/shaders/collider_lists.glsl"
 
 layout(push_constant) uniform Push { ListArgs list; };
 

@@ -1,0 +1,43 @@
+// Reads the world's colliders, their poses, and the lists of those near each tile of particles (colliders.data.h).
+#ifndef WEFT_COLLIDER_LISTS_GLSL
+#define WEFT_COLLIDER_LISTS_GLSL
+
+// Pose after so many substeps of the frame.
+PoseIn pose_after(CollidersRef world, ColliderIn collider, uint substeps)
+{
+    return world.at.poses.at[collider.first_pose + substeps * collider.pose_step];
+}
+
+// The collider as a particle of the cloth meets it in a substep.
+ContactBody body_of(CollidersRef world, ColliderIn collider, FrameRef frame, uint substep)
+{
+    PoseIn now = pose_after(world, collider, substep + 1u), before = pose_after(world, collider, substep);
+    return ContactBody(now.x.xyz, now.y.xyz, now.z.xyz, now.position.xyz, before.x.xyz, before.y.xyz, before.z.xyz,
+                       before.position.xyz, sqrt(frame.at.static_friction * collider.static_friction),
+                       sqrt(frame.at.kinetic_friction * collider.kinetic_friction), frame.at.half_thickness,
+                       frame.at.depenetration);
+}
+
+// m, to the shape's surface; `local` is in the collider's frame of reference, as is the normal.
+float distance_to(ColliderIn collider, vec3 local, out vec3 normal)
+{
+    ShapeNumbers shape = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,
+                                      ShapeBlocks(collider.data));
+    float distance = 0.0;
+    uint kind = 0u;
+#define WEFT_SHAPE(name, Name) if (collider.shape == kind++) distance = distance_##name(local, shape, normal);
+#include "physics/contact/shapes.def"
+#undef WEFT_SHAPE
+    return distance;
+}
+
+// The slots of the particle's tile: x ≤ slot < y. A slot holds the number of a collider, and its place in arrays of
+// what contact adds up.
+uvec2 slots_near(NearTileRef tiles, uint p)
+{
+    uint tile = p / WEFT_COLLIDER_TILE, first = tiles.at[tile].first;
+    return uvec2(first, first + tiles.at[tile].count);
+}
+uint place_in_slot(uint slot, uint p) { return slot * WEFT_COLLIDER_TILE + p % WEFT_COLLIDER_TILE; }
+
+#endif
