@@ -22,7 +22,8 @@ class TrueSurfaces {
     /// Whether the distance is a convex function of the point, which allows sharper bounds.
     static bool is_convex(const Collider& collider) { return collider.shape != ShapeKind::mesh; }
 
-    /// Distances to one collider at points that are close to each other.
+    /// Distances to one collider at points that are close to each other. The next probe() of the same shape ends its
+    /// use.
     class Probe {
       public:
         /// m, negative inside. In a hole of a mesh, as DistanceField: to the surface that closes it.
@@ -36,8 +37,7 @@ class TrueSurfaces {
         explicit Probe(const Collider& collider) : collider_(collider) {}
 
         const Collider& collider_;
-        const OfMesh* mesh_ = nullptr;
-        std::optional<SignedDistanceWalk> walk_;
+        OfMesh* mesh_ = nullptr;
         Vec3 normal_{};
     };
     /// For points within `radius` of `center`. The collider must outlive the probe.
@@ -46,9 +46,9 @@ class TrueSurfaces {
     double distance(const Collider& collider, Vec3 world) { return probe(collider, world, 0).distance(world); }
 
   private:
-    const Probe::OfMesh& of_mesh(const std::shared_ptr<const ShapeData>& data);
+    Probe::OfMesh& of_mesh(const std::shared_ptr<const ShapeData>& data);
 
-    std::unordered_map<const ShapeData*, std::unique_ptr<const Probe::OfMesh>> meshes_;
+    std::unordered_map<const ShapeData*, std::unique_ptr<Probe::OfMesh>> meshes_;
 };
 
 }  // namespace weft
