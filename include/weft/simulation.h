@@ -78,7 +78,7 @@ struct Measures {
     double mean_residual = 0, max_residual = 0;  ///< unsolved part of the stretch: |C + α̃λ| / ℓ₀
     double kinetic_energy = 0;                   ///< J
     double max_speed = 0;                        ///< m/s, of the fastest particle
-    double max_penetration = 0;                  ///< m, largest depth inside a collider
+    double max_penetration = 0;                  ///< m, largest depth below the true surface of a collider
 };
 
 /// A world of cloths and colliders. Functions that take an id return an error or an empty value if the id does not name

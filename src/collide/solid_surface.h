@@ -79,6 +79,11 @@ class SignedDistanceWalk {
     /// `gradient_bound`: of the winding number, in the region of the walk.
     SignedDistanceWalk(const SolidSurface& surface, double gradient_bound)
         : surface_(surface), gradient_bound_(gradient_bound) {}
+    /// Continues in another region, for which the bound holds.
+    void enter_region(double gradient_bound) {
+        if (gradient_bound != gradient_bound_) distance_before_ = 0;  // on the way, neither bound may hold
+        gradient_bound_ = gradient_bound;
+    }
     /// Negative inside. In and near a hole, the estimated distance to the surface that closes it if that is less.
     double distance_at(Vec3 point);
 

@@ -321,7 +321,7 @@ Measures Simulation::measure() const {
     const ClothMeasures measures = world.measure();
     // The only measure that needs positions on the host.
     const double penetration =
-        world.colliders().empty() ? 0 : measure_penetration(world.frame(), world.colliders()).max;
+        world.colliders().empty() ? 0 : impl_->penetration.measure(world.frame(), world.colliders()).max;
     return {.mean_stretch = measures.strain.stretch.mean,
             .max_stretch = measures.strain.stretch.max,
             .mean_shear = measures.strain.shear.mean,

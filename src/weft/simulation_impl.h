@@ -1,6 +1,7 @@
 // Implementation of the public Simulation.
 #pragma once
 
+#include "solver/measures/penetration.h"
 #include "weft/drawn_frame.h"
 #include "weft/scene_world.h"
 
@@ -15,6 +16,7 @@ struct Simulation::Impl {
     SceneWorld scene;
     mutable DrawnFrame drawn = {};
     mutable bool drawn_is_old = true;
+    mutable PenetrationSearch penetration = {};
 
     World& world() { return scene.world(); }
     const World& world() const { return scene.world(); }

@@ -123,7 +123,9 @@ int run(const RunOptions& options) {
     for (const std::string& note : session->notes()) print_warning(note);
     if (const auto note = large_export_note(*estimates)) print_warning(*note);
 
-    RunStatistics statistics(*session, *frames, *crossings);
+    // Without --stats, a run measures its last frame only.
+    const auto measured = options.stats.empty() ? MeasurePenetration::last : MeasurePenetration::every;
+    RunStatistics statistics(*session, *frames, *crossings, measured);
     if (auto done = simulate(*session, *frames, *exporters, statistics, options.quiet); !done) {
         print_errors(done.errors());
         return exit_failed;

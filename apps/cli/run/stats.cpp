@@ -38,6 +38,30 @@ Json loads(const World& world) {
     return list;
 }
 
+// `frame`: in which the penetration was measured.
+Json deepest_place(const World& world, const Frame& names, const Penetration& penetration, std::uint64_t frame) {
+    Json place = {{"frame", frame}, {"max", penetration.max}, {"count", penetration.count}};
+    place["collider"] = nullptr, place["cloth"] = nullptr, place["position"] = nullptr;
+    if (penetration.collider < world.colliders().size() && penetration.cloth < names.cloths.size()) {
+        place["collider"] = world.colliders()[penetration.collider].name;
+        place["cloth"] = names.cloths[penetration.cloth].model->name;
+        place["position"] = axes(penetration.place);
+    }
+    return place;
+}
+
+Json passages_of(const World& world, const Frame& names, const Passages& passages) {
+    Json json = {{"count", passages.count}, {"points", passages.points}, {"first", nullptr}};
+    if (passages.first) {
+        const Passages::Place& first = *passages.first;
+        json["first"] = {{"frame", first.frame},
+                         {"collider", world.colliders()[first.collider].name},
+                         {"cloth", names.cloths[first.cloth].model->name},
+                         {"position", axes(first.place)}};
+    }
+    return json;
+}
+
 // The value that 99 % of the edges along warp and weft do not exceed. JSON shows a NaN as null.
 double stretch_percentile(const Frame& frame, bool finite) {
     if (!finite) return std::nan("");
@@ -73,14 +97,18 @@ Result<CountCrossings> read_crossings(const std::string& word) {
     return Error{"--crossings", "must be " + alternatives(names) + ", got " + in_quotes(word)};
 }
 
-RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings)
+RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings,
+                             MeasurePenetration penetration)
     : frame_seconds_(session.frame_seconds()),
       count_crossings_(crossings),
+      measure_penetration_(penetration),
       order_(sheet_poses(session.world().frame())) {
     const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);
     snapshot_frame_ = frames - static_cast<std::uint64_t>(last_second + 0.5);
     if (snapshot_frame_ == 0) collect_positions(session.world().frame(), snapshot_);
     step_ms_.reserve(frames);
+    if (measure_penetration_ == MeasurePenetration::every)
+        passages_.add(session.world().frame(), session.world().colliders());
 }
 
 void RunStatistics::add(const World& world) {
@@ -97,6 +125,14 @@ void RunStatistics::add(const World& world) {
         crossings_ = count_intersections(world.frame());
         worst_crossings_ = std::max(worst_crossings_, crossings_->triangles);
         order_.add(sheet_poses(world.frame()));
+    }
+    if (measure_penetration_ == MeasurePenetration::every) {
+        penetration_ = penetration_search_.measure(world.frame(), world.colliders());
+        if (penetration_->max > worst_penetration_.max) {
+            worst_penetration_ = *penetration_;
+            worst_penetration_frame_ = frame.index;
+        }
+        passages_.add(world.frame(), world.colliders());
     }
     if (frame.index == snapshot_frame_) {
         collect_positions(world.frame(), snapshot_);
@@ -146,7 +182,9 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
         mean_speed_of_end = mean_speed(frame);
     }
     const ClothMeasures measures = world.measure();
-    const Penetration penetration = measure_penetration(frame, world.colliders());
+    const Penetration penetration =
+        penetration_ ? *penetration_ : penetration_search_.measure(frame, world.colliders());
+    const bool worst_before = worst_penetration_.max > penetration.max;
     const Intersections crossings = crossings_ ? *crossings_ : count_intersections(frame);
 
     Json stats;
@@ -170,7 +208,14 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["kinetic_energy"] = measures.kinetic_energy;
     stats["mean_speed"] = mean_speed_of_end;
     stats["max_speed"] = measures.max_speed;
-    stats["penetration"] = {{"max", penetration.max}, {"count", penetration.count}};
+    stats["penetration"] = {
+        {"max", penetration.max},
+        {"at_most", penetration.at_most},
+        {"count", penetration.count},
+        {"samples", penetration.samples},
+        {"worst", worst_before ? deepest_place(world, frame, worst_penetration_, worst_penetration_frame_)
+                               : deepest_place(world, frame, penetration, frame.index)}};
+    stats["passed"] = passages_of(world, frame, passages_.passages());
     if (world.settings().contact_forces) stats["colliders"] = loads(world);
     stats["self_contacts"] = cloth_contacts_.contacts;
     stats["searches"] = cloth_contacts_.searches;
@@ -224,7 +269,15 @@ void print_summary(const Json& s) {
                 100 * number("stretch", "p99"), 100 * number("stretch", "max"));
     std::printf("  residual      mean %.3f %%, max %.3f %%\n", 100 * number("residual", "mean"),
                 100 * number("residual", "max"));
-    std::printf("  penetration   max %.3g mm\n", 1000 * number("penetration", "max"));
+    std::printf("  penetration   max %.3g mm", 1000 * number("penetration", "max"));
+    if (const Json& worst = s["penetration"]["worst"]; !worst["collider"].is_null())
+        std::printf(", worst %.3g mm in frame %llu, in collider '%s'", 1000 * worst["max"].get<double>(),
+                    worst["frame"].get<unsigned long long>(), worst["collider"].get<std::string>().c_str());
+    std::printf("\n");
+    if (const Json& first = s["passed"]["first"]; !first.is_null())
+        std::printf("  passed        %llu times, first in frame %llu: cloth '%s' and collider '%s'\n",
+                    s["passed"]["count"].get<unsigned long long>(), first["frame"].get<unsigned long long>(),
+                    first["cloth"].get<std::string>().c_str(), first["collider"].get<std::string>().c_str());
     if (stepped) std::printf("  mean speed    %.3g m/s\n", s["mean_speed"].get<double>());
     const auto count = [&](const char* key) { return s[key].get<unsigned long long>(); };
     if (count("searches") > 0)

@@ -1,6 +1,7 @@
 // The figures of a run: collected frame by frame, written as JSON, summarized on the terminal.
 #pragma once
 
+#include "solver/measures/passages.h"
 #include "solver/measures/statistics.h"
 #include "weft/scene_world.h"
 
@@ -27,10 +28,14 @@ enum class CountCrossings { last, every };
 /// Reads the value of --crossings.
 Result<CountCrossings> read_crossings(const std::string& word);
 
+/// Frames in which penetration is measured. In `every`, passages are counted too.
+enum class MeasurePenetration { last, every };
+
 class RunStatistics {
   public:
     /// `frames`: the number of steps that will follow.
-    RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings = CountCrossings::last);
+    RunStatistics(const SceneWorld& session, std::uint64_t frames, CountCrossings crossings = CountCrossings::last,
+                  MeasurePenetration penetration = MeasurePenetration::last);
 
     /// Call it after every step.
     void add(const World& world);
@@ -55,7 +60,13 @@ class RunStatistics {
     CountCrossings count_crossings_;
     std::optional<Intersections> crossings_;  ///< of the last frame; nullopt: not counted
     std::uint64_t worst_crossings_ = 0;       ///< most pairs of triangles in a counted frame
-    SheetOrder order_;                        ///< followed through the counted frames
+    MeasurePenetration measure_penetration_;
+    mutable PenetrationSearch penetration_search_;
+    std::optional<Penetration> penetration_;  ///< of the last frame; nullopt: not measured
+    Penetration worst_penetration_;
+    std::uint64_t worst_penetration_frame_ = 0;
+    PassageWatch passages_;
+    SheetOrder order_;  ///< followed through the counted frames
 };
 
 /// "xpbd, lines", "pbd, jacobi by gather, hierarchy"

@@ -29,21 +29,7 @@ bool all_finite(const Frame& frame) {
 }
 
 Penetration measure_penetration(const Frame& frame, std::span<const Collider> colliders) {
-    constexpr double tolerance = 1e-6;  // m: rounding of float positions a few meters from the origin
-    Penetration result;
-    for (const ClothFrame& cloth : frame.cloths) {
-        for (const auto& [ia, ib, ic] : cloth.triangles) {
-            const Vec3 a = cloth.positions[ia].xyz(), b = cloth.positions[ib].xyz(), c = cloth.positions[ic].xyz();
-            const Vec3 samples[] = {a, b, c, (a + b) * 0.5f, (b + c) * 0.5f, (c + a) * 0.5f, (a + b + c) / 3.0f};
-            double deepest = 0;
-            for (const Collider& collider : colliders) {
-                for (Vec3 p : samples) deepest = std::max(deepest, -signed_distance(collider, p));
-            }
-            result.max = std::max(result.max, deepest);
-            result.count += deepest > tolerance;
-        }
-    }
-    return result;
+    return PenetrationSearch().measure(frame, colliders);
 }
 
 Intersections count_intersections(const Frame& frame) {

@@ -3,6 +3,7 @@
 
 #include "collide/sheet_order.h"
 #include "solver/measures/measures.h"
+#include "solver/measures/penetration.h"
 #include "solver/state/frame.h"
 #include "solver/world/collider.h"
 
@@ -19,12 +20,7 @@ double kinetic_energy(const Frame& frame);
 double max_speed(const Frame& frame);
 bool all_finite(const Frame& frame);
 
-/// Depth of the cloth inside the colliders' surfaces, ignoring thickness. Sampled at the corners, the midpoints of the
-/// sides and the center of every triangle. A particle that has tunneled deep inside counts with its full depth.
-struct Penetration {
-    double max = 0;           ///< m
-    std::uint64_t count = 0;  ///< triangles with a sample more than 1 µm inside
-};
+/// PenetrationSearch, without keeping the search trees of meshes.
 Penetration measure_penetration(const Frame& frame, std::span<const Collider> colliders);
 
 /// Numbers of crossing pairs, within and between all cloths.
