@@ -453,6 +453,47 @@ TEST_P(InstructionSet, touches_every_shape_alike) {
     }
 }
 
+// In the frame of the shape: at its center, on its faces, edges and corners, very close to them and very far away.
+// Without -0: a particle that nothing touches may become +0 if another lane of its group is touched.
+TEST_P(InstructionSet, touches_every_shape_alike_at_degenerate_places) {
+    const float subnormal = 1e-40f;
+    for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
+        for (const float size : {0.5f, 1e-6f, 1e6f, 1e-30f}) {
+            const float places[] = {0,        size,      -size,      size / 2, std::nextafter(size, 0.0f),
+                                    2 * size, subnormal, -subnormal, 1e-20f,   1e6f,
+                                    -1e15f,   0.6f};
+            for (unsigned seed = 0; seed < 6; ++seed) {
+                Fixture state = random_state(seed, true);
+                std::mt19937 random(seed);
+                const auto place = [&] { return places[random() % std::size(places)]; };
+                for (std::size_t p = 0; p < state.position.size(); ++p) {
+                    Vec4& x = state.position[p];
+                    x.x = place(), x.y = place(), x.z = place();
+                    if (p % 2) continue;
+                    Vec4& start = state.start[p];
+                    start.x = place(), start.y = place(), start.z = place();
+                }
+                compare(state, [&](const Passes& passes, Fixture& f) {
+                    AlignedVector<Vec4> sums(f.position.size());
+                    // Thickness makes the distances of points outside count too.
+                    const ContactView view{.numbers = {size, seed % 2 ? size : size / 2, size, size / 4},
+                                           .data = sample_blocks(shape),
+                                           .now = {},
+                                           .before = {},
+                                           .static_friction = 0.4f,
+                                           .kinetic_friction = 0.3f,
+                                           .half_thickness = seed % 3 ? 2 * size : 1e7f,
+                                           .depenetration = 0.0008f,
+                                           .sums = &sums[0].x,
+                                           .first_iteration = true};
+                    passes.contact[shape](f.view(), view, {0, padded(particle_count)});
+                });
+                if (HasFatalFailure()) FAIL() << "shape " << shape << ", size " << size << ", seed " << seed;
+            }
+        }
+    }
+}
+
 TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else_by_it) {
     const Range all{0, padded(particle_count)};
     for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
