@@ -432,8 +432,11 @@ TEST_P(InstructionSet, touches_every_shape_alike) {
             const Fixture state = random_state(seed, seed % 2);
             compare(state, [&](const Passes& passes, Fixture& f) {
                 AlignedVector<Vec4> sums(f.position.size());
-                ContactView view{.numbers = {0.6f, 0.64f, 0.48f, 0.1f},
+                ContactView view{.kind = static_cast<int>(shape),
+                                 .numbers = {0.6f, 0.64f, 0.48f, 0.1f},
                                  .data = sample_blocks(shape),
+                                 .steepness = 1,
+                                 .roundness = 0,
                                  .now = here,
                                  .before = there,
                                  .static_friction = 0.4f,
@@ -476,8 +479,11 @@ TEST_P(InstructionSet, touches_every_shape_alike_at_degenerate_places) {
                 compare(state, [&](const Passes& passes, Fixture& f) {
                     AlignedVector<Vec4> sums(f.position.size());
                     // Thickness makes the distances of points outside count too.
-                    const ContactView view{.numbers = {size, seed % 2 ? size : size / 2, size, size / 4},
+                    const ContactView view{.kind = static_cast<int>(shape),
+                                           .numbers = {size, seed % 2 ? size : size / 2, size, size / 4},
                                            .data = sample_blocks(shape),
+                                           .steepness = 1,
+                                           .roundness = 0,
                                            .now = {},
                                            .before = {},
                                            .static_friction = 0.4f,
@@ -500,8 +506,11 @@ TEST_P(InstructionSet, keeps_the_same_account_of_contacts_and_moves_nothing_else
         for (unsigned seed = 0; seed < 10; ++seed) {
             const Fixture state = random_state(seed, seed % 2);
             AlignedVector<Vec4> sums(state.position.size());
-            ContactView view{.numbers = {0.6f, 0.8f, 0.3f, 0.1f},
+            ContactView view{.kind = static_cast<int>(shape),
+                             .numbers = {0.6f, 0.8f, 0.3f, 0.1f},
                              .data = sample_blocks(shape),
+                             .steepness = 1,
+                             .roundness = 0,
                              .now = {rotation_from_degrees({10, 20, 30}), {0.1f, 0.2f, 0.3f}},
                              .before = {rotation_from_degrees({11, 19, 30}), {0.1f, 0.19f, 0.3f}},
                              .static_friction = 0.4f,
