@@ -35,8 +35,8 @@ class ClothRun {
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     /// Without what run_contacts() adds.
     ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;
-    template <class Visit>
-    void for_each_near_face(unsigned worker, Visit&& visit) const;
+    template <class Collect, class Visit>
+    void for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const;
     void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void move_faces(bool last, std::uint32_t substep, Worker worker) const;
     void settle_faces(std::uint32_t substep, Worker worker) const;

@@ -31,6 +31,7 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
     if (input_.colliders.empty()) return;
     ColliderPart& part = cover_colliders(pass, substep, mine, worker);
     const bool traces = !cloth_.account.empty();
+    cloth_.face_contacts.clear_near({mine.begin, mine.end});
     for (const ColliderRun& run : part.runs()) {
         for (const NearCollider& near : part.near(run)) {
             ContactView view = contact_view(near, substep);
@@ -38,6 +39,11 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
             view.sums = part.sums(near);
             view.moved = part.moved(near);
             view.turned = part.turned(near);
+            view.near_faces = cloth_.face_contacts.near_faces(run);
+            view.nearest = nearest_of_faces(numbers_.half_thickness);
+            // What faces do not touch only moves particles.
+            const bool touches_faces = faces_touch(model(), input_.colliders[near.collider]);
+            view.widest = touches_faces ? widest_face(model()) : -static_cast<float>(far_away);
             const auto& loops = traces ? passes_.contact_traced : passes_.contact;
             loops[static_cast<std::uint32_t>(view.kind)](view_, view, {run.begin, run.end});
         }
@@ -60,13 +66,19 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .depenetration = numbers_.depenetration};
 }
 
-template <class Visit>
-void ClothRun::for_each_near_face(unsigned worker, Visit&& visit) const {
+// Calls collect(run), then visit(near) for each collider that the run's faces may touch.
+template <class Collect, class Visit>
+void ClothRun::for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const {
     if (input_.colliders.empty()) return;
     const ColliderPart& part = cloth_.near_colliders.part(worker);
     for (const ColliderRun& run : part.runs()) {
-        for (const NearCollider& near : part.near(run))
-            if (faces_touch(model(), input_.colliders[near.collider])) visit(run, near);
+        bool collected = false;
+        for (const NearCollider& near : part.near(run)) {
+            if (!faces_touch(model(), input_.colliders[near.collider])) continue;
+            if (!collected) collect(run);
+            collected = true;
+            visit(near);
+        }
     }
 }
 
@@ -77,10 +89,12 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
     switch (pass.kind) {
         case PassKind::find_faces:
             contacts.begin(worker.number);
-            for_each_near_face(worker.number, [&](const ColliderRun& run, const NearCollider& near) {
-                contacts.find(passes_, worker.number, view_, faces, run, near.collider, contact_view(near, substep),
-                              nearest);
-            });
+            for_each_near_face(
+                worker.number, [&](const ColliderRun& run) { contacts.collect(worker.number, faces, run); },
+                [&](const NearCollider& near) {
+                    contacts.find(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
+                                  nearest);
+                });
             break;
         case PassKind::push_faces:
             contacts.push(passes_, worker.number, view_, pass.batch == face_sweeps, numbers_.depenetration, nearest);
@@ -90,10 +104,12 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
             break;
         case PassKind::hold_faces:
             if (!contacts.any_swept()) break;
-            for_each_near_face(worker.number, [&](const ColliderRun& run, const NearCollider& near) {
-                contacts.hold(passes_, worker.number, view_, faces, run, near.collider, contact_view(near, substep),
-                              nearest, pass.batch > 0);
-            });
+            for_each_near_face(
+                worker.number, [&](const ColliderRun& run) { contacts.collect_moved(worker.number, faces, run); },
+                [&](const NearCollider& near) {
+                    contacts.hold(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
+                                  nearest, pass.batch > 0);
+                });
             break;
         default:  // settle_faces
             if (contacts.any_swept()) settle_faces(substep, worker);

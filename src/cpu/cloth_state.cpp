@@ -270,8 +270,8 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
-    face_contacts.prepare(model->capacity(), has_face_contact(plan) ? static_cast<std::uint32_t>(colliders) : 0,
-                          workers);
+    face_contacts.prepare(model->capacity(), model->face_stride,
+                          has_face_contact(plan) ? static_cast<std::uint32_t>(colliders) : 0, workers);
     wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
     if (has(plan.substep, PassKind::air) && face_mass.empty()) {
         const std::vector<float> masses = face_masses(*model);

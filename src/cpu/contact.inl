@@ -52,6 +52,18 @@ inline std::uint32_t first_outside_pass(const float* position, std::span<const B
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
 
+// Which particle of a group stands in a lane after load_blocks_unordered().
+constexpr std::size_t unordered_particle(std::size_t lane) {
+    return lane_count < 4 ? lane : lane % 4 * (lane_count / 4) + lane / 4;
+}
+
+WEFT_FN void mark_near_faces(const ContactView& c, const Solid& solid, std::size_t at, real distance, real way,
+                             mask moved) {
+    const mask near = faces_may_touch(solid, distance, way, real(c.nearest), real(c.widest));
+    for (std::uint32_t bits = bits_of(near || moved); bits != 0; bits &= bits - 1)
+        c.near_faces[at + unordered_particle(static_cast<std::size_t>(__builtin_ctz(bits)))] = 1;
+}
+
 template <class Shape, bool traced>
 inline void contact_pass(const ParticleView& p, const ContactView& c, Range range) {
     const ContactBody body = make_body(c);
@@ -68,27 +80,23 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         vec3 normal;
         const real gap = Shape::distance(local, solid.numbers, normal) - body.half_thickness;
         const vec3 start = load_blocks_unordered(p.start + 4 * i, unused);
-        const vec3 local_at_start = to_body_at_start(body, start), way = local - local_at_start;
+        const vec3 local_at_start = to_body_at_start(body, start), step = local - local_at_start;
+        const real way = sqrt(dot(step, step));
         // Most of a cloth touches nothing.
-        const bool touches = any(may_touch(gap, sum, sqrt(dot(way, way)), solid, body));
+        const bool touches = any(may_touch(gap, sum, way, solid, body));
         if (touches) {
             contact_particle(solid, body, x, start, w, sum, local, local_at_start, gap, normal);
             store_blocks_unordered(x, w, p.position + 4 * i);
+        }
+        if (c.near_faces) {
+            const vec3 moved = x - before;
+            mark_near_faces(c, solid, at, gap + body.half_thickness, way, dot(moved, moved) > real(0.0f));
         }
         if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * at);
         if constexpr (traced) {
             if (touches) trace_pass(c, at, before, x);
         }
     }
-}
-
-WEFT_FN Corners load_corners(const float* blocks, const std::uint32_t* corners, std::uint32_t stride, std::size_t i) {
-    real unused;
-    Corners x;
-    x.a = gather_blocks(blocks, corners + i, unused);
-    x.b = gather_blocks(blocks, corners + std::size_t{stride} + i, unused);
-    x.c = gather_blocks(blocks, corners + std::size_t{2} * stride + i, unused);
-    return x;
 }
 
 // Appends the contacts of the lanes in `listed`.
@@ -132,6 +140,27 @@ WEFT_FN Corners load_corners(const float* blocks, const std::uint32_t (&corners)
     return x;
 }
 
+// Triangles on lanes, in the body's frame.
+struct LaneFaces {
+    alignas(64) std::uint32_t corners[3][16];
+    Corners x, start, local, local_at_start;
+    FacePoint center;
+};
+
+template <class Shape>
+WEFT_FN void load_faces(const ParticleView& p, const FaceView& faces, const std::uint32_t* items,
+                        const ContactBody& body, const Solid& solid, LaneFaces& to) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t lane = 0; lane < lane_count; ++lane)
+            to.corners[k][lane] = faces.corners[k * faces.stride + items[lane]];
+    }
+    to.x = load_corners(p.position, to.corners), to.start = load_corners(p.start, to.corners);
+    to.local = to_body(body, to.x), to.local_at_start = to_body_at_start(body, to.start);
+    to.center.weights = center_weights();
+    to.center.distance =
+        Shape::distance(point_of(to.local, to.center.weights), solid.numbers, to.center.normal);
+}
+
 // Contact of the triangles numbered `items`, of which `mine` count.
 template <class Shape>
 inline void touch_faces(const ParticleView& p, const ContactView& c, const FaceView& faces, const std::uint32_t* items,
@@ -139,43 +168,33 @@ inline void touch_faces(const ParticleView& p, const ContactView& c, const FaceV
     const ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
     const real nearest = real(faces.nearest);
-    alignas(64) std::uint32_t corners[3][16];
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t lane = 0; lane < lane_count; ++lane)
-            corners[k][lane] = faces.corners[k * faces.stride + items[lane]];
-    }
-    const Corners x = load_corners(p.position, corners), start = load_corners(p.start, corners);
-    const Corners local = to_body(body, x), local_at_start = to_body_at_start(body, start);
-    FacePoint center;
-    center.weights = center_weights();
-    center.distance = Shape::distance(point_of(local, center.weights), solid.numbers, center.normal);
+    LaneFaces lanes;
+    load_faces<Shape>(p, faces, items, body, solid, lanes);
     const FaceContact contact =
-        face_contact(solid, local_at_start, local, center, nearest, body.half_thickness);
-    if (faces.hold) return hold_faces(faces, corners, mine && has_passed(contact, nearest), contact.time);
+        face_contact(solid, lanes.local_at_start, lanes.local, lanes.center, nearest, body.half_thickness);
+    if (faces.hold) return hold_faces(faces, lanes.corners, mine && has_passed(contact, nearest), contact.time);
     const mask listed = mine && touches_beside_corners(contact);
-    if (any(listed)) append_rows(corners, listed, face_row(body, contact, x, start, local), to);
+    if (any(listed))
+        append_rows(lanes.corners, listed, face_row(body, contact, lanes.x, lanes.start, lanes.local), to);
 }
 
 // Most triangles near a collider touch nothing. The others are collected, so that all lanes have work.
 template <class Shape>
-inline void find_faces_pass(const ParticleView& p, const ContactView& c, const FaceView& faces, Range range,
-                            FaceRows& to) {
+inline void find_faces_pass(const ParticleView& p, const ContactView& c, const FaceView& faces, FaceRows& to) {
     const ContactBody body = make_body(c);
     const Solid solid = solid_of(c);
-    alignas(64) std::uint32_t items[48], waiting[16];
+    // A face that has passed has touched on its way.
+    const real nearest = real(faces.hold ? 0.0f : faces.nearest);
+    alignas(64) std::uint32_t items[48];
     std::size_t count = 0;
-    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
-        const Corners local = to_body(body, load_corners(p.position, faces.corners, faces.stride, i));
-        const Corners local_at_start = to_body_at_start(body, load_corners(p.start, faces.corners, faces.stride, i));
-        FacePoint center;
-        center.weights = center_weights();
-        center.distance = Shape::distance(point_of(local, center.weights), solid.numbers, center.normal);
-        const std::size_t left = range.end - i;
+    for (std::size_t i = 0; i < faces.count; i += lane_count) {
+        LaneFaces lanes;
+        load_faces<Shape>(p, faces, faces.items + i, body, solid, lanes);
+        const std::size_t left = faces.count - i;
         const mask mine = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu);
-        const mask may = mine && face_may_touch(local_at_start, local, center, solid, real(faces.nearest));
+        const mask may = mine && face_may_touch(lanes.local_at_start, lanes.local, lanes.center, solid, nearest);
         if (!any(may)) continue;
-        for (std::size_t lane = 0; lane < lane_count; ++lane) waiting[lane] = static_cast<std::uint32_t>(i + lane);
-        compress(waiting, may, items + count);
+        compress(faces.items + i, may, items + count);
         count += static_cast<std::size_t>(__builtin_popcount(bits_of(may)));
         if (count < lane_count) continue;
         touch_faces<Shape>(p, c, faces, items, mask_of(0xffff), to);

@@ -51,15 +51,18 @@ void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* 
 
 }  // namespace
 
-void FaceContacts::prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers) {
+void FaceContacts::prepare(std::uint32_t particles, std::uint32_t faces, std::uint32_t colliders, unsigned workers) {
     workers_ = colliders > 0 ? workers : 0;
+    near_.resize(workers_ > 0 ? padded(particles) : 0), touching_.resize(near_.size());
     if (workers_ == 0) return;
     if (parts_.size() < workers) parts_.resize(workers);
     if (sums_.size() < particles) sums_.resize(particles), holds_.resize(particles);
     for (Part& part : parts_) {
+        if (part.items.size() < faces + lane_padding) part.items.resize(faces + lane_padding);
         part.pushed.reserve(particles), part.held.reserve(particles);
         part.groups.reserve(std::max(part.groups.capacity(), 2 * part.groups.size() + colliders));
-        make_room(part, std::max<std::size_t>(particles / 2, 2 * part.rows.count));
+        // find() asks for room for all faces of a run.
+        make_room(part, std::max<std::size_t>(faces / workers + lane_padding, 2 * part.rows.count));
         part.rows.count = 0;
         part.groups.clear();
     }
@@ -125,27 +128,68 @@ bool FaceContacts::any_swept() const {
     return std::any_of(first, first + workers_, [](const Part& part) { return part.rows.any_swept; });
 }
 
-void FaceContacts::hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-                        const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest,
-                        bool still) {
+void FaceContacts::clear_near(Range particles) {
+    if (near_.empty()) return;
+    std::fill(near_.begin() + particles.begin, near_.begin() + particles.end, std::uint8_t{0});
+    std::fill(touching_.begin() + particles.begin, touching_.begin() + particles.end, std::uint8_t{0});
+}
+
+void FaceContacts::collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run) {
     const Range range = faces_of(faces, run);
-    if (range.begin == range.end) return;
-    Part& part = parts_[worker];
-    HoldTarget target{holds_.data(), &part.held, collider % WEFT_HOLD_COLLIDERS, still};
-    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](
-        particles, contact, {faces.corners.data(), faces.stride, nearest, hold_corner, &target}, range, part.rows);
+    const std::uint32_t *const a = faces.corners.data(), *const b = a + faces.stride, *const c = b + faces.stride;
+    std::uint32_t count = 0;
+    for (std::uint32_t f = range.begin; f < range.end; ++f) {
+        part.items[count] = f;
+        count += (marks[a[f]] | marks[b[f]] | marks[c[f]]) != 0;
+    }
+    // Lanes beyond the last one read a valid face.
+    for (std::uint32_t k = 0; k < lane_padding; ++k) part.items[count + k] = range.begin;
+    part.item_count = count;
+}
+
+void FaceContacts::collect(unsigned worker, const FacesByTile& faces, const ColliderRun& run) {
+    collect(parts_[worker], near_.data(), faces, run);
+}
+
+void FaceContacts::collect_moved(unsigned worker, const FacesByTile& faces, const ColliderRun& run) {
+    collect(parts_[worker], touching_.data(), faces, run);
+}
+
+FaceView FaceContacts::view(const Part& part, const FacesByTile& faces, float nearest) const {
+    return {.corners = faces.corners.data(),
+            .stride = faces.stride,
+            .nearest = nearest,
+            .items = part.items.data(),
+            .count = part.item_count};
 }
 
 void FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-                        const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest) {
-    const Range range = faces_of(faces, run);
-    if (range.begin == range.end) return;
+                        std::uint32_t collider, const ContactView& contact, float nearest) {
     Part& part = parts_[worker];
-    make_room(part, part.rows.count + (range.end - range.begin));
+    if (part.item_count == 0) return;
+    make_room(part, part.rows.count + part.item_count);
     const std::size_t before = part.rows.count;
-    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](
-        particles, contact, {faces.corners.data(), faces.stride, nearest}, range, part.rows);
-    if (part.rows.count > before) part.groups.push_back({collider, part.rows.count});
+    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, view(part, faces, nearest),
+                                                                part.rows);
+    if (part.rows.count == before) return;
+    if (!part.groups.empty() && part.groups.back().collider == collider)
+        part.groups.back().end = part.rows.count;
+    else
+        part.groups.push_back({collider, part.rows.count});
+    for (const std::uint32_t* corners : part.rows.corners) {
+        for (std::size_t i = before; i < part.rows.count; ++i)
+            std::atomic_ref(touching_[corners[i]]).store(1, std::memory_order_relaxed);
+    }
+}
+
+void FaceContacts::hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+                        std::uint32_t collider, const ContactView& contact, float nearest, bool still) {
+    Part& part = parts_[worker];
+    if (part.item_count == 0) return;
+    HoldTarget target{holds_.data(), &part.held, collider % WEFT_HOLD_COLLIDERS, still};
+    FaceView of = view(part, faces, nearest);
+    of.hold = hold_corner, of.holds = &target;
+    passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, of, part.rows);
 }
 
 void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last,

@@ -21,14 +21,21 @@ using FaceSum = std::array<std::uint32_t, 4>;
 /// particle, in integers, so that the result does not depend on the number of threads.
 class FaceContacts {
   public:
-    /// Allocates, on the calling thread; `colliders`: 0 if no pass uses this.
-    void prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers);
+    /// Allocates, on the calling thread; `faces`, `colliders`: 0 if no pass uses this.
+    void prepare(std::uint32_t particles, std::uint32_t faces, std::uint32_t colliders, unsigned workers);
+
+    /// Starts contact of particles: none of these has a face that may touch.
+    void clear_near(Range particles);
+    /// ContactView::near_faces of a run.
+    std::uint8_t* near_faces(const ColliderRun& run) { return near_.empty() ? nullptr : &near_[run.begin]; }
 
     /// Starts the list of a worker anew.
     void begin(unsigned worker);
-    /// Appends the contacts of a run of particles with a collider.
+    /// Collects the faces that may touch of a run of particles, for the calls of find() for that run.
+    void collect(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
+    /// Appends the contacts of these faces with a collider.
     void find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-              const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest);
+              std::uint32_t collider, const ContactView& contact, float nearest);
     /// Adds the pushes of a worker's contacts. `last`: of the sweep that keeps faces from passing.
     void push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last, float depenetration,
               float nearest);
@@ -40,10 +47,12 @@ class FaceContacts {
 
     /// Whether faces may have passed. Valid for all workers after all have found their contacts.
     bool any_swept() const;
-    /// Marks particles of faces that have passed, after all pushes. `still`: they go no part of their way, otherwise
-    /// the part before the touch.
+    /// Collects the faces of a run that pushes have moved, for the calls of hold() for that run.
+    void collect_moved(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
+    /// Marks particles of those faces that have passed, after all pushes. `still`: they go no part of their way,
+    /// otherwise the part before the touch.
     void hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-              const ColliderRun& run, std::uint32_t collider, const ContactView& contact, float nearest, bool still);
+              std::uint32_t collider, const ContactView& contact, float nearest, bool still);
     /// Calls visit(particle, collider, part of its way) for the particles that a worker marked, and unmarks them.
     template <class Visit>
     void for_each_held(unsigned worker, Visit&& visit);
@@ -61,7 +70,12 @@ class FaceContacts {
         AlignedVector<std::uint32_t> corners;
         std::vector<Group> groups;
         std::vector<std::uint32_t> pushed, held;
+        std::vector<std::uint32_t> items;  ///< faces to look at, of a run
+        std::uint32_t item_count = 0;
     };
+
+    static void collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run);
+    FaceView view(const Part& part, const FacesByTile& faces, float nearest) const;
 
     static void make_room(Part& part, std::size_t rows);
     /// What a contact does to a corner; in other than the last sweep, per inverse mass.
@@ -75,6 +89,8 @@ class FaceContacts {
     std::vector<Part> parts_;
     AlignedVector<FaceSum> sums_;       ///< per particle; 0 between two sweeps
     std::vector<std::uint32_t> holds_;  ///< per particle; 0 for those that are not held
+    /// Per particle: whether a face of it may touch; whether a face of it touches.
+    std::vector<std::uint8_t> near_, touching_;
 };
 
 template <class Visit>

@@ -59,13 +59,18 @@ struct ContactView {
     bool first_iteration = true;          ///< of the substep: sums begin anew
     float* moved = nullptr;   ///< ContactTrace, blocks of four per particle of the range; contact_traced only
     float* turned = nullptr;  ///< likewise
+    /// Set for the particles of the range whose faces may touch, or that contact moves; nullptr if no face is to touch.
+    std::uint8_t* near_faces = nullptr;
+    float nearest = 0, widest = 0;  ///< m: nearest_of_faces(), widest_face()
 };
 
 /// Triangles in the order of FacesByTile, and what decides about their contact with a collider.
 struct FaceView {
     const std::uint32_t* corners;  ///< [corner · stride + triangle]
     std::uint32_t stride;
-    float nearest;  ///< m: nearest_of_faces()
+    float nearest;               ///< m: nearest_of_faces()
+    const std::uint32_t* items;  ///< numbers of the triangles to look at; room for lane_padding more
+    std::uint32_t count;
     /// If set, contacts are not appended: the corners of faces that have passed are held at a part of their way.
     void (*hold)(const FaceView&, std::uint32_t particle, std::uint32_t part) = nullptr;
     void* holds = nullptr;
@@ -197,8 +202,8 @@ struct Passes {
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
     /// Also adds the displacements of particles to the log.
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact_traced;
-    /// Appends the contacts of a range of triangles with a collider.
-    std::array<void (*)(const ParticleView&, const ContactView&, const FaceView&, Range, FaceRows&), shape_kind_count>
+    /// Appends the contacts of triangles with a collider.
+    std::array<void (*)(const ParticleView&, const ContactView&, const FaceView&, FaceRows&), shape_kind_count>
         find_faces;
     /// Adds the pushes of all contacts to the particles' sums. `last`: of the sweep that keeps faces from passing.
     void (*push_faces)(const ParticleView&, const FaceRows&, bool last, float depenetration, float nearest,

@@ -75,8 +75,8 @@ struct FrameIn {
     float kinetic_friction;
     float nearest_of_faces;  // m
     float circle_of_faces;   // m
-    float unused0;
-    float unused1;
+    float widest_face;       // m
+    float unused;
 };
 
 // Words of a report.
@@ -222,6 +222,7 @@ struct ContactArgs {
     NearTileRef tiles;
     Uints slots;  // colliders
     Uints report;
+    Uints face_sums;  // FaceContactArgs::sums; 0 without contact of faces
     uint count;
     uint capacity;  // slots
     uint substep;
@@ -235,7 +236,8 @@ struct FaceContactArgs {
     Uints faces;     // corners in the order of tiles, [corner · stride + face]; the first face of each tile, and the end;
                      // the face of each triangle (FacesByTile)
     Vec4s contacts;  // face_contact.glsl
-    Uints sums;      // per particle: pushes by axis, their number or longest, hold; then whether a face touches on its way
+    Uints sums;      // per particle: pushes by axis, their number or longest, hold, marks; then whether a face touches on
+                     // its way
     Vec4s contact_log;  // as in ContactArgs
     Uints offsets;      // triangles around each particle
     Uints items;
@@ -252,6 +254,9 @@ struct FaceContactArgs {
 };
 
 #define WEFT_FACE_CONTACT_BLOCKS 5  // of four floats per face and slot
+#define WEFT_FACE_SUM 6u             // words per particle
+#define WEFT_NEAR_FACES 1u           // mark: faces of the particle may touch, or contact has moved it
+#define WEFT_TOUCHING_FACES 2u       // mark: a face of the particle touches
 #define WEFT_FACE_SWEEPS 3u  // face_sweeps
 #define WEFT_FACE_HOLDS 2u   // face_holds
 

@@ -71,7 +71,8 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
         if (has_face_contact(plan)) {
             work.face_contacts = work.arena.reserve(std::uint64_t{slots} * model.faces_by_tile->most_in_tile *
                                                     WEFT_FACE_CONTACT_BLOCKS * block);
-            work.face_sums = work.arena.reserve((std::uint64_t{5} * model.particle_count + 1) * sizeof(std::uint32_t));
+            work.face_sums =
+                work.arena.reserve((std::uint64_t{WEFT_FACE_SUM} * model.particle_count + 1) * sizeof(std::uint32_t));
         }
     }
     const ConstraintTable& stretch = model.table(ConstraintKind::stretch);

@@ -439,6 +439,7 @@ class Compiler {
                                .tiles = work(work_.near_tiles),
                                .slots = work(work_.near_slots),
                                .report = input_.report(),
+                               .face_sums = work(work_.face_sums),
                                .count = model_.point_count(),
                                .capacity = work_.slot_count,
                                .substep = substep,

@@ -65,8 +65,8 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .kinetic_friction = model.fabric.contact.friction[1],
             .nearest_of_faces = nearest_of_faces(numbers.half_thickness),
             .circle_of_faces = circle_of_faces(model),
-            .unused0 = 0,
-            .unused1 = 0};
+            .widest_face = widest_face(model),
+            .unused = 0};
 }
 
 }  // namespace

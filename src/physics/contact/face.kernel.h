@@ -75,6 +75,16 @@ WEFT_FN mask reaches_faces(real roundness, real half_thickness, real nearest, re
     return small || sagitta > half_thickness - nearest;
 }
 
+// Whether a particle is so near a body that one of its triangles may touch it. A triangle that touches at the end of the
+// substep is nearer than `nearest` there, and one that touches on its way is nearer than twice its longest way. Corners are
+// farther by an edge at most. If a triangle touches, this holds for at least one of its corners: for the nearest one or
+// for the one with the longest way.
+//   distance, way  of the particle, m;  widest  no edge is longer, m
+WEFT_FN mask faces_may_touch(Solid solid, real distance, real way, real nearest, real widest)
+{
+    return distance < nearest + (widest + real(2) * way) * solid.steepness;
+}
+
 // What a triangle cannot come nearer than, if the slope of the distance only grows. `point`: any point of it.
 WEFT_FN real lowest_of(Corners x, FacePoint point)
 {

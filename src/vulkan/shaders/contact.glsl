@@ -21,8 +21,8 @@ void trace(uint at, bool touches, vec3 before, vec3 x, vec3 position)
     contact_args.at.contact_log.at[turned] = vec4(sum.turned, 0.0);
 }
 
-// Contact of one particle with the collider of one slot.
-void meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
+// Contact of one particle with the collider of one slot. Returns whether faces of the particle may touch.
+bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
 {
     ColliderIn collider = contact_args.at.colliders.at.colliders.at[contact_args.at.slots.at[slot]];
     ContactBody body = body_of(contact_args.at.colliders, collider, contact_args.at.frame, contact_substep());
@@ -34,14 +34,20 @@ void meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
         sum = ContactSum(kept.xyz, kept.w);
     }
     Solid solid = solid_of(collider);
-    vec3 local = to_body(body, x.xyz), local_at_start = to_body_at_start(body, start), way = local - local_at_start;
+    vec3 local = to_body(body, x.xyz), local_at_start = to_body_at_start(body, start), step = local - local_at_start;
+    float way = sqrt(dot(step, step));
     vec3 normal;
     float gap = solid_distance(solid, local, normal) - body.half_thickness;
     vec3 x_before = x.xyz;
-    bool touches = may_touch(gap, sum, sqrt(dot(way, way)), solid, body);
+    bool touches = may_touch(gap, sum, way, solid, body);
     if (touches) contact_particle(solid, body, x.xyz, start, x.w, sum, local, local_at_start, gap, normal);
     if (keeps) contact_args.at.sums.at[at] = vec4(sum.friction, sum.push);
     if (traces) trace(at, touches, x_before, x.xyz, body.position);
+    vec3 moved = x.xyz - x_before;
+    if (dot(moved, moved) > 0.0) return true;
+    float nearest = contact_args.at.frame.at.nearest_of_faces;
+    return reaches_faces(solid.roundness, body.half_thickness, nearest, contact_args.at.frame.at.circle_of_faces) &&
+           faces_may_touch(solid, gap + body.half_thickness, way, nearest, contact_args.at.frame.at.widest_face);
 }
 
 void run_contact(uint p)
@@ -49,8 +55,14 @@ void run_contact(uint p)
     vec4 x = load_point(contact_args.at.position, p);
     vec3 start = contact_args.at.start.at[p].xyz;
     uvec2 slots = slots_near(contact_args.at.tiles, p);
-    for (uint slot = slots.x; slot < slots.y; ++slot) meet_collider(slot, p, x, start);
+    bool near = false;
+    for (uint slot = slots.x; slot < slots.y; ++slot) {
+        bool may_touch = meet_collider(slot, p, x, start);
+        near = near || may_touch;
+    }
     store_point(contact_args.at.position, p, x);
+    if (!is_none(uvec2(contact_args.at.face_sums)))
+        contact_args.at.face_sums.at[WEFT_FACE_SUM * p + 5u] = near ? WEFT_NEAR_FACES : 0u;
 }
 
 #endif

@@ -82,35 +82,49 @@ bool reaches(ColliderIn collider)
 }
 
 // Returns a contact that does not touch if the face is far away.
-FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face)
+//   nearest  m: a face that comes no nearer than this touches only on its way
+FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, float nearest)
 {
     Solid solid = solid_of(collider);
     Corners local = to_body(body, face.x), local_at_start = to_body_at_start(body, face.start);
     FacePoint center = face_point(solid, local, center_weights());
     FaceContact none = FaceContact(false, false, center.weights, center.normal, 0.0, 0.0, 1.0, 0.0);
-    if (!face_may_touch(local_at_start, local, center, solid, nearest_of_faces())) return none;
+    if (!face_may_touch(local_at_start, local, center, solid, nearest)) return none;
     return face_contact(solid, local_at_start, local, center, nearest_of_faces(), body.half_thickness);
 }
 
 // Whether a face of the cloth touches on its way, in a word after the sums.
-uint swept_word() { return 5u * face_contact_args.at.particles; }
+uint swept_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
+
+// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_TOUCHING_FACES).
+uint marks_of(uint p) { return face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u]; }
+bool any_marked(uvec3 corner, uint mark)
+{
+    return ((marks_of(corner.x) | marks_of(corner.y) | marks_of(corner.z)) & mark) != 0u;
+}
+void mark_touching(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_TOUCHING_FACES); }
 
 void run_find_faces(uint f)
 {
     uvec3 corner = corners_of_face(f);
     uint tile = tile_of_face(corner);
-    FacePoints face = points_of_face(corner);
     uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
+    for (uint slot = slots.x; slot < slots.y; ++slot)
+        face_contact_args.at.contacts.at[place_of_contact(slot, f, tile) + 4u].w = 0.0;
+    if (!any_marked(corner, WEFT_NEAR_FACES)) return;
+    FacePoints face = points_of_face(corner);
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         uint place = place_of_contact(slot, f, tile);
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[face_contact_args.at.slots.at[slot]];
-        face_contact_args.at.contacts.at[place + 4u].w = 0.0;
         if (!reaches(collider)) continue;
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
-        FaceContact contact = contact_of(collider, body, face);
+        FaceContact contact = contact_of(collider, body, face, nearest_of_faces());
         if (!touches_beside_corners(contact)) continue;
         if (contact.swept) atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
+        mark_touching(corner.x);
+        mark_touching(corner.y);
+        mark_touching(corner.z);
     }
 }
 
@@ -119,13 +133,13 @@ void add_to_faces(uint particle, vec3 push)
     float size2 = dot(push, push);
     if (!(size2 > 0.0)) return;
     for (uint axis = 0u; axis < 3u; ++axis)
-        atomicAdd(face_contact_args.at.sums.at[5u * particle + axis],
+        atomicAdd(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + axis],
                   uint(int(to_contact_quanta(push[axis], WEFT_PUSH_QUANTA_PER_METER))));
     if (face_contact_args.at.sweep == WEFT_FACE_SWEEPS) {
         uint size = uint(int(to_contact_quanta(sqrt(size2), WEFT_PUSH_QUANTA_PER_METER))) + 1u;
-        atomicMax(face_contact_args.at.sums.at[5u * particle + 3u], size);
+        atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + 3u], size);
     } else {
-        atomicAdd(face_contact_args.at.sums.at[5u * particle + 3u], 1u);
+        atomicAdd(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + 3u], 1u);
     }
 }
 
@@ -209,27 +223,28 @@ void log_pushes(uint p, vec4 x, float share)
 
 void run_move_faces(uint p)
 {
-    uint count = face_contact_args.at.sums.at[5u * p + 3u];
+    uint count = face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u];
     if (count == 0u) return;
     vec4 x = load_point(face_contact_args.at.position, p);
     vec3 total = vec3(0.0);
     for (uint axis = 0u; axis < 3u; ++axis) {
-        total[axis] = float(int(face_contact_args.at.sums.at[5u * p + axis])) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER);
-        face_contact_args.at.sums.at[5u * p + axis] = 0u;
+        total[axis] = float(int(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + axis])) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER);
+        face_contact_args.at.sums.at[WEFT_FACE_SUM * p + axis] = 0u;
     }
-    face_contact_args.at.sums.at[5u * p + 3u] = 0u;
+    face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u] = 0u;
     bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
     float share = face_share(last, last ? float(count) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER) : float(count), total);
     if (logs_faces()) log_pushes(p, x, last ? share : share * x.w);
     store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
 }
 
-void hold_corner(uint p, uint mark) { atomicMax(face_contact_args.at.sums.at[5u * p + 4u], mark); }
+void hold_corner(uint p, uint mark) { atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u], mark); }
 
 void run_hold_faces(uint f)
 {
     if (face_contact_args.at.sums.at[swept_word()] == 0u) return;
     uvec3 corner = corners_of_face(f);
+    if (!any_marked(corner, WEFT_TOUCHING_FACES)) return;
     uint tile = tile_of_face(corner);
     FacePoints face = points_of_face(corner);
     uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
@@ -238,7 +253,7 @@ void run_hold_faces(uint f)
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
         if (!reaches(collider)) continue;
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
-        FaceContact contact = contact_of(collider, body, face);
+        FaceContact contact = contact_of(collider, body, face, 0.0);
         if (!has_passed(contact, nearest_of_faces())) continue;
         uint part = face_contact_args.at.sweep > 0u ? 0u : uint(floor(contact.time * float(WEFT_HOLD_PARTS)));
         uint mark = (uint(WEFT_HOLD_PARTS) - part + 1u) * WEFT_HOLD_COLLIDERS + number % WEFT_HOLD_COLLIDERS;
@@ -251,9 +266,9 @@ void run_hold_faces(uint f)
 void run_settle_faces(uint p)
 {
     if (p == 0u && face_contact_args.at.sweep + 1u == WEFT_FACE_HOLDS) face_contact_args.at.sums.at[swept_word()] = 0u;
-    uint mark = face_contact_args.at.sums.at[5u * p + 4u];
+    uint mark = face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u];
     if (mark == 0u) return;
-    face_contact_args.at.sums.at[5u * p + 4u] = 0u;
+    face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 4u] = 0u;
     vec4 x = load_point(face_contact_args.at.position, p);
     if (!(x.w > 0.0)) return;
     uint number = mark % WEFT_HOLD_COLLIDERS;
