@@ -75,8 +75,8 @@ struct FrameIn {
     float kinetic_friction;
     float nearest_of_faces;  // m
     float circle_of_faces;   // m
-    float unused0;
-    float unused1;
+    float surface_motion;    // m: the most that a point of a collider's surface moves in a substep
+    uint meets_surfaces;     // 1: the cloth meets the triangles of colliders that have a surface, not their shapes
 };
 
 // Words of a report.

@@ -65,15 +65,15 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .kinetic_friction = model.fabric.contact.friction[1],
             .nearest_of_faces = nearest_of_faces(numbers.half_thickness),
             .circle_of_faces = circle_of_faces(model),
-            .unused0 = 0,
-            .unused1 = 0};
+            .surface_motion = input.surface_motion,
+            .meets_surfaces = model.collision.meets_surfaces() ? 1u : 0u};
 }
 
 }  // namespace
 
-InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothStep& cloth) {
+InputShape shape_of(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth) {
     return {plan.substeps,
-            static_cast<std::uint32_t>(input.colliders.size()),
+            model.collision.surface ? 0 : static_cast<std::uint32_t>(input.colliders.size()),
             static_cast<std::uint32_t>(input.winds.size()),
             cloth.motions,
             static_cast<std::uint32_t>(cloth.targets.size()),
