@@ -2,6 +2,7 @@
 
 #include "files/surface_crossings.test.h"
 #include "mesh/procedural.h"
+#include "solver/measures/statistics.h"
 
 #include <weft/weft.h>
 
@@ -302,6 +303,21 @@ TEST(SurfaceColliders, that_turn_fast_carry_cloth_along) {
         SceneWorld world = made(scene);
         EXPECT_EQ(frames_crossed(world, 20), 0) << turns << " turns a second";
     }
+}
+
+TEST(SurfaceColliders, are_measured_by_crossings_not_by_depth) {
+    SceneDesc scene = scene_of(exact_sheet(0.2f, 12, {.position = {0, 0, 0}}), surface_collider(half_shell(0.2f)));
+    SceneWorld inside = made(scene);
+    for (int i = 0; i < 60; ++i) inside.step();
+    EXPECT_EQ(measure_penetration(inside.world().frame(), inside.world().colliders()).max, 0)
+        << "inside an open shell, but on a side of its triangles";
+    EXPECT_EQ(count_intersections(inside.world().frame(), inside.world().colliders()).edges, 0u);
+    scene.cloths[0].transform.position.y = -0.17f;
+    EXPECT_GT(count_intersections(made(scene).world().frame(), made(scene).world().colliders()).edges, 0u);
+    scene.cloths[0].self_collision = SelfCollision::off;
+    const SceneWorld other = made(scene);
+    EXPECT_EQ(count_intersections(other.world().frame(), other.world().colliders()).edges, 0u) << "it meets the solid";
+    EXPECT_GT(measure_penetration(other.world().frame(), other.world().colliders()).max, 0.01);
 }
 
 TEST(SurfaceColliders, continue_with_the_same_bits_from_a_saved_state) {
