@@ -269,6 +269,11 @@ struct ConvexDesc {
     friend bool operator==(const ConvexDesc&, const ConvexDesc&) = default;
 };
 
+/// How cloth meets a mesh. `surface`: cloths whose self-collision is exact touch its triangles, from either side, and
+/// never pass through them; all other cloths meet the solid. `solid`: all cloths meet the solid. `automatic`: `surface`
+/// if the mesh has holes, else `solid`.
+enum class MeshContact { automatic, solid, surface };
+
 /// A mesh as a solid. It may have holes, flipped triangles and parts that overlap: inside is where the mesh winds
 /// around a point more than half a time. Parts that are thinner than two cells of the distance field are not reliable.
 struct SolidMeshDesc {
@@ -277,6 +282,7 @@ struct SolidMeshDesc {
     UpAxis up = UpAxis::y;          ///< of the file
     TriangleMesh mesh = {};         ///< m. Only for programs: a scene file must name a file
     std::uint32_t resolution = 96;  ///< cells of the distance field along the longest side of the mesh, 4…1024
+    MeshContact contact = MeshContact::automatic;
     friend bool operator==(const SolidMeshDesc&, const SolidMeshDesc&) = default;
 };
 

@@ -300,6 +300,7 @@ void PairSearch::find_near_tiles() {
     };
     const auto can_meet = [&](std::uint32_t a, std::uint32_t b) {
         const std::uint32_t of_a = tiles_[a].cloth, of_b = tiles_[b].cloth;
+        if (cloths_[of_a].surface && cloths_[of_b].surface) return false;
         return of_a == of_b || collide(cloths_[of_a].filter, cloths_[of_b].filter);
     };
     // Along the axis on which the tiles spread most, only those in a window come into question.

@@ -40,6 +40,7 @@ struct SearchedCloth {
     const Vec4* rest = nullptr;               ///< m, by particle of the cloth
     float thickness = 0;                      ///< m
     float slack = 0;                          ///< m: how far a particle may be from its listed trajectory at most
+    bool surface = false;                     ///< of a collider: it forms pairs with cloths alone
     CollisionFilter filter = {};              ///< for other cloths
     std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;

@@ -14,6 +14,7 @@ struct ShapeData {
     float steepness = 1;         ///< the most that the kernel's distance changes per meter, at least 1
     Bounds bounds;               ///< m: of the shape in its own frame, without what its numbers add
     TriangleMesh surface;        ///< the shape's surface, without what its numbers add
+    bool open = false;           ///< `surface` has holes
 
     ShapeBlocks blocks() const { return {words.data()}; }
 };

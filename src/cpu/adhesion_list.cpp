@@ -72,7 +72,7 @@ void AdhesionList::for_each_target(const ListContext& context, const ClothState&
     const Vec4 x = cloth.now().position[particle];
     for (std::uint32_t c = 0; c < input.colliders.size(); ++c) {
         const Collider& collider = input.colliders[c];
-        if (!collider.adhesion) continue;
+        if (!collider.adhesion || !shape_acts_on(collider, *cloth.model)) continue;
         const Pose& pose = input.places->pose(c, 0);  // at the start of the frame
         const auto& [rx, ry, rz] = pose.rotation;
         const scalar::vec3 local = scalar::unrotate(lane(rx), lane(ry), lane(rz), lane(x.xyz()) - lane(pose.position));

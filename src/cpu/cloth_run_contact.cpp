@@ -20,7 +20,8 @@ scalar::ContactBody body_between(const Pose& before, const Pose& now) {
 // Lists made before a tile left its box may miss a collider, so each pass of contact begins with a check.
 ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
     ColliderPart& part = cloth_.near_colliders.part(worker.number);
-    if (substep == 0 && pass.first_iteration) part.begin_frame({mine.begin, mine.end});
+    if (substep == 0 && pass.first_iteration)
+        part.begin_frame({mine.begin, mine.end}, !model().collision.meets_surfaces());
     const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
     part.cover(passes_, view_, *input_.places,
                {.fall = input_.gravity * (0.5f * seconds * seconds), .substeps = left, .margin = numbers_.tile_margin});

@@ -34,6 +34,7 @@ struct ClothState {
     std::shared_ptr<const ClothModel> model;
     WorldArrays& world;
     std::uint32_t base;
+    bool rests = false;  ///< in this frame: it is the surface of a collider that does not move
 
     Particles now() const { return world.range(base, model->capacity()); }
     std::span<Vec4> normals() const { return std::span(world.normals).subspan(base, model->capacity()); }

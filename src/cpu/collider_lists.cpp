@@ -45,8 +45,9 @@ void ColliderPart::reserve(std::uint32_t tiles, std::uint32_t colliders, bool ke
     if (traces) moved_.reserve(sums), turned_.reserve(sums);
 }
 
-void ColliderPart::begin_frame(Share mine) {
+void ColliderPart::begin_frame(Share mine, bool surfaces) {
     mine_ = mine;
+    surfaces_ = surfaces;
     boxes_.assign((mine.end - mine.begin + tile_size - 1) / tile_size, {});
     lists_.colliders.clear();
     lists_.begin.assign(boxes_.size() + 1, 0);
@@ -98,7 +99,7 @@ void ColliderPart::search(const Passes& passes, const ParticleView& particles, c
         }
         boxes_[tile].include(box_of(particles, tile, reach));
         found_.clear();
-        places.find(boxes_[tile], found_);
+        places.find(boxes_[tile], found_, surfaces_);
         std::ranges::set_union(before, found_, std::back_inserter(next_lists_.colliders));
         outside = passes.first_outside(particles.position, boxes_, mine, tile + 1);
     }

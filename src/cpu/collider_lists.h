@@ -41,8 +41,8 @@ class ColliderPart {
   public:
     /// Allocates for lists of twice the length of the last frame's. Where that is too little, a worker allocates.
     void reserve(std::uint32_t tiles, std::uint32_t colliders, bool keeps_sums, bool traces);
-    /// Starts a frame for the particles of a worker.
-    void begin_frame(Share mine);
+    /// Starts a frame for the particles of a worker. `surfaces`: lists also colliders with a Collider::surface.
+    void begin_frame(Share mine, bool surfaces = true);
     /// Makes the lists again if a particle has left its box.
     void cover(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
                const TileReach& reach);
@@ -84,7 +84,7 @@ class ColliderPart {
                     AlignedVector<Vec4>& scratch) const;
 
     Share mine_{};
-    bool keeps_sums_ = false, traces_ = false;
+    bool keeps_sums_ = false, traces_ = false, surfaces_ = true;
     std::vector<Bounds> boxes_;  ///< by tile; empty: not searched yet
     Lists lists_, next_lists_;
     std::vector<std::uint32_t> found_;

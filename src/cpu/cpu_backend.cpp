@@ -177,7 +177,7 @@ class CpuBackend final : public Backend {
         island.cloths.clear();
         for (const ClothStep& one : of.cloths) island.cloths.push_back(&cloth(one.cloth));
         if (of.cloths.empty()) return;
-        island.near.begin(of, island.cloths, step.input.dt);
+        island.near.begin(of, island.cloths, step.input);
         constexpr std::array<std::uint32_t, 1> only_part{0};
         if (of.parts.size() == 1) return make_job(step, island, only_part, next_job());
         for (const auto& parts : island.near.groups()) make_job(step, island, parts, next_job());
@@ -200,10 +200,11 @@ class CpuBackend final : public Backend {
             const StitchedPart& part = island.step->parts[number];
             for (std::uint32_t i = part.begin; i < part.end; ++i) {
                 const ClothModel& model = *island.cloths[i]->model;
-                collides = collides || model.tiles;
+                collides = collides || (model.tiles && !model.collision.surface);
                 has_spheres = has_spheres || model.along_curve;
                 job.steps.push_back(&island.step->cloths[i]);
                 job.cloths.push_back(island.cloths[i]);
+                island.cloths[i]->rests = model.collision.surface && job.steps.back()->targets.empty();
                 if (island.step->parts.size() > 1) job.swept.push_back(&island.near.swept(i));
             }
             if (part.links) job.links.push_back({part.links, &place(island.step->cloths[part.begin].cloth).links});

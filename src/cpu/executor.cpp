@@ -68,15 +68,18 @@ void Executor::run(const WorldStep& step, std::span<Job> jobs, std::array<double
 
 // Runs on the calling thread only: an exception on another thread could not be caught.
 void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
-    for (ClothState* cloth : job.cloths)
+    for (ClothState* cloth : job.cloths) {
+        if (cloth->model->collision.surface) continue;
         cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces);
+    }
     for (const Job::Links& links : job.links) links.state->prepare(*links.tables, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
-    for (Bounds* swept : job.swept) *swept = {};
+    for (std::size_t i = 0; i < job.swept.size(); ++i)
+        if (!job.cloths[i]->model->collision.surface) *job.swept[i] = {};
     const std::size_t particles = job.cloths.front()->world.size();
     if (job.cloth_contact) {
         contact_arrays_.reserve(particles, team_.size());
-        job.cloth_contact->prepare(passes_, step, job.cloths, job.step->seams, contact_arrays_, job.swept);
+        job.cloth_contact->prepare(passes_, step, job.cloths, job.steps, job.step->seams, contact_arrays_, job.swept);
     }
     if (job.particle_contact) {
         particle_arrays_.reserve(particles, team_.size());
@@ -183,8 +186,8 @@ void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint3
     // The island's plan has the passes of all its cloths; those of the job may have no part in contact.
     if (is_cloth_contact(pass.pass.kind)) {
         if (!island.job.cloth_contact) return;
-        return island.job.cloth_contact->run({island.step, island.job.cloths, [this] { team_.barrier(); }}, pass.pass,
-                                             worker);
+        return island.job.cloth_contact->run({island.step, island.job.cloths, [this] { team_.barrier(); }, substep},
+                                             pass.pass, worker);
     }
     if (is_particle_contact(pass.pass.kind)) {
         if (island.job.particle_contact) island.job.particle_contact->run(pass.pass, worker);

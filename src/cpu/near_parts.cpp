@@ -14,13 +14,14 @@ namespace {
 constexpr float guessed_edges = 2, guessed_part = 0.5f;
 
 // How far from the places that it looks at the contact of a cloth can act, m. Of two cloths, the sum counts.
-float reach_of(const ClothModel& model) {
+float reach_of(const ClothModel& model, float surface_motion) {
+    if (model.collision.surface) return 0;
     float reach = 0;
     if (model.along_curve) reach = 0.5f * particle_diameter(model);
     if (model.tiles) {
         // Sweeps and the limit move particles by a cap and a part of it.
         const float thickness = std::max(model.fabric.contact.thickness, least_contact_thickness);
-        reach = std::max(reach, 0.5f * thickness + 1.5f * contact_cap(model));
+        reach = std::max(reach, 0.5f * thickness + 1.5f * carried_cap(contact_cap(model), surface_motion));
     }
     return reach;
 }
@@ -48,20 +49,34 @@ Bounds guessed_box(const ClothState& cloth, float dt) {
     return widened(box, guessed_edges * cloth.model->mean_edge + guessed_part * length(fastest));
 }
 
+// Around the surface of a collider at the end of all substeps.
+Bounds swept_surface(const ClothState& surface, const ClothStep& step) {
+    Bounds box = surface.bounds(), local;
+    if (step.targets.empty()) return box;
+    for (const KinematicTarget& target : step.targets) local.include(target.local);
+    for (const Pose& pose : step.motion_poses) box.include(to_world(pose, local));
+    return box;
+}
+
 }  // namespace
 
-void NearParts::begin(const IslandStep& step, std::span<ClothState* const> cloths, double dt) {
+void NearParts::begin(const IslandStep& step, std::span<ClothState* const> cloths, const StepInput& input) {
     cloths_ = {};
     swept_.clear();
     if (step.parts.size() == 1) return;
     cloths_ = cloths;
+    surface_motion_ = input.surface_motion;
     swept_.resize(cloths.size());
     part_of_.resize(cloths.size());
     grouped_ = DisjointSets(static_cast<std::uint32_t>(step.parts.size()));
     for (std::uint32_t part = 0; part < step.parts.size(); ++part)
         for (std::uint32_t i = step.parts[part].begin; i < step.parts[part].end; ++i) part_of_[i] = part;
     std::vector<Bounds> guess;
-    for (const ClothState* cloth : cloths) guess.push_back(guessed_box(*cloth, static_cast<float>(dt)));
+    for (std::size_t i = 0; i < cloths.size(); ++i) {
+        const bool surface = cloths[i]->model->collision.surface;
+        if (surface) swept_[i] = swept_surface(*cloths[i], step.cloths[i]);
+        guess.push_back(surface ? swept_[i] : guessed_box(*cloths[i], static_cast<float>(input.dt)));
+    }
     (void)merge(guess);
 }
 
@@ -74,7 +89,7 @@ bool NearParts::merge(std::span<const Bounds> boxes) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         // A frame with such a box is taken back.
         const bool counts = !boxes[i].empty() && is_finite(boxes[i]);
-        reached.push_back(counts ? widened(boxes[i], reach_of(*cloths_[i]->model)) : Bounds{});
+        reached.push_back(counts ? widened(boxes[i], reach_of(*cloths_[i]->model, surface_motion_)) : Bounds{});
     }
     bool any = false;
     Bvh(reached).for_each_pair([&](std::uint32_t a, std::uint32_t b) {

@@ -18,13 +18,14 @@ namespace weft::cpu {
 
 class NearParts {
   public:
-    /// Guesses for a frame of `dt` seconds. `cloths`: those of the step, which must last as long as this is used. Does
+    /// Guesses for a frame. `cloths`: those of the step, which must last as long as this is used. Does
     /// not allocate if the step has one part, as had all before.
-    void begin(const IslandStep& step, std::span<ClothState* const> cloths, double dt);
+    void begin(const IslandStep& step, std::span<ClothState* const> cloths, const StepInput& input);
 
     /// Groups of parts that step together, ascending.
     std::vector<std::vector<std::uint32_t>> groups() { return grouped_.sets(); }
-    /// For a box around the places of a cloth of the step at which contact has looked.
+    /// For a box around the places of a cloth of the step at which contact has looked. Surfaces of colliders have
+    /// theirs from begin() on.
     Bounds& swept(std::uint32_t cloth) { return swept_[cloth]; }
     /// Groups the parts whose cloths came near each other and were not in one group. Returns whether there are any.
     bool merge();
@@ -37,6 +38,7 @@ class NearParts {
     std::vector<std::uint32_t> part_of_;  // by cloth
     DisjointSets grouped_{0};             // parts
     std::vector<Bounds> swept_;           // by cloth
+    float surface_motion_ = 0;            // of the input
 };
 
 }  // namespace weft::cpu

@@ -76,7 +76,9 @@ struct FrameIn {
     float nearest_of_faces;  // m
     float circle_of_faces;   // m
     float widest_face;       // m
-    float unused;
+    float surface_motion;    // m: the most that a point of a collider's surface moves in a substep
+    uint meets_surfaces;     // 1: the cloth meets the triangles of colliders that have a surface, not their shapes
+    uint unused;
 };
 
 // Words of a report.

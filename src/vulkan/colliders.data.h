@@ -8,6 +8,9 @@
 #define WEFT_TILE_SLACK 0.25   // tile_slack_per_way
 #define WEFT_NO_COLLIDER 0xffffffffu
 
+#define WEFT_COLLIDER_STICKS 1u   // cloth sticks to it
+#define WEFT_COLLIDER_SURFACE 2u  // Collider::surface
+
 #ifdef __cplusplus
 namespace weft::vulkan {
 #endif
@@ -17,7 +20,7 @@ struct ColliderIn {
     float static_friction;  // of the collider alone
     float kinetic_friction;
     uint shape;
-    uint sticks;  // 1: cloth sticks to it
+    uint flags;             // WEFT_COLLIDER_…
     float adhesion_distance;    // m
     float adhesion_compliance;  // m/N
     Uints data;                 // of the shape; 0 if its numbers say everything

@@ -10,7 +10,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(FrameIn) == 104 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 && sizeof(TargetIn) == 32);
+static_assert(sizeof(FrameIn) == 112 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 && sizeof(TargetIn) == 32);
 
 constexpr std::uint64_t report_bytes = WEFT_REPORT_WORDS * sizeof(std::uint32_t);
 
@@ -66,14 +66,16 @@ FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput
             .nearest_of_faces = nearest_of_faces(numbers.half_thickness),
             .circle_of_faces = circle_of_faces(model),
             .widest_face = widest_face(model),
+            .surface_motion = input.surface_motion,
+            .meets_surfaces = model.collision.meets_surfaces() ? 1u : 0u,
             .unused = 0};
 }
 
 }  // namespace
 
-InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothStep& cloth) {
+InputShape shape_of(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth) {
     return {plan.substeps,
-            static_cast<std::uint32_t>(input.colliders.size()),
+            model.collision.surface ? 0 : static_cast<std::uint32_t>(input.colliders.size()),
             static_cast<std::uint32_t>(input.winds.size()),
             cloth.motions,
             static_cast<std::uint32_t>(cloth.targets.size()),

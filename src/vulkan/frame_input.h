@@ -24,7 +24,8 @@ struct InputShape {
     friend bool operator==(const InputShape&, const InputShape&) = default;
 };
 
-InputShape shape_of(const WorldPlan& plan, const StepInput& input, const ClothStep& cloth);
+/// The surface of a collider meets no colliders.
+InputShape shape_of(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth);
 
 /// Layout of the inputs in a device buffer of `bytes()`, which the host writes through an upload buffer.
 class FrameInput {

@@ -33,13 +33,14 @@ Result<std::unique_ptr<FrameRun>> FrameRun::create(gpu::Device& device, Programs
     return self;
 }
 
-// All cloths of a frame have the same colliders, so the first member decides for all.
+// All cloths of a frame have the same colliders, so the first member decides for all. Surfaces of colliders have none.
 Result<void> FrameRun::prepare_contact_forces() {
     if (!members_.front().shape.contact_forces) return {};
     std::vector<ContactReadback::Member> members;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const ClothState& cloth = members_[i].cloth->state();
         const Arena& work = work_[i].arena;
+        const std::uint32_t colliders = members_[i].shape.colliders;
         const std::uint64_t contact_log = work.address(work_[i].contact_log);
         members.push_back({.account = {.position = cloth.address(PointArray::position),
                                        .moved = contact_log,
@@ -49,11 +50,11 @@ Result<void> FrameRun::prepare_contact_forces() {
                                        .sums = 0,
                                        .tiles = work.address(work_[i].near_tiles),
                                        .slots = work.address(work_[i].near_slots),
-                                       .tile_count = near_tiles_of(cloth.model()),
+                                       .tile_count = colliders > 0 ? near_tiles_of(cloth.model()) : 0,
                                        .particles = cloth.model().particle_count,
                                        .first_slot = 0,
                                        .first_pair = 0},
-                           .colliders = members_[i].shape.colliders,
+                           .colliders = colliders,
                            .slots = work_[i].slot_count});
     }
     auto contacts = ContactReadback::create(device_, programs_, members, name());
@@ -117,7 +118,9 @@ Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
     bool any = false;
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const FrameInput& input = buffers_.input(i);
-        members.push_back({&members_[i].cloth->state(), input.frame(), input.report(), members_[i].seams});
+        const bool moves = members_[i].cloth->model().collision.surface && members_[i].shape.targets > 0;
+        members.push_back({&members_[i].cloth->state(), input.frame(), input.report(), moves ? input.motion_poses() : 0,
+                           members_[i].seams});
         any = any || members_[i].cloth->model().tiles;
     }
     if (!any) return {};

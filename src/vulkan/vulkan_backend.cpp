@@ -317,12 +317,13 @@ class VulkanBackend final : public Backend, public VulkanInterop {
                 for (std::uint32_t k = part.begin; k < part.end; ++k) {
                     const ClothStep& one = island.cloths[k];
                     there->steps.push_back(&one);
-                    there->members.push_back({.cloth = &cloth(one.cloth),
-                                              .shape = vulkan::shape_of(*step.plan, step.input, one),
-                                              .stiffness = one.stiffness ? *one.stiffness : PlainStiffness{},
-                                              .island = i,
-                                              .links = k == part.begin ? part.links : nullptr,
-                                              .seams = island.seams.get()});
+                    there->members.push_back(
+                        {.cloth = &cloth(one.cloth),
+                         .shape = vulkan::shape_of(cloth(one.cloth).model(), *step.plan, step.input, one),
+                         .stiffness = one.stiffness ? *one.stiffness : PlainStiffness{},
+                         .island = i,
+                         .links = k == part.begin ? part.links : nullptr,
+                         .seams = island.seams.get()});
                 }
             }
         }

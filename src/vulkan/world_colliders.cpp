@@ -136,18 +136,19 @@ void WorldColliders::write_colliders(std::span<const Collider> colliders, const 
         const auto& n = collider.numbers;
         const bool moves = places.moves(i);
         friction_.push_back(collider.friction);
-        to[i] = {.numbers = {n[0], n[1], n[2], n[3]},
-                 .static_friction = collider.friction[0],
-                 .kinetic_friction = collider.friction[1],
-                 .shape = static_cast<std::uint32_t>(collider.shape),
-                 .sticks = collider.adhesion ? 1u : 0u,
-                 .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
-                 .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
-                 .data = shapes_.address(collider.data.get()),
-                 .first_pose = moves ? moving_first + moving++ * (places.substeps() + 1) : resting++,
-                 .pose_step = moves ? 1u : 0u,
-                 .steepness = steepness_of(collider),
-                 .roundness = roundness_of(collider)};
+        to[i] = {
+            .numbers = {n[0], n[1], n[2], n[3]},
+            .static_friction = collider.friction[0],
+            .kinetic_friction = collider.friction[1],
+            .shape = static_cast<std::uint32_t>(collider.shape),
+            .flags = (collider.adhesion ? WEFT_COLLIDER_STICKS : 0u) | (collider.surface ? WEFT_COLLIDER_SURFACE : 0u),
+            .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
+            .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
+            .data = shapes_.address(collider.data.get()),
+            .first_pose = moves ? moving_first + moving++ * (places.substeps() + 1) : resting++,
+            .pose_step = moves ? 1u : 0u,
+            .steepness = steepness_of(collider),
+            .roundness = roundness_of(collider)};
     }
 }
 

@@ -167,9 +167,14 @@ void SceneWorld::remove(StitchId id) {
 Result<ColliderId> SceneWorld::add(SceneCollider collider, const std::string& pointer) {
     auto data = shapes_.data_of(collider, files_, pointer, notes_);
     if (!data) return data.errors();
-    const ColliderId id = world_->add(make_collider(collider, std::move(*data)));
+    auto surface = surface_of(collider, data->get(), pointer, notes_);
+    if (!surface) return surface.errors();
+    Collider made = make_collider(collider, std::move(*data));
+    made.surface = std::move(*surface);
+    auto id = world_->try_add(std::move(made));
+    if (!id) return placed_at(pointer, id.errors());
     scene_.colliders.push_back(std::move(collider));
-    return id;
+    return *id;
 }
 
 void SceneWorld::remove(ClothId id) {

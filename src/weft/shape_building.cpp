@@ -3,6 +3,7 @@
 #include "collide/convex_hull.h"
 #include "collide/distance_field.h"
 #include "scene/problems.h"
+#include "solver/model/collider_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,14 +69,22 @@ void add_normals(TriangleMesh& mesh) {
     }
 }
 
-void note_field(const DistanceField& field, const ShapeSource& source) {
+bool is_surface(const SolidMeshDesc& mesh, bool open) {
+    return mesh.contact == MeshContact::surface || (mesh.contact == MeshContact::automatic && open);
+}
+
+void note_field(const DistanceField& field, bool as_surface, const ShapeSource& source) {
     const auto count = [&](std::uint32_t number, const std::string& what) {
         if (number > 0) source.note(std::to_string(number) + ' ' + what);
     };
     count(field.zero_area, "triangles without an area left out");
     count(field.flipped, "triangles face the other way than their neighbors; turned around");
-    if (!field.has_inside) source.note("the mesh encloses nothing, so cloth passes through it");
-    if (!field.closed && field.has_inside) source.note("the mesh is open; its holes count as closed");
+    const std::string others = as_surface ? " for cloth without exact self-collision" : "";
+    if (!field.has_inside) {
+        source.note(as_surface ? "the mesh encloses nothing, so cloth without exact self-collision passes through it"
+                               : "the mesh encloses nothing, so cloth passes through it");
+    }
+    if (!field.closed && field.has_inside) source.note("the mesh is open; its holes count as closed" + others);
     if (field.thin.thin > 0) {
         const auto rounded = [](double x, double digits) { return number_text(std::round(x * digits) / digits); };
         const Vec3 at = field.thin.place;
@@ -92,11 +101,18 @@ Result<SharedShape> build_shape(const SolidMeshDesc& solid, const ShapeSource& s
     auto field =
         build_distance_field(mesh->positions, mesh->triangles, {.cells = solid.resolution, .threads = source.threads});
     if (!field) return field.errors();
-    note_field(*field, source);
+    note_field(*field, is_surface(solid, !field->closed), source);
     add_normals(*mesh);
     field->data.bounds = bounds_of(mesh->positions);
     field->data.surface = std::move(*mesh);
+    field->data.open = !field->closed;
     return std::make_shared<const ShapeData>(std::move(field->data));
+}
+
+/// The part of a shape that its data follow from.
+ColliderShape without_contact(ColliderShape shape) {
+    if (auto* mesh = std::get_if<SolidMeshDesc>(&shape)) mesh->contact = {};
+    return shape;
 }
 
 }  // namespace
@@ -104,13 +120,25 @@ Result<SharedShape> build_shape(const SolidMeshDesc& solid, const ShapeSource& s
 Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const MeshFiles& files,
                                           const std::string& pointer, std::vector<std::string>& notes) {
     std::erase_if(known_, [](const Entry& entry) { return entry.data.expired(); });
-    const auto known = std::ranges::find(known_, collider.shape, &Entry::shape);
+    ColliderShape shape = without_contact(collider.shape);
+    const auto known = std::ranges::find(known_, shape, &Entry::shape);
     if (known != known_.end()) return known->data.lock();
     const ShapeSource source{files, collider.name, notes, threads_};
-    auto built = std::visit([&](const auto& shape) { return build_shape(shape, source); }, collider.shape);
+    auto built = std::visit([&](const auto& one) { return build_shape(one, source); }, collider.shape);
     if (!built) return within(pointer, built.errors());
-    if (*built) known_.push_back({collider.shape, *built});
+    if (*built) known_.push_back({std::move(shape), *built});
     return built;
+}
+
+Result<std::shared_ptr<const ClothModel>> surface_of(const ColliderDesc& collider, const ShapeData* data,
+                                                     const std::string& pointer, std::vector<std::string>& notes) {
+    const auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape);
+    if (!mesh || !is_surface(*mesh, data->open)) return std::shared_ptr<const ClothModel>();
+    auto surface = build_collider_surface(collider.name, data->surface, collider.friction);
+    if (!surface) return within(pointer + "/mesh", surface.errors());
+    if (const std::uint32_t count = surface->report.duplicate_triangles; count > 0)
+        notes.push_back("collider '" + collider.name + "': " + std::to_string(count) + " doubled triangles left out");
+    return std::move(surface->model);
 }
 
 }  // namespace weft

@@ -12,6 +12,8 @@
 
 namespace weft {
 
+using ColliderShape = decltype(ColliderDesc::shape);
+
 /// Colliders with the same shape share its data.
 class ShapeLibrary {
   public:
@@ -25,11 +27,16 @@ class ShapeLibrary {
 
   private:
     struct Entry {
-        decltype(ColliderDesc::shape) shape;
+        ColliderShape shape;  ///< without its contact
         std::weak_ptr<const ShapeData> data;
     };
     unsigned threads_;
     std::vector<Entry> known_;
 };
+
+/// The surface that cloth with exact contact meets instead of the collider's shape; null if there is none. `data`: of
+/// the collider's shape. `pointer`: the place of the collider in errors.
+Result<std::shared_ptr<const ClothModel>> surface_of(const ColliderDesc& collider, const ShapeData* data,
+                                                     const std::string& pointer, std::vector<std::string>& notes);
 
 }  // namespace weft

@@ -122,7 +122,7 @@ void RunStatistics::add(const World& world) {
         tangled_frame_ = frame.index;
     }
     if (count_crossings_ == CountCrossings::every) {
-        crossings_ = count_intersections(world.frame());
+        crossings_ = count_intersections(world.frame(), world.colliders());
         worst_crossings_ = std::max(worst_crossings_, crossings_->triangles);
         order_.add(sheet_poses(world.frame()));
     }
@@ -185,7 +185,7 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     const Penetration penetration =
         penetration_ ? *penetration_ : penetration_search_.measure(frame, world.colliders());
     const bool worst_before = worst_penetration_.max > penetration.max;
-    const Intersections crossings = crossings_ ? *crossings_ : count_intersections(frame);
+    const Intersections crossings = crossings_ ? *crossings_ : count_intersections(frame, world.colliders());
 
     Json stats;
     stats["scene"] = scene_file;

@@ -13,6 +13,11 @@ namespace {
 // longer, a smaller one makes them fail earlier. The result does not depend on it.
 constexpr float slack_per_cap = 1.5f;
 
+// Contact does not move the particles of surfaces, whatever it may do to those of cloths.
+float cap_of(const ClothModel& model, float surface_motion) {
+    return model.collision.surface ? cap_of_surface : carried_cap(contact_cap(model), surface_motion);
+}
+
 // Moves the pushes of a worker to those of all.
 void move_pushes(ContactSums& to, ContactSums& from) {
     for (std::size_t axis = 0; axis < 3; ++axis) to.push[axis] += from.push[axis];
@@ -22,8 +27,8 @@ void move_pushes(ContactSums& to, ContactSums& from) {
 }  // namespace
 
 void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
-                           const std::shared_ptr<const Seams>& seams, ContactArrays& arrays,
-                           std::span<Bounds* const> swept) {
+                           std::span<const ClothStep* const> steps, const std::shared_ptr<const Seams>& seams,
+                           ContactArrays& arrays, std::span<Bounds* const> swept) {
     cloths_ = cloths;
     swept_ = swept;
     tangle_ = step.input.tangle;
@@ -36,24 +41,52 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
     records_marks_ = step.input.contact_marks;
 
     std::vector<SearchedCloth> searched;
-    for (const ClothState* cloth : cloths_) {
-        const ClothModel& model = *cloth->model;
-        const std::uint32_t base = cloth->base, count = model.particle_count;
-        const float cap = contact_cap(model);
-        const auto& friction = model.fabric.contact.friction;
-        std::fill_n(numbers_ + base, count, Vec4{friction[0], friction[1], cap, 0});
-        std::fill_n(sums_ + base, count, ContactSums{}), std::fill_n(unscaled_ + base, count, ContactSums{});
-        if (records_marks_) std::fill_n(marks_ + base, count, 0u);
+    carriers_.clear();
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        const ClothModel& model = *cloths_[i]->model;
+        prepare_particles(*cloths_[i], *steps[i], step.input.surface_motion);
         if (model.tiles)
-            searched.push_back({model.tiles, base, model.start.data(),
-                                std::max(model.fabric.contact.thickness, least_contact_thickness), slack_per_cap * cap,
-                                model.collision.filter, seams});
+            searched.push_back({model.tiles, cloths_[i]->base, model.start.data(), pair_thickness(model),
+                                slack_per_cap * cap_of(model, 0), model.collision.surface, model.collision.filter,
+                                seams});
     }
+    float least_slack = slack_per_cap * cap_of_surface;
+    for (const SearchedCloth& cloth : searched) least_slack = std::min(least_slack, cloth.slack);
+    for (SearchedCloth& cloth : searched)
+        if (cloth.surface) cloth.slack = least_slack;
+    least_cap_ = carried_cap(least_slack / slack_per_cap, step.input.surface_motion);
     search_.set_cloths(loops_->search, std::move(searched));
     search_.check_start(x_);
-    caps_.resize(search_.tile_count());
-    for (std::uint32_t tile = 0; tile < caps_.size(); ++tile) caps_[tile] = search_.cloth(tile).slack / slack_per_cap;
+    caps_.resize(search_.tile_count()), own_caps_.resize(search_.tile_count());
+    for (std::uint32_t tile = 0; tile < caps_.size(); ++tile) {
+        const SearchedCloth& cloth = search_.cloth(tile);
+        own_caps_[tile] = cloth.surface ? 0 : cloth.slack / slack_per_cap;
+        caps_[tile] = cloth.surface ? 0 : carried_cap(own_caps_[tile], step.input.surface_motion);
+    }
     sweep_boxes();
+}
+
+void ClothContact::prepare_particles(const ClothState& cloth, const ClothStep& step, float surface_motion) {
+    const ClothModel& model = *cloth.model;
+    const std::uint32_t base = cloth.base, count = model.particle_count;
+    const auto& friction = model.fabric.contact.friction;
+    std::fill_n(numbers_ + base, count,
+                Vec4{friction[0], friction[1], cap_of(model, surface_motion), cap_of(model, 0)});
+    std::fill_n(sums_ + base, count, ContactSums{}), std::fill_n(unscaled_ + base, count, ContactSums{});
+    if (records_marks_) std::fill_n(marks_ + base, count, 0u);
+    const bool carries = model.collision.surface && !cloth.rests;
+    if (carries) carriers_.push_back(step.motion_poses);
+    std::fill_n(carrier_ + base, count, carries ? static_cast<std::uint32_t>(carriers_.size()) : 0);
+    std::fill_n(next_carrier_ + base, count, 0u);
+    if (cloth.rests) place_resting(cloth);
+}
+
+// No pass moves these particles, and none goes over them.
+void ClothContact::place_resting(const ClothState& cloth) {
+    for (std::uint32_t p = cloth.base; p < cloth.base + cloth.model->particle_count; ++p) {
+        reached_[p] = asked_[p] = farthest_[p] = x_[p];
+        part_[p] = 1, retreats_[p] = 0, sent_back_[p] = 0;
+    }
 }
 
 void ClothContact::use(ContactArrays& arrays) {
@@ -62,12 +95,14 @@ void ClothContact::use(ContactArrays& arrays) {
     numbers_ = arrays.numbers.data();
     sums_ = arrays.sums.data(), unscaled_ = arrays.unscaled.data();
     part_ = arrays.part.data(), slide_ = arrays.slide.data();
+    carrier_ = arrays.carrier.data(), next_carrier_ = arrays.next_carrier.data();
     retreats_ = arrays.retreats.data(), sent_back_ = arrays.sent_back.data(), marks_ = arrays.marks.data();
 }
 
 void ClothContact::run(const ClothContactContext& context, const Pass& pass, Worker worker) {
     if (worker.number != 0) return team_.help(worker.number, context.barrier);
     cloths_ = context.cloths;
+    substep_ = context.substep;
     workers_.resize(worker.count);
     for (unsigned i = 0; i < worker.count; ++i) {
         workers_[i].worker = i;
@@ -102,7 +137,7 @@ void ClothContact::detect() {
 // near: reach_of() in near_parts.cpp.
 void ClothContact::sweep_boxes() {
     for (std::size_t i = 0; i < swept_.size(); ++i)
-        if (cloths_[i]->model->tiles) swept_[i]->include(cloths_[i]->bounds());
+        if (cloths_[i]->model->tiles && !cloths_[i]->model->collision.surface) swept_[i]->include(cloths_[i]->bounds());
 }
 
 // For the motion to where the particles are now.

@@ -5,6 +5,7 @@
 #include "base/workers.h"
 #include "cpu/cloth_contact/contact_arrays.h"
 #include "cpu/cloth_run.h"
+#include "solver/plan/cloth_contact_numbers.h"
 #include "solver/state/cloth_contact_counts.h"
 
 #include <weft/bounds.h>
@@ -20,17 +21,19 @@ struct ClothContactContext {
     const WorldStep& step;
     std::span<ClothState* const> cloths;
     FunctionRef<void()> barrier;  ///< of all workers that run the passes
+    std::uint32_t substep;
 };
 
 class ClothContact {
   public:
     explicit ClothContact(bool search_always = false) : search_always_(search_always) {}
 
-    /// Allocates for these cloths. Keeps the lists if they are the same ones as in the frame before. `arrays` must have
-    /// room for all particles of the world, and last until the next call. `swept`: by cloth, gets a box around all
-    /// places at which passes look at its particles; empty if that is not needed.
+    /// Allocates for these cloths, one of `steps` for each. Keeps the lists if they are the same ones as in the frame
+    /// before. `arrays` must have room for all particles of the world, and last until the next call. `swept`: by cloth,
+    /// gets a box around all places at which passes look at its particles; empty if that is not needed.
     void prepare(const Passes& passes, const WorldStep& step, std::span<ClothState* const> cloths,
-                 const std::shared_ptr<const Seams>& seams, ContactArrays& arrays, std::span<Bounds* const> swept);
+                 std::span<const ClothStep* const> steps, const std::shared_ptr<const Seams>& seams,
+                 ContactArrays& arrays, std::span<Bounds* const> swept);
     /// All workers call it. The first one decides what to do, and all do it.
     void run(const ClothContactContext& context, const Pass& pass, Worker worker);
 
@@ -43,8 +46,10 @@ class ClothContact {
   private:
     struct Mine;
     void use(ContactArrays& arrays);
+    void prepare_particles(const ClothState& cloth, const ClothStep& step, float surface_motion);
     void lead(const Pass& pass);
     void detect();
+    void place_resting(const ClothState& cloth);
     void sweep_boxes();
     void find_near_of_motion(bool search_always);
     void push(const Pass& pass);
@@ -52,6 +57,8 @@ class ClothContact {
     template <class Add>
     void add_up(const Mine& mine, Add&& add);
     float cap(std::uint32_t p) const { return numbers_[p].z; }
+    float own_cap(std::uint32_t p) const { return numbers_[p].w; }
+    bool of_surface(std::uint32_t p) const { return cap(p) == cap_of_surface; }
     void keep_in_reach(std::uint32_t p);
     void add_share(std::uint32_t p, float weight);
     float share(std::uint32_t p) const;
@@ -65,7 +72,9 @@ class ClothContact {
     void add_near_pairs();
     void add_near_pairs(Mine& mine) const;
     bool is_relisted(std::uint32_t a, std::uint32_t b) const;
-    void extend_reach(float more_caps = 0);
+    void extend_reach();
+    void extend_reach_of_limit();
+    void extend_reach_to_moved();
     std::vector<std::array<std::uint32_t, 4>> remove_relisted(NearPairs& near) const;
     void extend_near_pairs(bool relisted);
     // limit.cpp
@@ -83,9 +92,20 @@ class ClothContact {
     bool retreat(Mine& mine, const MovedPair& pair, bool all);
     void set_back(std::uint32_t p);
     bool any_uncovered();
+    void find_farthest();
     void restart_limit();
     void stay_at_start();
     void count_limited_particles();
+    // carry.cpp
+    Vec3 base_of(std::uint32_t p) const;
+    Vec3 carried_place(std::uint32_t p, std::uint32_t carrier) const;
+    float most_carried_by(std::uint32_t p) const { return cap(p) - limit_carry_margin * own_cap(p); }
+    std::uint32_t carrier_of(const std::array<std::uint32_t, 4>& pair) const;
+    bool touches_moving_surface(const std::array<std::uint32_t, 4>& pair) const;
+    bool is_carried(std::uint32_t p) const { return carrier_[p] > 0 && !of_surface(p); }
+    bool is_carried(const std::array<std::uint32_t, 4>& pair) const;
+    bool carry(Mine& mine, const std::array<std::uint32_t, 4>& pair);
+    bool begin_carried(std::uint32_t p);
     // contact_marks.cpp
     void mark_stuck(std::span<const std::uint32_t> particles);
     // untangle.cpp
@@ -102,7 +122,7 @@ class ClothContact {
     void for_each_particle(const Mine& mine, Visit&& visit) const {
         const Worker worker{mine.worker, team_.size()};
         for (const ClothState* cloth : cloths_) {
-            if (!cloth->model->tiles) continue;
+            if (!cloth->model->tiles || cloth->rests) continue;
             const Share particles = worker.of(cloth->model->particle_count);
             for (std::uint32_t p = particles.begin; p < particles.end; ++p) visit(cloth->base + p);
         }
@@ -119,7 +139,7 @@ class ClothContact {
     // What one worker has of the pairs: those of every so many rows of tiles.
     struct Mine {
         unsigned worker = 0;
-        std::array<Candidates, 2> candidates;  // by kind
+        std::array<Candidates, 4> candidates;  // by kind; then those with surfaces of colliders
         std::array<NearPairs, 2> near;         // by kind
         Overlaps overlaps;
         ContactSums* sums = nullptr;  // by particle of the world, if there are several workers
@@ -133,7 +153,11 @@ class ClothContact {
     // By tile, m: how far lists and near pairs allow particles to move from reached_, and did before; how far they are
     // from there, and were at most.
     std::vector<float> reach_, before_, moved_, most_moved_;
-    std::vector<float> caps_;  // of the tiles' particles
+    std::vector<float> caps_;                      // m, of the tiles' particles; 0 for surfaces
+    std::vector<float> own_caps_;                  // without the motion of surfaces
+    float least_cap_ = 0;                          // m, of all cloths
+    std::vector<std::span<const Pose>> carriers_;  // poses of the surfaces that move in this frame
+    std::uint32_t substep_ = 0;                    // in progress
     LedTeam team_;
 
     // Of the frame.
@@ -153,6 +177,7 @@ class ClothContact {
     float* part_ = nullptr;
     Vec3* slide_ = nullptr;
     std::uint8_t *retreats_ = nullptr, *sent_back_ = nullptr;
+    std::uint32_t *carrier_ = nullptr, *next_carrier_ = nullptr;
     std::uint32_t* marks_ = nullptr;
 };
 

@@ -63,6 +63,7 @@ struct NearInput {
     const float* start;    ///< blocks of four: positions at the start of the substep
     const float* reached;  ///< where the constraints left the particles
     float floor;           ///< least gap that a pair keeps, as a part of its thickness
+    bool with_surfaces;    ///< one side of each candidate belongs to the surface of a collider
 };
 
 /// Pairs of both kinds that a sweep pushes apart. Padded to whole packets of lanes. In any order.

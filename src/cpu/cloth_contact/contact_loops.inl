@@ -27,13 +27,20 @@ inline void choose_pairs(const PairList& list, std::uint32_t begin, std::uint32_
 }
 
 template <PairKind kind>
+WEFT_FN vec3 normal_of_points(const ClosestPoints& points, const vec3* x) {
+    if constexpr (kind == PairKind::vertex_triangle) return normal_vertex_triangle(points, x[1], x[2], x[3]);
+    else return normal_edge_edge(points, x[0], x[1], x[2], x[3]);
+}
+
+template <PairKind kind>
 inline void find_near_pairs(const Candidates& list, const NearInput& input, NearPairs& near) {
     near.reserve(near.count + list.count);
     for (std::uint32_t i = 0; i < list.count; i += lane_count) {
         vec3 x[4];
         real w, along_start[4], along[4], low[4], high[4];
         for (int k = 0; k < 4; ++k) x[k] = gather_blocks(input.start, &list.particle[k][i], w);
-        const ClosestPoints points = closest<kind>(x);
+        ClosestPoints points = closest<kind>(x);
+        if (input.with_surfaces) points.normal = normal_of_points<kind>(points, x);
         const real weight[4] = {points.w0, points.w1, points.w2, points.w3};
         const real thickness = load(&list.thickness[i]);
         real reached(0.0f);

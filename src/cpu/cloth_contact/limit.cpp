@@ -11,8 +11,6 @@
 namespace weft::cpu {
 namespace {
 
-constexpr std::uint32_t most_retreats = limit_slides + limit_halvings + 1;
-
 // Lowers a number that other workers may lower too.
 void lower(float& number, float to) {
     const std::atomic_ref atomic(number);
@@ -103,7 +101,7 @@ bool ClothContact::any_lost() {
 // for both sides of a pair, so that contact has to take back only the rest. Without it, cloth that is pulled over cloth
 // stays where it is in every substep, while the pull grows. Returns whether any particle was slowed.
 bool ClothContact::brake() {
-    const float least_depth = contact_brake_depth * std::ranges::min(caps_);
+    const float least_depth = contact_brake_depth * least_cap_;
     in_parallel([&](Mine& mine) {
         for_each_particle(mine, [&](std::uint32_t p) { part_[p] = 1; });
         team_.wait();
@@ -133,8 +131,9 @@ bool ClothContact::retreat(Mine& mine, const MovedPair& pair, bool all) {
         const std::uint32_t p = pair.particles[k];
         if (retreats_[p] == most_retreats || !(x_[p].w > 0)) continue;
         if (retreats_[p] < limit_slides) {
-            const Vec3 slide = retreats_[p] == 0 ? asked_[p].xyz() - start_[p].xyz() : slide_[p];
-            const float missing = pair.least[k] - dot(slide, pair.away[k]);
+            const Vec3 base = base_of(p);
+            const Vec3 slide = retreats_[p] == 0 ? asked_[p].xyz() - base : slide_[p];
+            const float missing = pair.least[k] - dot(slide + (base - start_[p].xyz()), pair.away[k]);
             if (!(missing > 0) && !all) continue;
             add_to_sum(p, pair.away[k] * std::max(missing, 0.0f), WEFT_PUSH_QUANTA_PER_METER);
             add_quanta(sums_[p].share, 1, team_.size() > 1);
@@ -146,36 +145,45 @@ bool ClothContact::retreat(Mine& mine, const MovedPair& pair, bool all) {
 }
 
 // The particle first slides along its pairs: it gives up what brings it closer to the other sides, the mean of what
-// they ask. If that does not help, what is left of its motion is halved, and at last it stays at its start.
+// they ask. If that does not help, what is left of its motion is halved, and at last it stays at its start, or moves
+// with the surface that carries it.
 void ClothContact::set_back(std::uint32_t p) {
-    const Vec3 from = start_[p].xyz(), asked = asked_[p].xyz() - from;
+    if (begin_carried(p)) return;
+    const Vec3 from = base_of(p), asked = asked_[p].xyz() - from;
     if (retreats_[p] == 0) slide_[p] = asked;
     const std::uint32_t askers = sums_[p].share;
     if (askers > 0) slide_[p] = slide_[p] + sum(p, WEFT_PUSH_QUANTA_PER_METER) * (1 / static_cast<float>(askers));
     sums_[p] = {}, sent_back_[p] = 0;
     const std::uint32_t retreats = ++retreats_[p];
     if (retreats == most_retreats) return set_place(x_[p], from);
-    const Vec3 slide = to_vec3(scalar::slide_near(on_lane(asked), on_lane(slide_[p]), limit_aside * cap(p)));
+    const Vec3 slide = to_vec3(scalar::slide_near(on_lane(asked), on_lane(slide_[p]), limit_aside * own_cap(p)));
     const std::uint32_t halvings = retreats > limit_slides ? retreats - limit_slides : 0;
     set_place(x_[p], from + slide * (1 / static_cast<float>(1u << halvings)));
 }
 
 // Sends the particles of all pairs that lose their gap back towards the start of the substep, where every pair has its
-// gap. A pair that keeps its gap along one normal at both ends of a linear motion does not meet in between.
+// gap, or to where a surface carries them (carry.cpp). A pair that keeps its gap along one normal at both ends of a
+// linear motion does not meet in between.
 void ClothContact::send_back() {
     in_parallel([&](Mine& mine) {
         mine.least_stuck = no_particle;
-        for_each_particle(mine, [&](std::uint32_t p) { retreats_[p] = 0; });
+        for_each_particle(mine, [&](std::uint32_t p) {
+            retreats_[p] = 0;
+            if (!of_surface(p)) carrier_[p] = 0;
+        });
     });
     do {
         in_parallel([&](Mine& mine) {
             mine.to_send_back.clear();
             mine.stuck = 0;
             for_each_lost(mine, 0, [&](const NearPairs& near, int kind, std::uint32_t pair) {
+                const auto particles = near.particles(pair);
+                if (is_carried(particles) || (touches_moving_surface(particles) && carry(mine, particles))) return true;
                 const MovedPair moved = moved_pair(near, kind, pair);
-                if (retreat(mine, moved, false) || retreat(mine, moved, true)) return true;
+                if (retreat(mine, moved, false) || retreat(mine, moved, true) || carry(mine, particles)) return true;
                 ++mine.stuck;
-                mine.least_stuck = std::min(mine.least_stuck, std::ranges::min(moved.particles));
+                for (const std::uint32_t p : moved.particles)
+                    if (!of_surface(p)) mine.least_stuck = std::min(mine.least_stuck, p);
                 mark_stuck(moved.particles);
                 return true;
             });
@@ -195,10 +203,24 @@ void ClothContact::send_back() {
 // Whether a particle that was sent back may have been beyond what its list covers, on any part of its way.
 bool ClothContact::any_uncovered() {
     in_parallel([&](Mine& mine) {
-        for_each_particle(mine, [&](std::uint32_t p) { farthest_[p] = retreats_[p] > 0 ? start_[p] : x_[p]; });
+        for_each_particle(mine, [&](std::uint32_t p) {
+            farthest_[p] = x_[p];
+            if (retreats_[p] > 0 || is_carried(p)) set_place(farthest_[p], base_of(p));
+        });
     });
-    for (std::size_t tile = 0; tile < caps_.size(); ++tile) moved_[tile] = limit_aside * caps_[tile];
+    for (std::size_t tile = 0; tile < caps_.size(); ++tile) moved_[tile] = limit_aside * own_caps_[tile];
     return search_.find_outdated(farthest_, moved_, false, team_);
+}
+
+// Of where the limit may put the particles, the place that is farther from the start.
+void ClothContact::find_farthest() {
+    in_parallel([&](Mine& mine) {
+        for_each_particle(mine, [&](std::uint32_t p) {
+            const Vec3 start = start_[p].xyz(), base = base_of(p);
+            farthest_[p] = asked_[p];
+            if (squared(base - start) > squared(asked_[p].xyz() - start)) set_place(farthest_[p], base);
+        });
+    });
 }
 
 // Takes the particles back to where they were before the limit.
@@ -223,7 +245,7 @@ void ClothContact::limit() {
         [&](Mine& mine) { for_each_particle(mine, [&](std::uint32_t p) { asked_[p] = x_[p], retreats_[p] = 0; }); });
     extend_reach();
     if (any_lost()) {
-        extend_reach(limit_aside);
+        extend_reach_of_limit();
         send_back();
         // A particle that was sent back may have left its listed trajectory. Its tile is then listed for all places
         // between the start and where the particle was to go, and the limit starts again. Near pairs cover these places
@@ -234,7 +256,8 @@ void ClothContact::limit() {
                 break;
             }
             restart_limit();
-            search_.cover(start_, asked_);
+            find_farthest();
+            search_.cover(start_, farthest_);
             search_.search(team_);
             find_near();
             send_back();

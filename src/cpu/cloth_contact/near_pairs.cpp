@@ -28,7 +28,7 @@ void ClothContact::begin_reach() {
     reach_.resize(search_.tile_count());
     most_moved_.resize(search_.tile_count());
     for (std::size_t tile = 0; tile < reach_.size(); ++tile)
-        reach_[tile] = std::min(caps_[tile], std::max(reach_growth * most_moved_[tile], least_reach * caps_[tile]));
+        reach_[tile] = std::min(caps_[tile], std::max(reach_growth * most_moved_[tile], least_reach * own_caps_[tile]));
     std::ranges::fill(most_moved_, 0.0f);
 }
 
@@ -57,21 +57,25 @@ void ClothContact::add_near_pairs(Mine& mine) const {
                 chosen.before = before_[tile] + before_[block.other];
                 if (!(chosen.reach > chosen.before)) return;
             }
+            const bool with_surface = search_.cloth(tile).surface || search_.cloth(block.other).surface;
             for (int kind = 0; kind < 2; ++kind) {
                 const std::uint32_t count = block.count[kind];
                 if (count == 0 || block.least_spare[kind] > approach + chosen.reach) continue;
-                Candidates& candidates = mine.candidates[kind];
+                Candidates& candidates = mine.candidates[with_surface ? 2 + kind : kind];
                 candidates.reserve(candidates.count + count);
                 candidates.tiles.push_back({tile, block.other});
                 loops_->choose(row.lists[kind], block.begin[kind], count, chosen, candidates);
             }
         });
-    const NearInput input{&start_->x, &reached_->x, contact_gap_floor};
     for (int kind = 0; kind < 2; ++kind) {
         NearPairs& near = mine.near[kind];
         const std::uint32_t begin = near.count;
-        mine.candidates[kind].pad(cloths_.front()->base);
-        loops_->find_near[kind](mine.candidates[kind], input, near);
+        for (const bool with_surfaces : {false, true}) {
+            Candidates& candidates = mine.candidates[with_surfaces ? 2 + kind : kind];
+            if (candidates.count == 0) continue;
+            candidates.pad(cloths_.front()->base);
+            loops_->find_near[kind](candidates, {&start_->x, &reached_->x, contact_gap_floor, with_surfaces}, near);
+        }
         drop_pairs_without_side(near, kind, begin);
         near.pad(cloths_.front()->base);
     }
@@ -83,14 +87,27 @@ bool ClothContact::is_relisted(std::uint32_t a, std::uint32_t b) const {
 }
 
 // Extends lists and near pairs if a particle has moved farther from where the constraints left it than they allow for.
-// `more_caps`: how much farther it may still move, in caps of the particles.
-void ClothContact::extend_reach(float more_caps) {
+void ClothContact::extend_reach() {
     search_.measure(reached_, x_, moved_, team_);
+    extend_reach_to_moved();
+}
+
+// For all that the limit may do: it moves particles aside, and with surfaces.
+void ClothContact::extend_reach_of_limit() {
+    search_.measure(reached_, x_, moved_, team_);
+    for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
+        if (!carriers_.empty() && caps_[tile] > 0)
+            moved_[tile] = std::max(moved_[tile], caps_[tile] - limit_carry_margin * own_caps_[tile]);
+        moved_[tile] += limit_aside * own_caps_[tile];
+    }
+    extend_reach_to_moved();
+}
+
+void ClothContact::extend_reach_to_moved() {
     before_ = reach_;
     bool any = false;
     for (std::size_t tile = 0; tile < reach_.size(); ++tile) {
         most_moved_[tile] = std::max(most_moved_[tile], moved_[tile]);
-        moved_[tile] += more_caps * caps_[tile];
         if (moved_[tile] <= reach_[tile]) continue;
         reach_[tile] = std::max(std::min(reach_growth * moved_[tile], caps_[tile]), 1.01f * moved_[tile]);
         any = true;

@@ -107,6 +107,40 @@ TEST(ClothContactKernels, a_gap_along_the_normal_separates_the_sides) {
     }
 }
 
+// Rounding of the closest points on features of 6 m, 3 m from the origin, tilts the normal at a distance of 1 mm.
+TEST(ClothContactKernels, normals_of_large_features_are_square_to_them) {
+    const auto on_lane = [](vec3 x) { return scalar::vec3{float(x.x), float(x.y), float(x.z)}; };
+    const vec3 up(-0.342020143325669, 0.939692620785908, 0), along(0.939692620785908, 0.342020143325669, 0);
+    Random random(11);
+    double most = 0, most_before = 0;
+    for (int i = 0; i < 500; ++i) {
+        const vec3 at = random.vector(0.2);
+        const scalar::vec3 p = on_lane(along * at.x + vec3(0, 0, at.z) + up * 0.001);
+        const scalar::vec3 a = on_lane(along * -3.0 + vec3(0, 0, -3)), b = on_lane(along * 3.0 + vec3(0, 0, -3)),
+                           c = on_lane(vec3(0, 0, 3));
+        const scalar::ClosestPoints points = scalar::closest_vertex_triangle(p, a, b, c);
+        const auto tilt = [&](scalar::vec3 n) { return norm(vec3(n.x, n.y, n.z) - up); };
+        most = std::max(most, tilt(scalar::normal_vertex_triangle(points, a, b, c)));
+        most_before = std::max(most_before, tilt(points.normal));
+    }
+    EXPECT_LT(most, 1e-6);
+    EXPECT_GT(most_before, 1e-5) << "nothing to correct";
+}
+
+// Where rounding does not matter, nothing changes.
+TEST(ClothContactKernels, normals_of_random_features_are_those_of_their_closest_points) {
+    Random random(12);
+    for (int i = 0; i < 2000; ++i) {
+        vec3 x[4];
+        for (vec3& p : x) p = random.vector(1);
+        x[0] = i % 2 == 0 ? x[0] : (x[1] + x[2] + x[3]) * (1.0 / 3) + random.vector(0.001);
+        const ClosestPoints face = reference::closest_vertex_triangle(x[0], x[1], x[2], x[3]);
+        EXPECT_LT(norm(reference::normal_vertex_triangle(face, x[1], x[2], x[3]) - face.normal), 1e-6);
+        const ClosestPoints edge = reference::closest_edge_edge(x[0], x[1], x[2], x[3]);
+        EXPECT_LT(norm(reference::normal_edge_edge(edge, x[0], x[1], x[2], x[3]) - edge.normal), 1e-6);
+    }
+}
+
 // Pairs of edges that are not pushed: a vertex and a triangle of the other edge are no farther apart.
 TEST(ClothContactKernels, closest_points_that_are_an_end_of_an_edge_leave_the_push_to_a_vertex_and_a_triangle) {
     Random random(7);

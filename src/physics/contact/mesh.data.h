@@ -5,7 +5,7 @@
 
 namespace weft {
 
-inline constexpr std::string_view mesh_what = "a mesh as a solid, by a distance field";
+inline constexpr std::string_view mesh_what = "a mesh as a solid, by a distance field, or as a surface";
 
 inline constexpr Parameter mesh_parameters[] = {
     {.key = "file", .kind = ParameterKind::text, .offset = offsetof(SolidMeshDesc, file),
@@ -16,6 +16,10 @@ inline constexpr Parameter mesh_parameters[] = {
      .what = "the file's axis that points up", .choices = "x|y|z"},
     {.key = "resolution", .kind = ParameterKind::integer, .offset = offsetof(SolidMeshDesc, resolution), .min = 4,
      .max = 1024, .what = "cells of the field along the longest side of the mesh"},
+    {.key = "contact", .kind = ParameterKind::choice, .offset = offsetof(SolidMeshDesc, contact),
+     .what = "what cloth with exact self-collision meets: the solid or, from either side, the triangles; `auto`: the "
+             "triangles of a mesh with holes",
+     .choices = "auto|solid|surface"},
 };
 
 inline std::array<float, 4> shape_numbers(const SolidMeshDesc&) {

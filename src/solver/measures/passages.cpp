@@ -173,6 +173,7 @@ void PassageWatch::compare(const Frame& frame, std::span<const Collider> collide
             if (!known) continue;
             tree.for_each_overlap(box, [&](std::uint32_t i) {
                 const Watched& watched = watched_[i];
+                if (!shape_acts_on(colliders[i], *cloth.model)) return;
                 const auto of_step = [&](std::uint32_t step, Vec3(&local)[3]) {
                     const float part = static_cast<float>(step) / static_cast<float>(steps[i]);
                     const Pose pose = step == 0          ? watched.before

@@ -19,7 +19,8 @@ namespace weft {
 /// that sweeps over such a point has lost the side on which it was. The face moves linearly between the frames, as seen
 /// from the collider; a collider that turns is followed in steps of 0.2 rad.
 ///
-/// Not found: passages of a plane, which stay as penetration; of cloth smaller than the distance between the points;
+/// Not found: passages of a plane, which stay as penetration; of colliders whose surface the cloth meets, see
+/// Penetration; of cloth smaller than the distance between the points;
 /// and of colliders that turn by more than half a turn in a frame. Found although nothing passed: cloth that moves
 /// around a collider within one frame by so much that the straight way between leads through its middle.
 struct Passages {

@@ -132,6 +132,7 @@ Penetration PenetrationSearch::measure(const Frame& frame, std::span<const Colli
             if (!finite(corners[0]) || !finite(corners[1]) || !finite(corners[2])) continue;
             face_depth_ = 0;
             near.for_each(box, [&](std::uint32_t i) {
+                if (!shape_acts_on(colliders[i], *cloth.model)) return;
                 collider_ = i;
                 search_face(corners, colliders[i]);
             });

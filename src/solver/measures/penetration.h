@@ -38,7 +38,8 @@ class PenetrationSearch {
     /// Largest number of samples for a face and a collider. Where it ends a search, `at_most` says what is left open.
     static constexpr std::uint32_t most_samples = 2048;
 
-    /// Ignores faces with a position that is not finite, and colliders where the distance is not.
+    /// Ignores faces with a position that is not finite, colliders where the distance is not, and colliders whose
+    /// surface the cloth meets: it may be on either side, and count_intersections() counts where it passes through.
     Penetration measure(const Frame& frame, std::span<const Collider> colliders);
 
   private:

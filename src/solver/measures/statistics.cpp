@@ -32,15 +32,31 @@ Penetration measure_penetration(const Frame& frame, std::span<const Collider> co
     return PenetrationSearch().measure(frame, colliders);
 }
 
-Intersections count_intersections(const Frame& frame) {
+Intersections count_intersections(const Frame& frame, std::span<const Collider> colliders) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
+    enum class Side : std::uint8_t { cloth, cloth_that_meets_surfaces, surface };
+    std::vector<Side> sides;  // by particle
+    const auto add = [&](const TriangleView& more, Side side) {
+        const auto first = static_cast<std::uint32_t>(sides.size());
+        sides.resize(positions.size(), side);
+        for (const auto& [a, b, c] : more) triangles.push_back({a + first, b + first, c + first});
+    };
     for (const ClothFrame& cloth : frame.cloths) {
-        const auto first = static_cast<std::uint32_t>(positions.size());
         for (const Vec4& p : cloth.positions) positions.push_back(p.xyz());
-        for (const auto& [a, b, c] : cloth.triangles) triangles.push_back({a + first, b + first, c + first});
+        add(cloth.triangles, cloth.model->collision.meets_surfaces() ? Side::cloth_that_meets_surfaces : Side::cloth);
     }
-    const Crossings crossings = count_crossings(positions, triangles);
+    for (const Collider& collider : colliders) {
+        if (!collider.surface) continue;
+        for (std::uint32_t p = 0; p < collider.surface->particle_count; ++p)
+            positions.push_back(to_world(collider.pose, collider.surface->rest_position(p)));
+        add(collider.surface->triangles(), Side::surface);
+    }
+    const auto can_cross = [&](std::uint32_t p, std::uint32_t q) {
+        if (sides[p] != Side::surface && sides[q] != Side::surface) return true;
+        return sides[p] != sides[q] && sides[p] != Side::cloth && sides[q] != Side::cloth;
+    };
+    const Crossings crossings = count_crossings(positions, triangles, can_cross);
     return {crossings.triangles, crossings.edges};
 }
 

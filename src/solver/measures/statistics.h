@@ -23,12 +23,13 @@ bool all_finite(const Frame& frame);
 /// PenetrationSearch, without keeping the search trees of meshes.
 Penetration measure_penetration(const Frame& frame, std::span<const Collider> colliders);
 
-/// Numbers of crossing pairs, within and between all cloths.
+/// Numbers of crossing pairs, within and between all cloths, and of cloths with the surfaces that they meet
+/// (Collider::surface).
 struct Intersections {
     std::uint64_t triangles = 0;  ///< pairs of triangles
     std::uint64_t edges = 0;      ///< pairs of an edge and a triangle
 };
-Intersections count_intersections(const Frame& frame);
+Intersections count_intersections(const Frame& frame, std::span<const Collider> colliders = {});
 
 /// The cloths of a frame as sheets, for SheetOrder.
 std::vector<SheetPose> sheet_poses(const Frame& frame);

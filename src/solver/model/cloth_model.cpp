@@ -309,7 +309,8 @@ void ClothModel::make_tiles_if_needed() {
     along_curve = nullptr;
     if (collision.with_cloth == SelfCollision::off) return;
     const std::span<const Vec4> particles{start.data(), particle_count};
-    along_curve = std::make_shared<const std::vector<std::uint32_t>>(order_along_curve(particles));
+    if (!collision.surface)
+        along_curve = std::make_shared<const std::vector<std::uint32_t>>(order_along_curve(particles));
     if (collision.with_cloth != SelfCollision::exact) return;
     tiles = std::make_shared<const std::vector<Tile>>(make_tiles(triangles(), {start.data(), start.size()}));
 }

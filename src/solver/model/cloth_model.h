@@ -44,10 +44,15 @@ struct ClothCollision {
     SelfCollision with_cloth = SelfCollision::off;
     CollisionFilter filter = {};  ///< for other cloths
     std::uint32_t layer = 0;      ///< a higher one lies in front of lower ones
+    bool surface = false;         ///< the surface of a collider (collider_surface.h), which collides with exact cloth
+
+    /// Whether the cloth meets the triangles of colliders that have a surface, not their shapes.
+    bool meets_surfaces() const { return with_cloth == SelfCollision::exact && !surface; }
 };
 
 /// Whether two cloths of a world collide with each other.
 inline bool can_collide(const ClothCollision& a, const ClothCollision& b) {
+    if (a.surface || b.surface) return a.surface ? b.meets_surfaces() : a.meets_surfaces();
     return a.with_cloth != SelfCollision::off && b.with_cloth != SelfCollision::off && collide(a.filter, b.filter);
 }
 
@@ -114,7 +119,7 @@ struct ClothModel {
     std::shared_ptr<const FacesByTile> faces_by_tile = std::make_shared<FacesByTile>();
     float mean_edge = 0, longest_edge = 0;           ///< m, at rest
     std::shared_ptr<const std::vector<Tile>> tiles;  ///< null if the cloth has no exact contact with cloth
-    /// Particles along a curve through the cloth; null if the cloth does not collide with cloth.
+    /// Particles along a curve through the cloth; null if it has no contact of particles with cloth.
     std::shared_ptr<const std::vector<std::uint32_t>> along_curve;
     std::uint64_t topology_version = first_topology_version;
 

@@ -3,6 +3,7 @@
 
 #include "solver/model/cloth_model.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace weft {
@@ -31,12 +32,32 @@ inline constexpr float contact_brake_depth = 0.5f;
 inline constexpr std::uint32_t limit_slides = 4, limit_halvings = 3;
 /// How far sliding may lead from the way on which the particle was, as a part of contact_cap().
 inline constexpr float limit_aside = 0.1f;
+/// How often it may send a particle back.
+inline constexpr std::uint32_t most_retreats = limit_slides + limit_halvings + 1;
+/// How much nearer than the largest distance for contact the limit keeps what surfaces carry along, in own caps.
+inline constexpr float limit_carry_margin = 0.5f;
 /// How often the limit may start again because a particle left its listed trajectory.
 inline constexpr int contact_most_attempts = 20;
+
+/// contact_cap() of particles that belong to the surface of a collider, which contact does not move.
+inline constexpr float cap_of_surface = 1e9f;
+
+/// How thick a cloth is in its pairs, m: a pair has the mean of both. Surfaces of colliders have no thickness, so cloth
+/// keeps half of its own from them, as from any collider.
+inline float pair_thickness(const ClothModel& model) {
+    return model.collision.surface ? 0 : std::max(model.fabric.contact.thickness, least_contact_thickness);
+}
 
 /// How far all rounds together may move a particle from where the first constraints left it, m.
 inline float contact_cap(const ClothModel& model) {
     return 0.14f * model.mean_edge;
+}
+/// The most that the motion of surfaces may add to a cap, in caps: 4 mean edges.
+inline constexpr float most_carried = 28;
+/// The same in a frame in which surfaces of colliders move by `surface_motion` m in a substep at most: contact has to
+/// carry cloth along.
+inline float carried_cap(float cap, float surface_motion) {
+    return cap + std::min(surface_motion, most_carried * cap);
 }
 
 }  // namespace weft

@@ -12,6 +12,7 @@ namespace {
 // The speed cap lets a particle pass this many edges (or thicknesses, if longer) per substep. Beyond that, contacts
 // miss the particle and constraints pull in the wrong direction.
 constexpr float capped_edges_per_substep = 10;
+constexpr double no_speed_cap = 1e18;
 
 }  // namespace
 
@@ -19,7 +20,8 @@ FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, doubl
     const double h = dt / plan.substeps;
     const double reach = std::max(model.fabric.contact.thickness, model.mean_edge);
     return {.h = static_cast<float>(h),
-            .max_speed = static_cast<float>(std::min(capped_edges_per_substep * reach / h, 1e18)),
+            .max_speed = static_cast<float>(
+                model.collision.surface ? no_speed_cap : std::min(capped_edges_per_substep * reach / h, no_speed_cap)),
             .viscous = std::max(static_cast<float>(model.fabric.body.damping * dt), 1e-30f),
             .half_thickness = 0.5f * model.fabric.contact.thickness,
             .depenetration = depenetration_speed * static_cast<float>(h),
@@ -34,7 +36,8 @@ std::array<float, 2> friction_between(const ClothModel& model, const Collider& c
 
 bool faces_touch(const ClothModel& model, const Collider& collider) {
     const float half_thickness = 0.5f * model.fabric.contact.thickness;
-    return scalar::reaches_faces(roundness_of(collider), half_thickness, nearest_of_faces(half_thickness),
+    return shape_acts_on(collider, model) &&
+           scalar::reaches_faces(roundness_of(collider), half_thickness, nearest_of_faces(half_thickness),
                                  circle_of_faces(model));
 }
 

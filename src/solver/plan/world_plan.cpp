@@ -260,6 +260,13 @@ std::array<float, 2> stiffness_of(const Fabric& fabric, std::uint32_t iterations
     return {of(Material::plain[0]), of(Material::plain[1])};
 }
 
+// The surface of a collider that rests only has pairs.
+bool surface_takes_part(const PlannedCloth& cloth, const Pass& pass) {
+    if (is_cloth_contact(pass.kind)) return true;
+    return cloth.kinematic && (pass.kind == PassKind::predict || pass.kind == PassKind::targets ||
+                               pass.kind == PassKind::velocities || pass.kind == PassKind::advance);
+}
+
 }  // namespace
 
 PlainStiffness plain_stiffness(const Fabric& fabric, std::uint32_t iterations) {
@@ -300,6 +307,7 @@ std::uint32_t rounds_of_links(const WorldPlan& plan) {
 
 bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     const ClothModel& model = *cloth.model;
+    if (model.collision.surface) return surface_takes_part(cloth, pass);
     if (pass.source == RowSource::links) return false;
     if (pass.source == RowSource::dynamic) return true;
     if (pass.cloths == PassFor::exact_cloths && model.collision.with_cloth != SelfCollision::exact) return false;

@@ -44,6 +44,8 @@ struct StepInput {
     /// Of the cloths that collide with cloth, at the start of the frame; particles are numbered over the world. Null if
     /// nothing is tangled.
     const Tangle* tangle = nullptr;
+    /// m: the most that a point of a surface (Collider::surface) moves in a substep.
+    float surface_motion = 0;
 };
 
 /// One cloth's part of a frame.

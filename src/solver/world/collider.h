@@ -4,6 +4,7 @@
 #include "base/transform.h"
 #include "collide/shape_data.h"
 #include "scene/scene_desc.h"
+#include "solver/model/cloth_model.h"
 
 #include <array>
 #include <memory>
@@ -45,7 +46,14 @@ struct Collider {
     Pose pose;                                   ///< current pose
     std::vector<PoseKey> motion = {};            ///< by ascending time; empty: no motion by keys
     std::optional<Pose> next_pose = {};          ///< pose at the end of the next frame, set by World::move()
+    /// If not null, cloths that meet surfaces (ClothCollision) meet these triangles instead of the shape.
+    std::shared_ptr<const ClothModel> surface = {};
 };
+
+/// Whether the shape of the collider acts on a cloth.
+inline bool shape_acts_on(const Collider& collider, const ClothModel& cloth) {
+    return !collider.surface || !cloth.collision.meets_surfaces();
+}
 
 /// The most that the distance to the shape changes per meter.
 inline float steepness_of(const Collider& collider) {

@@ -148,11 +148,11 @@ bool ColliderPlaces::misses(std::uint32_t collider, const Bounds& box) const {
     return signed_distance(colliders_[collider], box.center()) > radius * (1 + 1e-4);
 }
 
-void ColliderPlaces::find(const Bounds& box, std::vector<std::uint32_t>& to) const {
+void ColliderPlaces::find(const Bounds& box, std::vector<std::uint32_t>& to, bool surfaces) const {
     if (box.empty()) return;
     const auto begin = static_cast<std::ptrdiff_t>(to.size());
     const auto add = [&](std::uint32_t collider) {
-        if (!misses(collider, box)) to.push_back(collider);
+        if ((surfaces || !colliders_[collider].surface) && !misses(collider, box)) to.push_back(collider);
     };
     for (const std::uint32_t collider : unbounded_) add(collider);
     for (const std::uint32_t collider : unbounded_moving_) add(collider);

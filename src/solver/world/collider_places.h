@@ -51,7 +51,8 @@ class ColliderPlaces {
     }
 
     /// Appends all colliders that may touch the box at any time of the frame, by ascending index. Some of them may not.
-    void find(const Bounds& box, std::vector<std::uint32_t>& to) const;
+    /// `surfaces`: also those with a Collider::surface.
+    void find(const Bounds& box, std::vector<std::uint32_t>& to, bool surfaces = true) const;
 
   private:
     void sort_by_motion();

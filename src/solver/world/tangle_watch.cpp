@@ -22,7 +22,8 @@ void TangleWatch::search(std::span<const WatchedCloth> cloths, std::span<const S
     };
     const auto can_cross = [&](std::uint32_t p, std::uint32_t q) {
         const WatchedCloth &a = cloth_of(p), &b = cloth_of(q);
-        return a.base == b.base || can_collide(a.model->collision, b.model->collision);
+        if (a.base == b.base) return !a.model->collision.surface;
+        return can_collide(a.model->collision, b.model->collision);
     };
     const auto order = [&](std::uint32_t p, std::uint32_t q) {
         const std::uint32_t a = cloth_of(p).model->collision.layer, b = cloth_of(q).model->collision.layer;
@@ -34,12 +35,15 @@ void TangleWatch::search(std::span<const WatchedCloth> cloths, std::span<const S
     TangleRules rules{.can_cross = can_cross, .order = order};
     if (!seams.empty()) rules.tied = tied;
     tangle_ = find_tangle(positions, triangles, rules);
+    least_particle_ = no_particle;
+    for (const TangledPair& pair : tangle_.pairs)
+        for (const std::uint32_t p : pair.particle)
+            if (!cloth_of(p).model->collision.surface) least_particle_ = std::min(least_particle_, p);
 }
 
 void TangleWatch::count(ClothContactCounts& counts) const {
     counts.tangled = std::max(counts.tangled, std::uint64_t{tangle_.pairs.size()});
-    for (const TangledPair& pair : tangle_.pairs)
-        counts.tangled_particle = std::min(counts.tangled_particle, std::ranges::min(pair.particle));
+    counts.tangled_particle = std::min(counts.tangled_particle, least_particle_);
 }
 
 }  // namespace weft

@@ -28,6 +28,7 @@ class TangleWatch {
 
   private:
     Tangle tangle_;
+    std::uint32_t least_particle_ = no_particle;  ///< of a cloth, in a pair of the tangle
 };
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/hash.h"
+#include "solver/model/collider_surface.h"
 #include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
@@ -181,12 +182,24 @@ void World::remove(StitchId id) {
     replan();
 }
 
-ColliderId World::add(Collider collider) {
+Result<ColliderId> World::try_add(Collider collider) {
     complete_and_resolve();
+    auto surface = make_surface(collider);
+    if (!surface) return surface.errors();
     const ColliderId id = colliders_.add(std::move(collider));
+    if (surface->model) {
+        surface->collider = id;
+        surfaces_.push_back(std::move(*surface));
+    }
     places_->reset();
     replan();
     return id;
+}
+
+ColliderId World::add(Collider collider) {
+    auto id = try_add(std::move(collider));
+    if (!id) throw std::runtime_error(id.error().message());
+    return *id;
 }
 
 void World::remove(ColliderId id) {
@@ -202,6 +215,7 @@ void World::remove(ColliderId id) {
             }
         }
     }
+    remove_surface(id);
     colliders_.remove(id);
     places_->reset();
     replan();
@@ -211,6 +225,10 @@ void World::set_friction(ColliderId id, std::array<float, 2> friction) {
     assert(contains(id));
     complete();  // the running frame must keep its friction
     colliders_[colliders_.find(id)].friction = friction;
+    if (Surface* const surface = surface_of(id)) {
+        auto changed = with_friction(*surface->model, friction);
+        if (backend_->set_material(surface->handle, changed)) surface->model = std::move(changed);
+    }
 }
 
 void World::move(ColliderId id, const Pose& to) {
@@ -268,7 +286,7 @@ void World::replan() {
         .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
         .surface = settings_.surface};
     const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
-    std::vector<PlannedCloth> planned;
+    std::vector<PlannedCloth> planned, planned_surfaces;
     for (Cloth& cloth : cloths_) {
         planned.push_back({cloth.model.get(), !cloth.targets.particles.empty()});
         if (settings_.solver.method == Method::pbd)
@@ -278,6 +296,11 @@ void World::replan() {
     winds_.resize(air ? settings_.air->wind.size() : 0);
 
     make_islands();
+    for (Surface& surface : surfaces_) surface.poses.resize(places);
+    for (const Island& island : islands_)
+        for (const std::uint32_t place : island.surfaces)
+            planned_surfaces.push_back({surfaces_[place].model.get(), surfaces_[place].moves});
+    planned.insert(planned.end(), planned_surfaces.begin(), planned_surfaces.end());
     std::vector<const LinkTables*> links;
     for (const Island& island : islands_)
         for (const auto& tables : island.links) links.push_back(tables.get());
@@ -286,6 +309,8 @@ void World::replan() {
     for (Island& island : islands_) {
         members.clear(), links.clear();
         for (const std::uint32_t place : island.cloths) members.push_back(planned[place]);
+        for (const std::uint32_t place : island.surfaces)
+            members.push_back({surfaces_[place].model.get(), surfaces_[place].moves});
         for (const auto& tables : island.links) links.push_back(tables.get());
         island.plan = IslandPlan(plan_, members, links);
     }
@@ -316,10 +341,19 @@ void World::make_islands() {
     }
 
     islands_.clear();
-    for (const auto& members : group_islands(static_cast<std::uint32_t>(parts.size()), colliding_parts(part_of))) {
+    const auto part_count = static_cast<std::uint32_t>(parts.size()),
+               surface_count = static_cast<std::uint32_t>(surfaces_.size());
+    for (const auto& members : group_islands(part_count + surface_count, colliding_parts(part_of, part_count))) {
+        if (members.front() >= part_count) continue;  // nothing can touch this surface
         Island& island = islands_.emplace_back();
         std::vector<PlacedStitch> of_island;
         for (const std::uint32_t part : members) {
+            if (part >= part_count) {
+                const auto at = static_cast<std::uint32_t>(island.cloths.size() + island.surfaces.size());
+                island.surfaces.push_back(part - part_count);
+                island.parts.push_back({.begin = at, .end = at + 1});
+                continue;
+            }
             StitchedPart& mine = island.parts.emplace_back();
             mine.begin = static_cast<std::uint32_t>(island.cloths.size());
             island.cloths.insert(island.cloths.end(), parts[part].begin(), parts[part].end());
@@ -335,10 +369,12 @@ void World::make_islands() {
     }
 }
 
-// Few pairs of parts that suffice to group all parts whose cloths can collide. `part_of`: by cloth.
-std::vector<std::array<std::uint32_t, 2>> World::colliding_parts(std::span<const std::uint32_t> part_of) const {
+// Few pairs of parts that suffice to group all parts whose cloths can collide. `part_of`: by cloth, < `parts`. Surfaces
+// of colliders are numbered after the parts.
+std::vector<std::array<std::uint32_t, 2>> World::colliding_parts(std::span<const std::uint32_t> part_of,
+                                                                 std::uint32_t parts) const {
     std::vector<std::array<std::uint32_t, 2>> ties;
-    DisjointSets grouped(static_cast<std::uint32_t>(part_of.size()));
+    DisjointSets grouped(static_cast<std::uint32_t>(parts));
     for (std::uint32_t b = 0; b < cloths_.size(); ++b) {
         for (std::uint32_t a = 0; a < b; ++a) {
             const std::uint32_t one = part_of[a], two = part_of[b];
@@ -348,6 +384,11 @@ std::vector<std::array<std::uint32_t, 2>> World::colliding_parts(std::span<const
             grouped.merge(one, two);
             ties.push_back({one, two});
         }
+    }
+    for (std::uint32_t surface = 0; surface < surfaces_.size(); ++surface) {
+        for (std::uint32_t cloth = 0; cloth < cloths_.size(); ++cloth)
+            if (can_collide(surfaces_[surface].model->collision, cloths_[cloth].model->collision))
+                ties.push_back({part_of[cloth], parts + surface});
     }
     return ties;
 }
@@ -371,11 +412,13 @@ void World::advance(double dt) {
     complete();
     while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
     if (settings_.background) pending_.start_next();
+    begin_surfaces();
     if (watched_serial_ != plan_serial_) watch_tangle();
     watched_serial_ = plan_serial_;
     const auto begin = std::chrono::steady_clock::now();
     places_->begin_frame(colliders_.values(), frame_.time, dt, settings_.solver.substeps);
     for (Cloth& cloth : cloths_) place_motions(cloth, dt);
+    place_surfaces();
     for (std::size_t i = 0; i < winds_.size(); ++i) {
         winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
     }
@@ -398,6 +441,7 @@ void World::advance(double dt) {
                  .frame = &frame_.cloths[place],
                  .contact_forces = settings_.contact_forces ? &contact_log.cloths[place].contact_forces : nullptr});
         }
+        for (const std::uint32_t place : island.surfaces) island.steps.push_back(step_of(surfaces_[place]));
         steps_.push_back({.plan = &island.plan, .cloths = island.steps, .parts = island.parts, .seams = island.seams});
     }
     step_ = {.plan = &plan_,
@@ -411,7 +455,8 @@ void World::advance(double dt) {
                        .contact_forces = settings_.contact_forces,
                        .contact_marks = settings_.contact_marks,
                        .list_capacity = settings_.list_capacity,
-                       .tangle = tangle_.tangle()},
+                       .tangle = tangle_.tangle(),
+                       .surface_motion = surface_motion()},
              .islands = steps_};
     backend_->step(step_);
     running_ = true;

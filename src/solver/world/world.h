@@ -80,6 +80,9 @@ class World {
     void remove(StitchId id);
     bool contains(StitchId id) const { return stitches_.contains(id); }
 
+    /// Fails if the device has not enough memory for the collider's surface.
+    Result<ColliderId> try_add(Collider collider);
+    /// Like try_add(), but throws if it fails.
     ColliderId add(Collider collider);
     /// Pins that follow the collider stay at their current positions.
     void remove(ColliderId id);
@@ -152,9 +155,23 @@ class World {
         PlainStiffness stiffness{};
         std::vector<Pose> motion_poses;
     };
+    /// The surface of a collider: a cloth for the backend alone.
+    struct Surface {
+        ColliderId collider;
+        ClothHandle handle;
+        std::shared_ptr<const ClothModel> model;
+        std::uint32_t base = 0;                ///< start of its range in the address space
+        bool moves = false;                    ///< the collider has moved, or has keys
+        std::vector<KinematicTarget> targets;  ///< all particles; empty if it does not move
+        std::vector<Pose> poses;               ///< after each substep of a frame
+        Bounds bounds;                         ///< m: of the particles in the collider's frame
+        std::vector<Vec4> positions;           ///< where watch_tangle() has found it
+        ClothFrame frame;                      ///< nobody reads it
+    };
     struct Island {
         std::vector<std::uint32_t> cloths;                     ///< indices; those of each part follow one another
-        std::vector<StitchedPart> parts;                       ///< of `cloths`
+        std::vector<std::uint32_t> surfaces;                   ///< indices of surfaces that its cloths can touch
+        std::vector<StitchedPart> parts;                       ///< of `cloths`, then one per surface
         std::vector<std::unique_ptr<const LinkTables>> links;  ///< of the parts that have any
         std::shared_ptr<const Seams> seams;                    ///< null without stitches between cloths that can touch
         IslandPlan plan;
@@ -163,7 +180,8 @@ class World {
 
     void replan();
     void make_islands();
-    std::vector<std::array<std::uint32_t, 2>> colliding_parts(std::span<const std::uint32_t> part_of) const;
+    std::vector<std::array<std::uint32_t, 2>> colliding_parts(std::span<const std::uint32_t> part_of,
+                                                              std::uint32_t parts) const;
     void use_model(const PendingModels::Ready& ready);
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,
@@ -179,6 +197,16 @@ class World {
                                const std::shared_ptr<const ClothModel>& model);
     Result<void> check_fits(const Snapshot& snapshot) const;
     void list_cloths();
+    // world_surfaces.cpp
+    Result<Surface> make_surface(const Collider& collider);
+    void remove_surface(ColliderId id);
+    Surface* surface_of(ColliderId id);
+    void put_surfaces();
+    void begin_surfaces();
+    void place_surfaces();
+    float surface_motion() const;
+    ClothStep step_of(Surface& surface) const;
+    std::vector<Vec3> places_of(const Surface& surface) const;
     // world_contact.cpp
     std::shared_ptr<const Seams> seams_of(std::span<const std::uint32_t> cloths,
                                           std::span<const PlacedStitch> stitches) const;
@@ -195,6 +223,7 @@ class World {
     WorldSettings settings_;
     IdList<Cloth, struct ClothTag> cloths_;
     IdList<Collider, struct ColliderTag> colliders_;
+    mutable std::vector<Surface> surfaces_;  ///< of colliders, in the order in which they were added
     std::unique_ptr<ColliderPlaces> places_ = std::make_unique<ColliderPlaces>();
     std::vector<WindNow> winds_;
     PendingModels pending_;

@@ -38,6 +38,11 @@ void World::watch_tangle() const {
     auto next = watched.begin();
     for (const ClothFrame& cloth : frame().cloths)
         if (cloth.model->tiles) (next++)->positions = cloth.positions;
+    for (Surface& surface : surfaces_) {
+        surface.positions.clear();
+        for (const Vec3 place : places_of(surface)) surface.positions.push_back({place.x, place.y, place.z, 0});
+        watched.push_back({surface.model.get(), surface.base, surface.positions});
+    }
     std::vector<const Seams*> seams;
     for (const Island& island : islands_)
         if (island.seams) seams.push_back(island.seams.get());

@@ -112,6 +112,7 @@ Result<void> World::restore(const Snapshot& snapshot) {
         colliders_[i].pose = snapshot.colliders[i];
         colliders_[i].next_pose.reset();
     }
+    put_surfaces();
     frame_.index = snapshot.frame;
     frame_.time = snapshot.time;
     frame_.reports = report_none;

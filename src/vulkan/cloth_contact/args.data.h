@@ -10,6 +10,8 @@
 #define WEFT_TILE_TRIANGLES 64
 #define WEFT_TILES_TOGETHER 64
 
+#define WEFT_CAP_OF_SURFACE 1e9  // m: cap_of_surface
+#define WEFT_MOST_CARRIED 28.0   // caps: most_carried
 #define WEFT_CONTACT_ROUNDS 4        // contact_rounds
 #define WEFT_CONTACT_EXTRA_SWEEPS 4  // contact_extra_sweeps
 // Rounds of the limit that run in parallel. What they leave to do, one workgroup does.
@@ -41,6 +43,7 @@ using TangledPairRef = std::uint64_t;
 using Uvec4s = std::uint64_t;
 using ContactHeadRef = std::uint64_t;
 using ReportsRef = std::uint64_t;
+using PosesOfCarriersRef = std::uint64_t;
 struct uvec4 {
     uint x, y, z, w;
 };
@@ -53,6 +56,7 @@ layout(buffer_reference) buffer TangledPairRef;
 layout(buffer_reference) buffer Uvec4s;
 layout(buffer_reference) buffer ContactHeadRef;
 layout(buffer_reference) buffer ReportsRef;
+layout(buffer_reference) buffer PosesOfCarriersRef;
 #endif
 
 // A tile of a cloth. Its vertices, edges and triangles are in arrays of fixed size per tile.
@@ -68,13 +72,14 @@ struct ContactTileIn {
     uint groups;  // CollisionFilter
     uint collides_with;
     float slack;  // m: how far a vertex may be from its listed trajectory
+    uint surface;  // 1: of a collider, so it has pairs with cloths alone
 };
 
 // The trajectory that a tile's lists were made for (TileState of collide/pair_search.h), and where it is now.
 struct TrackedTile {
     vec4 center;  // m; of the box around its vertices, at the start of the tick; w: spread
     vec4 extent;  // m: half of the box's size; w: stray
-    vec4 mean;    // m per tick: mean velocity; w: unused
+    vec4 mean;    // m per tick: mean velocity; w: m, the slack when it was listed
     uint listed;  // tick; 0: never
     uint until;   // tick from which on its lists are not valid
     uint lifetime;
@@ -123,6 +128,7 @@ struct ContactHead {
     uint listed1;
     uint near0;       // near pairs, by search
     uint near1;
+    uint substep;
     uint brakes;      // 1: the brake slows particles, so the search for the motion runs again
     uint uncovered;   // 1: the search for all places is needed
     uint contacts;
@@ -146,7 +152,7 @@ struct ContactData {
     Vec4s velocity;
     Vec4s reached;  // where the constraints left the particles
     Vec4s asked;    // before the limit
-    Vec4s rest;     // w: how far pushes may move the particle, m: its cap
+    Vec4s rest;     // w: how far pushes may move the particle if no surface moves, m
     Uints share;  // sums of weights, in quanta
     Uints sums;   // in quanta: four per particle
     Uints scaled_sums;
@@ -154,6 +160,9 @@ struct ContactData {
     Uints retreats;  // how often the limit has sent the particle back
     Vec4s slide;     // motion that the limit leaves to a particle that slides
     Uints marks;     // 1: to be sent back
+    Uints carrier;       // the moving surface that carries the particle, or to which it belongs, counted from 1; 0: none
+    Uints next_carrier;  // that the limit asks to carry the particle; 0: none
+    PosesOfCarriersRef carriers;
     Uints contact_marks;  // WEFT_MARK_…; none unless records_marks
     ContactTileRef tiles;
     TrackedTileRef tracked;
@@ -195,7 +204,8 @@ struct ContactData {
     float recovery_speed;  // m/s
     float gap_floor;
     float brake_depth;  // in caps
-    float most_aside;   // in caps
+    float most_aside;   // in caps, as is the next one
+    float carry_margin;
     float split;
     float untangling_speed;  // m/s
     uint search_always;
@@ -235,6 +245,9 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer ContactHeadR
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer ReportsRef {
     uvec2 at[];  // Uints
+};
+layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer PosesOfCarriersRef {
+    uvec2 at[];  // PoseRef
 };
 #endif
 

@@ -16,7 +16,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ContactTileIn) == 44 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
+static_assert(sizeof(ContactTileIn) == 48 && sizeof(TrackedTile) == 64 && sizeof(ListedPair) == 32 &&
               sizeof(TangledPairIn) == 32);
 static_assert(sizeof(ClothContactArgs) == 16);
 static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edges &&
@@ -24,6 +24,8 @@ static_assert(WEFT_TILE_VERTICES == tile_vertices && WEFT_TILE_EDGES == tile_edg
 static_assert(WEFT_MARK_TOUCHES == mark_touches && WEFT_MARK_LIMITED == mark_limited &&
               WEFT_MARK_TANGLED == mark_tangled);
 static_assert(WEFT_CONTACT_ROUNDS == contact_rounds && WEFT_CONTACT_EXTRA_SWEEPS == contact_extra_sweeps);
+static_assert(static_cast<float>(WEFT_CAP_OF_SURFACE) == cap_of_surface &&
+              static_cast<float>(WEFT_MOST_CARRIED) == most_carried);
 static_assert(WEFT_LIMIT_SLIDES == limit_slides && WEFT_LIMIT_HALVINGS == limit_halvings);
 
 // Part of the slack of lists by which contact may move particles. The rest is for the motion of the following substeps.
@@ -34,25 +36,36 @@ struct TileArrays {
     std::vector<ContactTileIn> tiles;
     std::vector<std::uint32_t> particles, edges, triangles;
 
-    void add(const Tile& tile, const ClothModel& model, std::uint32_t cloth, std::uint32_t base) {
+    void add(const Tile& tile, const ClothModel& model, std::uint32_t cloth, std::uint32_t base, float slack) {
         const ContactMaterial& material = model.fabric.contact;
         tiles.push_back({.vertices = tile.vertex_count,
                          .own_vertices = tile.own_vertices,
                          .edges = tile.edge_count,
                          .triangles = tile.triangle_count,
                          .cloth = cloth,
-                         .thickness = std::max(material.thickness, least_contact_thickness),
+                         .thickness = pair_thickness(model),
                          .static_friction = material.friction[0],
                          .kinetic_friction = material.friction[1],
                          .groups = model.collision.filter.groups,
                          .collides_with = model.collision.filter.mask,
-                         .slack = contact_cap(model) / contact_part_of_slack});
+                         .slack = slack,
+                         .surface = model.collision.surface ? 1u : 0u});
         for (const std::uint32_t p : tile.particle) particles.push_back(base + p);
         for (std::uint32_t e = 0; e < tile_edges; ++e) edges.push_back(tile.edge[0][e] | tile.edge[1][e] << 8);
         for (std::uint32_t t = 0; t < tile_triangles; ++t)
             triangles.push_back(tile.triangle[0][t] | tile.triangle[1][t] << 8 | tile.triangle[2][t] << 16);
     }
 };
+
+// Contact does not move the particles of surfaces, whatever it may do to those of cloths.
+float cap_of(const ClothModel& model) {
+    return model.collision.surface ? cap_of_surface : contact_cap(model);
+}
+
+// The slack of the lists of a cloth, m; infinite for surfaces.
+float slack_of(const ClothModel& model) {
+    return model.collision.surface ? cap_of_surface : contact_cap(model) / contact_part_of_slack;
+}
 
 std::uint32_t in_proportion(std::uint64_t items, double each) {
     return static_cast<std::uint32_t>(std::min(64 + static_cast<double>(items) * each, double{most_list_rows}));
@@ -206,14 +219,18 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     std::vector<std::uint64_t> reports;
     std::uint64_t particles = 0, end = 0;
     ContactData data{};
+    float least_slack = cap_of_surface;
+    for (const Member& member : members)
+        if (member.cloth->model().tiles) least_slack = std::min(least_slack, slack_of(member.cloth->model()));
     for (std::uint32_t m = 0; m < members.size(); ++m) {
         const ClothState& cloth = *members[m].cloth;
         const ClothModel& model = cloth.model();
         reports.push_back(members[m].report);
         if (!model.tiles) continue;
-        for (const Tile& tile : *model.tiles) arrays.add(tile, model, m, cloth.base());
-        data.most_slack = std::max(data.most_slack, contact_cap(model) / contact_part_of_slack);
-        data.thickest = std::max(data.thickest, std::max(model.fabric.contact.thickness, least_contact_thickness));
+        const float slack = model.collision.surface ? least_slack : slack_of(model);
+        for (const Tile& tile : *model.tiles) arrays.add(tile, model, m, cloth.base(), slack);
+        data.most_slack = std::max(data.most_slack, slack);
+        data.thickest = std::max(data.thickest, pair_thickness(model));
         data.frame = members[m].frame;
         particles += model.particle_count;
         end = std::max(end, std::uint64_t{cloth.base()} + model.capacity());
@@ -222,12 +239,17 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     groups_ = groups_of(tiles_, WEFT_TILES_TOGETHER);
     room_ = room_.with(ClothContactRoom::for_cloths(tiles_, particles, list_capacity));
     std::vector<Vec4> rest(end);
+    std::vector<std::uint32_t> carrier(end);
+    std::vector<std::uint64_t> carriers;
     for (const Member& member : members) {
         const ClothModel& model = member.cloth->model();
         if (!model.tiles) continue;
         Vec4* const mine = &rest[member.cloth->base()];
         std::copy_n(model.start.begin(), model.particle_count, mine);
-        for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = contact_cap(model);
+        for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = cap_of(model);
+        if (member.poses == 0) continue;
+        carriers.push_back(member.poses);
+        std::fill_n(&carrier[member.cloth->base()], model.particle_count, static_cast<std::uint32_t>(carriers.size()));
     }
 
     std::vector<const Seams*> of_members;
@@ -241,7 +263,8 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     const Slot share = arena_.reserve(end * word), sums = arena_.reserve(4 * end * word),
                scaled = arena_.reserve(4 * end * word), part = arena_.reserve(end * word),
                retreats = arena_.reserve(end * word), slide = arena_.reserve(end * sizeof(Vec4)),
-               marks = arena_.reserve(end * word);
+               marks = arena_.reserve(end * word), carrier_of = arena_.add_array(carrier),
+               next_carrier = arena_.reserve(end * word), poses = arena_.add_array(carriers);
     const Slot tiles = arena_.add_array(arrays.tiles), tracked = arena_.reserve(tiles_ * sizeof(TrackedTile)),
                places = arena_.reserve(vertices * sizeof(Vec4)), velocities = arena_.reserve(vertices * sizeof(Vec4)),
                of_tiles = arena_.add_array(arrays.particles), edges = arena_.add_array(arrays.edges),
@@ -274,6 +297,8 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.share = arena_.address(share), data.sums = arena_.address(sums), data.scaled_sums = arena_.address(scaled);
     data.part = arena_.address(part), data.retreats = arena_.address(retreats);
     data.slide = arena_.address(slide), data.marks = arena_.address(marks);
+    data.carrier = arena_.address(carrier_of), data.next_carrier = arena_.address(next_carrier);
+    data.carriers = arena_.address(poses);
     data.contact_marks = arena_.address(marks_), data.records_marks = records_marks ? 1 : 0;
     data.tiles = arena_.address(tiles), data.tracked = arena_.address(tracked);
     data.places = arena_.address(places), data.velocities = arena_.address(velocities);
@@ -291,6 +316,7 @@ Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t 
     data.cap_part = contact_part_of_slack;
     data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
     data.brake_depth = contact_brake_depth, data.most_aside = limit_aside;
+    data.carry_margin = limit_carry_margin;
     data.search_always = search_always ? 1 : 0;
     data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
     data.has_seams = seams.empty() ? 0 : 1;

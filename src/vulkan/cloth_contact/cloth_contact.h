@@ -47,6 +47,7 @@ class ClothContact {
     struct Member {
         const ClothState* cloth = nullptr;
         std::uint64_t frame = 0, report = 0;
+        std::uint64_t poses = 0;       ///< of a surface that moves; else 0
         const Seams* seams = nullptr;  ///< of its island; needed during create() only; null if there are none
     };
 

@@ -18,6 +18,12 @@ ContactBody body_of(CollidersRef world, ColliderIn collider, FrameRef frame, uin
                        frame.at.depenetration);
 }
 
+// Whether the collider's shape acts on the cloth: shape_acts_on().
+bool shape_acts(ColliderIn collider, FrameRef frame)
+{
+    return (collider.flags & WEFT_COLLIDER_SURFACE) == 0u || frame.at.meets_surfaces == 0u;
+}
+
 Solid solid_of(ColliderIn collider)
 {
     ShapeNumbers numbers = ShapeNumbers(collider.numbers.x, collider.numbers.y, collider.numbers.z, collider.numbers.w,

@@ -61,10 +61,12 @@ bool is_listed(uvec2 slots, uint collider)
     return false;
 }
 
-// Whether a collider that rests stays clear of the ball around the box. Only for shapes whose distance is exact.
+// Whether the shape does not act on the cloth, or the collider rests and stays clear of the ball around the box. The
+// latter only for shapes whose distance is exact.
 bool misses(uint number, vec3 low, vec3 high)
 {
     ColliderIn collider = contact_args.at.colliders.at.colliders.at[number];
+    if (!shape_acts(collider, contact_args.at.frame)) return true;
     if (collider.pose_step != 0u || !is_none(uvec2(collider.data))) return false;
     PoseIn pose = pose_after(contact_args.at.colliders, collider, 0u);
     vec3 center = 0.5 * (low + high), normal;

@@ -13,6 +13,45 @@ layout(push_constant) uniform Push { ClothContactArgs args; };
 
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 
+// See carried_cap() of solver/plan/cloth_contact_numbers.h.
+float carried_cap(float cap) { return cap + min(contact.frame.at.surface_motion, WEFT_MOST_CARRIED * cap); }
+// How far pushes may move the particles of a tile, and how far a list that is made now allows them to leave their
+// trajectory, m.
+float own_cap_of_tile(uint tile) { return contact.tiles.at[tile].slack * contact.cap_part; }
+float cap_of_tile(uint tile) { return carried_cap(own_cap_of_tile(tile)); }
+float slack_now(uint tile)
+{
+    return contact.tiles.at[tile].slack * (1.0 - contact.cap_part) + cap_of_tile(tile);
+}
+float slack_when_listed(uint tile)
+{
+    vec4 mean = contact.tracked.at[tile].mean;
+    return mean.w;
+}
+
+// How far pushes may move the particle if no surface moves, m.
+float own_cap_of(uint p)
+{
+    vec4 rest = contact.rest.at[p];
+    return rest.w;
+}
+bool of_surface(uint p) { return own_cap_of(p) >= WEFT_CAP_OF_SURFACE; }
+
+// See carry.cpp of the CPU backend.
+bool is_carried(uint p) { return contact.carrier.at[p] > 0u && !of_surface(p); }
+vec3 carried_place(uint p, uint carrier)
+{
+    PoseRef poses = PoseRef(contact.carriers.at[carrier - 1u]);
+    PoseIn before = poses.at[head.substep], now = poses.at[head.substep + 1u];
+    vec3 local = unrotate(before.x.xyz, before.y.xyz, before.z.xyz, contact.start.at[p].xyz - before.position.xyz);
+    return rotate(now.x.xyz, now.y.xyz, now.z.xyz, local) + now.position.xyz;
+}
+vec3 base_of(uint p)
+{
+    if (is_carried(p)) return carried_place(p, contact.carrier.at[p]);
+    return contact.start.at[p].xyz;
+}
+
 uint near_count() { return min(args.search == 0u ? head.near0 : head.near1, contact.near_capacity); }
 uint near_index(uint i) { return args.search * contact.near_capacity + i; }
 uint listed_count(uint list) { return min(list == 0u ? head.listed0 : head.listed1, contact.listed_capacity); }

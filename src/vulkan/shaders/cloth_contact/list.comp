@@ -145,7 +145,7 @@ void choose_horizon()
         if (until != never) ticks = min(ticks, until - tick);
     }
     vec3 relative = means[1] - means[0];
-    float slack = contact.tiles.at[tile_of[0]].slack + contact.tiles.at[tile_of[1]].slack;
+    float slack = slack_when_listed(tile_of[0]) + slack_when_listed(tile_of[1]);
     float speed = length(relative), most = 0.5 * slack;
     if (speed * float(ticks) > most) {
         ticks = max(1u, uint(most / speed));

@@ -54,7 +54,7 @@ void run_near(uint i)
     ListedPair pair = contact.listed.at[listed_index(head.list, i)];
     uint one = pair.one & 0x7fffffffu;
     bool edges = pair.one != one;
-    float reach = (contact.tiles.at[one].slack + contact.tiles.at[pair.two].slack) * contact.cap_part;  // of both
+    float reach = cap_of_tile(one) + cap_of_tile(pair.two);  // of both
     if (pair.spare > approach_of(one, pair.two) + reach) return;
     vec3 x0 = contact.start.at[pair.particle.x].xyz, x1 = contact.start.at[pair.particle.y].xyz;
     vec3 x2 = contact.start.at[pair.particle.z].xyz, x3 = contact.start.at[pair.particle.w].xyz;
@@ -62,6 +62,8 @@ void run_near(uint i)
     if (edges) points = closest_edge_edge(x0, x1, x2, x3);
     else points = closest_vertex_triangle(x0, x1, x2, x3);
     vec3 n = points.normal;
+    if (contact.tiles.at[one].surface == 1u || contact.tiles.at[pair.two].surface == 1u)
+        n = edges ? normal_edge_edge(points, x0, x1, x2, x3) : normal_vertex_triangle(points, x1, x2, x3);
     // Relative to the first particle, so that rounding does not grow with the distance from the origin.
     vec4 start = vec4(0.0, dot(x1 - x0, n), dot(x2 - x0, n), dot(x3 - x0, n));
     vec4 reached = vec4(dot(contact.reached.at[pair.particle.x].xyz - x0, n),

@@ -20,11 +20,7 @@ vec3 place_of(uint p)
 }
 
 // How far pushes may move the particle, m.
-float cap_of(uint p)
-{
-    vec4 rest = contact.rest.at[p];
-    return rest.w;
-}
+float cap_of(uint p) { return carried_cap(own_cap_of(p)); }
 float inverse_mass_of(uint p)
 {
     vec4 x = contact.position.at[p];
@@ -203,7 +199,7 @@ LeastMotions least_motions(Pair pair)
 
 vec3 slide_of(uint p)
 {
-    if (contact.retreats.at[p] == 0u) return contact.asked.at[p].xyz - contact.start.at[p].xyz;
+    if (contact.retreats.at[p] == 0u) return contact.asked.at[p].xyz - base_of(p);
     vec4 slide = contact.slide.at[p];
     return slide.xyz;
 }
@@ -215,7 +211,7 @@ bool retreat(uint p, vec3 away, float least, bool anyway)
     uint retreats = contact.retreats.at[p];
     if (retreats == WEFT_MOST_RETREATS || !(inverse_mass_of(p) > 0.0)) return false;
     if (retreats < WEFT_LIMIT_SLIDES) {
-        float missing = least - dot(slide_of(p), away);
+        float missing = least - dot(slide_of(p) + (base_of(p) - contact.start.at[p].xyz), away);
         if (!(missing > 0.0) && !anyway) return false;
         add_to(contact.sums, p, away * max(missing, 0.0), WEFT_PUSH_QUANTA_PER_METER);
         atomicAdd(contact.share.at[p], 1u);
@@ -242,6 +238,50 @@ void record_mark(uvec4 particle, uint mark)
     atomicOr(contact.contact_marks.at[particle.w], mark);
 }
 
+// The particle, or the largest number for one of a collider's surface.
+uint of_cloth(uint p) { return of_surface(p) ? 0xffffffffu : p; }
+
+bool of_moving_surface(uint p) { return contact.carrier.at[p] > 0u && of_surface(p); }
+bool touches_moving_surface(uvec4 p)
+{
+    return of_moving_surface(p.x) || of_moving_surface(p.y) || of_moving_surface(p.z) || of_moving_surface(p.w);
+}
+uint carrier_of(uvec4 p)
+{
+    return max(max(contact.carrier.at[p.x], contact.carrier.at[p.y]),
+               max(contact.carrier.at[p.z], contact.carrier.at[p.w]));
+}
+bool moves_with(uint p, uint carrier)
+{
+    return contact.carrier.at[p] == carrier && (of_surface(p) || contact.retreats.at[p] == WEFT_MOST_RETREATS);
+}
+// Whether all particles of the pair move with the same surface.
+bool all_carried(uvec4 p)
+{
+    uint carrier = carrier_of(p);
+    return carrier > 0u && moves_with(p.x, carrier) && moves_with(p.y, carrier) && moves_with(p.z, carrier) &&
+           moves_with(p.w, carrier);
+}
+bool carry_one(uint p, uint carrier)
+{
+    if (contact.carrier.at[p] > 0u || !(inverse_mass_of(p) > 0.0)) return false;
+    float most = cap_of(p) - contact.carry_margin * own_cap_of(p);
+    vec3 by = carried_place(p, carrier) - contact.start.at[p].xyz;
+    if (!(dot(by, by) <= most * most)) return false;
+    atomicMax(contact.next_carrier.at[p], carrier);
+    contact.marks.at[p] = 1u;
+    return true;
+}
+bool carry(uvec4 p)
+{
+    uint carrier = carrier_of(p);
+    if (carrier == 0u) return false;
+    bool helps = carry_one(p.x, carrier);
+    helps = carry_one(p.y, carrier) || helps;
+    helps = carry_one(p.z, carrier) || helps;
+    return carry_one(p.w, carrier) || helps;
+}
+
 // Marks the particles of a pair that has lost its gap. Returns 0 if the pair has its gap, 1 if it sends particles back,
 // 2 if none of them can go back any further.
 uint mark_lost(uint i)
@@ -249,10 +289,12 @@ uint mark_lost(uint i)
     Pair pair = load_pair(i);
     if (!loses(pair, coordinates(pair), 0.0)) return 0u;
     uvec4 p = pair.particle;
+    if (all_carried(p)) return 0u;
+    if (touches_moving_surface(p) && carry(p)) return 1u;
     LeastMotions least = least_motions(pair);
-    bool helps = retreat_all(pair, least, false) || retreat_all(pair, least, true);
+    bool helps = retreat_all(pair, least, false) || retreat_all(pair, least, true) || carry(p);
     if (!helps) {
-        atomicMin(head.tangled_particle, min(min(p.x, p.y), min(p.z, p.w)));
+        atomicMin(head.tangled_particle, min(min(of_cloth(p.x), of_cloth(p.y)), min(of_cloth(p.z), of_cloth(p.w))));
         if (contact.records_marks == 1u) record_mark(p, WEFT_MARK_TANGLED);
     }
     return helps ? 1u : 2u;
@@ -272,7 +314,16 @@ void send_back(uint p)
 {
     if (contact.marks.at[p] == 0u) return;
     contact.marks.at[p] = 0u;
-    vec3 from = contact.start.at[p].xyz, asked = contact.asked.at[p].xyz - from, slide = slide_of(p);
+    if (contact.next_carrier.at[p] > 0u) {
+        contact.carrier.at[p] = contact.next_carrier.at[p];
+        contact.next_carrier.at[p] = 0u;
+        contact.retreats.at[p] = 0u;
+        contact.share.at[p] = 0u;
+        clear_sum(contact.sums, p);
+        contact.position.at[p].xyz = contact.asked.at[p].xyz;
+        return;
+    }
+    vec3 from = base_of(p), asked = contact.asked.at[p].xyz - from, slide = slide_of(p);
     uint share = contact.share.at[p], retreats = contact.retreats.at[p] + 1u;
     if (share > 0u) {
         slide = slide + sum_of(contact.sums, p, WEFT_PUSH_QUANTA_PER_METER) * (1.0 / float(share));
@@ -282,7 +333,7 @@ void send_back(uint p)
     contact.slide.at[p] = vec4(slide, 0.0);
     contact.retreats.at[p] = retreats;
     uint halvings = retreats > WEFT_LIMIT_SLIDES ? retreats - WEFT_LIMIT_SLIDES : 0u;
-    vec3 left = slide_near(asked, slide, contact.most_aside * cap_of(p)) * (1.0 / float(1u << halvings));
+    vec3 left = slide_near(asked, slide, contact.most_aside * own_cap_of(p)) * (1.0 / float(1u << halvings));
     contact.position.at[p].xyz = retreats == WEFT_MOST_RETREATS ? from : from + left;
 }
 

@@ -46,10 +46,16 @@ void run_brake(uint p)
     contact.position.at[p].xyz = from + (place_of(p) - from) * part;
 }
 
+void begin_limit(uint p)
+{
+    contact.retreats.at[p] = 0u;
+    if (!of_surface(p)) contact.carrier.at[p] = 0u;
+}
+
 void run_ask(uint p)
 {
     contact.asked.at[p] = contact.position.at[p];
-    contact.retreats.at[p] = 0u;
+    begin_limit(p);
 }
 
 void run_send_back(uint p)
@@ -63,7 +69,7 @@ void run_ask_again(uint p)
 {
     if (head.uncovered == 0u) return;
     contact.position.at[p].xyz = contact.asked.at[p].xyz;
-    contact.retreats.at[p] = 0u;
+    begin_limit(p);
 }
 
 void run_count(uint p)

@@ -22,6 +22,7 @@ void require(uint wanted, uint capacity)
 void run_begin()
 {
     head.tick += 1u;
+    head.substep = args.round;
     head.outdated = 0u;
     head.tile_pairs = 0u;
     head.near0 = 0u;

@@ -45,8 +45,6 @@ vec3 sum_of_group(vec3 x)
 
 #ifdef WEFT_TRACKS
 
-float slack_of(uint tile) { return contact.tiles.at[tile].slack; }
-
 uint vertex_at(uint tile, uint i) { return WEFT_TILE_VERTICES * tile + i; }
 
 // Where the particle goes in this substep.
@@ -66,8 +64,8 @@ void follow(uint tile, uint tick)
     uint p = contact.particles.at[vertex_at(tile, mine ? i : 0u)];
     vec3 from = contact.start.at[p].xyz, moved = goal_of(p) - from, v = contact.velocity.at[p].xyz * contact.frame.at.h;
     vec3 most = largest_of_group(mine ? vec3(length(moved - v), length(v), length(moved)) : vec3(0.0));
-    bool along_velocity = !anywhere && most.x < follows_velocity * slack_of(tile);
-    bool moving = !along_velocity || most.y > resting * slack_of(tile);
+    bool along_velocity = !anywhere && most.x < follows_velocity * slack_now(tile);
+    bool moving = !along_velocity || most.y > resting * slack_now(tile);
     float around = anywhere ? 0.5 * length(moved) : 0.0;
     if (anywhere || !moving) v = vec3(0.0);
     else if (!along_velocity) v = moved;
@@ -82,15 +80,15 @@ void follow(uint tile, uint tick)
     uint listed = contact.tracked.at[tile].listed, lifetime = contact.tracked.at[tile].lifetime;
     uint age = tick - listed, adapted = max(1u, age >= lifetime ? age + 2u : age);
     lifetime = listed == 0u ? 4u : moving ? min(longest_lifetime, adapted) : longest_lifetime;
-    float ticks = most_spread * slack_of(tile) / (spread + 1e-9);
+    float ticks = most_spread * slack_now(tile) / (spread + 1e-9);
     if (ticks < float(lifetime)) lifetime = max(1u, uint(ticks));
     if (anywhere) lifetime = 1u;
     contact.tracked.at[tile].listed = tick;
     contact.tracked.at[tile].lifetime = lifetime;
     contact.tracked.at[tile].until = moving ? tick + lifetime : never;
-    contact.tracked.at[tile].mean = vec4(mean, 0.0);
+    contact.tracked.at[tile].mean = vec4(mean, slack_now(tile));
     contact.tracked.at[tile].center.w = spread;
-    contact.tracked.at[tile].extent.w = slack_of(tile) + (anywhere ? 0.5 * most.z : 0.0);
+    contact.tracked.at[tile].extent.w = slack_now(tile) + (anywhere ? 0.5 * most.z : 0.0);
 }
 
 // The box around all places of the tile's vertices while its lists last, at the start of the tick.
@@ -125,7 +123,7 @@ void run_track(uint tile)
         vec3 now = place.xyz + v * since, then = now + v;
         float at_start = length(start - (anywhere ? then : now)) - place.w, at_end = length(goal - then) - place.w;
         // Pushes may move the particles from where the constraints left them.
-        float slack = slack_of(tile), most = anywhere ? slack : (1.0 - contact.cap_part) * slack;
+        float slack = slack_when_listed(tile), most = anywhere ? slack : slack - cap_of_tile(tile);
         stays = at_start <= slack && at_end <= most;
         strays = vec3(max(at_start, at_end));
         if (!anywhere && i < contact.tiles.at[tile].own_vertices) {
@@ -155,9 +153,10 @@ void run_check(uint tile)
     vec4 place = contact.places.at[vertex_at(tile, i)];
     float ticks = float(head.tick + 1u - contact.tracked.at[tile].listed);
     vec3 then = place.xyz + contact.velocities.at[vertex_at(tile, i)].xyz * ticks;
-    bool back = contact.retreats.at[p] > 0u;
-    vec3 farthest = back ? contact.start.at[p].xyz : contact.position.at[p].xyz;
-    float slack = slack_of(tile), most = back ? (1.0 - contact.most_aside * contact.cap_part) * slack : slack;
+    bool back = contact.retreats.at[p] > 0u || is_carried(p);
+    vec3 farthest = contact.position.at[p].xyz;
+    if (back) farthest = base_of(p);
+    float slack = slack_when_listed(tile), most = back ? slack - contact.most_aside * own_cap_of_tile(tile) : slack;
     if (!(length(farthest - then) - place.w <= most)) head.uncovered = 1u;
 }
 
@@ -204,6 +203,7 @@ shared uint meets[WEFT_GROUP];
 
 bool can_meet(uint a, uint b)
 {
+    if (contact.tiles.at[a].surface == 1u && contact.tiles.at[b].surface == 1u) return false;
     if (contact.tiles.at[a].cloth == contact.tiles.at[b].cloth) return true;
     return (contact.tiles.at[a].groups & contact.tiles.at[b].collides_with) != 0u &&
            (contact.tiles.at[b].groups & contact.tiles.at[a].collides_with) != 0u;
@@ -216,7 +216,7 @@ void run_pair_tiles(uint a)
     vec3 low, high;
     way_of(a, low, high);
     float thickest = 0.5 * (contact.tiles.at[a].thickness + contact.thickest);
-    float apart = thickest + contact.tiles.at[a].slack + contact.most_slack;
+    float apart = thickest + slack_when_listed(a) + contact.most_slack + contact.frame.at.surface_motion;
     for (uint first = 0u; first < contact.group_count; first += WEFT_GROUP) {
         uint group = first + me();
         meets[me()] = 0u;

@@ -21,7 +21,7 @@ void main()
     float half_thickness = list.members.at[member].frame.at.half_thickness;
     for (uint c = 0u; c < colliders; ++c) {
         ColliderIn collider = list.members.at[member].colliders.at.colliders.at[c];
-        if (collider.sticks == 0u) continue;
+        if ((collider.flags & WEFT_COLLIDER_STICKS) == 0u || !shape_acts(collider, list.members.at[member].frame)) continue;
         PoseIn pose = pose_after(list.members.at[member].colliders, collider, 0u);
         vec3 local = unrotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, x.xyz - pose.position.xyz);
         vec3 normal;
