@@ -57,6 +57,10 @@ struct DistanceField {
 ///     distance to that surface, so that it does not jump;
 ///   - half a shell is solid up to that surface, near the plane of its opening; a flat sheet has no inside.
 ///
+/// Interpolation can make fine values steeper than a distance: `ShapeData::steepness` is the greatest slope. Coarse
+/// values outside are lowered (free_way.h). So from any point outside, the way to the surface of the field is at least
+/// its value divided by the steepness.
+///
 /// Errors: no triangle has an area; a position is not finite; a triangle has an invalid corner; `cells` is out of
 /// range; the mesh is too small, too large or too far from the origin for floats; the field needs more memory than
 /// allowed. `where` is then the vertex or triangle, or empty.
