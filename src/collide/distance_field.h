@@ -28,6 +28,9 @@ struct DistanceFieldOptions {
     std::size_t largest_bytes = std::size_t{256} << 20;
 };
 
+/// Changes when the field of some mesh does, so that fields kept on disk are built again.
+inline constexpr std::uint32_t distance_field_version = 1;
+
 /// Kernels number blocks of 16 bytes by floats, which are exact up to 2^24.
 inline constexpr std::size_t largest_distance_field = std::size_t{16} << 24;
 

@@ -1,6 +1,7 @@
 // The field as the kernel reads it, against the mesh itself.
 #include "collide/distance_field.h"
 
+#include "base/hash.h"
 #include "collide/closest_point.h"
 #include "collide/field_reading.test.h"
 #include "collide/winding_number.h"
@@ -168,6 +169,18 @@ TEST(DistanceField, has_the_right_size_and_sign_everywhere) {
     const auto at_center = read(field, {0, 0, 0});
     EXPECT_NEAR(at_center.distance, -1, 0.15);
     EXPECT_NEAR(length(at_center.normal), 1, 1e-5);
+}
+
+// Fields are kept on disk by their mesh and distance_field_version.
+TEST(DistanceField, has_a_new_version_when_it_changes) {
+    TriangleMesh mesh = make_sphere(0.3f, 3);
+    append_mesh(mesh, make_box({0.3f, 0.5f, 0.4f}, {3, 5, 4}), {0.9f, 0.1f, 0});
+    const DistanceField field = field_of(mesh, 40);
+    StateHash hash;
+    for (const float word : field.data.words) hash.add(word);
+    hash.add(field.data.steepness);
+    EXPECT_EQ(distance_field_version, 1u);
+    EXPECT_EQ(hash.text(), "b13c5a0d3b8eca32") << "raise distance_field_version, then write both numbers here";
 }
 
 TEST(DistanceField, is_finite_beyond_the_grid) {

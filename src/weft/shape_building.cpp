@@ -19,6 +19,7 @@ struct ShapeSource {
     const std::string& collider;
     std::vector<std::string>& notes;
     unsigned threads;
+    const FieldCache& fields;
 
     void note(const std::string& what) const { notes.push_back("collider '" + collider + "': " + what); }
 };
@@ -86,11 +87,18 @@ void note_field(const DistanceField& field, const ShapeSource& source) {
     }
 }
 
+Result<DistanceField> field_of(const TriangleMesh& mesh, std::uint32_t cells, const ShapeSource& source) {
+    const FieldCache::Key key = FieldCache::key_of(mesh.positions, mesh.triangles, cells);
+    if (auto kept = source.fields.read(key)) return std::move(*kept);
+    auto field = build_distance_field(mesh.positions, mesh.triangles, {.cells = cells, .threads = source.threads});
+    if (field) source.fields.write(key, *field);
+    return field;
+}
+
 Result<SharedShape> build_shape(const SolidMeshDesc& solid, const ShapeSource& source) {
     auto mesh = mesh_of_shape(solid, source);
     if (!mesh) return mesh.errors();
-    auto field =
-        build_distance_field(mesh->positions, mesh->triangles, {.cells = solid.resolution, .threads = source.threads});
+    auto field = field_of(*mesh, solid.resolution, source);
     if (!field) return field.errors();
     note_field(*field, source);
     add_normals(*mesh);
@@ -106,7 +114,7 @@ Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const Me
     std::erase_if(known_, [](const Entry& entry) { return entry.data.expired(); });
     const auto known = std::ranges::find(known_, collider.shape, &Entry::shape);
     if (known != known_.end()) return known->data.lock();
-    const ShapeSource source{files, collider.name, notes, threads_};
+    const ShapeSource source{files, collider.name, notes, threads_, fields_};
     auto built = std::visit([&](const auto& shape) { return build_shape(shape, source); }, collider.shape);
     if (!built) return within(pointer, built.errors());
     if (*built) known_.push_back({collider.shape, *built});
