@@ -24,16 +24,30 @@ struct ShapeSource {
     void note(const std::string& what) const { notes.push_back("collider '" + collider + "': " + what); }
 };
 
+// Along the axes of the mesh. An odd number of mirrored axes turns the triangles inside out, so they are turned around.
+void scale_mesh(TriangleMesh& mesh, Vec3 scale) {
+    for (Vec3& p : mesh.positions) p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
+    for (Vec3& n : mesh.normals) n = normalized(Vec3{n.x / scale.x, n.y / scale.y, n.z / scale.z});
+    if (scale.x * scale.y * scale.z < 0) {
+        for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+}
+
 /// The mesh of a shape, in the collider's frame.
 template <class Desc>
 Result<TriangleMesh> mesh_of_shape(const Desc& shape, const ShapeSource& source) {
-    if (shape.file.empty()) return shape.mesh;
+    if (shape.file.empty()) {
+        TriangleMesh mesh = shape.mesh;
+        scale_mesh(mesh, shape.scale);
+        return mesh;
+    }
     if (!source.files.read)
         return Error{"file",
                      shape.file + ": cannot be read: this program reads no mesh files (Options::read_mesh is empty)"};
     auto mesh = source.files.read(shape.file, source.files.folder);
     if (!mesh) return mesh.errors();
-    place_mesh(*mesh, MeshFileDesc{shape.file, shape.scale, shape.up}, {});
+    scale_mesh(*mesh, shape.scale);
+    place_mesh(*mesh, MeshFileDesc{.file = shape.file, .up = shape.up}, {});
     return mesh;
 }
 
