@@ -100,7 +100,8 @@ endfunction()
 # (cmake/weft_test_labels.cmake).
 function(weft_discover_tests name)
     cmake_parse_arguments(ARG "" "PREFIX;FILTER" "SOURCES;LABELS;ENVIRONMENT" ${ARGN})
-    set(properties TIMEOUT 600)
+    # Distance fields and pipelines are kept in the build's folder, not in the user's.
+    set(properties TIMEOUT 600 ENVIRONMENT_MODIFICATION WEFT_CACHE=set:${PROJECT_BINARY_DIR}/cache)
     if(ARG_ENVIRONMENT)
         list(APPEND properties ENVIRONMENT ${ARG_ENVIRONMENT})
     endif()

@@ -259,12 +259,13 @@ struct TaperedCapsuleDesc {
     friend bool operator==(const TaperedCapsuleDesc&, const TaperedCapsuleDesc&) = default;
 };
 
-/// The convex hull of a mesh's vertices. A hull has at most 256 vertices: a finer one is simplified from within.
+/// The convex hull of a mesh's vertices, or of points. A hull has at most 256 vertices: a finer one is simplified from
+/// within.
 struct ConvexDesc {
     std::string file = {};   ///< read by Options::read_mesh; empty: `mesh` is used
-    float scale = 1;         ///< m per unit of the file, > 0
+    Vec3 scale{1, 1, 1};     ///< m per unit along the axes of the file or of `mesh`; negative: mirrored; not 0
     UpAxis up = UpAxis::y;   ///< of the file
-    TriangleMesh mesh = {};  ///< m; its triangles are not used. Only for programs: a scene file must name a file
+    TriangleMesh mesh = {};  ///< its positions; a scene file has them as `points`. Triangles only for programs
     float radius = 0;        ///< m, ≥ 0: everything within this distance of the hull is solid too
     friend bool operator==(const ConvexDesc&, const ConvexDesc&) = default;
 };
@@ -278,9 +279,9 @@ enum class MeshContact { automatic, solid, surface };
 /// around a point more than half a time. Parts that are thinner than two cells of the distance field are not reliable.
 struct SolidMeshDesc {
     std::string file = {};          ///< read by Options::read_mesh; empty: `mesh` is used
-    float scale = 1;                ///< m per unit of the file, > 0
+    Vec3 scale{1, 1, 1};            ///< m per unit along the axes of the file or of `mesh`; negative: mirrored; not 0
     UpAxis up = UpAxis::y;          ///< of the file
-    TriangleMesh mesh = {};         ///< m. Only for programs: a scene file must name a file
+    TriangleMesh mesh = {};         ///< only for programs: a scene file must name a file
     std::uint32_t resolution = 96;  ///< cells of the distance field along the longest side of the mesh, 4…1024
     MeshContact contact = MeshContact::automatic;
     friend bool operator==(const SolidMeshDesc&, const SolidMeshDesc&) = default;

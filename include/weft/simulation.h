@@ -52,6 +52,9 @@ struct Options {
     /// Reads mesh files of cloths. If empty, Simulation::load uses read_mesh_file of <weft/files.h>, and in a
     /// simulation made by Simulation::create a cloth with a mesh file is an error.
     MeshReader read_mesh = {};
+    /// Folder that keeps the distance fields of mesh colliders from run to run. nullopt: that of the environment,
+    /// $WEFT_CACHE or $XDG_CACHE_HOME/weft or ~/.cache/weft. Empty: none.
+    std::optional<std::filesystem::path> field_cache = {};
 };
 
 /// Settings of a whole simulation. Ranges are those of a scene file (docs/scene.md).

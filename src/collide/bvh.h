@@ -73,6 +73,16 @@ class Bvh {
         }
     }
 
+    /// m², exact but for the rounding of doubles; infinite to an empty box.
+    static double squared_distance(const Bounds& box, Vec3 p) {
+        const auto gap = [](float min, float max, float x) {
+            return std::max({double{min} - double{x}, 0.0, double{x} - double{max}});
+        };
+        const double x = gap(box.min.x, box.max.x, p.x), y = gap(box.min.y, box.max.y, p.y),
+                     z = gap(box.min.z, box.max.z, p.z);
+        return x * x + y * y + z * z;
+    }
+
     /// Calls visit(i) for boxes whose squared distance to `point` is at most `limit` (m²), nearer parts of the tree
     /// first. visit() returns a new limit, used if it is smaller. Boxes exactly at the limit are visited too, so the
     /// caller sees every tie.
@@ -107,16 +117,6 @@ class Bvh {
   private:
     /// Each level halves the number of boxes, which has 32 bits.
     static constexpr std::size_t max_depth = 32;
-
-    /// m², exact but for the rounding of doubles; infinite to an empty box.
-    static double squared_distance(const Bounds& box, Vec3 p) {
-        const auto gap = [](float min, float max, float x) {
-            return std::max({double{min} - double{x}, 0.0, double{x} - double{max}});
-        };
-        const double x = gap(box.min.x, box.max.x, p.x), y = gap(box.min.y, box.max.y, p.y),
-                     z = gap(box.min.z, box.max.z, p.z);
-        return x * x + y * y + z * z;
-    }
 
     template <class VisitLeaf>
     void walk(std::uint32_t from, const Bounds& box, VisitLeaf&& visit_leaf) const {

@@ -1,5 +1,6 @@
 #include "collide/distance_field.h"
 
+#include "collide/free_way.h"
 #include "collide/solid_surface.h"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ constexpr double margin_cells = fine_band + 1;
 // The farthest corner of the place is a diagonal of both away.
 constexpr double fine_range = 1.7321 * (side + fine_band);
 constexpr double largest_short = 32767;
+constexpr double fine_unit = fine_range / largest_short;  // cells
 
 // In m: far from where the floats of contact overflow or vanish.
 constexpr double smallest_mesh = 1e-6, largest_mesh = 1e6;
@@ -185,36 +187,86 @@ class FieldBuilder {
 
     std::size_t bytes() const { return (first_brick_block() + blocks_per_brick * bricks_.size()) * bytes_per_block; }
 
-    void write(AlignedVector<float>& words, std::atomic<bool>& has_inside) const {
+    // Distances at the corners of all cells of the bricks.
+    void sample_bricks() {
+        nodes_.resize(bricks_.size());
+        const std::vector<std::uint32_t> brick_of = brick_of_places();
+        for_all(team_, bricks_.size(), 1, [&](std::size_t b) { sample_brick(bricks_[b], brick_of, nodes_[b]); });
+        for_all(team_, bricks_.size(), 16, [&](std::size_t b) { copy_shared_nodes(b, brick_of); });
+    }
+
+    // Gives a brick to every place that is less than a cell away from where the field is zero. Near triangles all such
+    // places have one. In a hole, the surface that closes it may come close to others. Returns whether there were any.
+    bool find_bricks_near_zero() {
+        bool found = false;
+        for_each_zero_cell([&](Counts cell) {
+            Counts first, last;
+            for (std::size_t k = 0; k < 3; ++k) {
+                first[k] = (std::max(cell[k], 1u) - 1) / side;
+                last[k] = std::min((cell[k] + 1) / side, grid_.places[k] - 1);
+            }
+            for (std::uint32_t z = first[2]; z <= last[2]; ++z) {
+                for (std::uint32_t y = first[1]; y <= last[1]; ++y) {
+                    for (std::uint32_t x = first[0]; x <= last[0]; ++x) {
+                        std::uint8_t& mark = has_brick_[grid_.number(x, y, z)];
+                        found = found || !mark;
+                        mark = 1;
+                    }
+                }
+            }
+        });
+        return found;
+    }
+
+    bool has_inside() const {
+        return std::any_of(corners_.begin(), corners_.end(),
+                           [&](float distance) { return to_short(double{distance}, coarse_unit()) < 0; }) ||
+               std::any_of(nodes_.begin(), nodes_.end(), [](const BrickNodes& nodes) {
+                   return std::any_of(nodes.begin(), nodes.end(), [](std::int16_t n) { return n < 0; });
+               });
+    }
+
+    // The greatest slope in a cell that is not inside as a whole. Its gradient changes linearly along each axis, so it
+    // is longest at a corner.
+    double steepness() const {
+        std::int64_t most = 0;  // squared, in units of fine values
+        for (const BrickNodes& nodes : nodes_) {
+            for (std::uint32_t cell = 0; cell < blocks_per_brick; ++cell) {
+                const auto n = cell_nodes(nodes, cell);
+                if (*std::max_element(n.begin(), n.end()) <= 0) continue;
+                for (std::uint32_t k = 0; k < 8; ++k) {
+                    std::int64_t squared = 0;
+                    for (const std::uint32_t axis : {1u, 2u, 4u}) {
+                        const std::int64_t difference = n[k | axis] - n[k & ~axis];
+                        squared += difference * difference;
+                    }
+                    most = std::max(most, squared);
+                }
+            }
+        }
+        return std::max(1.0, 1.0001 * fine_unit * std::sqrt(double(most)));  // the kernel rounds
+    }
+
+    void write(AlignedVector<float>& words) const {
         words.assign(bytes() / sizeof(float), 0);
-        double diagonal2 = 0;
-        for (const std::uint32_t n : grid_.places) diagonal2 += double(side * n) * double(side * n);
-        const double fine_unit = fine_range / largest_short, coarse_unit = std::sqrt(diagonal2) / largest_short;
         const auto number = [](auto n) { return static_cast<float>(n); };
         const float header[] = {grid_.origin.x,           grid_.origin.y,
                                 grid_.origin.z,           number(1 / double{grid_.cell}),
                                 number(grid_.places[0]),  number(grid_.places[1]),
                                 number(grid_.places[2]),  grid_.cell,
                                 number(first_table_word), number(first_coarse_block()),
-                                number(fine_unit),        number(coarse_unit)};
+                                number(fine_unit),        number(coarse_unit())};
         std::copy(std::begin(header), std::end(header), words.begin());
         for (std::size_t b = 0; b < bricks_.size(); ++b) {
             words[first_table_word + bricks_[b]] = number(first_brick_block() + blocks_per_brick * b);
         }
-        bool inside = false;
-        for (std::uint32_t place = 0; place < grid_.count(); ++place) {
-            store_block(corners_of(place), coarse_unit, &words[words_per_block * (first_coarse_block() + place)]);
-        }
-        for (const float distance : corners_) inside = inside || to_short(double{distance}, coarse_unit) < 0;
-        if (inside) has_inside = true;
-        std::vector<BrickNodes> nodes(bricks_.size());
-        const std::vector<std::uint32_t> brick_of = brick_of_places();
-        for_all(team_, bricks_.size(), 1, [&](std::size_t b) {
-            if (sample_brick(bricks_[b], brick_of, fine_unit, nodes[b])) has_inside = true;
+        const CellDistance zero_cells(boxes_of_zero_cells());
+        for_all(team_, grid_.count(), 16, [&](std::size_t place) {
+            write_coarse_block(static_cast<std::uint32_t>(place), zero_cells,
+                               &words[words_per_block * (first_coarse_block() + place)]);
         });
         for_all(team_, bricks_.size(), 16, [&](std::size_t b) {
-            copy_shared_nodes(b, brick_of, nodes);
-            write_brick(nodes[b], &words[words_per_block * (first_brick_block() + blocks_per_brick * b)]);
+            write_brick(nodes_[b], &words[words_per_block * (first_brick_block() + blocks_per_brick * b)]);
         });
     }
 
@@ -282,6 +334,12 @@ class FieldBuilder {
         return distances;
     }
 
+    double coarse_unit() const {
+        double diagonal2 = 0;
+        for (const std::uint32_t n : grid_.places) diagonal2 += double(side * n) * double(side * n);
+        return std::sqrt(diagonal2) / largest_short;
+    }
+
     static std::int16_t to_short(double cells, double unit) {
         return static_cast<std::int16_t>(std::lround(std::clamp(cells / unit, -largest_short, largest_short)));
     }
@@ -289,7 +347,16 @@ class FieldBuilder {
         const auto words = std::bit_cast<std::array<float, 4>>(shorts);
         std::copy(words.begin(), words.end(), block);
     }
-    static void store_block(const std::array<float, 8>& distances, double unit, float* block) {
+    // Outside, places without a brick get values that leave out the surface: whoever goes as far as the value is does
+    // not pass through it.
+    void write_coarse_block(std::uint32_t place, const CellDistance& zero_cells, float* block) const {
+        const double unit = coarse_unit();
+        std::array<float, 8> distances = corners_of(place);
+        if (!has_brick_[place] && *std::min_element(distances.begin(), distances.end()) > 0) {
+            const Counts at = grid_.at(place);
+            const Vec3 low{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
+            distances = lower_to_free_way(zero_cells, low * float{side}, side, distances, unit);
+        }
         std::array<std::int16_t, 8> shorts;
         for (std::size_t k = 0; k < 8; ++k) shorts[k] = to_short(double{distances[k]}, unit);
         store_shorts(shorts, block);
@@ -310,14 +377,12 @@ class FieldBuilder {
         return in_grid ? brick_of[grid_.number(px, py, pz)] : none;
     }
 
-    // All nodes but those of other bricks. Returns whether one is inside.
-    bool sample_brick(std::uint32_t place, std::span<const std::uint32_t> brick_of, double unit,
-                      BrickNodes& nodes) const {
+    // All nodes but those of other bricks.
+    void sample_brick(std::uint32_t place, std::span<const std::uint32_t> brick_of, BrickNodes& nodes) const {
         const auto [px, py, pz] = grid_.at(place);
         const Vec3 low = Vec3{static_cast<float>(px), static_cast<float>(py), static_cast<float>(pz)} * float{side};
         constexpr float half = 0.5f * side;
         SignedDistanceWalk walk(surface_, surface_.winding_gradient_bound(low + Vec3{half, half, half}, 1.7321 * half));
-        bool inside = false;
         // There and back, so that the next node is always a neighbor.
         for (std::uint32_t i = 0; i < nodes.size(); ++i) {
             const std::uint32_t row = i / nodes_side, z = row / nodes_side;
@@ -327,22 +392,18 @@ class FieldBuilder {
             if (shared && owner(place, brick_of, x, y, z) != none) continue;
             const double distance =
                 walk.distance_at(low + Vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
-            const std::int16_t rounded = to_short(distance, unit);
-            inside = inside || rounded < 0;  // a point on the surface may count as inside
-            nodes[node(x, y, z)] = rounded;
+            nodes[node(x, y, z)] = to_short(distance, fine_unit);
         }
-        return inside;
     }
 
     // Reads only nodes that sample_brick() has written.
-    void copy_shared_nodes(std::size_t brick, std::span<const std::uint32_t> brick_of,
-                           std::span<BrickNodes> nodes) const {
+    void copy_shared_nodes(std::size_t brick, std::span<const std::uint32_t> brick_of) {
         for (std::uint32_t z = 0; z < nodes_side; ++z) {
             for (std::uint32_t y = 0; y < nodes_side; ++y) {
                 for (std::uint32_t x = z == side || y == side ? 0 : side; x < nodes_side; ++x) {
                     const std::uint32_t other = owner(bricks_[brick], brick_of, x, y, z);
                     if (other == none) continue;
-                    nodes[brick][node(x, y, z)] = nodes[other][node(x % side, y % side, z % side)];
+                    nodes_[brick][node(x, y, z)] = nodes_[other][node(x % side, y % side, z % side)];
                 }
             }
         }
@@ -350,11 +411,44 @@ class FieldBuilder {
 
     static void write_brick(const BrickNodes& nodes, float* blocks) {
         for (std::uint32_t cell = 0; cell < blocks_per_brick; ++cell) {
-            const std::uint32_t x = cell % side, y = cell / side % side, z = cell / side / side;
-            std::array<std::int16_t, 8> shorts;
-            for (std::uint32_t k = 0; k < 8; ++k) shorts[k] = nodes[node(x + k % 2, y + k / 2 % 2, z + k / 4)];
-            store_shorts(shorts, blocks + words_per_block * cell);
+            store_shorts(cell_nodes(nodes, cell), blocks + words_per_block * cell);
         }
+    }
+
+    static std::array<std::int16_t, 8> cell_nodes(const BrickNodes& nodes, std::uint32_t cell) {
+        const std::uint32_t x = cell % side, y = cell / side % side, z = cell / side / side;
+        std::array<std::int16_t, 8> values;
+        for (std::uint32_t k = 0; k < 8; ++k) values[k] = nodes[node(x + k % 2, y + k / 2 % 2, z + k / 4)];
+        return values;
+    }
+
+    // Calls visit(cell) for cells of bricks in which the field may be zero, next to points outside. In cells from the
+    // grid's corner.
+    template <class Visit>
+    void for_each_zero_cell(Visit&& visit) const {
+        for (std::size_t b = 0; b < bricks_.size(); ++b) {
+            const auto [px, py, pz] = grid_.at(bricks_[b]);
+            for (std::uint32_t cell = 0; cell < blocks_per_brick; ++cell) {
+                const auto values = cell_nodes(nodes_[b], cell);
+                const auto [least, most] = std::minmax_element(values.begin(), values.end());
+                if (*least > 0 || *most <= 0) continue;
+                visit(Counts{side * px + cell % side, side * py + cell / side % side, side * pz + cell / side / side});
+            }
+        }
+    }
+
+    // Neighbors along x share a box.
+    std::vector<Bounds> boxes_of_zero_cells() const {
+        std::vector<Bounds> boxes;
+        for_each_zero_cell([&](Counts cell) {
+            const Vec3 low{static_cast<float>(cell[0]), static_cast<float>(cell[1]), static_cast<float>(cell[2])};
+            if (!boxes.empty() && boxes.back().max == low + Vec3{0, 1, 1}) {
+                boxes.back().max.x += 1;
+            } else {
+                boxes.push_back({low, low + Vec3{1, 1, 1}});
+            }
+        });
+        return boxes;
     }
 
     const FieldGrid& grid_;
@@ -363,6 +457,7 @@ class FieldBuilder {
     std::vector<std::uint8_t> has_brick_;
     std::vector<float> corners_;         // distances in cells, see FieldGrid::corner
     std::vector<std::uint32_t> bricks_;  // their places, ascending
+    std::vector<BrickNodes> nodes_;      // of each brick
 };
 
 std::optional<Error> memory_problem(std::size_t needed, const DistanceFieldOptions& options) {
@@ -409,11 +504,14 @@ Result<DistanceField> build_distance_field(std::span<const Vec3> positions, std:
     builder.number_bricks();
     if (auto problem = memory_problem(builder.bytes(), options)) return *problem;
     builder.sample_corners();
-    field.bricks = builder.number_bricks();
-    if (auto problem = memory_problem(builder.bytes(), options)) return *problem;
-    std::atomic<bool> has_inside{false};
-    builder.write(field.data.words, has_inside);
-    field.has_inside = has_inside;
+    do {
+        field.bricks = builder.number_bricks();
+        if (auto problem = memory_problem(builder.bytes(), options)) return *problem;
+        builder.sample_bricks();
+    } while (builder.find_bricks_near_zero());
+    builder.write(field.data.words);
+    field.data.steepness = static_cast<float>(builder.steepness());
+    field.has_inside = builder.has_inside();
 
     field.thin = find_thin_parts(surface, builder.samples(), team);
     if (field.thin.thin > 0) field.thin.place = grid->to_meters(field.thin.place);

@@ -28,6 +28,9 @@ struct DistanceFieldOptions {
     std::size_t largest_bytes = std::size_t{256} << 20;
 };
 
+/// Changes when the field of some mesh does, so that fields kept on disk are built again.
+inline constexpr std::uint32_t distance_field_version = 1;
+
 /// Kernels number blocks of 16 bytes by floats, which are exact up to 2^24.
 inline constexpr std::size_t largest_distance_field = std::size_t{16} << 24;
 
@@ -56,6 +59,10 @@ struct DistanceField {
 ///   - a hole is closed by the surface on which the winding number is one half. There the value is an estimate of the
 ///     distance to that surface, so that it does not jump;
 ///   - half a shell is solid up to that surface, near the plane of its opening; a flat sheet has no inside.
+///
+/// Interpolation can make fine values steeper than a distance: `ShapeData::steepness` is the greatest slope. Coarse
+/// values outside are lowered (free_way.h). So from any point outside, the way to the surface of the field is at least
+/// its value divided by the steepness.
 ///
 /// Errors: no triangle has an area; a position is not finite; a triangle has an invalid corner; `cells` is out of
 /// range; the mesh is too small, too large or too far from the origin for floats; the field needs more memory than

@@ -11,7 +11,7 @@ namespace weft {
 
 struct ShapeData {
     AlignedVector<float> words;  ///< for the shape's kernel, whose file says what they hold; whole blocks of four
-    float steepness = 1;         ///< the most that the kernel's distance changes per meter, at least 1
+    float steepness = 1;         ///< at least 1: the surface is no nearer than the kernel's distance divided by this
     Bounds bounds;               ///< m: of the shape in its own frame, without what its numbers add
     TriangleMesh surface;        ///< the shape's surface, without what its numbers add
     bool open = false;           ///< `surface` has holes

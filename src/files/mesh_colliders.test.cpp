@@ -94,6 +94,9 @@ TEST(MeshColliders, that_are_malformed_are_named_with_their_place) {
         {ConvexDesc{.mesh = flat}, "in one plane"},
         {ConvexDesc{.mesh = line}, "/colliders/0"},
         {ConvexDesc{.mesh = not_finite}, "point 5"},
+        {ConvexDesc{.mesh = {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}},
+         "/colliders/0: points: a convex hull needs at least 4 points, got 3"},
+        {ConvexDesc{.mesh = {.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}}}, "on one line"},
         {ConvexDesc{.file = "no such stone.obj"}, "no such stone.obj"},
         {SolidMeshDesc{.mesh = not_finite}, "vertex 5"},
         {SolidMeshDesc{.mesh = line}, "/colliders/0"},
@@ -111,6 +114,10 @@ TEST(MeshColliders, that_are_malformed_are_named_with_their_place) {
     EXPECT_FALSE(simulation->add(ColliderDesc{.shape = ConvexDesc{}}).ok());
     EXPECT_FALSE(simulation->add(ColliderDesc{.shape = SolidMeshDesc{.mesh = flat, .resolution = 3}}).ok());
     EXPECT_FALSE(simulation->add(ColliderDesc{.shape = ConvexDesc{.mesh = make_sphere(1, 1), .radius = -1}}).ok());
+    EXPECT_FALSE(
+        simulation->add(ColliderDesc{.shape = ConvexDesc{.scale = {1, 0, 1}, .mesh = make_sphere(1, 1)}}).ok());
+    EXPECT_FALSE(
+        simulation->add(ColliderDesc{.shape = SolidMeshDesc{.scale = {0, 1, 1}, .mesh = make_sphere(1, 1)}}).ok());
     EXPECT_TRUE(simulation->colliders().empty()) << "nothing is left behind";
 }
 

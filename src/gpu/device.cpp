@@ -1,7 +1,5 @@
 #include "gpu/device.h"
 
-#include "gpu/cache_file.h"
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -224,7 +222,7 @@ void Device::name(VkObjectType type, std::uint64_t handle, const std::string& te
 
 void Device::load_pipeline_cache() {
     std::vector<char> data;
-    if (!cache_file_.empty()) data = read_cache_file(cache_file_);
+    if (!cache_file_.empty()) data = read_cache_file(cache_file_, pipeline_cache_format);
     VkPipelineCacheCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
     info.initialDataSize = data.size();  // a driver ignores data of another driver
@@ -243,7 +241,7 @@ void Device::save_pipeline_cache() const {
     std::vector<char> data(size);
     if (vk_.vkGetPipelineCacheData(device_, pipeline_cache_, &size, data.data()) != VK_SUCCESS) return;
     data.resize(size);
-    (void)write_cache_file(cache_file_, data);
+    (void)write_cache_file(cache_file_, pipeline_cache_format, data);
 }
 
 }  // namespace weft::gpu

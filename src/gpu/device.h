@@ -1,6 +1,7 @@
 // A logical device with one queue. Creates memory, buffers, commands and pipelines.
 #pragma once
 
+#include "base/cache_file.h"
 #include "gpu/instance.h"
 #include "gpu/memory.h"
 
@@ -32,6 +33,9 @@ struct BinarySemaphores {
     VkSemaphore wait = VK_NULL_HANDLE;    ///< before the work begins
     VkSemaphore signal = VK_NULL_HANDLE;  ///< when it is done
 };
+
+/// Drivers check only the header of a pipeline cache, so its file must detect damage.
+inline constexpr CacheFormat pipeline_cache_format = "weft-pc1";
 
 struct DeviceOptions {
     /// File that keeps compiled pipelines from run to run; empty: none.

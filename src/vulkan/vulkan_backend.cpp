@@ -1,5 +1,6 @@
 #include "vulkan/vulkan_backend.h"
 
+#include "base/cache_file.h"
 #include "gpu/device.h"
 #include "solver/measures/diagnosis.h"
 #include "vulkan/frame_run.h"
@@ -8,7 +9,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
+#include <cctype>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -22,21 +23,15 @@ using vulkan::Execution;
 using vulkan::FrameRun;
 using vulkan::ModelBuffers;
 
-// A file in the user's cache folder; empty if the environment does not name one.
+// Empty if nothing is to be kept.
 std::filesystem::path pipeline_cache_file(const gpu::DeviceInfo& device) {
-    std::filesystem::path folder;
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) {
-        folder = cache;
-    } else if (const char* home = std::getenv("HOME"); home && *home) {
-        folder = std::filesystem::path(home) / ".cache";
-    } else {
-        return {};
-    }
+    const std::filesystem::path folder = cache_folder();
+    if (folder.empty()) return {};
     std::string name = device.name + "-" + device.driver;
     for (char& c : name) {
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
     }
-    return folder / "weft" / (name + ".pipelines");
+    return folder / (name + ".pipelines");
 }
 
 class VulkanBackend final : public Backend, public VulkanInterop {

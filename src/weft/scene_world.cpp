@@ -1,5 +1,6 @@
 #include "weft/scene_world.h"
 
+#include "base/cache_file.h"
 #include "scene/check.h"
 #include "scene/scene_keys.h"
 #include "scene/set_value.h"
@@ -95,7 +96,8 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
     name_unnamed(scene);
     SceneWorld made;
     made.files_ = {options.read_mesh, folder};
-    made.shapes_ = ShapeLibrary(std::max(1u, options.threads));
+    made.shapes_ =
+        ShapeLibrary(std::max(1u, options.threads), FieldCache(options.field_cache.value_or(cache_folder())));
     const WorldSettings host{.contact_forces = options.contact_forces, .background = options.threads > 1};
     made.world_ = std::make_unique<World>(std::move(*backend), settings_of(scene, scene.solver, host));
     std::vector<SceneCloth> cloths = std::exchange(scene.cloths, {});

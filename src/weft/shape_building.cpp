@@ -20,20 +20,35 @@ struct ShapeSource {
     const std::string& collider;
     std::vector<std::string>& notes;
     unsigned threads;
+    const FieldCache& fields;
 
     void note(const std::string& what) const { notes.push_back("collider '" + collider + "': " + what); }
 };
 
+// Along the axes of the mesh. An odd number of mirrored axes turns the triangles inside out, so they are turned around.
+void scale_mesh(TriangleMesh& mesh, Vec3 scale) {
+    for (Vec3& p : mesh.positions) p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
+    for (Vec3& n : mesh.normals) n = normalized(Vec3{n.x / scale.x, n.y / scale.y, n.z / scale.z});
+    if (scale.x * scale.y * scale.z < 0) {
+        for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+}
+
 /// The mesh of a shape, in the collider's frame.
 template <class Desc>
 Result<TriangleMesh> mesh_of_shape(const Desc& shape, const ShapeSource& source) {
-    if (shape.file.empty()) return shape.mesh;
+    if (shape.file.empty()) {
+        TriangleMesh mesh = shape.mesh;
+        scale_mesh(mesh, shape.scale);
+        return mesh;
+    }
     if (!source.files.read)
         return Error{"file",
                      shape.file + ": cannot be read: this program reads no mesh files (Options::read_mesh is empty)"};
     auto mesh = source.files.read(shape.file, source.files.folder);
     if (!mesh) return mesh.errors();
-    place_mesh(*mesh, MeshFileDesc{shape.file, shape.scale, shape.up}, {});
+    scale_mesh(*mesh, shape.scale);
+    place_mesh(*mesh, MeshFileDesc{.file = shape.file, .up = shape.up}, {});
     return mesh;
 }
 
@@ -95,11 +110,18 @@ void note_field(const DistanceField& field, bool as_surface, const ShapeSource& 
     }
 }
 
+Result<DistanceField> field_of(const TriangleMesh& mesh, std::uint32_t cells, const ShapeSource& source) {
+    const FieldCache::Key key = FieldCache::key_of(mesh.positions, mesh.triangles, cells);
+    if (auto kept = source.fields.read(key)) return std::move(*kept);
+    auto field = build_distance_field(mesh.positions, mesh.triangles, {.cells = cells, .threads = source.threads});
+    if (field) source.fields.write(key, *field);
+    return field;
+}
+
 Result<SharedShape> build_shape(const SolidMeshDesc& solid, const ShapeSource& source) {
     auto mesh = mesh_of_shape(solid, source);
     if (!mesh) return mesh.errors();
-    auto field =
-        build_distance_field(mesh->positions, mesh->triangles, {.cells = solid.resolution, .threads = source.threads});
+    auto field = field_of(*mesh, solid.resolution, source);
     if (!field) return field.errors();
     note_field(*field, is_surface(solid, !field->closed), source);
     add_normals(*mesh);
@@ -123,7 +145,7 @@ Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const Me
     ColliderShape shape = without_contact(collider.shape);
     const auto known = std::ranges::find(known_, shape, &Entry::shape);
     if (known != known_.end()) return known->data.lock();
-    const ShapeSource source{files, collider.name, notes, threads_};
+    const ShapeSource source{files, collider.name, notes, threads_, fields_};
     auto built = std::visit([&](const auto& one) { return build_shape(one, source); }, collider.shape);
     if (!built) return within(pointer, built.errors());
     if (*built) known_.push_back({std::move(shape), *built});

@@ -3,11 +3,13 @@
 
 #include "collide/shape_data.h"
 #include "weft/cloth_building.h"
+#include "weft/field_cache.h"
 
 #include <weft/result.h>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -18,7 +20,8 @@ using ColliderShape = decltype(ColliderDesc::shape);
 class ShapeLibrary {
   public:
     /// `threads`: that build shapes, the calling one included.
-    explicit ShapeLibrary(unsigned threads = 1) : threads_(threads) {}
+    explicit ShapeLibrary(unsigned threads = 1, FieldCache fields = FieldCache())
+        : threads_(threads), fields_(std::move(fields)) {}
 
     /// The data of the collider's shape; null if it has none. Reads the shape's mesh file, if it names one. `pointer`:
     /// the place of the collider in errors. Appends one line per warning to `notes`.
@@ -31,6 +34,7 @@ class ShapeLibrary {
         std::weak_ptr<const ShapeData> data;
     };
     unsigned threads_;
+    FieldCache fields_;
     std::vector<Entry> known_;
 };
 

@@ -79,11 +79,10 @@ std::vector<MeshToWrite> name_meshes(SceneDesc& scene, const fs::path& path) {
     }
     for (SceneCollider& collider : scene.colliders) {
         with_mesh_shape(collider.shape, [&](auto& shape) {
-            if (!shape.file.empty()) return;
+            if (!shape.file.empty() || shape.mesh.triangles.empty()) return;
             MeshDesc mesh = std::exchange(shape.mesh, {});
             name(mesh);
             shape.file = std::get<MeshFileDesc>(mesh).file;
-            shape.scale = 1;
             shape.up = UpAxis::y;
         });
     }

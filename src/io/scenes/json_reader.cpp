@@ -125,6 +125,31 @@ std::vector<std::uint32_t> ObjectReader::indices(std::string_view key) {
     return result;
 }
 
+std::vector<Vec3> ObjectReader::points(std::string_view key) {
+    constexpr Parameter coordinate = {.min = -far_away, .max = far_away};
+    std::vector<Vec3> result;
+    if (const json* all = list(key)) {
+        const std::string place = at(pointer_, key);
+        result.resize(all->size());
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            const json& entry = (*all)[i];
+            const std::string where = at(place, i);
+            if (!entry.is_array() || entry.size() != 3) {
+                problems_.add(where, "must be 3 numbers, got " + json_text(entry));
+                continue;
+            }
+            float* const coordinates[] = {&result[i].x, &result[i].y, &result[i].z};
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!number(coordinate, entry[k], at(where, k), *coordinates[k])) continue;
+                if (double{std::abs(*coordinates[k])} > far_away)
+                    problems_.add(at(where, k),
+                                  range_problem(coordinate, double{*coordinates[k]}, json_text(entry[k])));
+            }
+        }
+    }
+    return result;
+}
+
 std::string_view ObjectReader::one_of(std::span<const std::string_view> keys) {
     std::vector<std::string_view> present;
     std::ranges::copy_if(keys, std::back_inserter(present), [this](std::string_view key) { return has(key); });

@@ -5,6 +5,8 @@
 #include "base/parameter.h"
 #include "scene/problems.h"
 
+#include <weft/vector.h>
+
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -42,6 +44,9 @@ class ObjectReader {
     void objects(std::string_view key, const std::function<void(ObjectReader&)>& read);
     /// The list of indices under `key`; an entry that is not an index is reported and read as 0.
     std::vector<std::uint32_t> indices(std::string_view key);
+
+    /// The list of points under `key`, each of three numbers; what is no point is reported and read as zeros.
+    std::vector<Vec3> points(std::string_view key);
 
     /// The one of these keys that the object has; if it has none or several, reports a problem and returns an empty
     /// name.

@@ -221,6 +221,8 @@ class RandomScene {
 #undef WEFT_SHAPE
         with_mesh_shape(collider.shape, [](auto& shape) {
             if (shape.file.empty()) shape.file = "stone.obj";
+            for (float* scale : {&shape.scale.x, &shape.scale.y, &shape.scale.z})
+                if (*scale == 0) *scale = -2;
         });
         if (auto* plane = std::get_if<PlaneDesc>(&collider.shape)) plane->normal.y = 0.3f;
         fill(pose_keys, &collider.transform);

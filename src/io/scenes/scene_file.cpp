@@ -146,6 +146,15 @@ void read_shape(ObjectReader& collider, std::string_view kind, std::span<const P
     collider.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
 }
 
+void read_shape(ObjectReader& collider, std::string_view kind, std::span<const Parameter> keys, ConvexDesc& convex) {
+    collider.object(kind, [&](ObjectReader& o) {
+        o.values(keys, &convex);
+        if (!o.find("points")) return;
+        convex.mesh.positions = o.points("points");
+        if (!convex.file.empty()) (void)o.one_of({"file", "points"});
+    });
+}
+
 void read_collider(ObjectReader& o, SceneCollider& collider) {
     o.values(collider_keys, static_cast<ColliderDesc*>(&collider));
     const std::string_view kind = o.one_of(shape_keys);

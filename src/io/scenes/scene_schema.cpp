@@ -175,6 +175,13 @@ Json type_json(const Parameter& p, const std::string& place) {
             return object_or_word(place_below(place, key));
         case ParameterKind::list: {
             const std::string below = place_below(place, key + "/*");
+            if (place + key == "/colliders/*/convex/points") {
+                const Json number = {
+                    {"type", "number"}, {"minimum", limit_json(-far_away)}, {"maximum", limit_json(far_away)}};
+                return {{"type", "array"},
+                        {"items", {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}}},
+                        {"minItems", 4}};
+            }
             // Only lists of vertices have no keys of their own.
             Json items = {{"type", "integer"}, {"minimum", 0}};
             Json schema = {{"type", "array"}, {"items", below.empty() ? items : object_schema(below)}};

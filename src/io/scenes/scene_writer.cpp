@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace weft {
@@ -50,6 +51,8 @@ class SceneWriter {
     JsonNode pin(const PinDesc& pin, const std::string& place);
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
     Child motion(const ColliderDesc& collider, const std::string& place);
+    template <class Shape>
+    Child points(const Shape& shape, const std::string& place);
     JsonNode collider(const SceneCollider& collider, std::size_t index, const std::string& place);
     JsonNode stitches(const StitchDesc& stitches, std::size_t index, const std::string& place);
     JsonNode light(const Lighting& light, const std::string& place);
@@ -250,10 +253,30 @@ Child SceneWriter::motion(const ColliderDesc& collider, const std::string& place
     return node;
 }
 
+// The points of a hull, if the shape is one without a file.
+template <class Shape>
+Child SceneWriter::points(const Shape& shape, const std::string& place) {
+    if constexpr (std::is_same_v<Shape, ConvexDesc>) {
+        if (shape.file.empty())
+            return unless_empty(list(shape.mesh.positions, place, [](Vec3 p, const std::string&) {
+                JsonNode point = JsonNode::list();
+                for (const float x : {p.x, p.y, p.z}) point.add(JsonNode::number(x));
+                return point;
+            }));
+    }
+    return {};
+}
+
 JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, const std::string& place) {
     with_mesh_shape(desc.shape, [&](const auto& shape) {
-        if (shape.file.empty()) problems_.add(place, "has a mesh in memory, for which a scene file must name a file");
+        // Points without triangles are written as they are.
+        const bool points = std::holds_alternative<ConvexDesc>(desc.shape) && shape.mesh.triangles.empty();
+        if (shape.file.empty() && !points)
+            problems_.add(place, "has a mesh in memory, for which a scene file must name a file");
     });
+    const auto lists_of = [&](const auto& shape) -> Children {
+        return [&](std::string_view, const std::string& below) { return points(shape, below); };
+    };
     ColliderDesc defaults;
     defaults.name = "collider " + std::to_string(index);
     return object(collider_keys, static_cast<const ColliderDesc&>(desc), defaults, place,
@@ -264,7 +287,7 @@ JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, con
                       if (key == "material") return material(desc.material, default_material(desc), where);
 #define WEFT_SHAPE(name, Name)                                                  \
     if (const auto* shape = std::get_if<Name##Desc>(&desc.shape); key == #name) \
-        return shape ? Child(object(name##_parameters, *shape, Name##Desc(), where)) : Child();
+        return shape ? Child(object(name##_parameters, *shape, Name##Desc(), where, lists_of(*shape))) : Child();
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
                       assert(false);

@@ -61,6 +61,22 @@ TEST(SceneWriter, AnySceneComesBack) {
 }
 
 // Random scenes have every key, so a key that is never written is one that the writer does not support.
+TEST(SceneWriter, WritesThePointsOfAHull) {
+    SceneDesc scene;
+    scene.cloths.resize(1);
+    SceneCollider stone;
+    stone.name = "stone";
+    ConvexDesc hull{.scale = {1, -2, 1}, .radius = 0.01f};
+    hull.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0.1f, 0}, {0, 0, 1}};
+    stone.shape = hull;
+    scene.colliders = {stone};
+    const auto text = write_scene(scene);
+    ASSERT_TRUE(text.ok()) << text.error().message();
+    const auto back = parse_scene(*text, "s.json");
+    ASSERT_TRUE(back.ok()) << back.error().message();
+    EXPECT_EQ(back->colliders[0].shape, stone.shape);
+}
+
 TEST(SceneWriter, NoKeyIsForgotten) {
     std::set<std::string> written_keys;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {

@@ -10,8 +10,8 @@ inline constexpr std::string_view mesh_what = "a mesh as a solid, by a distance 
 inline constexpr Parameter mesh_parameters[] = {
     {.key = "file", .kind = ParameterKind::text, .offset = offsetof(SolidMeshDesc, file),
      .what = "name of a mesh file"},
-    {.key = "scale", .offset = offsetof(SolidMeshDesc, scale), .min = 0, .max = far_away, .min_excluded = true,
-     .unit = "m", .what = "length of the file's unit"},
+    {.key = "scale", .count = 3, .offset = offsetof(SolidMeshDesc, scale), .min = -far_away, .max = far_away, .unit = "m",
+     .what = "length of the mesh's unit along its x, y and z axis; negative mirrors; not 0"},
     {.key = "up", .kind = ParameterKind::choice, .offset = offsetof(SolidMeshDesc, up),
      .what = "the file's axis that points up", .choices = "x|y|z"},
     {.key = "resolution", .kind = ParameterKind::integer, .offset = offsetof(SolidMeshDesc, resolution), .min = 4,
@@ -32,6 +32,7 @@ inline Bounds shape_bounds(const SolidMeshDesc&) {
 
 inline ShapeProblem shape_problem(const SolidMeshDesc& solid) {
     if (solid.file.empty() && solid.mesh.positions.empty()) return {"file", "must name a file"};
+    if (solid.scale.x == 0 || solid.scale.y == 0 || solid.scale.z == 0) return {"scale", "must not be 0"};
     return {};
 }
 

@@ -21,8 +21,9 @@ WEFT_FN real distance_mesh(vec3 p, ShapeNumbers s, out_(vec3) normal)
     vec3 places = block_of(s.data, 1, cell_size);
     vec3 parts = block_of(s.data, 2, coarse_unit);   // table, first coarse block, unit of fine blocks
 
-    // From here on in cells. Points beyond the grid take the value at the nearest point of the grid plus the distance to
-    // it. The grid ends a thousandth of a cell early, so that rounding down gives valid numbers at its end too.
+    // From here on in cells. Points beyond the grid take the value at the nearest point of the grid and the distance to it
+    // as the legs of a right triangle: the surface, which is in the grid, is at least as far as its long side. The grid
+    // ends a thousandth of a cell early, so that rounding down gives valid numbers at its end too.
     vec3 q = (p - origin) * cells_per_meter;
     vec3 end = places * real(7.99999);
     vec3 at = vec3(clamp_from_zero(q.x, end.x), clamp_from_zero(q.y, end.y), clamp_from_zero(q.z, end.z));
@@ -51,16 +52,18 @@ WEFT_FN real distance_mesh(vec3 p, ShapeNumbers s, out_(vec3) normal)
     real value = (y0 + dz * f.z) * unit;
     g = g * (unit * select(fine, real(1), real(0.125)));
 
-    // Beyond the grid the value at the nearest point does not change along the axes on which it is clamped.
     real len2 = dot(beyond, beyond);
-    real len = sqrt(len2);
-    vec3 away = beyond * (real(1) / max(len, real(1e-20)));
-    g = vec3(select(abs(beyond.x) > real(0), away.x, g.x), select(abs(beyond.y) > real(0), away.y, g.y),
-             select(abs(beyond.z) > real(0), away.z, g.z));
+    mask outside = len2 > real(0);
+    real leg = max(value, real(0));
+    real far = sqrt(leg * leg + len2);
+    real share = select(outside, leg * (real(1) / max(far, real(1e-20))), real(1));
+    vec3 away = beyond * (real(1) / max(far, real(1e-20)));
+    g = vec3(select(abs(beyond.x) > real(0), away.x, g.x * share), select(abs(beyond.y) > real(0), away.y, g.y * share),
+             select(abs(beyond.z) > real(0), away.z, g.z * share));
 
     // Where opposite sides are equally far the gradient may be zero: use y.
     real g2 = dot(g, g);
     mask sloped = g2 > real(1e-8);
     normal = select(sloped, g * (real(1) / sqrt(max(g2, real(1e-8)))), vec3(real(0), real(1), real(0)));
-    return (value + len) * cell_size;
+    return select(outside, far, value + len2) * cell_size;
 }

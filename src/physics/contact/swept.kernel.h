@@ -17,7 +17,7 @@ WEFT_OUTLINED_FN real shape_distance(int kind, vec3 p, ShapeNumbers s, out_(vec3
 struct Solid {
     int kind;
     ShapeNumbers numbers;
-    real steepness;  // most that its distance changes per meter, at least 1
+    real steepness;  // at least 1: the surface is no nearer than the distance divided by this
     real roundness;  // m: the least radius to which its surface is curved outward
 };
 

@@ -1,5 +1,4 @@
-#include "gpu/cache_file.h"
-
+#include "base/cache_file.h"
 #include "gpu/test_device.h"
 
 #include <fstream>
@@ -22,55 +21,6 @@ std::size_t files_in(const fs::path& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
 
-TEST(CacheFile, gives_back_what_was_written_and_makes_its_folder) {
-    const TemporaryFolder folder;
-    const fs::path file = folder.path / "a" / "b" / "cache";
-    for (const std::size_t size : {0, 1, 4, 1001}) {
-        std::vector<char> data(size);
-        for (std::size_t i = 0; i < size; ++i) data[i] = static_cast<char>(i * 7);
-        EXPECT_TRUE(write_cache_file(file, data));
-        EXPECT_EQ(read_cache_file(file), data);
-        EXPECT_EQ(files_in(file.parent_path()), 1u) << "nothing is left beside it";
-    }
-}
-
-TEST(CacheFile, what_is_not_as_it_was_written_is_nothing) {
-    const TemporaryFolder folder;
-    const fs::path file = folder.path / "cache";
-    const std::vector<char> data(101, 'x');
-    ASSERT_TRUE(write_cache_file(file, data));
-    const std::vector<char> good = bytes_of(file);
-    for (std::size_t size = 0; size < good.size(); ++size) {
-        write(file, std::span(good).first(size));
-        EXPECT_TRUE(read_cache_file(file).empty()) << size;
-    }
-    for (std::size_t at = 0; at < good.size(); ++at) {
-        std::vector<char> bad = good;
-        bad[at] = static_cast<char>(bad[at] ^ 16);
-        write(file, bad);
-        EXPECT_TRUE(read_cache_file(file).empty()) << at;
-    }
-    std::vector<char> longer = good;
-    longer.push_back(0);
-    write(file, longer);
-    EXPECT_TRUE(read_cache_file(file).empty());
-    EXPECT_TRUE(read_cache_file(folder.path / "none").empty());
-    EXPECT_TRUE(read_cache_file(folder.path).empty()) << "a folder";
-}
-
-TEST(CacheFile, what_cannot_be_written_leaves_nothing_behind) {
-    const TemporaryFolder folder;
-    const std::vector<char> data(10, 'x');
-    fs::create_directories(folder.path / "taken" / "full");
-    EXPECT_FALSE(write_cache_file(folder.path / "taken", data)) << "a folder stands there";
-    EXPECT_EQ(files_in(folder.path), 1u);
-    write(folder.path / "file", data);
-    EXPECT_FALSE(write_cache_file(folder.path / "file" / "cache", data)) << "its folder is a file";
-    EXPECT_EQ(files_in(folder.path), 2u);
-}
-
-// --- On a device ---
-
 class PipelineCache : public OnDevice {
   protected:
     // Opens a device with that file, makes a pipeline and closes it.
@@ -88,10 +38,10 @@ TEST_F(PipelineCache, is_written_and_used_again) {
     const TemporaryFolder folder;
     const fs::path file = folder.path / "weft" / "pipelines";
     run(file);
-    const std::vector<char> first = read_cache_file(file);
+    const std::vector<char> first = read_cache_file(file, pipeline_cache_format);
     ASSERT_GE(first.size(), 32u) << "at least the head that Vulkan prescribes";
     run(file);
-    EXPECT_EQ(read_cache_file(file).size(), first.size());
+    EXPECT_EQ(read_cache_file(file, pipeline_cache_format).size(), first.size());
 }
 
 TEST_F(PipelineCache, a_damaged_one_is_replaced) {
@@ -106,7 +56,7 @@ TEST_F(PipelineCache, a_damaged_one_is_replaced) {
                                          std::vector<char>(5000, 'x'), std::vector<char>{}}) {
         write(file, bad);
         run(file);
-        EXPECT_EQ(read_cache_file(file).size() + 24, good.size()) << bad.size();
+        EXPECT_EQ(read_cache_file(file, pipeline_cache_format).size() + 24, good.size()) << bad.size();
     }
 }
 
@@ -115,12 +65,12 @@ TEST_F(PipelineCache, one_of_another_driver_is_survived) {
     const TemporaryFolder folder;
     const fs::path file = folder.path / "pipelines";
     run(file);
-    std::vector<char> other = read_cache_file(file);
+    std::vector<char> other = read_cache_file(file, pipeline_cache_format);
     ASSERT_GE(other.size(), 32u);
     for (std::size_t at = 16; at < 32; ++at) other[at] = static_cast<char>(~other[at]);  // the driver's id
-    ASSERT_TRUE(write_cache_file(file, other));
+    ASSERT_TRUE(write_cache_file(file, pipeline_cache_format, other));
     run(file);
-    EXPECT_NE(read_cache_file(file), other);
+    EXPECT_NE(read_cache_file(file, pipeline_cache_format), other);
 }
 
 TEST_F(PipelineCache, one_that_cannot_be_written_is_no_error) {
