@@ -282,9 +282,11 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     // `fused`: a workgroup runs a cloth to the end of the frame without waiting for others. So the cloth must be the
     // only one in its island, and there must be no dynamic lists and no contact between cloths, which all cloths share.
+    // Contact of faces is too long a program: with it, drivers need minutes to compile the fused one.
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
         const bool single_cloth = island.cloths.size() == 1 && !island.parts.front().links && !has_lists(step) &&
-                                  !cloth(island.cloths.front().cloth).model().along_curve;
+                                  !cloth(island.cloths.front().cloth).model().along_curve &&
+                                  !has_face_contact(*step.plan);
         if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
         return single_cloth && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model())

@@ -93,7 +93,9 @@ WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec
     vec3 way = local - local_at_start;
     // A particle whose way is shorter than its distance at the start cannot reach the surface: the distance at its end
     // decides.
-    mask fast = may_pass(distance_at_start, sqrt(dot(way, way)), solid, body.half_thickness);
+    real length_of_way = sqrt(dot(way, way));
+    mask fast = may_touch(gap, sum, length_of_way, solid, body) &&
+                may_pass(distance_at_start, length_of_way, solid, body.half_thickness);
     mask stopped = fast;
     vec3 at = local_at_start;
     real distance_there = distance_at_start;

@@ -7,7 +7,6 @@
 #include "vulkan/shaders/workgroup_barrier.glsl"
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/cover.glsl"
-#include "vulkan/shaders/face_contact.glsl"
 #include "vulkan/shaders/faces.glsl"
 #include "vulkan/shaders/levels.glsl"
 #include "vulkan/shaders/limits.glsl"
@@ -96,11 +95,6 @@ void run_command(uint me, uint all)
     WEFT_EACH(average)
     WEFT_EACH(cover)
     WEFT_EACH(contact)
-    WEFT_EACH(find_faces)
-    WEFT_EACH(push_faces)
-    WEFT_EACH(move_faces)
-    WEFT_EACH(hold_faces)
-    WEFT_EACH(settle_faces)
     WEFT_EACH(keep)
     WEFT_EACH(check)
     WEFT_EACH(roll_back)
