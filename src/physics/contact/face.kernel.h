@@ -265,7 +265,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
         if (any(moves_far)) {
             first = nearer(first, face_point(solid, from, center_weights()));
             first = least_on_face(solid, from, first, way);
-            mask fast = may_pass(first.distance, longest_way(from, to), solid, half_thickness);
+            mask fast = moves_far && may_pass(first.distance, longest_way(from, to), solid, half_thickness);
             if (any(fast)) {
                 FaceContact swept = swept_face(solid, from, to, first, half_thickness);
                 mask stopped = fast && swept.touches;
