@@ -347,8 +347,8 @@ class FieldBuilder {
         const auto words = std::bit_cast<std::array<float, 4>>(shorts);
         std::copy(words.begin(), words.end(), block);
     }
-    // Outside, places without a brick get values that leave out the surface: whoever goes as far as the value is does
-    // not pass through it.
+    // Outside, the values of places without a brick do not exceed the distance to the surface. So a point that moves by
+    // its value does not pass through the surface.
     void write_coarse_block(std::uint32_t place, const CellDistance& zero_cells, float* block) const {
         const double unit = coarse_unit();
         std::array<float, 8> distances = corners_of(place);

@@ -166,7 +166,7 @@ class World {
         std::vector<Pose> poses;               ///< after each substep of a frame
         Bounds bounds;                         ///< m: of the particles in the collider's frame
         std::vector<Vec4> positions;           ///< where watch_tangle() has found it
-        ClothFrame frame;                      ///< nobody reads it
+        ClothFrame frame;                      ///< ClothStep needs one; its values are not used
     };
     struct Island {
         std::vector<std::uint32_t> cloths;                     ///< indices; those of each part follow one another
