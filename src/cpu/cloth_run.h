@@ -38,7 +38,7 @@ class ClothRun {
     template <class Collect, class Visit>
     void for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const;
     void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;
-    void move_faces(bool last, std::uint32_t substep, Worker worker) const;
+    void move_faces(bool last, Worker worker) const;
     void settle_faces(std::uint32_t substep, Worker worker) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
         return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));

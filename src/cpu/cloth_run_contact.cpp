@@ -101,7 +101,7 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
             contacts.push(passes_, worker.number, view_, pass.batch == face_sweeps, numbers_.depenetration, nearest);
             break;
         case PassKind::move_faces:
-            move_faces(pass.batch == face_sweeps, substep, worker);
+            move_faces(pass.batch == face_sweeps, worker);
             break;
         case PassKind::hold_faces:
             if (!contacts.any_swept()) break;
@@ -119,12 +119,12 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
 }
 
 // The log of contacts adds up floats, so with a log one thread does this for all, in the order of the contacts.
-void ClothRun::move_faces(bool last, std::uint32_t substep, Worker worker) const {
+void ClothRun::move_faces(bool last, Worker worker) const {
     FaceContacts& contacts = cloth_.face_contacts;
     if (cloth_.account.empty()) return contacts.move(worker.number, view_, last);
     if (worker.number != 0) return;
-    contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by) {
-        cloth_.near_colliders.trace(particle, collider, view_, by, input_.places->pose(collider, substep + 1).position);
+    contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
+        cloth_.near_colliders.trace(particle, collider, by, lever);
     });
     for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_, last);
 }
@@ -144,7 +144,8 @@ void ClothRun::settle_faces(std::uint32_t substep, Worker worker) const {
             const scalar::vec3 held =
                 held_place(body, to_body_at_start(body, {start[0], start[1], start[2]}), to_body(body, at), part);
             const Vec3 place{held.x, held.y, held.z};
-            if (logs) cloth_.near_colliders.trace(p, collider, view_, place - Vec3{x[0], x[1], x[2]}, now.position);
+            const Vec3 before{x[0], x[1], x[2]};
+            if (logs) cloth_.near_colliders.trace(p, collider, place - before, before - now.position);
             x[0] = place.x, x[1] = place.y, x[2] = place.z;
         });
     }

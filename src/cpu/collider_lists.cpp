@@ -151,7 +151,7 @@ void ColliderPart::carry_over(std::span<const ColliderRun> runs, std::span<const
 }
 
 // A particle whose tile does not list the collider is left out: its face has an edge that is stretched far.
-void ColliderPart::trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 from_collider) {
+void ColliderPart::trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
     const auto run = std::ranges::upper_bound(runs_, particle, {}, &ColliderRun::end);
     if (run == runs_.end() || run->begin > particle) return;
     const auto at = std::ranges::lower_bound(near(*run), collider, {}, &NearCollider::collider);
@@ -159,14 +159,13 @@ void ColliderPart::trace(std::uint32_t particle, std::uint32_t collider, Vec3 by
     const std::size_t sum = at->sums + (particle - run->begin);
     const auto add = [&](Vec4& to, Vec3 more) { to.x += more.x, to.y += more.y, to.z += more.z; };
     add(moved_[sum], by);
-    add(turned_[sum], cross(from_collider, by));
+    add(turned_[sum], cross(lever, by));
 }
 
-void ColliderLists::trace(std::uint32_t particle, std::uint32_t collider, const ParticleView& particles, Vec3 by,
-                          Vec3 position) {
+void ColliderLists::trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
     const auto slot = std::ranges::find_if(parts_, [&](const Slot& one) { return one.part.has(particle); });
     if (slot != parts_.end())
-        slot->part.trace(particle, collider, by, place_of(particles.position, particle) - position);
+        slot->part.trace(particle, collider, by, lever);
 }
 
 void ColliderLists::prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers, bool keeps_sums,

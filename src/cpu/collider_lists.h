@@ -64,7 +64,7 @@ class ColliderPart {
     }
 
     bool has(std::uint32_t particle) const { return particle >= mine_.begin && particle < mine_.end; }
-    void trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 from_collider);
+    void trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever);
 
   private:
     struct Lists {
@@ -101,8 +101,9 @@ class ColliderLists {
     void prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers, bool keeps_sums, bool traces);
     ColliderPart& part(unsigned worker) { return parts_[worker].part; }
     const ColliderPart& part(unsigned worker) const { return parts_[worker].part; }
-    /// Adds to the trace of a particle and a collider that a contact moved it `by`; `position`: of the collider.
-    void trace(std::uint32_t particle, std::uint32_t collider, const ParticleView& particles, Vec3 by, Vec3 position);
+    /// Adds to the trace of a particle and a collider that a contact moved it `by`; `lever`: where the contact is, from
+    /// the collider's position.
+    void trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever);
 
   private:
     /// Aligned so that no two workers share a cache line.

@@ -101,11 +101,12 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
 
 // Appends the contacts of the lanes in `listed`.
 WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, const FaceRow& row, FaceRows& to) {
-    alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16], swept[16];
+    alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16], lever[4 * 16], swept[16];
     // The third weight is what the others leave.
     store_blocks(vec3(row.weights.x, row.weights.y, row.static_friction), row.kinetic_friction, weights);
     store_blocks(row.normal, row.offset, plane);
     store_blocks(row.start, row.gap_at_start, start);
+    store_blocks(row.lever, real(0.0f), lever);
     store(row.swept, swept);
     for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
@@ -113,6 +114,7 @@ WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, con
         __builtin_memcpy(to.weights + 4 * at, weights + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.plane + 4 * at, plane + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.start + 4 * at, start + 4 * lane, 4 * sizeof(float));
+        __builtin_memcpy(to.lever + 4 * at, lever + 4 * lane, 4 * sizeof(float));
         for (int axis = 0; axis < 4; ++axis) to.sum[4 * at + axis] = 0;
         to.displacement[4 * at + 3] = swept[lane];
         to.any_swept = to.any_swept || swept[lane] > 0;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float meters_per_quantum = static_cast<float>(1.0 / WEFT_PUSH_QUANTA_PER_METER);
 
-constexpr std::size_t blocks_per_contact = 5;
+constexpr std::size_t blocks_per_contact = 6;
 
 struct FaceTarget {
     FaceSum* sums;
@@ -60,7 +60,7 @@ void FaceContacts::prepare(std::uint32_t particles, std::uint32_t faces, std::ui
     for (Part& part : parts_) {
         if (part.items.size() < faces + lane_padding) part.items.resize(faces + lane_padding);
         part.pushed.reserve(particles), part.held.reserve(particles);
-        part.groups.reserve(std::max(part.groups.capacity(), 2 * part.groups.size() + colliders));
+        part.groups.reserve(2 * std::max<std::size_t>(part.groups.size(), colliders));
         // find() asks for room for all faces of a run.
         make_room(part, std::max<std::size_t>(faces / workers + lane_padding, 2 * part.rows.count));
         part.rows.count = 0;
@@ -83,7 +83,7 @@ void FaceContacts::make_room(Part& part, std::size_t rows) {
                     corners.begin() + static_cast<std::ptrdiff_t>(k * more));
     part.blocks = std::move(blocks), part.corners = std::move(corners);
     float** const arrays[blocks_per_contact] = {&part.rows.weights, &part.rows.plane, &part.rows.start, &part.rows.sum,
-                                                &part.rows.displacement};
+                                                &part.rows.displacement, &part.rows.lever};
     for (std::size_t i = 0; i < blocks_per_contact; ++i) *arrays[i] = &part.blocks[i * more].x;
     for (std::size_t k = 0; k < 3; ++k) part.rows.corners[k] = &part.corners[k * more];
 }

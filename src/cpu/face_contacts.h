@@ -41,7 +41,8 @@ class FaceContacts {
               float nearest);
     /// Moves the particles whose first push came from a contact of this worker.
     void move(unsigned worker, const ParticleView& particles, bool last);
-    /// Calls visit(particle, collider, push): what each contact's push does to a particle. Between push() and move().
+    /// Calls visit(particle, collider, push, lever): what each contact's push does to a particle, and where the contact
+    /// is, from the collider's position. By collider and particle in the order of faces. Between push() and move().
     template <class Visit>
     void for_each_push(const ParticleView& particles, bool last, Visit&& visit) const;
 
@@ -100,12 +101,14 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
         std::size_t i = 0;
         for (const Group& group : part.groups) {
             for (; i < group.end; ++i) {
+                const float* lever = part.rows.lever + 4 * i;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t p = part.rows.corners[k][i];
                     const float w = particles.position[4 * std::size_t{p} + 3];
                     const FaceSum& sum = sums_[p];
                     if (!(w > 0) || sum[3] == 0) continue;
-                    visit(p, group.collider, push_of(part.rows, i, k, last) * share_of(sum, last) * (last ? 1.0f : w));
+                    const float share = last ? share_of(sum, last) : share_of(sum, last) * w;
+                    visit(p, group.collider, push_of(part.rows, i, k, last) * share, Vec3{lever[0], lever[1], lever[2]});
                 }
             }
         }

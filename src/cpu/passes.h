@@ -88,6 +88,7 @@ struct FaceRows {
     /// By the sweep before, m: displacement per inverse mass and weight; of the last sweep, by corner, along the
     /// normal. The fourth float is 1 if the face touches on its way.
     float* displacement = nullptr;
+    float* lever = nullptr;  ///< FaceRow::lever, world axes, m
     std::array<std::uint32_t*, 3> corners{};
 };
 

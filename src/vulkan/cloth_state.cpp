@@ -69,8 +69,9 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
         if (rounds_of(plan, model) > 1) work.contact_sums = work.arena.reserve(sums);
         if (shape.contact_forces) work.contact_log = work.arena.reserve(2 * sums);
         if (has_face_contact(plan)) {
-            work.face_contacts = work.arena.reserve(std::uint64_t{slots} * model.faces_by_tile->most_in_tile *
-                                                    WEFT_FACE_CONTACT_BLOCKS * block);
+            const std::uint64_t blocks = WEFT_FACE_CONTACT_BLOCKS + (shape.contact_forces ? 1 : 0);
+            work.face_contacts =
+                work.arena.reserve(std::uint64_t{slots} * model.faces_by_tile->most_in_tile * blocks * block);
             work.face_sums =
                 work.arena.reserve((std::uint64_t{WEFT_FACE_SUM} * model.particle_count + 1) * sizeof(std::uint32_t));
         }

@@ -189,6 +189,7 @@ struct FaceContact {
     mask swept;         // it touches on the way
     vec3 weights;       // of the point that touches
     vec3 normal;        // in the body's frame
+    vec3 place;         // where it touches, in the body's frame
     real gap;           // of that point along the normal at the end of the substep, m
     real gap_at_start;  // m
     real time;          // part of the way before it touches, 1 if it does not touch on the way
@@ -222,6 +223,7 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
     contact.weights = now.weights;
     contact.normal = now.normal;
     vec3 touched = point_of(between(from, to, time), now.weights);
+    contact.place = touched;
     contact.gap = dot(now.normal, point_of(to, now.weights) - touched) + now.distance;
     contact.gap_at_start = first.distance;
     contact.swept = contact.touches;
@@ -249,6 +251,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     FaceContact contact;
     contact.weights = last.weights;
     contact.normal = last.normal;
+    contact.place = point_of(to, last.weights);
     contact.gap = last.distance - nearest;
     contact.gap_at_start = real(0);
     contact.time = real(1);
@@ -271,6 +274,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
                 mask stopped = fast && swept.touches;
                 contact.weights = select(stopped, swept.weights, contact.weights);
                 contact.normal = select(stopped, swept.normal, contact.normal);
+                contact.place = select(stopped, swept.place, contact.place);
                 contact.gap = select(stopped, swept.gap - nearest, contact.gap);
                 contact.gap_at_start = select(stopped, swept.gap_at_start - nearest, contact.gap_at_start);
                 mask overlaps = contact.gap < real(0);
@@ -300,6 +304,7 @@ WEFT_FN mask has_passed(FaceContact contact, real nearest)
 struct FaceRow {
     vec3 weights;
     vec3 normal;                              // world
+    vec3 lever;                               // from the body's origin to where it touches, world, m
     real offset;                              // m: normal·point + offset is the gap
     real gap_at_start;                        // m
     vec3 start;                               // the point at the start of the substep, plus how far the body carried it
@@ -314,6 +319,7 @@ WEFT_FN FaceRow face_row(ContactBody body, FaceContact contact, Corners x, Corne
     FaceRow row;
     row.weights = contact.weights;
     row.normal = rotate(body.rx, body.ry, body.rz, contact.normal);
+    row.lever = rotate(body.rx, body.ry, body.rz, contact.place);
     row.offset = contact.gap - dot(row.normal, point_of(x, contact.weights));
     row.gap_at_start = contact.gap_at_start;
     row.start = point_of(start, contact.weights) + carried_by(body, point_of(local, contact.weights));

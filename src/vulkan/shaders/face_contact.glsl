@@ -25,11 +25,13 @@ uint face_of_triangle(uint t)
     return face_contact_args.at.faces.at[3u * face_contact_args.at.stride + tiles + 1u + t];
 }
 
-// Five blocks per place: weights of the first two corners and friction; normal and offset; start and the gap there;
-// ContactSum; displacement by the sweep before, and whether there is a contact: 0 none, 1 a slow one, 2 one on the way.
+// Blocks per place: weights of the first two corners and friction; normal and offset; start and the gap there; ContactSum;
+// displacement by the sweep before, and whether there is a contact: 0 none, 1 a slow one, 2 one on the way; with a log, the
+// lever.
+uint blocks_of_contact() { return logs_faces() ? WEFT_FACE_CONTACT_BLOCKS + 1u : WEFT_FACE_CONTACT_BLOCKS; }
 uint place_of_contact(uint slot, uint f, uint tile)
 {
-    return 5u * (slot * face_contact_args.at.faces_per_tile + f - first_face_of(tile));
+    return blocks_of_contact() * (slot * face_contact_args.at.faces_per_tile + f - first_face_of(tile));
 }
 float state_of_contact(uint place) { return face_contact_args.at.contacts.at[place + 4u].w; }
 
@@ -41,6 +43,7 @@ void store_contact(uint place, FaceRow row)
     face_contact_args.at.contacts.at[place + 2u] = vec4(row.start, row.gap_at_start);
     face_contact_args.at.contacts.at[place + 3u] = vec4(0.0);
     face_contact_args.at.contacts.at[place + 4u] = vec4(vec3(0.0), row.swept > 0.0 ? 2.0 : 1.0);
+    if (logs_faces()) face_contact_args.at.contacts.at[place + 5u] = vec4(row.lever, 0.0);
 }
 FaceRow load_contact(uint place)
 {
@@ -88,7 +91,7 @@ FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, f
     Solid solid = solid_of(collider);
     Corners local = to_body(body, face.x), local_at_start = to_body_at_start(body, face.start);
     FacePoint center = face_point(solid, local, center_weights());
-    FaceContact none = FaceContact(false, false, center.weights, center.normal, 0.0, 0.0, 1.0, 0.0);
+    FaceContact none = FaceContact(false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
     if (!face_may_touch(local_at_start, local, center, solid, nearest)) return none;
     return face_contact(solid, local_at_start, local, center, nearest_of_faces(), body.half_thickness);
 }
@@ -182,7 +185,7 @@ void run_push_faces(uint f)
 }
 
 // Adds to the log of a particle and a collider.
-void log_push(uint p, uint collider, vec3 by, vec3 from_collider)
+void log_push(uint p, uint collider, vec3 by, vec3 lever)
 {
     uvec2 slots = slots_near(face_contact_args.at.tiles, p);
     uint turned = face_contact_args.at.capacity * WEFT_COLLIDER_TILE;
@@ -191,19 +194,27 @@ void log_push(uint p, uint collider, vec3 by, vec3 from_collider)
         uint at = place_in_slot(slot, p);
         face_contact_args.at.contact_log.at[at].xyz = face_contact_args.at.contact_log.at[at].xyz + by;
         face_contact_args.at.contact_log.at[turned + at].xyz =
-            face_contact_args.at.contact_log.at[turned + at].xyz + cross(from_collider, by);
+            face_contact_args.at.contact_log.at[turned + at].xyz + cross(lever, by);
         return;
     }
 }
 
-// What the contacts of the particle's faces do to it, one after another.
-void log_pushes(uint p, vec4 x, float share)
+// The particle's next face after `f`, by number, or 0xffffffff.
+uint next_face_of(uint p, uint f)
+{
+    uint next = 0xffffffffu, end = face_contact_args.at.offsets.at[p + 1u];
+    for (uint k = face_contact_args.at.offsets.at[p]; k < end; ++k) {
+        uint other = face_of_triangle(face_contact_args.at.items.at[k]);
+        if (other > f || f == 0xffffffffu) next = min(next, other);
+    }
+    return next;
+}
+
+// What the contacts of the particle's faces do to it, one after another, in the order of faces.
+void log_pushes(uint p, float share)
 {
     bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
-    uint end = face_contact_args.at.offsets.at[p + 1u];
-    for (uint k = face_contact_args.at.offsets.at[p]; k < end; ++k) {
-        uint f = face_of_triangle(face_contact_args.at.items.at[k]);
-        if (f == 0xffffffffu) continue;
+    for (uint f = next_face_of(p, 0xffffffffu); f != 0xffffffffu; f = next_face_of(p, f)) {
         uvec3 corner = corners_of_face(f);
         uint tile = tile_of_face(corner), mine = corner.x == p ? 0u : corner.y == p ? 1u : 2u;
         uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
@@ -213,10 +224,8 @@ void log_pushes(uint p, vec4 x, float share)
             FaceRow row = load_contact(place);
             vec3 by = face_contact_args.at.contacts.at[place + 4u].xyz;
             vec3 push = last ? row.normal * by[mine] : by * row.weights[mine];
-            uint collider = face_contact_args.at.slots.at[slot];
-            ColliderIn of = face_contact_args.at.colliders.at.colliders.at[collider];
-            vec3 position = pose_after(face_contact_args.at.colliders, of, face_substep() + 1u).position.xyz;
-            log_push(p, collider, push * share, x.xyz - position);
+            log_push(p, face_contact_args.at.slots.at[slot], push * share,
+                     face_contact_args.at.contacts.at[place + 5u].xyz);
         }
     }
 }
@@ -234,7 +243,7 @@ void run_move_faces(uint p)
     face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u] = 0u;
     bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
     float share = face_share(last, last ? float(count) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER) : float(count), total);
-    if (logs_faces()) log_pushes(p, x, last ? share : share * x.w);
+    if (logs_faces()) log_pushes(p, last ? share : share * x.w);
     store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
 }
 
