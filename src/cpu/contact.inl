@@ -224,7 +224,7 @@ WEFT_FN FaceRow load_row(const FaceRows& rows, std::size_t i, float depenetratio
 WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts, bool last, const FaceSums& to) {
     const real scale = real(static_cast<float>(WEFT_PUSH_QUANTA_PER_METER));
     const real size2 = dot(push, push);
-    acts = acts && size2 > real(0.0f);
+    acts = acts && is_push(size2);
     if (!any(acts)) return;
     alignas(64) std::int32_t quanta[16][4];
     store_integer_blocks(vec3(to_contact_quanta(push.x, scale), to_contact_quanta(push.y, scale),

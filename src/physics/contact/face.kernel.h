@@ -356,6 +356,10 @@ WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real nearest)
     return select(acts, missing, real(0));
 }
 
+// Whether a push counts: it is as long as half a quantum of the sums. `size2`: its squared length, m². Smaller ones would
+// take a share from others, on processors that compute with subnormal numbers.
+WEFT_FN mask is_push(real size2) { return size2 > real(0.25 / (WEFT_PUSH_QUANTA_PER_METER * WEFT_PUSH_QUANTA_PER_METER)); }
+
 // The part of its pushes that moves a particle, so that many faces do not push it too far: their mean, or in the last
 // sweep the longest push in their mean direction.
 //   count  of the pushes; in the last sweep the length of the longest one, m

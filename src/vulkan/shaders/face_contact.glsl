@@ -134,7 +134,7 @@ void run_find_faces(uint f)
 void add_to_faces(uint particle, vec3 push)
 {
     float size2 = dot(push, push);
-    if (!(size2 > 0.0)) return;
+    if (!is_push(size2)) return;
     for (uint axis = 0u; axis < 3u; ++axis)
         atomicAdd(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + axis],
                   uint(int(to_contact_quanta(push[axis], WEFT_PUSH_QUANTA_PER_METER))));
