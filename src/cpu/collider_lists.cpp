@@ -164,8 +164,7 @@ void ColliderPart::trace(std::uint32_t particle, std::uint32_t collider, Vec3 by
 
 void ColliderLists::trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
     const auto slot = std::ranges::find_if(parts_, [&](const Slot& one) { return one.part.has(particle); });
-    if (slot != parts_.end())
-        slot->part.trace(particle, collider, by, lever);
+    if (slot != parts_.end()) slot->part.trace(particle, collider, by, lever);
 }
 
 void ColliderLists::prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers, bool keeps_sums,

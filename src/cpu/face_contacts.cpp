@@ -82,8 +82,8 @@ void FaceContacts::make_room(Part& part, std::size_t rows) {
         std::copy_n(part.corners.begin() + static_cast<std::ptrdiff_t>(k * room), part.rows.count,
                     corners.begin() + static_cast<std::ptrdiff_t>(k * more));
     part.blocks = std::move(blocks), part.corners = std::move(corners);
-    float** const arrays[blocks_per_contact] = {&part.rows.weights, &part.rows.plane, &part.rows.start, &part.rows.sum,
-                                                &part.rows.displacement, &part.rows.lever};
+    float** const arrays[blocks_per_contact] = {&part.rows.weights, &part.rows.plane,        &part.rows.start,
+                                                &part.rows.sum,     &part.rows.displacement, &part.rows.lever};
     for (std::size_t i = 0; i < blocks_per_contact; ++i) *arrays[i] = &part.blocks[i * more].x;
     for (std::size_t k = 0; k < 3; ++k) part.rows.corners[k] = &part.corners[k * more];
 }
@@ -137,7 +137,7 @@ void FaceContacts::clear_near(Range particles) {
 void FaceContacts::collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run) {
     const Range range = faces_of(faces, run);
     const std::uint32_t *const a = faces.corners.data(), *const b = a + faces.stride, *const c = b + faces.stride;
-    std::uint32_t count = 0;
+    std::uint32_t count = part.item_count;
     for (std::uint32_t f = range.begin; f < range.end; ++f) {
         part.items[count] = f;
         count += (marks[a[f]] | marks[b[f]] | marks[c[f]]) != 0;

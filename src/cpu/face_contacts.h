@@ -31,9 +31,11 @@ class FaceContacts {
 
     /// Starts the list of a worker anew.
     void begin(unsigned worker);
-    /// Collects the faces that may touch of a run of particles, for the calls of find() for that run.
+    /// Collects the faces that may touch of a run of particles, for calls of find().
     void collect(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
-    /// Appends the contacts of these faces with a collider.
+    /// Ends the calls for the collected faces.
+    void drop_collected(unsigned worker) { parts_[worker].item_count = 0; }
+    /// Appends the contacts of the collected faces with a collider.
     void find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
               std::uint32_t collider, const ContactView& contact, float nearest);
     /// Adds the pushes of a worker's contacts. `last`: of the sweep that keeps faces from passing.
@@ -48,7 +50,7 @@ class FaceContacts {
 
     /// Whether faces may have passed. Valid for all workers after all have found their contacts.
     bool any_swept() const;
-    /// Collects the faces of a run that pushes have moved, for the calls of hold() for that run.
+    /// Collects the faces of a run that pushes have moved, for calls of hold().
     void collect_moved(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
     /// Marks particles of those faces that have passed, after all pushes. `still`: they go no part of their way,
     /// otherwise the part before the touch.
@@ -71,7 +73,7 @@ class FaceContacts {
         AlignedVector<std::uint32_t> corners;
         std::vector<Group> groups;
         std::vector<std::uint32_t> pushed, held;
-        std::vector<std::uint32_t> items;  ///< faces to look at, of a run
+        std::vector<std::uint32_t> items;  ///< faces to look at
         std::uint32_t item_count = 0;
     };
 
@@ -108,7 +110,8 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
                     const FaceSum& sum = sums_[p];
                     if (!(w > 0) || sum[3] == 0) continue;
                     const float share = last ? share_of(sum, last) : share_of(sum, last) * w;
-                    visit(p, group.collider, push_of(part.rows, i, k, last) * share, Vec3{lever[0], lever[1], lever[2]});
+                    visit(p, group.collider, push_of(part.rows, i, k, last) * share,
+                          Vec3{lever[0], lever[1], lever[2]});
                 }
             }
         }

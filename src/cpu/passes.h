@@ -48,11 +48,11 @@ struct RowView {
 };
 
 struct ContactView {
-    int kind;                      ///< of the shape
-    std::array<float, 4> numbers;  ///< of the shape
-    ShapeBlocks data;              ///< of the shape
-    float steepness, roundness;    ///< of the shape (swept.kernel.h)
-    Pose now, before;              ///< at the end and at the start of the substep
+    int kind;                                    ///< of the shape
+    std::array<float, 4> numbers;                ///< of the shape
+    ShapeBlocks data;                            ///< of the shape
+    float steepness, roundness, layer_distance;  ///< of the shape (swept.kernel.h)
+    Pose now, before;                            ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     float half_thickness, depenetration;  ///< m
     float* sums = nullptr;                ///< a ContactSum per particle of the range; nullptr with a single iteration

@@ -28,6 +28,10 @@ struct ColliderIn {
     uint pose_step;   // 0: the collider rests in this frame
     float steepness;  // swept.kernel.h
     float roundness;  // m
+    float layer_distance;  // m, swept.kernel.h
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 struct CollidersIn {

@@ -14,7 +14,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ColliderIn) == 64 && sizeof(PoseIn) == 64 && sizeof(CollidersIn) == 32 &&
+static_assert(sizeof(ColliderIn) == 80 && sizeof(PoseIn) == 64 && sizeof(CollidersIn) == 32 &&
               sizeof(NearTileIn) == 48);
 static_assert(WEFT_TILE_SLACK == tile_slack_per_way && WEFT_COLLIDER_TILE == lane_padding);
 
@@ -148,7 +148,11 @@ void WorldColliders::write_colliders(std::span<const Collider> colliders, const 
             .first_pose = moves ? moving_first + moving++ * (places.substeps() + 1) : resting++,
             .pose_step = moves ? 1u : 0u,
             .steepness = steepness_of(collider),
-            .roundness = roundness_of(collider)};
+            .roundness = roundness_of(collider),
+            .layer_distance = layer_distance_of(collider),
+            .unused0 = 0,
+            .unused1 = 0,
+            .unused2 = 0};
     }
 }
 

@@ -76,13 +76,16 @@ WEFT_FN mask reaches_faces(real roundness, real half_thickness, real nearest, re
 }
 
 // Whether a particle is so near a body that one of its triangles may touch it. A triangle that touches at the end of the
-// substep is nearer than `nearest` there, and one that touches on its way is nearer than twice its longest way. Corners are
-// farther by an edge at most. If a triangle touches, this holds for at least one of its corners: for the nearest one or
-// for the one with the longest way.
+// substep is nearer than `nearest` there, and one that touches on its way is nearer than twice its longest way. The point
+// that touches is no farther from the nearest corner than 1/√3 of the longest edge, and from any corner than that edge. If
+// a triangle touches, this holds for at least one corner: for the nearest one, if the longest way is short, or for the one
+// with the longest way.
 //   distance, way  of the particle, m;  widest  no edge is longer, m
 WEFT_FN mask faces_may_touch(Solid solid, real distance, real way, real nearest, real widest)
 {
-    return distance < nearest + (widest + real(2) * way) * solid.steepness;
+    real short_way = real(0.1) * widest;
+    real reach = select(way < short_way, real(0.5774) * widest + real(2) * short_way, widest + real(2) * way);
+    return distance < nearest + reach * solid.steepness;
 }
 
 // What a triangle cannot come nearer than, if the slope of the distance only grows. `point`: any point of it.
@@ -205,7 +208,9 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
     FacePoint now = first;
     real time = real(0);
     for (int step = 0; step < 32 && any(now.distance > least && time < real(1)); ++step) {
+
         mask goes_on = now.distance > least && time < real(1);
+
         real next = min(time + (now.distance - real(0.5) * least) / speed, real(1));
         Corners there = between(from, to, next);
         // Another part of the body may have come nearer.
@@ -241,6 +246,16 @@ WEFT_FN mask face_may_touch(Corners from, Corners to, FacePoint center, Solid so
            lowest_of(to, center) < max(nearest, real(2) * way * solid.steepness);
 }
 
+// Whether a triangle is on the same side of the body at the end of the substep as at its start: it is not deep inside,
+// its nearest point has about kept the direction to the surface, and it has moved less than to another layer of the body
+// that faces the same way. What slides is spared the search on its way.
+//   first, last  the point that is nearest at the end, at the start and at the end
+WEFT_FN mask stays_on_side(Solid solid, FacePoint first, FacePoint last, real way, real half_thickness)
+{
+    return way < solid.layer_distance && last.distance > -half_thickness &&
+           dot(first.normal, last.normal) > real(0.5);
+}
+
 // Contact of a triangle that may touch the body. A face is kept at `nearest` from the surface, which is less than the
 // corners are, so that faces of a fine mesh on a smooth body touch nothing.
 //   from, to  the triangle at the start and at the end of the substep, in the body's frame
@@ -259,16 +274,19 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     contact.touches = contact.gap < real(0);
 
     // A triangle that moves less than its least distance at the start cannot have passed.
-    real way = longest_way(from, to) * solid.steepness;
-    mask moves_far = last.distance < real(2) * way;
+    real way = longest_way(from, to);
+    mask moves_far = last.distance < real(2) * way * solid.steepness;
     contact.swept = contact.touches && !contact.touches;
     if (any(moves_far || contact.touches)) {
         FacePoint first = face_point(solid, from, last.weights);
         contact.gap_at_start = first.distance - nearest;
+
+        moves_far = moves_far && !stays_on_side(solid, first, last, way, half_thickness);
         if (any(moves_far)) {
             first = nearer(first, face_point(solid, from, center_weights()));
-            first = least_on_face(solid, from, first, way);
-            mask fast = moves_far && may_pass(first.distance, longest_way(from, to), solid, half_thickness);
+            first = least_on_face(solid, from, first, way * solid.steepness);
+            mask fast = moves_far && may_pass(first.distance, way, solid, half_thickness);
+
             if (any(fast)) {
                 FaceContact swept = swept_face(solid, from, to, first, half_thickness);
                 mask stopped = fast && swept.touches;

@@ -19,6 +19,7 @@ struct Solid {
     ShapeNumbers numbers;
     real steepness;  // at least 1: the surface is no nearer than the distance divided by this
     real roundness;  // m: the least radius to which its surface is curved outward
+    real layer_distance;  // m: parts of the surface that face the same way, one behind the other, are at least this far apart
 };
 
 WEFT_FN real solid_distance(Solid solid, vec3 p, out_(vec3) normal)

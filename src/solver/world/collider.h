@@ -60,6 +60,11 @@ inline float steepness_of(const Collider& collider) {
     return collider.data ? collider.data->steepness : 1.0f;
 }
 
+/// ShapeData::layer_distance; that of a convex shape, if the numbers say everything.
+inline float layer_distance_of(const Collider& collider) {
+    return collider.data ? collider.data->layer_distance : static_cast<float>(far_away);
+}
+
 /// Its roundness, finite: a plane counts as a ball that is as large as any collider.
 inline float roundness_of(const Collider& collider) {
     constexpr auto largest = static_cast<float>(far_away);
