@@ -174,7 +174,8 @@ inline void touch_faces(const ParticleView& p, const ContactView& c, const FaceV
     LaneFaces lanes;
     load_faces<Shape>(p, faces, items, body, solid, lanes);
     const FaceContact contact =
-        face_contact(solid, lanes.local_at_start, lanes.local, lanes.center, nearest, body.half_thickness);
+        face_contact(solid, lanes.local_at_start, lanes.local, lanes.center, nearest, body.half_thickness,
+                     faces.hold ? least_after_pushes(nearest) : -body.half_thickness);
     if (faces.hold) return hold_faces(faces, lanes.corners, mine && has_passed(contact, nearest), contact.time);
     const mask listed = mine && touches_beside_corners(contact);
     if (any(listed))

@@ -250,17 +250,19 @@ WEFT_FN mask face_may_touch(Corners from, Corners to, FacePoint center, Solid so
 // its nearest point has about kept the direction to the surface, and it has moved less than to another layer of the body
 // that faces the same way. What slides is spared the search on its way.
 //   first, last  the point that is nearest at the end, at the start and at the end
-WEFT_FN mask stays_on_side(Solid solid, FacePoint first, FacePoint last, real way, real half_thickness)
+//   deepest      m: what ends deeper is searched on its way
+WEFT_FN mask stays_on_side(Solid solid, FacePoint first, FacePoint last, real way, real deepest)
 {
-    return way < solid.layer_distance && last.distance > -half_thickness &&
+    return way < solid.layer_distance && last.distance > deepest &&
            dot(first.normal, last.normal) > real(0.5);
 }
 
 // Contact of a triangle that may touch the body. A face is kept at `nearest` from the surface, which is less than the
 // corners are, so that faces of a fine mesh on a smooth body touch nothing.
 //   from, to  the triangle at the start and at the end of the substep, in the body's frame
+//   deepest   of stays_on_side()
 WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoint center,
-                                 real nearest, real half_thickness)
+                                 real nearest, real half_thickness, real deepest)
 {
     FacePoint last = least_on_face(solid, to, center, nearest);
     FaceContact contact;
@@ -281,11 +283,11 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
         FacePoint first = face_point(solid, from, last.weights);
         contact.gap_at_start = first.distance - nearest;
 
-        moves_far = moves_far && !stays_on_side(solid, first, last, way, half_thickness);
+        moves_far = moves_far && !stays_on_side(solid, first, last, way, deepest);
         if (any(moves_far)) {
             first = nearer(first, face_point(solid, from, center_weights()));
             first = least_on_face(solid, from, first, way * solid.steepness);
-            mask fast = moves_far && may_pass(first.distance, way, solid, half_thickness);
+            mask fast = moves_far && may_pass(first.distance, way, solid, real(2) * half_thickness);
 
             if (any(fast)) {
                 FaceContact swept = swept_face(solid, from, to, first, half_thickness);
@@ -312,10 +314,13 @@ WEFT_FN mask touches_beside_corners(FaceContact contact)
     return contact.touches && max(w.x, max(w.y, w.z)) < real(0.999);
 }
 
+// m: a face on its side of the body comes no nearer after all pushes.
+WEFT_FN real least_after_pushes(real nearest) { return real(0.25) * nearest; }
+
 // Whether a face is still, or again, beyond where it touched on its way, or inside the body: what pushes have left.
 WEFT_FN mask has_passed(FaceContact contact, real nearest)
 {
-    return contact.swept && (contact.gap < real(-0.75) * nearest || contact.last < real(0.25) * nearest);
+    return contact.swept && (contact.gap < real(-0.75) * nearest || contact.last < least_after_pushes(nearest));
 }
 
 // A contact of a face keeps the point with these weights on one side of a plane.

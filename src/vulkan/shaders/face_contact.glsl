@@ -86,14 +86,15 @@ bool reaches(ColliderIn collider)
 
 // Returns a contact that does not touch if the face is far away.
 //   nearest  m: a face that comes no nearer than this touches only on its way
-FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, float nearest)
+//   deepest  m: of face_contact()
+FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, float nearest, float deepest)
 {
     Solid solid = solid_of(collider);
     Corners local = to_body(body, face.x), local_at_start = to_body_at_start(body, face.start);
     FacePoint center = face_point(solid, local, center_weights());
     FaceContact none = FaceContact(false, false, center.weights, center.normal, vec3(0.0), 0.0, 0.0, 1.0, 0.0);
     if (!face_may_touch(local_at_start, local, center, solid, nearest)) return none;
-    return face_contact(solid, local_at_start, local, center, nearest_of_faces(), body.half_thickness);
+    return face_contact(solid, local_at_start, local, center, nearest_of_faces(), body.half_thickness, deepest);
 }
 
 // Whether a face of the cloth touches on its way, in a word after the sums.
@@ -121,7 +122,7 @@ void run_find_faces(uint f)
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[face_contact_args.at.slots.at[slot]];
         if (!reaches(collider)) continue;
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
-        FaceContact contact = contact_of(collider, body, face, nearest_of_faces());
+        FaceContact contact = contact_of(collider, body, face, nearest_of_faces(), -body.half_thickness);
         if (!touches_beside_corners(contact)) continue;
         if (contact.swept) atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
@@ -262,7 +263,7 @@ void run_hold_faces(uint f)
         ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
         if (!reaches(collider)) continue;
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
-        FaceContact contact = contact_of(collider, body, face, 0.0);
+        FaceContact contact = contact_of(collider, body, face, 0.0, least_after_pushes(nearest_of_faces()));
         if (!has_passed(contact, nearest_of_faces())) continue;
         uint part = face_contact_args.at.sweep > 0u ? 0u : uint(floor(contact.time * float(WEFT_HOLD_PARTS)));
         uint mark = (uint(WEFT_HOLD_PARTS) - part + 1u) * WEFT_HOLD_COLLIDERS + number % WEFT_HOLD_COLLIDERS;

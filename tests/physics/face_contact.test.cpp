@@ -1,0 +1,185 @@
+// Colliders against the triangles of cloth: the nearest point of a triangle, tips between particles, and what moves
+// fast.
+
+#include "sheet.h"
+
+#include "physics/scalar.h"
+#include "solver/measures/passages.h"
+#include "solver/measures/penetration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace weft::physical {
+namespace {
+
+constexpr double frame_seconds = 1.0 / 60;
+
+class Numbers {
+  public:
+    explicit Numbers(unsigned seed) : engine_(seed) {}
+    double operator()(double min, double max) {
+        return min + (max - min) * static_cast<double>(engine_()) / 4294967295.0;
+    }
+    reference::vec3 vector(double most) {
+        const double x = (*this)(-most, most), y = (*this)(-most, most), z = (*this)(-most, most);
+        return {x, y, z};
+    }
+
+  private:
+    std::mt19937 engine_;
+};
+
+reference::Solid solid_of(const Collider& collider) {
+    const auto& n = collider.numbers;
+    return {static_cast<int>(collider.shape),
+            {double{n[0]}, double{n[1]}, double{n[2]}, double{n[3]}, blocks_of(collider)},
+            double{steepness_of(collider)},
+            double{roundness_of(collider)},
+            double{layer_distance_of(collider)}};
+}
+
+double least_by_sampling(const reference::Solid& solid, const reference::Corners& x) {
+    constexpr int parts = 60;
+    double least = 1e9;
+    for (int i = 0; i <= parts; ++i) {
+        for (int j = 0; i + j <= parts; ++j) {
+            const double u = double(i) / parts, v = double(j) / parts;
+            least = std::min(least, face_point(solid, x, reference::vec3(u, v, 1 - u - v)).distance);
+        }
+    }
+    return least;
+}
+
+// Triangles of any size, in and around the shape: how much nearer than what is found another point is, in longest
+// edges.
+TEST(LeastOnFace, is_found_on_all_shapes) {
+    const ColliderDesc shapes[] = {{.shape = PlaneDesc{}},
+                                   {.shape = SphereDesc{0.1f}},
+                                   {.shape = CapsuleDesc{0.03f, 0.1f}},
+                                   {.shape = TaperedCapsuleDesc{{0.06f, 0.01f}, 0.1f}},
+                                   {.shape = BoxDesc{{0.1f, 0.03f, 0.06f}}}};
+    for (const ColliderDesc& desc : shapes) {
+        const reference::Solid solid = solid_of(make_collider(desc));
+        Numbers number(7);
+        std::vector<double> misses;
+        for (int i = 0; i < 2000; ++i) {
+            const double size = std::pow(10.0, number(-2.5, -0.5));
+            const reference::vec3 at = number.vector(0.15);
+            const reference::Corners x{at + number.vector(size), at + number.vector(size), at + number.vector(size)};
+            const auto center = face_point(solid, x, reference::center_weights());
+            const auto found = least_on_face(solid, x, center, 1e9);
+            const double longest = longest_of(x.b - x.a, x.c - x.b, x.a - x.c);
+            misses.push_back((found.distance - least_by_sampling(solid, x)) / longest);
+            // It is a point of the triangle.
+            EXPECT_GE(std::min({found.weights.x, found.weights.y, found.weights.z}), -1e-9);
+            EXPECT_NEAR(found.weights.x + found.weights.y + found.weights.z, 1, 1e-9);
+        }
+        std::sort(misses.begin(), misses.end());
+        EXPECT_LT(misses[1980], 0.002) << "99 of 100, shape " << solid.kind;
+        EXPECT_LT(misses.back(), 0.02) << "shape " << solid.kind;
+    }
+}
+
+bool on_rim(Vec3 p) {
+    return std::abs(p.x) > 0.499f || std::abs(p.z) > 0.499f;
+}
+
+// 3 cm wide, 60 m/s, from above.
+Collider shot(float x, float z) {
+    return make_collider({.shape = SphereDesc{0.015f},
+                          .motion = {{0, {x, 0.2f, z}, {}}, {0.005f, {x, -0.1f, z}, {}}, {1, {x, -0.1f, z}, {}}}});
+}
+
+struct Watched {
+    double deepest = 0;  ///< m, at the end of any frame
+    Passages passages;
+};
+Watched watch(World& world, int frames) {
+    Watched found;
+    PassageWatch passages;
+    PenetrationSearch penetration;
+    passages.add(world.frame(), world.colliders());
+    for (int i = 0; i < frames; ++i) {
+        world.step(frame_seconds);
+        passages.add(world.frame(), world.colliders());
+        found.deepest = std::max(found.deepest, double{penetration.measure(world.frame(), world.colliders()).max});
+    }
+    found.passages = passages.passages();
+    return found;
+}
+
+TEST(FaceContact, stops_a_shot_wherever_it_hits) {
+    for (const std::uint32_t side : {21u, 64u}) {
+        for (const auto& [x, z] : {std::pair(0.0f, 0.0f), {0.013f, 0.007f}, {0.025f, 0.0f}, {0.0205f, -0.0091f}}) {
+            World world = make_world({.solver = {.substeps = 20}});
+            world.add(shot(x, z));
+            world.add(make_sheet({.resolution = {side, side}, .layout = world.settings().layout(), .pinned = on_rim}));
+            const Watched found = watch(world, 4);
+            EXPECT_EQ(found.passages.count, 0u) << side << ", " << x << ", " << z;
+            EXPECT_LT(found.deepest, 1e-3) << side << ", " << x << ", " << z;
+        }
+    }
+}
+
+// By its own weight on what fits between its particles, 5 cm apart.
+TEST(FaceContact, holds_tips_between_particles) {
+    const std::pair<const char*, ColliderDesc> tips[] = {
+        {"ball", {.shape = SphereDesc{0.005f}}},
+        {"corner of a box",
+         {.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
+          .transform = {.position = {0, -0.1732f, 0}, .rotation_degrees = {45, 0, 35.2644f}}}},
+        {"needle", {.shape = CapsuleDesc{0.0025f, 0.1f}, .transform = {.position = {0, -0.1025f, 0}}}},
+        {"blunt tip", {.shape = TaperedCapsuleDesc{{0.05f, 0.001f}, 0.1f}, .transform = {.position = {0, -0.101f, 0}}}},
+    };
+    for (const auto& [name, desc] : tips) {
+        for (const auto& [x, z] : {std::pair(0.0f, 0.0f), {0.025f, 0.0f}, {0.017f, 0.011f}}) {
+            World world = make_world({.solver = {.substeps = 20}});
+            world.add(make_collider(desc));
+            world.add(make_sheet({.size = {0.5f, 0.5f},
+                                  .resolution = {11, 11},
+                                  .position = {x, 0.008f, z},
+                                  .layout = world.settings().layout()}));
+            const Watched found = watch(world, 20);
+            EXPECT_EQ(found.passages.count, 0u) << name << ", " << x << ", " << z;
+            EXPECT_LT(found.deepest, 1e-3) << name << ", " << x << ", " << z;
+            EXPECT_LT(measure_strain(world.frame()).stretch.max, 0.2) << name << ", " << x << ", " << z;
+        }
+    }
+}
+
+// A sheet over the corner of a box, which a shot hits.
+void add_corner_and_shot(World& world) {
+    world.add(make_collider({.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
+                             .transform = {.position = {0, -0.1732f, 0}, .rotation_degrees = {45, 0, 35.2644f}}}));
+    world.add(shot(0.2f, 0.1f));
+    world.add(make_sheet({.resolution = {60, 60}, .position = {0, 0.004f, 0}, .layout = world.settings().layout()}));
+}
+
+TEST(FaceContact, has_the_same_bits_on_any_number_of_threads) {
+    std::string expected;
+    for (const unsigned workers : {0u, 1u, 2u, 4u}) {
+        World world = make_world({.solver = {.substeps = 10}}, {.workers = workers});
+        add_corner_and_shot(world);
+        for (int i = 0; i < 8; ++i) world.step(frame_seconds);
+        if (workers == 0) expected = world.state_hash();
+        EXPECT_EQ(world.state_hash(), expected) << workers;
+    }
+}
+
+TEST(FaceContact, goes_on_from_a_saved_state) {
+    World world = make_world({.solver = {.substeps = 10}});
+    add_corner_and_shot(world);
+    for (int i = 0; i < 4; ++i) world.step(frame_seconds);
+    const Snapshot snapshot = world.save();
+    for (int i = 0; i < 4; ++i) world.step(frame_seconds);
+    const std::string expected = world.state_hash();
+    ASSERT_TRUE(world.restore(snapshot).ok());
+    for (int i = 0; i < 4; ++i) world.step(frame_seconds);
+    EXPECT_EQ(world.state_hash(), expected);
+}
+
+}  // namespace
+}  // namespace weft::physical
