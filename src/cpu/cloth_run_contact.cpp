@@ -127,7 +127,7 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
         case PassKind::hold_faces:
             if (!contacts.any_swept()) break;
             for_each_near_face(
-                worker.number, [&](const ColliderRun& run) { contacts.collect_moved(worker.number, faces, run); },
+                worker.number, [&](const ColliderRun& run) { contacts.collect_swept(worker.number, faces, run); },
                 [&](const NearCollider& near) {
                     contacts.hold(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
                                   nearest, pass.batch > 0);

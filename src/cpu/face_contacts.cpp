@@ -53,7 +53,7 @@ void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* 
 
 void FaceContacts::prepare(std::uint32_t particles, std::uint32_t faces, std::uint32_t colliders, unsigned workers) {
     workers_ = colliders > 0 ? workers : 0;
-    near_.resize(workers_ > 0 ? padded(particles) : 0), touching_.resize(near_.size());
+    near_.resize(workers_ > 0 ? padded(particles) : 0), swept_.resize(near_.size());
     if (workers_ == 0) return;
     if (parts_.size() < workers) parts_.resize(workers);
     if (sums_.size() < particles) sums_.resize(particles), holds_.resize(particles);
@@ -131,7 +131,7 @@ bool FaceContacts::any_swept() const {
 void FaceContacts::clear_near(Range particles) {
     if (near_.empty()) return;
     std::fill(near_.begin() + particles.begin, near_.begin() + particles.end, std::uint8_t{0});
-    std::fill(touching_.begin() + particles.begin, touching_.begin() + particles.end, std::uint8_t{0});
+    std::fill(swept_.begin() + particles.begin, swept_.begin() + particles.end, std::uint8_t{0});
 }
 
 void FaceContacts::collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run) {
@@ -151,8 +151,8 @@ void FaceContacts::collect(unsigned worker, const FacesByTile& faces, const Coll
     collect(parts_[worker], near_.data(), faces, run);
 }
 
-void FaceContacts::collect_moved(unsigned worker, const FacesByTile& faces, const ColliderRun& run) {
-    collect(parts_[worker], touching_.data(), faces, run);
+void FaceContacts::collect_swept(unsigned worker, const FacesByTile& faces, const ColliderRun& run) {
+    collect(parts_[worker], swept_.data(), faces, run);
 }
 
 FaceView FaceContacts::view(const Part& part, const FacesByTile& faces, float nearest) const {
@@ -176,9 +176,10 @@ void FaceContacts::find(const Passes& passes, unsigned worker, const ParticleVie
         part.groups.back().end = part.rows.count;
     else
         part.groups.push_back({collider, part.rows.count});
-    for (const std::uint32_t* corners : part.rows.corners) {
-        for (std::size_t i = before; i < part.rows.count; ++i)
-            std::atomic_ref(touching_[corners[i]]).store(1, std::memory_order_relaxed);
+    for (std::size_t i = before; i < part.rows.count; ++i) {
+        if (!(part.rows.displacement[4 * i + 3] > 0)) continue;
+        for (const std::uint32_t* corners : part.rows.corners)
+            std::atomic_ref(swept_[corners[i]]).store(1, std::memory_order_relaxed);
     }
 }
 

@@ -50,8 +50,8 @@ class FaceContacts {
 
     /// Whether faces may have passed. Valid for all workers after all have found their contacts.
     bool any_swept() const;
-    /// Collects the faces of a run that pushes have moved, for calls of hold().
-    void collect_moved(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
+    /// Collects the faces of a run around those that touch on their way, for calls of hold().
+    void collect_swept(unsigned worker, const FacesByTile& faces, const ColliderRun& run);
     /// Marks particles of those faces that have passed, after all pushes. `still`: they go no part of their way,
     /// otherwise the part before the touch.
     void hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
@@ -92,8 +92,8 @@ class FaceContacts {
     std::vector<Part> parts_;
     AlignedVector<FaceSum> sums_;       ///< per particle; 0 between two sweeps
     std::vector<std::uint32_t> holds_;  ///< per particle; 0 for those that are not held
-    /// Per particle: whether a face of it may touch; whether a face of it touches.
-    std::vector<std::uint8_t> near_, touching_;
+    /// Per particle: whether a face of it may touch; whether a face of it touches on its way.
+    std::vector<std::uint8_t> near_, swept_;
 };
 
 template <class Visit>

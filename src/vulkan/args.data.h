@@ -258,7 +258,7 @@ struct FaceContactArgs {
 #define WEFT_FACE_CONTACT_BLOCKS 5u  // of four floats per face and slot; with a contact log one more
 #define WEFT_FACE_SUM 6u             // words per particle
 #define WEFT_NEAR_FACES 1u           // mark: faces of the particle may touch, or contact has moved it
-#define WEFT_TOUCHING_FACES 2u       // mark: a face of the particle touches
+#define WEFT_SWEPT_FACES 2u          // mark: a face of the particle touches on its way
 #define WEFT_FACE_SWEEPS 3u  // face_sweeps
 #define WEFT_FACE_HOLDS 2u   // face_holds
 

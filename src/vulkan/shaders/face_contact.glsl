@@ -100,13 +100,13 @@ FaceContact contact_of(ColliderIn collider, ContactBody body, FacePoints face, f
 // Whether a face of the cloth touches on its way, in a word after the sums.
 uint swept_word() { return WEFT_FACE_SUM * face_contact_args.at.particles; }
 
-// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_TOUCHING_FACES).
+// Marks of a particle (WEFT_NEAR_FACES of contact.glsl, WEFT_SWEPT_FACES).
 uint marks_of(uint p) { return face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u]; }
 bool any_marked(uvec3 corner, uint mark)
 {
     return ((marks_of(corner.x) | marks_of(corner.y) | marks_of(corner.z)) & mark) != 0u;
 }
-void mark_touching(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_TOUCHING_FACES); }
+void mark_swept(uint p) { atomicOr(face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 5u], WEFT_SWEPT_FACES); }
 
 void run_find_faces(uint f)
 {
@@ -124,11 +124,12 @@ void run_find_faces(uint f)
         ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
         FaceContact contact = contact_of(collider, body, face, nearest_of_faces(), -body.half_thickness);
         if (!touches_beside_corners(contact)) continue;
-        if (contact.swept) atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
-        mark_touching(corner.x);
-        mark_touching(corner.y);
-        mark_touching(corner.z);
+        if (!contact.swept) continue;
+        atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
+        mark_swept(corner.x);
+        mark_swept(corner.y);
+        mark_swept(corner.z);
     }
 }
 
@@ -254,7 +255,7 @@ void run_hold_faces(uint f)
 {
     if (face_contact_args.at.sums.at[swept_word()] == 0u) return;
     uvec3 corner = corners_of_face(f);
-    if (!any_marked(corner, WEFT_TOUCHING_FACES)) return;
+    if (!any_marked(corner, WEFT_SWEPT_FACES)) return;
     uint tile = tile_of_face(corner);
     FacePoints face = points_of_face(corner);
     uvec2 slots = slots_near(face_contact_args.at.tiles, tile * WEFT_COLLIDER_TILE);
