@@ -2,6 +2,9 @@
 
 #include "sheet.h"
 
+#include "collide/convex_hull.h"
+#include "collide/distance_field.h"
+
 namespace weft::physical {
 namespace {
 
@@ -36,11 +39,32 @@ TEST(HangingSheet, stretches_under_its_own_weight_as_its_stiffness_says) {
     EXPECT_LT(world.stretch_residual().mean, 1e-3);
 }
 
+// A slab of 3 m whose upper side is the plane y = 0 before it is tilted by `degrees`.
+Collider slab(const std::string& shape, float degrees, std::array<float, 2> friction) {
+    const Mat3 turn = rotation_from_degrees({0, 0, -degrees});
+    const TriangleMesh mesh = make_box({3, 0.2f, 0.6f}, {2, 2, 2});
+    ColliderDesc desc{.name = shape, .shape = PlaneDesc{}, .friction = friction};
+    desc.transform.rotation_degrees = {0, 0, -degrees};
+    if (shape == "plane") return make_collider(desc);
+    desc.transform.position = turn * Vec3{1, -0.1f, 0};
+    if (shape == "box") {
+        desc.shape = BoxDesc{{1.5f, 0.1f, 0.3f}};
+        return make_collider(desc);
+    }
+    if (shape == "convex") {
+        desc.shape = ConvexDesc{};
+        return make_collider(desc, std::make_shared<ShapeData>(make_convex_data(*convex_hull(mesh.positions))));
+    }
+    desc.shape = SolidMeshDesc{};
+    auto field = build_distance_field(mesh.positions, mesh.triangles, {.cells = 96, .threads = 1});
+    return make_collider(desc, std::make_shared<ShapeData>(std::move(field->data)));
+}
+
 // Sheets on a tilted plane. They stay while μ ≥ tan θ, exactly: friction is part of the position, so nothing creeps.
 class Incline : public testing::TestWithParam<std::uint32_t> {};
 
 double slide(double degrees, float static_friction, float kinetic_friction, std::uint32_t iterations, double seconds,
-             double* speed = nullptr) {
+             double* speed = nullptr, const std::string& shape = "plane") {
     const float tilt = static_cast<float>(degrees);
     Fabric fabric;
     fabric.contact = {.thickness = 0.002f, .friction = {static_friction, kinetic_friction}};
@@ -51,11 +75,7 @@ double slide(double degrees, float static_friction, float kinetic_friction, std:
                                                                                       .rotation_degrees = {0, 0, -tilt},
                                                                                       .position = up * 0.001f,
                                                                                       .fabric = fabric});
-    ColliderDesc plane{.name = "plane",
-                       .shape = PlaneDesc{},
-                       .transform = {.rotation_degrees = {0, 0, -tilt}},
-                       .friction = {static_friction, kinetic_friction}};
-    world.add(make_collider(plane));
+    world.add(slab(shape, tilt, {static_friction, kinetic_friction}));
     const Vec3 from = center_of_mass(world.frame().cloths[0]);
     run(world, seconds);
     if (speed) *speed = max_speed(world.frame());
@@ -90,6 +110,21 @@ TEST_P(Incline, kinetic_friction_rules_once_it_slides) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Iterations, Incline, testing::Values(1u, 4u));
+
+class InclineOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(InclineOf, holds_and_slides_as_coulomb_says) {
+    const double holding = std::atan(0.5) * 180 / 3.14159265358979;
+    double speed = 1;
+    EXPECT_LT(std::abs(slide(holding - 0.5, 0.5f, 0.5f, 1, 2, &speed, GetParam())), 1e-5);
+    EXPECT_LT(speed, 1e-4);
+    EXPECT_GT(slide(holding + 0.5, 0.5f, 0.5f, 1, 2, nullptr, GetParam()), 0.01);
+    const double expected = 0.5 * 2.3563 * (1 + 1.0 / 1200);
+    EXPECT_NEAR(slide(30, 0.3f, 0.3f, 1, 1, nullptr, GetParam()), expected, 0.01 * expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, InclineOf, testing::Values("box", "convex", "mesh"),
+                         [](const testing::TestParamInfo<std::string>& of) { return of.param; });
 
 // Dropped onto a ball: it lies still, does not sink in, does not slide off.
 // Labels: slow no-asan
