@@ -126,6 +126,81 @@ TEST_P(InclineOf, holds_and_slides_as_coulomb_says) {
 INSTANTIATE_TEST_SUITE_P(Shapes, InclineOf, testing::Values("box", "convex", "mesh"),
                          [](const testing::TestParamInfo<std::string>& of) { return of.param; });
 
+// A strip over half a cylinder, longer on one side. It slips if the tension on that side exceeds what the tension on
+// the other and the strip's weight hold: dT/dφ = μ (T + ρ g R sin φ) + ρ g R cos φ, without weight on the cylinder
+// e^{μφ}.
+class Capstan : public testing::TestWithParam<std::string> {};
+
+constexpr double radius_of_cylinder = 0.1, hanging = 0.25;  // m, the shorter side
+
+Collider cylinder(const std::string& shape, float friction) {
+    const auto radius = static_cast<float>(radius_of_cylinder);
+    ColliderDesc desc{.name = shape, .shape = CapsuleDesc{radius, 0.3f}, .friction = {friction, friction}};
+    desc.transform.rotation_degrees = {90, 0, 0};
+    if (shape == "capsule") return make_collider(desc);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 96; ++i) {
+        const auto angle = static_cast<float>(i * 2 * M_PI / 96);
+        for (const float y : {-0.2f, 0.2f}) points.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
+    }
+    auto convex = std::make_shared<ShapeData>(make_convex_data(*convex_hull(points)));
+    if (shape == "convex") {
+        desc.shape = ConvexDesc{};
+        return make_collider(desc, convex);
+    }
+    desc.shape = SolidMeshDesc{};
+    auto field =
+        build_distance_field(convex->surface.positions, convex->surface.triangles, {.cells = 96, .threads = 1});
+    return make_collider(desc, std::make_shared<ShapeData>(std::move(field->data)));
+}
+
+// m: the longer side that friction just holds.
+double longest_that_holds(double friction, double radius) {
+    double tension = hanging;  // over ρ g
+    constexpr int steps = 20000;
+    for (int i = 0; i < steps; ++i) {
+        const double angle = (i + 0.5) * M_PI / steps;
+        tension += (friction * (tension + radius * std::sin(angle)) + radius * std::cos(angle)) * M_PI / steps;
+    }
+    return tension;
+}
+
+// m: how far the longer side has sunk after a second.
+double sinks(const std::string& shape, double longer, float friction) {
+    const double radius = radius_of_cylinder + 0.001, arc = M_PI * radius, all = hanging + arc + longer;
+    const auto columns = static_cast<std::uint32_t>(std::lround(all / 0.01)) + 1;
+    Fabric fabric;
+    fabric.contact = {.thickness = 0.002f, .friction = {friction, friction}};
+    SheetDesc strip{.size = {static_cast<float>(all), 0.05f}, .resolution = {columns, 6}, .fabric = fabric};
+    strip.shape = [&](Vec3 p) {
+        const double s = double{p.x} + all / 2 - hanging, angle = std::clamp(s / radius, 0.0, M_PI);
+        const double below = s < 0 ? -s : std::max(s - arc, 0.0);
+        return Vec3{static_cast<float>(-radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle) - below),
+                    p.z};
+    };
+    World world = make_world({.solver = {.substeps = 80}}, strip);
+    world.add(cylinder(shape, friction));
+    const auto lowest = [&] {
+        float y = 0;
+        for (const Vec4& x : world.frame().cloths[0].positions) y = x.x > 0 ? std::min(y, x.y) : y;
+        return double{y};
+    };
+    run(world, 0.25);  // it settles
+    const double before = lowest();
+    run(world, 1);
+    return before - lowest();
+}
+
+// Labels: slow no-asan
+TEST_P(Capstan, holds_as_much_as_it_should) {
+    const double longest = longest_that_holds(0.3, radius_of_cylinder + 0.001);
+    EXPECT_LT(sinks(GetParam(), 0.88 * longest, 0.3f), 0.003);
+    EXPECT_GT(sinks(GetParam(), 1.03 * longest, 0.3f), 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Capstan, testing::Values("capsule", "convex", "mesh"),
+                         [](const testing::TestParamInfo<std::string>& of) { return of.param; });
+
 // Dropped onto a ball: it lies still, does not sink in, does not slide off.
 // Labels: slow no-asan
 TEST(Drape, on_a_sphere_comes_to_rest_outside_of_it) {
