@@ -317,10 +317,11 @@ WEFT_FN mask touches_beside_corners(FaceContact contact)
 // m: a face on its side of the body comes no nearer after all pushes.
 WEFT_FN real least_after_pushes(real nearest) { return real(0.25) * nearest; }
 
-// Whether a face is still, or again, beyond where it touched on its way, or inside the body: what pushes have left.
+// Whether a face is still, or again, beyond where it touched on its way, or inside the body: what pushes have left. A face
+// that began inside is not held there.
 WEFT_FN mask has_passed(FaceContact contact, real nearest)
 {
-    return contact.swept && (contact.gap < real(-0.75) * nearest || contact.last < least_after_pushes(nearest));
+    return contact.swept && contact.time > real(0) && (contact.gap < real(-0.75) * nearest || contact.last < least_after_pushes(nearest));
 }
 
 // A contact of a face keeps the point with these weights on one side of a plane.
@@ -369,12 +370,12 @@ WEFT_FN vec3 face_displacement(FaceRow row, vec3 point, real inverse_mass, inout
 
 // The last sweep keeps faces from passing, where the sweeps before have not sufficed: no corner stays behind the plane on
 // which the face touched. That holds a face back as a whole, whereas a point of it alone would let it turn into a body
-// that moves fast. How far a corner has to move along the normal.
+// that moves fast. Faces that began deep inside are on no side. How far a corner has to move along the normal.
 //   point, corner  the row's point and the corner now
 WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real nearest)
 {
     real goal = min(real(-0.75) * nearest, row.gap_at_start);
-    mask acts = row.swept > real(0) || dot(row.normal, point) + row.offset < goal;
+    mask acts = row.swept > real(0) || (row.gap_at_start > real(-3) * nearest && dot(row.normal, point) + row.offset < goal);
     real missing = max(goal - (dot(row.normal, corner) + row.offset), real(0));
     return select(acts, missing, real(0));
 }

@@ -115,10 +115,11 @@ WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec
                     rotate(body.rx, body.ry, body.rz, normal), carried_by(body, local), body);
     if (!any(stopped)) return;
 
-    // The particle may slide along the plane where it touched, but not into another part of the body.
+    // The particle may slide along the plane where it touched, but not into another part of the body. One that began
+    // inside may go where it is pushed.
     vec3 to = to_body(body, x);
     vec3 slide = to - at;
-    mask slides_far = stopped && w > real(0) && sqrt(dot(slide, slide)) * solid.steepness > distance_there;
+    mask slides_far = stopped && w > real(0) && distance_there > real(0) && sqrt(dot(slide, slide)) * solid.steepness > distance_there;
     if (!any(slides_far)) return;
     Touch touch = first_touch(solid, at, to, distance_there, normal_there, real(0.5) * distance_there);
     vec3 there = rotate(body.rx, body.ry, body.rz, at + slide * touch.time) + body.position;
