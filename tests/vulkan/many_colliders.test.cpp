@@ -72,11 +72,15 @@ struct PegsFound {
     bool exact = false;
 };
 
-void note(World& world, PegsFound& found) {
-    EXPECT_EQ(world.step(frame_seconds).reports & ~report_speed_capped, report_none);
+// `sums_only`: of frames whose contacts may be more than the device has room for. Their sums are complete.
+void note(World& world, PegsFound& found, bool sums_only = false) {
+    const std::uint32_t allowed = report_speed_capped | (sums_only ? report_contacts_full : report_none);
+    EXPECT_EQ(world.step(frame_seconds).reports & ~allowed, report_none);
     found.repeats += world.frame().lists.repeats;
     if (!world.settings().contact_forces) return;
-    const auto more = bits_of(world.contact_forces());
+    ContactForces forces = world.contact_forces();
+    if (sums_only) forces.contacts.clear();
+    const auto more = bits_of(forces);
     found.bits.insert(found.bits.end(), more.begin(), more.end());
     found.contacts += world.contact_forces().contacts.size();
 }
@@ -185,7 +189,7 @@ PegsFound play_plate(std::unique_ptr<Backend> backend, std::uint32_t iterations,
     world.add(sheet_over_pegs(side, {}, {}, world.settings().layout()));
     PegsFound found;
     found.exact = has_exact_arithmetic(world);
-    for (int i = 0; i < 4; ++i) note(world, found);
+    for (int i = 0; i < 4; ++i) note(world, found, true);
     found.hash = world.state_hash();
     return found;
 }
