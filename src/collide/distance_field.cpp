@@ -1,5 +1,6 @@
 #include "collide/distance_field.h"
 
+#include "collide/field_cover.h"
 #include "collide/free_way.h"
 #include "collide/solid_surface.h"
 
@@ -16,49 +17,16 @@
 namespace weft {
 namespace {
 
-constexpr std::uint32_t side = 8;  // of a place, in cells; the kernel has the same
-constexpr std::uint32_t nodes_side = side + 1;
-constexpr std::uint32_t blocks_per_brick = side * side * side;
+using namespace field;
+
 constexpr std::uint32_t header_blocks = 3;
 constexpr std::size_t words_per_block = 4, bytes_per_block = 16;
 
 // Cells between the mesh and the end of the grid. One more than the band, so that the bounds may round.
 constexpr double margin_cells = fine_band + 1;
 
-// No fine value is farther from the surface: a place has a brick if its cube, enlarged by the band, meets a triangle.
-// The farthest corner of the place is a diagonal of both away.
-constexpr double fine_range = 1.7321 * (side + fine_band);
-constexpr double largest_short = 32767;
-constexpr double fine_unit = fine_range / largest_short;  // cells
-
 // In m: far from where the floats of contact overflow or vanish.
 constexpr double smallest_mesh = 1e-6, largest_mesh = 1e6;
-
-using Counts = std::array<std::uint32_t, 3>;
-
-struct FieldGrid {
-    Vec3 origin;  // m
-    float cell = 0;
-    Counts places{};
-
-    std::uint32_t count() const { return places[0] * places[1] * places[2]; }
-    std::uint32_t number(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-        return x + places[0] * (y + places[1] * z);
-    }
-    Counts at(std::uint32_t number) const {
-        return {number % places[0], number / places[0] % places[1], number / places[0] / places[1]};
-    }
-    std::uint32_t corner(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-        return x + (places[0] + 1) * (y + (places[1] + 1) * z);
-    }
-    Vec3 to_cells(Vec3 p) const {
-        const auto along = [&](float x, float from) {
-            return static_cast<float>((double{x} - double{from}) / double{cell});
-        };
-        return {along(p.x, origin.x), along(p.y, origin.y), along(p.z, origin.z)};
-    }
-    Vec3 to_meters(Vec3 p) const { return origin + p * cell; }
-};
 
 std::string text_of(double number) {
     char text[32];
@@ -187,32 +155,13 @@ class FieldBuilder {
 
     std::size_t bytes() const { return (first_brick_block() + blocks_per_brick * bricks_.size()) * bytes_per_block; }
 
-    // Distances at the corners of all cells of the bricks.
+    // Distances at the corners of all cells of the bricks, lowered so that the field covers the surface.
     void sample_bricks() {
         nodes_.resize(bricks_.size());
         const std::vector<std::uint32_t> brick_of = brick_of_places();
         for_all(team_, bricks_.size(), 1, [&](std::size_t b) { sample_brick(bricks_[b], brick_of, nodes_[b]); });
         for_all(team_, bricks_.size(), 16, [&](std::size_t b) { copy_shared_nodes(b, brick_of); });
-    }
-
-    // Lowers values where the surface is outside the solid of the field. That only makes the solid larger, so points
-    // that were covered stay so. Cells without a negative value are left alone: they have no inside, as those of a
-    // sheet.
-    void cover_surface() {
-        const std::vector<std::uint32_t> brick_of = brick_of_places();
-        for (Triangle t : surface_.triangles()) {
-            std::ranges::sort(t);  // whichever way it faces
-            const auto& p = surface_.positions();
-            const Vec3 a = p[t[0]], ab = p[t[1]] - a, ac = p[t[2]] - a;
-            const float longest = std::max({length(ab), length(ac), length(ac - ab)});
-            const auto parts = static_cast<std::uint32_t>(std::ceil(2 * longest + 1e-6f));
-            for (std::uint32_t i = 0; i <= parts; ++i) {
-                for (std::uint32_t j = 0; i + j <= parts; ++j) {
-                    const float step = 1 / static_cast<float>(parts);
-                    cover(a + ab * (step * static_cast<float>(i)) + ac * (step * static_cast<float>(j)), brick_of);
-                }
-            }
-        }
+        cover_surface(grid_, surface_, brick_of, nodes_);
         for_all(team_, bricks_.size(), 16, [&](std::size_t b) { copy_shared_nodes(b, brick_of); });
     }
 
@@ -361,9 +310,6 @@ class FieldBuilder {
         return std::sqrt(diagonal2) / largest_short;
     }
 
-    static std::int16_t to_short(double cells, double unit) {
-        return static_cast<std::int16_t>(std::lround(std::clamp(cells / unit, -largest_short, largest_short)));
-    }
     static void store_shorts(const std::array<std::int16_t, 8>& shorts, float* block) {
         const auto words = std::bit_cast<std::array<float, 4>>(shorts);
         std::copy(words.begin(), words.end(), block);
@@ -383,12 +329,6 @@ class FieldBuilder {
         store_shorts(shorts, block);
     }
 
-    // Distances at the corners of a brick's cells. Neighbors share those on the side between them, which belong to the
-    // brick where they are first.
-    using BrickNodes = std::array<std::int16_t, nodes_side * nodes_side * nodes_side>;
-    static std::uint32_t node(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-        return x + nodes_side * (y + nodes_side * z);
-    }
     // The brick of `place` or of the next ones, as far as the node is on the side between them; none if there is none.
     std::uint32_t owner(std::uint32_t place, std::span<const std::uint32_t> brick_of, std::uint32_t x, std::uint32_t y,
                         std::uint32_t z) const {
@@ -427,65 +367,6 @@ class FieldBuilder {
                     nodes_[brick][node(x, y, z)] = nodes_[other][node(x % side, y % side, z % side)];
                 }
             }
-        }
-    }
-
-    // A node by its number along each axis of the grid; null where no brick has it.
-    std::int16_t* node_at(Counts at, std::span<const std::uint32_t> brick_of) {
-        for (std::uint32_t k = 0; k < 8; ++k) {
-            Counts place, in;
-            bool valid = true;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const std::uint32_t before = k >> axis & 1;  // as the last node of the place before
-                valid = valid && (!before || (at[axis] % side == 0 && at[axis] > 0));
-                place[axis] = at[axis] / side - (valid ? before : 0), in[axis] = before ? side : at[axis] % side;
-                valid = valid && place[axis] < grid_.places[axis];
-            }
-            const std::uint32_t brick = valid ? brick_of[grid_.number(place[0], place[1], place[2])] : none;
-            if (brick != none) return &nodes_[brick][node(in[0], in[1], in[2])];
-        }
-        return nullptr;
-    }
-
-    // How far a node may be lowered without making an edge steeper than a distance is.
-    std::int16_t lowest_value(Counts at, std::span<const std::uint32_t> brick_of) {
-        double most = -largest_short;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (const std::uint32_t step : {~0u, 1u}) {
-                Counts next = at;
-                next[axis] += step;
-                const std::int16_t* value = node_at(next, brick_of);
-                if (value) most = std::max(most, static_cast<double>(*value));
-            }
-        }
-        return to_short(most * fine_unit - 1, fine_unit);
-    }
-
-    // Lowers the values around a point, most where they count most, until the field there is at most `uncovered`.
-    void cover(Vec3 p, std::span<const std::uint32_t> brick_of) {
-        constexpr double uncovered = 0.02;  // cells
-        const Counts cell{static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y),
-                          static_cast<std::uint32_t>(p.z)};
-        const double f[] = {double{p.x} - cell[0], double{p.y} - cell[1], double{p.z} - cell[2]};
-        std::array<std::int16_t*, 8> nodes{};
-        std::array<double, 8> weights{};
-        double value = 0, squares = 0;
-        bool has_inside = false;
-        for (std::uint32_t k = 0; k < 8; ++k) {
-            nodes[k] = node_at({cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4}, brick_of);
-            if (!nodes[k]) return;
-            weights[k] = (k % 2 ? f[0] : 1 - f[0]) * (k / 2 % 2 ? f[1] : 1 - f[1]) * (k / 4 ? f[2] : 1 - f[2]);
-            value += weights[k] * *nodes[k];
-            squares += weights[k] * weights[k];
-            has_inside = has_inside || *nodes[k] < 0;
-        }
-        const double excess = value - uncovered / fine_unit;
-        if (!has_inside || !(excess > 0)) return;
-        for (std::uint32_t k = 0; k < 8; ++k) {
-            const double lowered = std::floor(*nodes[k] - excess * weights[k] / squares);
-            const double least = lowest_value({cell[0] + k % 2, cell[1] + k / 2 % 2, cell[2] + k / 4}, brick_of);
-            if (lowered < *nodes[k] && least < *nodes[k])
-                *nodes[k] = static_cast<std::int16_t>(std::max({lowered, least, -largest_short}));
         }
     }
 
@@ -588,7 +469,6 @@ Result<DistanceField> build_distance_field(std::span<const Vec3> positions, std:
         field.bricks = builder.number_bricks();
         if (auto problem = memory_problem(builder.bytes(), options)) return *problem;
         builder.sample_bricks();
-        builder.cover_surface();
     } while (builder.find_bricks_near_zero());
     builder.write(field.data.words);
     field.data.steepness = static_cast<float>(builder.steepness());
