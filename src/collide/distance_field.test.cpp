@@ -171,6 +171,20 @@ TEST(DistanceField, has_the_right_size_and_sign_everywhere) {
     EXPECT_NEAR(length(at_center.normal), 1, 1e-5);
 }
 
+// Interpolation alone leaves 99 of 100 points of the bunny at most 0.09 cells outside.
+TEST(DistanceField, covers_its_mesh) {
+    if (!std::ifstream(bunny_file)) GTEST_SKIP() << bunny_file << " is missing";
+    const TriangleMesh mesh = read_bunny();
+    const DistanceField field = field_of(mesh, 96);
+    FieldRandom random(3);
+    std::vector<double> outside;
+    for (int i = 0; i < 20000; ++i)
+        outside.push_back(double{read(field, point_near_surface(mesh, random, 0)).distance} / double{field.cell});
+    std::sort(outside.begin(), outside.end());
+    EXPECT_LT(outside[19800], 0.03) << "99 of 100";
+    EXPECT_LT(outside.back(), 0.25);
+}
+
 // Fields are kept on disk by their mesh and distance_field_version.
 TEST(DistanceField, has_a_new_version_when_it_changes) {
     TriangleMesh mesh = make_sphere(0.3f, 3);

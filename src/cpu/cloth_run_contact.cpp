@@ -82,22 +82,20 @@ void ClothRun::for_each_near_face(unsigned worker, Collect&& collect, Visit&& vi
                    return faces_touch(model(), input_.colliders[near.collider]);
                });
     };
-    const ColliderRun* first = nullptr;
+    const auto alike = [&](const ColliderRun& a, const ColliderRun& b) {
+        auto of_a = touched(a), of_b = touched(b);
+        return std::ranges::equal(of_a, of_b, {}, &NearCollider::collider, &NearCollider::collider);
+    };
+    const ColliderRun* first = nullptr;  // of those collected
     const auto visit_collected = [&] {
         if (!first) return;
         for (const NearCollider& near : touched(*first)) visit(near);
         cloth_.face_contacts.drop_collected(worker);
+        first = nullptr;
     };
     for (const ColliderRun& run : part.runs()) {
-        auto here = touched(run);
-        if (here.begin() == here.end()) continue;
-        if (first) {
-            auto there = touched(*first);
-            if (!std::ranges::equal(here, there, {}, &NearCollider::collider, &NearCollider::collider)) {
-                visit_collected();
-                first = nullptr;
-            }
-        }
+        if (touched(run).empty()) continue;
+        if (first && !alike(*first, run)) visit_collected();
         if (!first) first = &run;
         collect(run);
     }

@@ -31,10 +31,6 @@ inline World on_vulkan(const WorldSettings& settings, const VulkanOptions& optio
     return World(checked_vulkan_backend(options), settings);
 }
 
-inline bool rounds_like_the_cpu(const World& world) {
-    return world.backend().device().find("llvmpipe") != std::string::npos;
-}
-
 /// Adds the same cloths to a world on either backend and compares the runs. Devices that round divisions differently
 /// are tested for crossings only.
 template <class Add>

@@ -15,10 +15,6 @@
 namespace weft {
 namespace {
 
-bool has_exact_arithmetic(const World& world) {
-    return world.backend().name() == "cpu" || world.backend().device().find("llvmpipe") != std::string::npos;
-}
-
 std::shared_ptr<const ClothModel> sheet_over_pegs(std::uint32_t side, Vec3 position, Vec3 velocity,
                                                   const ClothLayout& layout) {
     ClothModelDesc desc;
@@ -105,7 +101,7 @@ PegsFound play_pegs(std::unique_ptr<Backend> backend, const PegsCase& test) {
     world.add(sheet_over_pegs(test.side, {0, 0.15f, 0}, test.velocity, test.settings.layout()));
     world.add(sheet_over_pegs(7, {0.1f, 0.25f, 0}, {0, -4, 0}, test.settings.layout()));
     PegsFound found;
-    found.exact = has_exact_arithmetic(world);
+    found.exact = rounds_like_the_cpu(world);
     for (int i = 0; i < test.frames; ++i) note(world, found);
     found.hash = world.state_hash();
     return found;
@@ -188,7 +184,7 @@ PegsFound play_plate(std::unique_ptr<Backend> backend, std::uint32_t iterations,
                        .motion = {{0, {0, -0.06f, 0}, {}}, {0.02f, {0, -0.06f, 0}, {}}, {0.05f, {0, 0.4f, 0}, {}}}}));
     world.add(sheet_over_pegs(side, {}, {}, world.settings().layout()));
     PegsFound found;
-    found.exact = has_exact_arithmetic(world);
+    found.exact = rounds_like_the_cpu(world);
     for (int i = 0; i < 4; ++i) note(world, found, true);
     found.hash = world.state_hash();
     return found;
@@ -217,7 +213,7 @@ PegsFound play_changes(std::unique_ptr<Backend> backend) {
                                      .transform = {.position = {0.1f * static_cast<float>(i % 8) - 0.4f, 0,
                                                                 0.1f * static_cast<float>(i / 8) - 0.4f}}})));
     PegsFound found;
-    found.exact = has_exact_arithmetic(world);
+    found.exact = rounds_like_the_cpu(world);
     const auto play = [&] {
         for (int i = 0; i < 2; ++i) note(world, found);
     };

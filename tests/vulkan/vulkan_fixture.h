@@ -1,6 +1,7 @@
 // A Vulkan backend with validation layers; each of their messages fails the test.
 #pragma once
 
+#include "solver/world/world.h"
 #include "vulkan/vulkan_backend.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +22,11 @@ inline std::unique_ptr<Backend> checked_vulkan_backend(VulkanOptions options = {
         return nullptr;
     }
     return std::move(*backend);
+}
+
+/// Whether the world's backend rounds division and square roots as the CPU does.
+inline bool rounds_like_the_cpu(const World& world) {
+    return world.backend().name() == "cpu" || world.backend().device().find("llvmpipe") != std::string::npos;
 }
 
 }  // namespace weft

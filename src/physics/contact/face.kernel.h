@@ -321,7 +321,8 @@ WEFT_FN real least_after_pushes(real nearest) { return real(0.25) * nearest; }
 // that began inside is not held there.
 WEFT_FN mask has_passed(FaceContact contact, real nearest)
 {
-    return contact.swept && contact.time > real(0) && (contact.gap < real(-0.75) * nearest || contact.last < least_after_pushes(nearest));
+    return contact.swept && contact.time > real(0) &&
+           (contact.gap < real(-0.75) * nearest || contact.last < least_after_pushes(nearest));
 }
 
 // A contact of a face keeps the point with these weights on one side of a plane.
@@ -375,14 +376,18 @@ WEFT_FN vec3 face_displacement(FaceRow row, vec3 point, real inverse_mass, inout
 WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real nearest)
 {
     real goal = min(real(-0.75) * nearest, row.gap_at_start);
-    mask acts = row.swept > real(0) || (row.gap_at_start > real(-3) * nearest && dot(row.normal, point) + row.offset < goal);
+    mask acts = row.swept > real(0) ||
+                (row.gap_at_start > real(-3) * nearest && dot(row.normal, point) + row.offset < goal);
     real missing = max(goal - (dot(row.normal, corner) + row.offset), real(0));
     return select(acts, missing, real(0));
 }
 
 // Whether a push counts: it is as long as half a quantum of the sums. `size2`: its squared length, m². Smaller ones would
 // take a share from others, on processors that compute with subnormal numbers.
-WEFT_FN mask is_push(real size2) { return size2 > real(0.25 / (WEFT_PUSH_QUANTA_PER_METER * WEFT_PUSH_QUANTA_PER_METER)); }
+WEFT_FN mask is_push(real size2)
+{
+    return size2 > real(0.25 / (WEFT_PUSH_QUANTA_PER_METER * WEFT_PUSH_QUANTA_PER_METER));
+}
 
 // The part of its pushes that moves a particle, so that many faces do not push it too far: their mean, or in the last
 // sweep the longest push in their mean direction.

@@ -19,7 +19,7 @@ struct Solid {
     ShapeNumbers numbers;
     real steepness;  // at least 1: the surface is no nearer than the distance divided by this
     real roundness;  // m: the least radius to which its surface is curved outward
-    real layer_distance;  // m: parts of the surface that face the same way, one behind the other, are at least this far apart
+    real layer_distance;  // m: parts of the surface that face the same way, one behind the other, are this far apart
 };
 
 WEFT_FN real solid_distance(Solid solid, vec3 p, out_(vec3) normal)
@@ -119,7 +119,8 @@ WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec
     // inside may go where it is pushed.
     vec3 to = to_body(body, x);
     vec3 slide = to - at;
-    mask slides_far = stopped && w > real(0) && distance_there > real(0) && sqrt(dot(slide, slide)) * solid.steepness > distance_there;
+    mask slides_far = stopped && w > real(0) && distance_there > real(0) &&
+                      sqrt(dot(slide, slide)) * solid.steepness > distance_there;
     if (!any(slides_far)) return;
     Touch touch = first_touch(solid, at, to, distance_there, normal_there, real(0.5) * distance_there);
     vec3 there = rotate(body.rx, body.ry, body.rz, at + slide * touch.time) + body.position;
