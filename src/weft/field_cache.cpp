@@ -29,9 +29,12 @@ struct FieldHead {
     std::uint32_t samples = 0, thin = 0;
     float least_thickness = 0;
     Vec3 place{}, low{}, high{};
+    std::uint32_t unused = 0;
     std::uint64_t words = 0;
 };
 static_assert(std::is_trivially_copyable_v<FieldHead>);
+// The bytes of padding would have any value, and files of the same field would differ.
+static_assert(sizeof(FieldHead) == sizeof(FieldCache::Key) + 24 * sizeof(float) + sizeof(FieldHead::words));
 
 StateHash hash_of(std::uint32_t seed, std::span<const Vec3> positions, std::span<const Triangle> triangles,
                   std::uint32_t cells) {
