@@ -3,11 +3,13 @@
 
 #include "render/drawing.h"
 #include "solver/world/world.h"
+#include "view/field_surfaces.h"
 #include "view/legend.h"
 
 #include <weft/result.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,7 @@ namespace weft {
 struct OverlayInput {
     World& world;
     const Frame& frame;
+    FieldSurfaces& fields;                     ///< kept from image to image
     float size = 1;                            ///< m: radius of the scene, for the length of arrows
     std::uint32_t width = 1280, height = 720;  ///< pixels of the image
 };
@@ -29,13 +32,22 @@ struct Scalars {
     render::ColorScale scale = render::ColorScale::balance;
 };
 
+/// A surface that is drawn in place of a collider's own, with a value per vertex.
+struct ColliderScalars {
+    std::uint32_t collider = 0;  ///< place in World::colliders()
+    std::shared_ptr<const FieldSurface> field = {};
+    float least = 0, most = 1;
+    render::ColorScale scale = render::ColorScale::balance;
+};
+
 /// Output of overlays. Only the last overlay with scalars provides them.
 struct OverlayOutput {
     std::vector<render::Line> lines, lines_on_top;
     std::vector<render::Point> points;
     std::vector<render::FlatVertex> flat;
-    std::vector<Scalars> scalars;  ///< one per cloth, or none
-    std::vector<Legend> legends;   ///< draw_overlays() draws them
+    std::vector<Scalars> scalars;            ///< one per cloth, or none
+    std::vector<ColliderScalars> colliders;  ///< at most one per collider, in their order
+    std::vector<Legend> legends;             ///< draw_overlays() draws them
 };
 
 /// What World must record for an overlay (WorldSettings).

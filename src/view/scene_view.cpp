@@ -30,10 +30,18 @@ struct ClothOnDevice {
     std::uint64_t topology_version = 0;  // of `mesh`
 };
 
+/// The surface of a distance field.
+struct FieldOnDevice {
+    std::shared_ptr<const FieldSurface> field;
+    std::optional<render::HostMesh> mesh;  // none for a field without an inside
+    gpu::Buffer errors;
+};
+
 struct ColliderOnDevice {
     ColliderId id;
     render::MaterialId material = 0;
     std::optional<render::HostMesh> mesh;  // none for a plane
+    FieldOnDevice field = {};              // only with an overlay that has shown it
 };
 
 /// m: half the diagonal of the bounds of everything except planes, with cloths at rest. Constant scale for overlays.
@@ -48,6 +56,28 @@ float size_of(const World& world) {
     }
     if (bounds.empty()) bounds.include(Bounds{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}});
     return 0.5f * length(bounds.size());
+}
+
+std::array<Vec3, 4> transform_of(const Pose& pose) {
+    return {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.position};
+}
+
+Result<FieldOnDevice> upload_field(gpu::Device& device, const std::string& name,
+                                   const std::shared_ptr<const FieldSurface>& field) {
+    FieldOnDevice made{.field = field, .mesh = {}, .errors = {}};
+    const TriangleMesh& mesh = field->mesh;
+    if (mesh.triangles.empty()) return made;
+    auto on_device = render::HostMesh::create(device, static_cast<std::uint32_t>(mesh.positions.size()), mesh.triangles,
+                                              {}, mesh.positions, "field of " + name);
+    if (!on_device) return on_device.errors();
+    if (auto moved = on_device->update(mesh.positions, mesh.normals, {}); !moved) return moved.errors();
+    made.mesh.emplace(std::move(*on_device));
+    auto errors = device.memory().buffer(field->errors.size() * sizeof(float), gpu::MemoryKind::upload,
+                                         "errors of the field of " + name);
+    if (!errors) return errors.errors();
+    std::ranges::copy(field->errors, errors->as<float>().begin());
+    made.errors = std::move(*errors);
+    return made;
 }
 
 /// The material of the object with this name; `matte` if the scene has no such object.
@@ -78,6 +108,7 @@ struct SceneView::Impl {
     std::vector<render::Object> objects;
     std::vector<render::Ground> grounds;
     OverlayOutput shown;
+    FieldSurfaces fields;
 
     Impl(ViewOptions o, ViewSources from, render::Renderer r)
         : options(std::move(o)), sources(std::move(from)), renderer(std::move(r)), materials(sources.read_picture) {}
@@ -89,7 +120,9 @@ struct SceneView::Impl {
     Result<void> drop_what_left(const World& world);
     Result<void> bring(const SceneDesc& scene, World& world);
     Result<void> add_cloth(const SceneDesc& scene, World& world, std::size_t place, const Frame* frame);
-    Result<void> add_collider(const SceneDesc& scene, const Collider& collider, ColliderId id);
+    Result<void> add_collider(const SceneDesc& scene, const Collider& collider, ColliderId id,
+                              const ColliderScalars* scalars);
+    Result<void> add_field(ColliderOnDevice& collider, const ColliderScalars& scalars, const Pose& pose);
     Result<void> draw_overlays(World& world, const Frame& frame);
     Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth, const ClothFrame& now);
     Result<render::Drawing> draw(const SceneDesc& scene, World& world, const Camera& camera, std::uint32_t wide,
@@ -218,12 +251,35 @@ Result<void> SceneView::Impl::add_cloth(const SceneDesc& scene, World& world, st
     return {};
 }
 
-Result<void> SceneView::Impl::add_collider(const SceneDesc& scene, const Collider& described, ColliderId id) {
+Result<void> SceneView::Impl::add_field(ColliderOnDevice& one, const ColliderScalars& scalars, const Pose& pose) {
+    if (one.field.field != scalars.field) {
+        if (one.field.field) {
+            if (auto idle = device().wait(device().submitted()); !idle) return idle;
+        }
+        auto made = upload_field(device(), std::to_string(scalars.collider), scalars.field);
+        if (!made) return made.errors();
+        one.field = std::move(*made);
+    }
+    if (!one.field.mesh) return {};
+    render::Object object;
+    object.surface = one.field.mesh->surface();
+    object.rest = one.field.mesh->rest();
+    object.material = one.material;
+    object.transform = transform_of(pose);
+    object.scalars = {render::range_of(one.field.errors, 0, one.field.errors.size()), scalars.least, scalars.most,
+                      scalars.scale};
+    objects.push_back(object);
+    return {};
+}
+
+Result<void> SceneView::Impl::add_collider(const SceneDesc& scene, const Collider& described, ColliderId id,
+                                           const ColliderScalars* scalars) {
     auto found = collider(scene, described, id);
     if (!found) return found.errors();
-    const ColliderOnDevice& one = **found;
+    ColliderOnDevice& one = **found;
+    const Pose& pose = described.pose;
+    if (scalars) return add_field(one, *scalars, pose);
     if (!one.mesh) {
-        const Pose& pose = described.pose;
         const Vec3 normal = pose.rotation * Vec3{described.numbers[0], described.numbers[1], described.numbers[2]};
         grounds.push_back({normal, described.numbers[3] + dot(normal, pose.position), one.material});
         return {};
@@ -232,8 +288,7 @@ Result<void> SceneView::Impl::add_collider(const SceneDesc& scene, const Collide
     object.surface = one.mesh->surface();
     object.rest = one.mesh->rest();
     object.material = one.material;
-    const Pose& pose = described.pose;
-    object.transform = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.position};
+    object.transform = transform_of(pose);
     objects.push_back(object);
     return {};
 }
@@ -251,14 +306,18 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, World& world) {
     if (!overlays.empty()) {
         if (auto drawn = draw_overlays(world, *frame); !drawn) return drawn;
     }
-    for (std::size_t i = 0; i < world.colliders().size(); ++i)
-        if (auto added = add_collider(scene, world.colliders()[i], world.collider_id(i)); !added) return added;
+    auto next = shown.colliders.begin();
+    for (std::size_t i = 0; i < world.colliders().size(); ++i) {
+        const bool colored = next != shown.colliders.end() && next->collider == i;
+        const ColliderScalars* scalars = colored ? &*next++ : nullptr;
+        if (auto added = add_collider(scene, world.colliders()[i], world.collider_id(i), scalars); !added) return added;
+    }
     return {};
 }
 
 Result<void> SceneView::Impl::draw_overlays(World& world, const Frame& frame) {
-    shown =
-        weft::draw_overlays(overlays, {.world = world, .frame = frame, .size = size, .width = width, .height = height});
+    shown = weft::draw_overlays(
+        overlays, {.world = world, .frame = frame, .fields = fields, .size = size, .width = width, .height = height});
     turn = 1 - turn;
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
         ClothOnDevice& one = *std::ranges::find(cloths, world.cloth_id(i), &ClothOnDevice::id);

@@ -17,7 +17,7 @@ class VulkanPicturesOfSurfaces : public testing::Test {
     /// Opens a scene on `backend` and simulates some frames.
     void open(const std::string& backend) {
         const std::filesystem::path file = std::filesystem::path(WEFT_BINARY_DIR) / ("surfaces_" + backend + ".json");
-        std::ofstream(file) << scene_text({.name = "surfaces", .look = "\"denim\"", .hung = true});
+        std::ofstream(file) << scene_text({.name = "surfaces", .look = "\"denim\"", .content = PictureContent::hung});
         Options options;
         options.backend = backend;
         auto opened = open_scene(file, options);

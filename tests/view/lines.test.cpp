@@ -4,6 +4,7 @@
 
 #include "solver/world/air.h"
 #include "view/nice_numbers.h"
+#include "view/touches.h"
 
 #include <cmath>
 #include <limits>
@@ -215,8 +216,85 @@ TEST(ContactsOverlay, of_a_sheet_at_rest_are_all_its_particles) {
         EXPECT_GT(along.y, 0) << "the ground pushes up";
         EXPECT_LT(std::hypot(along.x, along.z), 0.02f * along.y);
     }
-    EXPECT_EQ(entry(output, 0), "contacts: 81");
-    EXPECT_EQ(entry(output, 2), "beyond a surface: 0");
+    EXPECT_EQ(entry(output, 0), "contacts of particles: 81");
+    EXPECT_EQ(entry(output, 1), "contacts of faces: 0");
+    EXPECT_EQ(entry(output, 3), "beyond a surface: 0");
+}
+
+// Contact of triangles, which contact forces divide among the particles at their corners.
+TEST(ContactsOverlay, shows_a_tip_between_particles_where_it_touches) {
+    World world = make_world({.solver = {.substeps = 20}, .contact_forces = true});
+    const Vec3 tip{0.017f, 0, 0.011f};
+    world.add(
+        make_collider({.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
+                       .transform = {.position = tip - Vec3{0, 0.173205f, 0}, .rotation_degrees = {45, 0, 35.2644f}}}));
+    world.add(make_sheet({.size = {0.5f, 0.5f},
+                          .resolution = {11, 11},
+                          .position = {0, 0.002f, 0},
+                          .layout = world.settings().layout()}));
+    run(world, 0.05);
+    Shown shown(world);
+    ASSERT_EQ(world.contact_forces().frame, world.frame().index);
+    const auto& contacts = world.contact_forces().contacts;
+    ASSERT_FALSE(contacts.empty());
+    Vec3 total;
+    for (const Contact& contact : contacts) {
+        EXPECT_GT(norm(contact.point - tip), 0.01f) << "no particle is at the tip";
+        total += contact.impulse;
+    }
+    const OverlayOutput output = shown.draw("contacts");
+    ASSERT_FALSE(output.points.empty());
+    EXPECT_EQ(entry(output, 0), "contacts of particles: 0");
+    EXPECT_EQ(entry(output, 1), "contacts of faces: " + std::to_string(output.points.size()));
+    for (const render::Point& point : output.points) {
+        EXPECT_LT(norm(point.position - tip), 0.002f);
+        EXPECT_EQ(point.color, *output.legends[0].entries[1].color);
+    }
+    // All of the push is shown. Lines are in scale.
+    const std::vector<Touch> touches = touches_of(world, world.frame());
+    Vec3 shown_total, along;
+    for (const Touch& touch : touches) shown_total += touch.impulse;
+    for (const render::Line& line : output.lines_on_top) along += line.to - line.from;
+    EXPECT_LT(norm(shown_total + total), 1e-5f * norm(total));
+    EXPECT_GT(shown_total.y, 0.9f * norm(shown_total)) << "upward";
+    EXPECT_NEAR(dot(normalized(along), normalized(shown_total)), 1, 1e-5);
+}
+
+// A box that lies under a fine sheet: both kinds of contacts, and no push is lost or counted twice.
+TEST(ContactsOverlay, shows_all_of_the_push) {
+    World world = make_world({.solver = {.substeps = 10}, .contact_forces = true});
+    world.add(make_collider({.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
+                             .transform = {.position = {0.01f, -0.12f, 0}, .rotation_degrees = {10, 20, 5}}}));
+    world.add(make_collider({.shape = SphereDesc{0.02f}, .transform = {.position = {0.3f, -0.025f, 0.21f}}}));
+    world.add(make_collider({.shape = PlaneDesc{{0, 1, 0}, -0.3f}}));
+    world.add(make_sheet({.resolution = {31, 31}, .layout = world.settings().layout()}));
+    for (int i = 0; i < 30; ++i) {
+        world.step(frame_seconds);
+        Shown shown(world);
+        const std::vector<Touch> touches = touches_of(world, shown.frame());
+        Vec3 total, shown_total;
+        float size = 0;
+        for (const Contact& contact : world.contact_forces().contacts)
+            total += contact.impulse, size += norm(contact.impulse);
+        for (const Touch& touch : touches) shown_total += touch.impulse;
+        EXPECT_LE(norm(total + shown_total), 1e-5f * size) << "frame " << i;
+        if (i < 15) continue;
+        const auto faces = std::ranges::count_if(touches, &Touch::of_face);
+        EXPECT_GT(faces, 0);
+        EXPECT_GT(touches.size() - static_cast<std::size_t>(faces), 10u);
+    }
+}
+
+// Only colliders whose box a particle is in are looked at. A cloth that meets the triangles of a collider may be on
+// either side of them.
+TEST(ContactsOverlay, finds_what_is_inside_one_of_many) {
+    World world = make_world({});
+    for (int i = 0; i < 1000; ++i) {
+        const auto x = static_cast<float>(i % 100), z = static_cast<float>(i / 100);
+        world.add(make_collider({.shape = SphereDesc{0.2f}, .transform = {.position = {x, -0.2f, z}}}));
+    }
+    world.add(make_sheet({.position = {50, -0.003f, 5}}));
+    EXPECT_EQ(entry(Shown(world).draw("contacts"), 1), "beyond a surface: 1, deepest 3 mm");
 }
 
 TEST(ContactsOverlay, finds_a_particle_three_millimeters_deep) {
@@ -351,7 +429,7 @@ TEST(Overlays, of_nothing_are_nothing) {
 }
 
 TEST(Overlays, are_found_by_name) {
-    ASSERT_EQ(overlays().size(), 9u);
+    ASSERT_EQ(overlays().size(), 10u);
     for (const Overlay& overlay : overlays()) EXPECT_EQ(*find_overlay(overlay.name), &overlay);
     EXPECT_EQ((*find_overlay("contacts"))->needs, OverlayNeeds::contact_forces);
     EXPECT_EQ((*find_overlay("cloth_contacts"))->needs, OverlayNeeds::contact_marks);

@@ -46,8 +46,9 @@ class Shown {
                        std::uint32_t height = 720) {
         std::vector<const Overlay*> chosen;
         for (const std::string_view name : names) chosen.push_back(find_overlay(name).value());
-        return draw_overlays(chosen,
-                             {.world = world_, .frame = frame_, .size = size_, .width = width, .height = height});
+        return draw_overlays(
+            chosen,
+            {.world = world_, .frame = frame_, .fields = fields_, .size = size_, .width = width, .height = height});
     }
 
     const Frame& frame() const { return frame_; }
@@ -55,6 +56,8 @@ class Shown {
         return frame_.cloths[cloth].render_mesh().positions;
     }
     const std::vector<Vec3>& normals(std::size_t cloth = 0) const { return frame_.cloths[cloth].render_mesh().normals; }
+
+    std::size_t kept_fields() const { return fields_.count(); }
 
   private:
     void follow() {
@@ -67,6 +70,7 @@ class Shown {
 
     World& world_;
     Frame frame_;
+    FieldSurfaces fields_;
     float size_;
     std::vector<std::vector<Vec4>> particles_, particle_normals_;
 };

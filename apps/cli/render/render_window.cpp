@@ -25,7 +25,7 @@ namespace {
 
 constexpr double idle_patience = 0.1;   // s: sleep time while there is nothing to draw
 constexpr double title_interval = 0.5;  // s
-constexpr std::size_t most_keys = 9;    // 1…9
+constexpr std::string_view overlay_keys = "1234567890";
 
 /// The drawing device, which must support windows. It also simulates, if the options allow it.
 struct Machine {
@@ -103,8 +103,8 @@ class Show {
             }
         }
         bool changed = false;
-        for (std::size_t i = 0; i < std::min(overlays().size(), most_keys); ++i) {
-            if (!pressed(input, static_cast<char>('1' + i))) continue;
+        for (std::size_t i = 0; i < std::min(overlays().size(), overlay_keys.size()); ++i) {
+            if (!pressed(input, overlay_keys[i])) continue;
             const Overlay* overlay = &overlays()[i];
             changed = true;
             if (std::erase(shown_, overlay) == 0) shown_.push_back(overlay);
@@ -223,8 +223,8 @@ std::string window_help() {
         "  middle drag    pan             Q E   back, forward\n"
         "  wheel          zoom            Space pause, R restart, Esc close\n"
         "  overlays:";
-    for (std::size_t i = 0; i < std::min(overlays().size(), most_keys); ++i)
-        help += (i > 0 ? ", " : " ") + std::to_string(i + 1) + " " + std::string(overlays()[i].name);
+    for (std::size_t i = 0; i < std::min(overlays().size(), overlay_keys.size()); ++i)
+        help += (i > 0 ? ", " : " ") + std::string{overlay_keys[i], ' '} + std::string(overlays()[i].name);
     return help;
 }
 

@@ -19,7 +19,7 @@ namespace weft::overlay {
 namespace {
 
 // 1/m: lower bound for the end of the scale, a radius of half a meter.
-constexpr double least_scale = 2;
+constexpr double least_scale_of_bending = 2;
 
 double angle_across(const Hinge& hinge, std::span<const Vec4> positions) {
     const auto at = [&](std::uint32_t p) { return reference::vec3(positions[p].x, positions[p].y, positions[p].z); };
@@ -113,7 +113,7 @@ void bending(const OverlayInput& input, OverlayOutput& output) {
         output.scalars.push_back({.values = at_vertices(*cloth.model, values)});
     }
     if (output.scalars.empty()) return;
-    const auto most = static_cast<float>(std::max(least_scale, nice_above(percentile(all, 0.98))));
+    const auto most = static_cast<float>(std::max(least_scale_of_bending, nice_above(percentile(all, 0.98))));
     for (Scalars& scalars : output.scalars) {
         scalars.most = most;
         scalars.scale = render::ColorScale::amount;

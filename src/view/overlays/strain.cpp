@@ -8,7 +8,7 @@ namespace weft::overlay {
 namespace {
 
 // %. Lower bound for the end of the scale, because a smaller scale would show noise.
-constexpr double least_scale = 0.5;
+constexpr double least_scale_of_strain = 0.5;
 
 // %: per particle, mean over its stretch constraints, positive if longer than at rest.
 std::vector<float> strain_of(const ClothFrame& cloth) {
@@ -36,7 +36,8 @@ void strain(const OverlayInput& input, OverlayOutput& output) {
         output.scalars.push_back({.values = at_vertices(*cloth.model, values)});
     }
     if (output.scalars.empty()) return;
-    const auto most = static_cast<float>(std::max(least_scale, nice_above(std::max(percentile(sizes, 0.98), 1e-9))));
+    const auto most =
+        static_cast<float>(std::max(least_scale_of_strain, nice_above(std::max(percentile(sizes, 0.98), 1e-9))));
     for (Scalars& scalars : output.scalars) {
         scalars.least = -most, scalars.most = most;
         scalars.scale = render::ColorScale::balance;
