@@ -1,12 +1,10 @@
 #include "base/cache_file.h"
 
+#include "base/temporary_folder.test.h"
+
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace weft {
@@ -14,81 +12,56 @@ namespace {
 
 constexpr CacheFormat cache_format = "weft-xy1";
 
-struct CacheTestFolder {
-    CacheTestFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "weft-XXXXXX").string();
-        path = ::mkdtemp(pattern.data());
-    }
-    ~CacheTestFolder() {
-        std::error_code code;
-        std::filesystem::remove_all(path, code);
-    }
-    std::filesystem::path path;
-};
-
 namespace fs = std::filesystem;
 
-std::vector<char> bytes_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write(const fs::path& file, std::span<const char> bytes) {
-    std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-std::size_t files_in(const fs::path& folder) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
-}
-
 TEST(CacheFile, gives_back_what_was_written_and_makes_its_folder) {
-    const CacheTestFolder folder;
-    const fs::path file = folder.path / "a" / "b" / "cache";
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "a" / "b" / "cache";
     for (const std::size_t size : {0, 1, 4, 1001}) {
         std::vector<char> data(size);
         for (std::size_t i = 0; i < size; ++i) data[i] = static_cast<char>(i * 7);
         EXPECT_TRUE(write_cache_file(file, cache_format, data));
         EXPECT_EQ(read_cache_file(file, cache_format), data);
-        EXPECT_EQ(files_in(file.parent_path()), 1u) << "nothing is left beside it";
+        EXPECT_EQ(count_files(file.parent_path()), 1u) << "nothing is left beside it";
     }
 }
 
 TEST(CacheFile, what_is_not_as_it_was_written_is_nothing) {
-    const CacheTestFolder folder;
-    const fs::path file = folder.path / "cache";
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "cache";
     const std::vector<char> data(101, 'x');
     ASSERT_TRUE(write_cache_file(file, cache_format, data));
-    const std::vector<char> good = bytes_of(file);
+    const std::vector<char> good = read_bytes(file);
     for (std::size_t size = 0; size < good.size(); ++size) {
-        write(file, std::span(good).first(size));
+        write_bytes(file, std::span(good).first(size));
         EXPECT_TRUE(read_cache_file(file, cache_format).empty()) << size;
     }
     for (std::size_t at = 0; at < good.size(); ++at) {
         std::vector<char> bad = good;
         bad[at] = static_cast<char>(bad[at] ^ 16);
-        write(file, bad);
+        write_bytes(file, bad);
         EXPECT_TRUE(read_cache_file(file, cache_format).empty()) << at;
     }
     std::vector<char> longer = good;
     longer.push_back(0);
-    write(file, longer);
+    write_bytes(file, longer);
     EXPECT_TRUE(read_cache_file(file, cache_format).empty());
-    write(file, good);
+    write_bytes(file, good);
     EXPECT_TRUE(read_cache_file(file, "weft-xy2").empty()) << "another format";
     EXPECT_EQ(read_cache_file(file, cache_format), data);
-    EXPECT_TRUE(read_cache_file(folder.path / "none", cache_format).empty());
-    EXPECT_TRUE(read_cache_file(folder.path, cache_format).empty()) << "a folder";
+    EXPECT_TRUE(read_cache_file(folder.path() / "none", cache_format).empty());
+    EXPECT_TRUE(read_cache_file(folder.path(), cache_format).empty()) << "a folder";
 }
 
 TEST(CacheFile, what_cannot_be_written_leaves_nothing_behind) {
-    const CacheTestFolder folder;
+    const TemporaryFolder folder;
     const std::vector<char> data(10, 'x');
-    fs::create_directories(folder.path / "taken" / "full");
-    EXPECT_FALSE(write_cache_file(folder.path / "taken", cache_format, data)) << "a folder stands there";
-    EXPECT_EQ(files_in(folder.path), 1u);
-    write(folder.path / "file", data);
-    EXPECT_FALSE(write_cache_file(folder.path / "file" / "cache", cache_format, data)) << "its folder is a file";
-    EXPECT_EQ(files_in(folder.path), 2u);
+    fs::create_directories(folder.path() / "taken" / "full");
+    EXPECT_FALSE(write_cache_file(folder.path() / "taken", cache_format, data)) << "a folder stands there";
+    EXPECT_EQ(count_files(folder.path()), 1u);
+    write_bytes(folder.path() / "file", data);
+    EXPECT_FALSE(write_cache_file(folder.path() / "file" / "cache", cache_format, data)) << "its folder is a file";
+    EXPECT_EQ(count_files(folder.path()), 2u);
 }
 
 // Sets a variable of the environment for one test.

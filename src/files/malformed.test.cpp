@@ -1,6 +1,6 @@
 // Malformed input from files and programs gives a clear error, or cloth that stays finite and a report.
 // tests/physics/malformed.test.cpp tests malformed input of the solver itself.
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 
 #include <weft/weft.h>
 

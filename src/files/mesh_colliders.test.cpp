@@ -1,7 +1,7 @@
 // Colliders made from meshes: what they do to cloth, and what malformed ones say.
 
+#include "base/temporary_folder.test.h"
 #include "files/open_scene.h"
-#include "io/files/temporary_folder.test.h"
 #include "mesh/procedural.h"
 #include "solver/measures/statistics.h"
 

@@ -1,7 +1,7 @@
 #include "files/open_scene.h"
 #include "weft/drawn_frame.h"
 
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A simulation that is saved as a scene and loaded again begins at the same start.
+#include "base/temporary_folder.test.h"
 #include "files/open_scene.h"
 #include "io/exports/scene_export.h"
-#include "io/files/temporary_folder.test.h"
 #include "io/scenes/random_scene.test.h"
 
 #include <weft/weft.h>

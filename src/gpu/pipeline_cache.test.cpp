@@ -1,25 +1,13 @@
 #include "base/cache_file.h"
+#include "base/temporary_folder.test.h"
 #include "gpu/test_device.h"
 
-#include <fstream>
+#include <filesystem>
 
 namespace weft::gpu {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<char> bytes_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write(const fs::path& file, std::span<const char> bytes) {
-    std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-std::size_t files_in(const fs::path& folder) {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
-}
 
 class PipelineCache : public OnDevice {
   protected:
@@ -36,7 +24,7 @@ class PipelineCache : public OnDevice {
 
 TEST_F(PipelineCache, is_written_and_used_again) {
     const TemporaryFolder folder;
-    const fs::path file = folder.path / "weft" / "pipelines";
+    const fs::path file = folder.path() / "weft" / "pipelines";
     run(file);
     const std::vector<char> first = read_cache_file(file, pipeline_cache_format);
     ASSERT_GE(first.size(), 32u) << "at least the head that Vulkan prescribes";
@@ -46,15 +34,15 @@ TEST_F(PipelineCache, is_written_and_used_again) {
 
 TEST_F(PipelineCache, a_damaged_one_is_replaced) {
     const TemporaryFolder folder;
-    const fs::path file = folder.path / "pipelines";
+    const fs::path file = folder.path() / "pipelines";
     run(file);
-    const std::vector<char> good = bytes_of(file);
+    const std::vector<char> good = read_bytes(file);
     ASSERT_FALSE(good.empty());
     std::vector<char> flipped = good;
     flipped[flipped.size() / 2] = static_cast<char>(~flipped[flipped.size() / 2]);
     for (const std::vector<char>& bad : {std::vector<char>(good.begin(), good.begin() + 20), flipped,
                                          std::vector<char>(5000, 'x'), std::vector<char>{}}) {
-        write(file, bad);
+        write_bytes(file, bad);
         run(file);
         EXPECT_EQ(read_cache_file(file, pipeline_cache_format).size() + 24, good.size()) << bad.size();
     }
@@ -63,7 +51,7 @@ TEST_F(PipelineCache, a_damaged_one_is_replaced) {
 // The file is intact, but the data names another driver or none, so the driver ignores it.
 TEST_F(PipelineCache, one_of_another_driver_is_survived) {
     const TemporaryFolder folder;
-    const fs::path file = folder.path / "pipelines";
+    const fs::path file = folder.path() / "pipelines";
     run(file);
     std::vector<char> other = read_cache_file(file, pipeline_cache_format);
     ASSERT_GE(other.size(), 32u);
@@ -75,11 +63,11 @@ TEST_F(PipelineCache, one_of_another_driver_is_survived) {
 
 TEST_F(PipelineCache, one_that_cannot_be_written_is_no_error) {
     const TemporaryFolder folder;
-    write(folder.path / "file", std::vector<char>(3, 'x'));
-    run(folder.path / "file" / "pipelines");
-    fs::create_directories(folder.path / "taken" / "full");
-    run(folder.path / "taken");
-    EXPECT_EQ(files_in(folder.path), 2u);
+    write_bytes(folder.path() / "file", std::vector<char>(3, 'x'));
+    run(folder.path() / "file" / "pipelines");
+    fs::create_directories(folder.path() / "taken" / "full");
+    run(folder.path() / "taken");
+    EXPECT_EQ(count_files(folder.path()), 2u);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "gpu/spirv.h"
 
+#include "base/temporary_folder.test.h"
 #include "gpu/test_device.h"
 
 #include <sys/mman.h>
@@ -144,7 +145,7 @@ TEST(Spirv, exact_modules_are_valid) {
     const TemporaryFolder folder;
     for (const char* name : {"arithmetic", "bindings", "exact"}) {
         const Words words = with_exact_arithmetic(test_shader(name).words);
-        const std::string file = (folder.path / name).string();
+        const std::string file = (folder.path() / name).string();
         std::ofstream(file, std::ios::binary)
             .write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
         const std::string command = std::string(WEFT_SPIRV_VAL " --target-env vulkan1.2 ") + file;

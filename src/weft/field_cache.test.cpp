@@ -1,16 +1,15 @@
 #include "weft/field_cache.h"
 
 #include "base/cache_file.h"
+#include "base/temporary_folder.test.h"
 #include "mesh/procedural.h"
 #include "weft/shape_building.h"
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cstring>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -21,27 +20,7 @@ namespace fs = std::filesystem;
 
 class FieldCaches : public testing::Test {
   protected:
-    FieldCaches() {
-        std::string pattern = (fs::temp_directory_path() / "weft-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~FieldCaches() override {
-        std::error_code code;
-        fs::remove_all(folder_, code);
-    }
-
     fs::path file() const { return folder_ / key_.file_name(); }
-    std::vector<char> content() const {
-        std::ifstream in(file(), std::ios::binary);
-        return {std::istreambuf_iterator<char>(in), {}};
-    }
-    void put(std::span<const char> bytes) const {
-        std::ofstream(file(), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    }
-    std::size_t files() const {
-        std::error_code none_there;
-        return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_, none_there), {}));
-    }
     // The data of a collider with `mesh_`, by a new library.
     std::shared_ptr<const ShapeData> load(const fs::path& cache) {
         const ColliderDesc collider{.shape = SolidMeshDesc{.mesh = mesh_, .resolution = cells}};
@@ -57,7 +36,8 @@ class FieldCaches : public testing::Test {
     }
 
     static constexpr std::uint32_t cells = 16;
-    fs::path folder_;
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
     TriangleMesh mesh_ = make_box({1, 0.08f, 1}, {3, 2, 3});
     DistanceField field_ = *build_distance_field(mesh_.positions, mesh_.triangles, {.cells = cells, .threads = 1});
     FieldCache::Key key_ = FieldCache::key_of(mesh_.positions, mesh_.triangles, cells);
@@ -105,7 +85,7 @@ TEST_F(FieldCaches, know_fields_by_all_that_they_depend_on) {
 
 TEST_F(FieldCaches, spare_the_work) {
     EXPECT_TRUE(as_built(load(folder_)));
-    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(count_files(folder_), 1u);
     const std::vector<std::string> notes = notes_;
     ASSERT_FALSE(notes.empty()) << "it is thin";
     // A field of something else under this key is believed, so it must have been read.
@@ -122,7 +102,7 @@ TEST_F(FieldCaches, spare_the_work) {
 
 TEST_F(FieldCaches, build_again_what_is_damaged) {
     ASSERT_TRUE(as_built(load(folder_)));
-    const std::vector<char> good = content();
+    const std::vector<char> good = read_bytes(file());
     ASSERT_GT(good.size(), 1000u);
     std::vector<std::vector<char>> bad;
     for (const std::size_t size :
@@ -138,10 +118,10 @@ TEST_F(FieldCaches, build_again_what_is_damaged) {
     const std::string text = "this is no field";
     bad.emplace_back(text.begin(), text.end());
     for (const std::vector<char>& bytes : bad) {
-        put(bytes);
+        write_bytes(file(), bytes);
         EXPECT_FALSE(FieldCache(folder_).read(key_)) << bytes.size();
         EXPECT_TRUE(as_built(load(folder_)));
-        EXPECT_EQ(content(), good) << "it is replaced";
+        EXPECT_EQ(read_bytes(file()), good) << "it is replaced";
     }
 }
 
@@ -149,7 +129,7 @@ TEST_F(FieldCaches, build_again_what_is_damaged) {
 TEST_F(FieldCaches, build_again_what_is_old_or_foreign) {
     constexpr CacheFormat format = "weft-df1";
     ASSERT_TRUE(as_built(load(folder_)));
-    const std::vector<char> good = content();
+    const std::vector<char> good = read_bytes(file());
     const std::vector<char> data = read_cache_file(file(), format);
     ASSERT_FALSE(data.empty());
     std::vector<char> old = data;
@@ -163,22 +143,22 @@ TEST_F(FieldCaches, build_again_what_is_old_or_foreign) {
         ASSERT_TRUE(write_cache_file(file(), format, bytes));
         EXPECT_FALSE(FieldCache(folder_).read(key_));
         EXPECT_TRUE(as_built(load(folder_)));
-        EXPECT_EQ(content(), good);
+        EXPECT_EQ(read_bytes(file()), good);
     }
     ASSERT_TRUE(write_cache_file(file(), "weft-df0", data));
     EXPECT_FALSE(FieldCache(folder_).read(key_));
 }
 
 TEST_F(FieldCaches, are_no_error_where_nothing_can_be_written) {
-    put({});  // a file where the folder should be
+    write_bytes(file(), {});  // a file where the folder should be
     EXPECT_TRUE(as_built(load(file())));
     EXPECT_TRUE(as_built(load("/proc/self/fields")));
-    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(count_files(folder_), 1u);
     // A folder where the file should be.
     fs::remove(file());
     fs::create_directories(file() / "full");
     EXPECT_TRUE(as_built(load(folder_)));
-    EXPECT_EQ(files(), 1u) << "nothing is left";
+    EXPECT_EQ(count_files(folder_), 1u) << "nothing is left";
 }
 
 TEST_F(FieldCaches, remove_the_oldest_fields) {

@@ -1,8 +1,8 @@
 // Small animations for the tests of the exporters: waving cloths with all kinds of vertex data.
 #pragma once
 
+#include "base/temporary_folder.test.h"
 #include "io/exports/exporter.h"
-#include "io/files/temporary_folder.test.h"
 #include "mesh/procedural.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "io/exports/scene_export.h"
 
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 #include "io/meshes/mesh_file.h"
 #include "io/scenes/scene_file.h"
 

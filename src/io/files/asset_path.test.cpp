@@ -1,4 +1,4 @@
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 #include "io/meshes/mesh_file.h"
 
 #include <gtest/gtest.h>

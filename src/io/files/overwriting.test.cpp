@@ -1,6 +1,6 @@
 #include "io/files/overwriting.h"
 
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 
 #include <gmock/gmock.h>
 

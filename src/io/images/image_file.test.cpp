@@ -1,6 +1,6 @@
 #include "io/images/image_file.h"
 
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

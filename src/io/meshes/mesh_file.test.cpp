@@ -2,7 +2,7 @@
 #include "io/meshes/mesh_file.h"
 
 #include <weft/bounds.h>
-#include "io/files/temporary_folder.test.h"
+#include "base/temporary_folder.test.h"
 #include "io/meshes/mesh_fixtures.test.h"
 
 #include <gtest/gtest.h>
