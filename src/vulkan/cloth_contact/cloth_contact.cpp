@@ -67,6 +67,125 @@ float slack_of(const ClothModel& model) {
     return model.collision.surface ? cap_of_surface : contact_cap(model) / contact_part_of_slack;
 }
 
+/// What the shaders read of the cloths of a frame.
+struct FrameArrays {
+    TileArrays tiles;
+    std::vector<Vec4> rest;               // by particle of the world; w: of cap_of()
+    std::vector<std::uint32_t> carrier;   // by particle: the surface to which it belongs, counted from 1; 0: none
+    std::vector<std::uint64_t> carriers;  // poses of the surfaces
+    std::vector<std::uint64_t> reports;
+    std::uint64_t particles = 0;         // of cloths with contact
+    std::uint64_t end = 0;               // of the particles of the world that shaders ask for
+    std::uint64_t frame = 0;             // address of the inputs of any of the cloths
+    float most_slack = 0, thickest = 0;  // m: of all tiles, of all cloths
+
+    explicit FrameArrays(std::span<const ClothContact::Member> members) {
+        float least_slack = cap_of_surface;
+        for (const ClothContact::Member& member : members)
+            if (member.cloth->model().tiles) least_slack = std::min(least_slack, slack_of(member.cloth->model()));
+        for (std::uint32_t m = 0; m < members.size(); ++m) {
+            reports.push_back(members[m].report);
+            if (members[m].cloth->model().tiles) add_tiles(members[m], m, least_slack);
+        }
+        rest.resize(end);
+        carrier.resize(end);
+        for (const ClothContact::Member& member : members)
+            if (member.cloth->model().tiles) add_particles(member);
+    }
+
+  private:
+    void add_tiles(const ClothContact::Member& member, std::uint32_t number, float slack_of_surfaces) {
+        const ClothState& cloth = *member.cloth;
+        const ClothModel& model = cloth.model();
+        const float slack = model.collision.surface ? slack_of_surfaces : slack_of(model);
+        for (const Tile& tile : *model.tiles) tiles.add(tile, model, number, cloth.base(), slack);
+        most_slack = std::max(most_slack, slack);
+        thickest = std::max(thickest, pair_thickness(model));
+        frame = member.frame;
+        particles += model.particle_count;
+        end = std::max(end, std::uint64_t{cloth.base()} + model.capacity());
+    }
+    void add_particles(const ClothContact::Member& member) {
+        const ClothModel& model = member.cloth->model();
+        Vec4* const mine = &rest[member.cloth->base()];
+        std::copy_n(model.start.begin(), model.particle_count, mine);
+        for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = cap_of(model);
+        if (member.poses == 0) return;
+        carriers.push_back(member.poses);
+        std::fill_n(&carrier[member.cloth->base()], model.particle_count, static_cast<std::uint32_t>(carriers.size()));
+    }
+};
+
+/// Arrays of an arena whose addresses the shaders read from members of ContactData.
+class AddressedSlots {
+  public:
+    using Address = std::uint64_t ContactData::*;
+    void add(Address address, Slot slot) { slots_.push_back({address, slot}); }
+    /// After the arena has been built.
+    void write_addresses(const Arena& arena, ContactData& data) const {
+        for (const auto& [address, slot] : slots_) data.*address = arena.address(slot);
+    }
+
+  private:
+    struct Addressed {
+        Address address;
+        Slot slot;
+    };
+    std::vector<Addressed> slots_;
+};
+
+constexpr std::uint64_t word_bytes = sizeof(std::uint32_t);
+
+void reserve_by_particle(Arena& arena, const FrameArrays& arrays, AddressedSlots& slots) {
+    const std::uint64_t end = arrays.end;
+    slots.add(&ContactData::reached, arena.reserve(end * sizeof(Vec4)));
+    slots.add(&ContactData::asked, arena.reserve(end * sizeof(Vec4)));
+    slots.add(&ContactData::rest, arena.add_array(arrays.rest));
+    slots.add(&ContactData::share, arena.reserve(end * word_bytes));
+    slots.add(&ContactData::sums, arena.reserve(4 * end * word_bytes));
+    slots.add(&ContactData::scaled_sums, arena.reserve(4 * end * word_bytes));
+    slots.add(&ContactData::part, arena.reserve(end * word_bytes));
+    slots.add(&ContactData::retreats, arena.reserve(end * word_bytes));
+    slots.add(&ContactData::slide, arena.reserve(end * sizeof(Vec4)));
+    slots.add(&ContactData::marks, arena.reserve(end * word_bytes));
+    slots.add(&ContactData::carrier, arena.add_array(arrays.carrier));
+    slots.add(&ContactData::next_carrier, arena.reserve(end * word_bytes));
+    slots.add(&ContactData::carriers, arena.add_array(arrays.carriers));
+}
+
+void reserve_by_tile(Arena& arena, const FrameArrays& arrays, std::uint64_t groups, AddressedSlots& slots) {
+    const std::uint64_t tiles = arrays.tiles.tiles.size(), vertices = tiles * tile_vertices;
+    slots.add(&ContactData::tiles, arena.add_array(arrays.tiles.tiles));
+    slots.add(&ContactData::tracked, arena.reserve(tiles * sizeof(TrackedTile)));
+    slots.add(&ContactData::places, arena.reserve(vertices * sizeof(Vec4)));
+    slots.add(&ContactData::velocities, arena.reserve(vertices * sizeof(Vec4)));
+    slots.add(&ContactData::particles, arena.add_array(arrays.tiles.particles));
+    slots.add(&ContactData::edges, arena.add_array(arrays.tiles.edges));
+    slots.add(&ContactData::triangles, arena.add_array(arrays.tiles.triangles));
+    slots.add(&ContactData::groups, arena.reserve(2 * groups * sizeof(Vec4)));
+}
+
+void reserve_lists(Arena& arena, const ClothContactRoom& room, AddressedSlots& slots) {
+    slots.add(&ContactData::tile_pairs, arena.reserve(2 * word_bytes * room.tile_pairs));
+    slots.add(&ContactData::listed, arena.reserve(2 * sizeof(ListedPair) * room.listed));
+    for (const AddressedSlots::Address near :
+         {&ContactData::near_particles, &ContactData::near_weights, &ContactData::near_normals,
+          &ContactData::near_starts, &ContactData::near_pushes})
+        slots.add(near, arena.reserve(2 * sizeof(Vec4) * room.near));
+    slots.add(&ContactData::near_kinds, arena.reserve(2 * word_bytes * room.near));
+}
+
+void set_numbers(const FrameArrays& arrays, const ClothContactRoom& room, ContactData& data) {
+    data.frame = arrays.frame;
+    data.report_count = static_cast<std::uint32_t>(arrays.reports.size());
+    data.tile_pair_capacity = room.tile_pairs, data.listed_capacity = room.listed, data.near_capacity = room.near;
+    data.thickest = arrays.thickest, data.most_slack = arrays.most_slack;
+    data.cap_part = contact_part_of_slack;
+    data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
+    data.brake_depth = contact_brake_depth, data.most_aside = limit_aside;
+    data.carry_margin = limit_carry_margin;
+}
+
 std::uint32_t in_proportion(std::uint64_t items, double each) {
     return static_cast<std::uint32_t>(std::min(64 + static_cast<double>(items) * each, double{most_list_rows}));
 }
@@ -215,114 +334,55 @@ Result<std::unique_ptr<ClothContact>> ClothContact::create(gpu::Device& device, 
 
 Result<void> ClothContact::build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
                                  bool records_marks, const std::string& name) {
-    TileArrays arrays;
-    std::vector<std::uint64_t> reports;
-    std::uint64_t particles = 0, end = 0;
-    ContactData data{};
-    float least_slack = cap_of_surface;
-    for (const Member& member : members)
-        if (member.cloth->model().tiles) least_slack = std::min(least_slack, slack_of(member.cloth->model()));
-    for (std::uint32_t m = 0; m < members.size(); ++m) {
-        const ClothState& cloth = *members[m].cloth;
-        const ClothModel& model = cloth.model();
-        reports.push_back(members[m].report);
-        if (!model.tiles) continue;
-        const float slack = model.collision.surface ? least_slack : slack_of(model);
-        for (const Tile& tile : *model.tiles) arrays.add(tile, model, m, cloth.base(), slack);
-        data.most_slack = std::max(data.most_slack, slack);
-        data.thickest = std::max(data.thickest, pair_thickness(model));
-        data.frame = members[m].frame;
-        particles += model.particle_count;
-        end = std::max(end, std::uint64_t{cloth.base()} + model.capacity());
-    }
-    tiles_ = static_cast<std::uint32_t>(arrays.tiles.size());
+    const FrameArrays arrays(members);
+    tiles_ = static_cast<std::uint32_t>(arrays.tiles.tiles.size());
     groups_ = groups_of(tiles_, WEFT_TILES_TOGETHER);
-    room_ = room_.with(ClothContactRoom::for_cloths(tiles_, particles, list_capacity));
-    std::vector<Vec4> rest(end);
-    std::vector<std::uint32_t> carrier(end);
-    std::vector<std::uint64_t> carriers;
-    for (const Member& member : members) {
-        const ClothModel& model = member.cloth->model();
-        if (!model.tiles) continue;
-        Vec4* const mine = &rest[member.cloth->base()];
-        std::copy_n(model.start.begin(), model.particle_count, mine);
-        for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = cap_of(model);
-        if (member.poses == 0) continue;
-        carriers.push_back(member.poses);
-        std::fill_n(&carrier[member.cloth->base()], model.particle_count, static_cast<std::uint32_t>(carriers.size()));
-    }
-
+    room_ = room_.with(ClothContactRoom::for_cloths(tiles_, arrays.particles, list_capacity));
     std::vector<const Seams*> of_members;
     for (const Member& member : members) of_members.push_back(member.seams);
-    const SeamArrays seams(of_members, end);
+    const SeamArrays seams(of_members, arrays.end);
 
-    constexpr std::uint64_t word = sizeof(std::uint32_t);
-    const std::uint64_t vertices = std::uint64_t{tiles_} * tile_vertices;
-    const Slot points[] = {arena_.reserve(end * sizeof(Vec4)), arena_.reserve(end * sizeof(Vec4)),
-                           arena_.add_array(rest)};
-    const Slot share = arena_.reserve(end * word), sums = arena_.reserve(4 * end * word),
-               scaled = arena_.reserve(4 * end * word), part = arena_.reserve(end * word),
-               retreats = arena_.reserve(end * word), slide = arena_.reserve(end * sizeof(Vec4)),
-               marks = arena_.reserve(end * word), carrier_of = arena_.add_array(carrier),
-               next_carrier = arena_.reserve(end * word), poses = arena_.add_array(carriers);
-    const Slot tiles = arena_.add_array(arrays.tiles), tracked = arena_.reserve(tiles_ * sizeof(TrackedTile)),
-               places = arena_.reserve(vertices * sizeof(Vec4)), velocities = arena_.reserve(vertices * sizeof(Vec4)),
-               of_tiles = arena_.add_array(arrays.particles), edges = arena_.add_array(arrays.edges),
-               triangles = arena_.add_array(arrays.triangles), groups = arena_.reserve(2 * groups_ * sizeof(Vec4)),
-               tile_pairs = arena_.reserve(2 * word * room_.tile_pairs),
-               listed = arena_.reserve(2 * sizeof(ListedPair) * room_.listed), all_reports = arena_.add_array(reports);
-    std::array<Slot, 5> near;  // particles, weights, normals, starts, pushes
-    for (Slot& slot : near) slot = arena_.reserve(2 * sizeof(Vec4) * room_.near);
-    const Slot kinds = arena_.reserve(2 * word * room_.near);
-    const Slot seam_first = arena_.add_array(seams.first()), seam_entries = arena_.add_array(seams.entries());
-    if (records_marks) marks_ = arena_.reserve(end * word);
+    AddressedSlots slots;
+    reserve_by_particle(arena_, arrays, slots);
+    reserve_by_tile(arena_, arrays, groups_, slots);
+    reserve_lists(arena_, room_, slots);
+    slots.add(&ContactData::reports, arena_.add_array(arrays.reports));
+    slots.add(&ContactData::seam_first, arena_.add_array(seams.first()));
+    slots.add(&ContactData::seam_entries, arena_.add_array(seams.entries()));
+    if (records_marks) marks_ = arena_.reserve(arrays.end * word_bytes);
+    slots.add(&ContactData::contact_marks, marks_);
     head_ = arena_.reserve(sizeof(ContactHead));
+    slots.add(&ContactData::head, head_);
     if (auto built = arena_.build(device_, "cloth contact of " + name, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT); !built)
         return built;
-    auto back = device_.memory().buffer(sizeof(ContactHead), gpu::MemoryKind::readback, "counts of " + name);
-    if (!back) return back.errors();
-    back_ = std::move(*back);
-    if (records_marks) {
-        auto marks_back = device_.memory().buffer(marks_.bytes, gpu::MemoryKind::readback, "contact marks of " + name);
-        if (!marks_back) return marks_back.errors();
-        marks_back_ = std::move(*marks_back);
-    }
+    if (auto made = make_readback(name); !made) return made;
 
+    ContactData data{};
+    slots.write_addresses(arena_, data);
     const WorldParticles& world = members.front().cloth->world();
     data.position = world.address(PointArray::position, 0);
     data.start = world.address(PointArray::start, 0);
     data.velocity = world.address(PointArray::velocity, 0);
-    data.reached = arena_.address(points[0]), data.asked = arena_.address(points[1]);
-    data.rest = arena_.address(points[2]);
-    data.share = arena_.address(share), data.sums = arena_.address(sums), data.scaled_sums = arena_.address(scaled);
-    data.part = arena_.address(part), data.retreats = arena_.address(retreats);
-    data.slide = arena_.address(slide), data.marks = arena_.address(marks);
-    data.carrier = arena_.address(carrier_of), data.next_carrier = arena_.address(next_carrier);
-    data.carriers = arena_.address(poses);
-    data.contact_marks = arena_.address(marks_), data.records_marks = records_marks ? 1 : 0;
-    data.tiles = arena_.address(tiles), data.tracked = arena_.address(tracked);
-    data.places = arena_.address(places), data.velocities = arena_.address(velocities);
-    data.particles = arena_.address(of_tiles), data.edges = arena_.address(edges);
-    data.triangles = arena_.address(triangles), data.groups = arena_.address(groups);
-    data.tile_pairs = arena_.address(tile_pairs), data.listed = arena_.address(listed);
-    data.near_particles = arena_.address(near[0]), data.near_weights = arena_.address(near[1]);
-    data.near_normals = arena_.address(near[2]), data.near_starts = arena_.address(near[3]);
-    data.near_pushes = arena_.address(near[4]), data.near_kinds = arena_.address(kinds);
-    data.head = arena_.address(head_), data.reports = arena_.address(all_reports);
+    set_numbers(arrays, room_, data);
     data.tile_count = tiles_, data.group_count = groups_;
-    data.report_count = static_cast<std::uint32_t>(reports.size());
-    data.tile_pair_capacity = room_.tile_pairs, data.listed_capacity = room_.listed, data.near_capacity = room_.near;
     data.widest = device_.limits().workgroup_count[0];
-    data.cap_part = contact_part_of_slack;
-    data.recovery_speed = contact_recovery_speed, data.gap_floor = contact_gap_floor, data.split = contact_split;
-    data.brake_depth = contact_brake_depth, data.most_aside = limit_aside;
-    data.carry_margin = limit_carry_margin;
     data.search_always = search_always ? 1 : 0;
-    data.seam_first = arena_.address(seam_first), data.seam_entries = arena_.address(seam_entries);
+    data.records_marks = records_marks ? 1 : 0;
     data.has_seams = seams.empty() ? 0 : 1;
-    if (auto made = make_tangle(data, end, name); !made) return made;
+    if (auto made = make_tangle(data, arrays.end, name); !made) return made;
     data_ = data_arena_.add(std::as_bytes(std::span(&data, 1)));
     return data_arena_.build(device_, "cloth contact addresses of " + name);
+}
+
+Result<void> ClothContact::make_readback(const std::string& name) {
+    auto back = device_.memory().buffer(sizeof(ContactHead), gpu::MemoryKind::readback, "counts of " + name);
+    if (!back) return back.errors();
+    back_ = std::move(*back);
+    if (marks_.bytes == 0) return {};
+    auto marks_back = device_.memory().buffer(marks_.bytes, gpu::MemoryKind::readback, "contact marks of " + name);
+    if (!marks_back) return marks_back.errors();
+    marks_back_ = std::move(*marks_back);
+    return {};
 }
 
 Result<void> ClothContact::make_tangle(ContactData& data, std::uint64_t particles, const std::string& name) {

@@ -78,6 +78,8 @@ class ClothContact {
 
   private:
     ClothContact(gpu::Device& device, Programs& programs) : device_(device), programs_(programs) {}
+    /// Buffers for the counts and, if they are recorded, the marks.
+    Result<void> make_readback(const std::string& name);
     Result<void> make_tangle(ContactData& data, std::uint64_t particles, const std::string& name);
     Result<void> build(std::span<const Member> members, std::uint32_t list_capacity, bool search_always,
                        bool records_marks, const std::string& name);
