@@ -173,7 +173,10 @@ Command add_run(Program& program) {
              "repeated")
         .called("FILE")
         .one_at_a_time();
-    arguments.add("--stats", options->stats, "write times, stretch and energy of the run to this JSON file")
+    arguments
+        .add("--stats", options->stats,
+             "write times, stretch, energy, penetration and passages of the run to this JSON file; penetration is then "
+             "measured in every frame, which takes time")
         .called("FILE");
     arguments
         .add("--crossings", options->crossings,
