@@ -2,9 +2,11 @@
 
 #include "scenes.h"
 
+#include "collide/distance_field.h"
 #include "cpu/cpu_backend.h"
 #include "mesh/procedural.h"
 
+#include <array>
 #include <fstream>
 #include <vector>
 
@@ -80,6 +82,50 @@ TEST_F(SceneViewTest, frees_what_has_left_the_world) {
         EXPECT_EQ(empty[round], empty[0]) << "round " << round;
         EXPECT_EQ(full[round], full[0]) << "round " << round;
         EXPECT_GT(full[round] - empty[round], cloths * least_of_a_cloth);
+    }
+}
+
+// The surface of a field takes the place of the collider's mesh, follows its pose, and leaves with it.
+TEST_F(SceneViewTest, draws_and_frees_distance_fields) {
+    const TriangleMesh mesh = make_sphere(0.2f, 4);
+    auto field = build_distance_field(mesh.positions, mesh.triangles, {.cells = 24, .threads = 1});
+    ASSERT_TRUE(field.ok());
+    field->data.surface = mesh;
+    const auto data = std::make_shared<const ShapeData>(std::move(field->data));
+    const SceneDesc scene;
+    World world(std::move(*make_cpu_backend()), {});
+    const ViewOptions options{.width = 64, .height = 64, .samples = 1, .overlays = {"distance_fields"}};
+    auto view = SceneView::create(device, scene, world, options);
+    ASSERT_TRUE(view.ok()) << view.error().message();
+    const auto picture = [&] {
+        const auto image = view->picture(scene, world, {.position = {0, 0, 2}, .target = {}, .fov = 40});
+        EXPECT_TRUE(image.ok()) << image.error().message();
+        return image ? image->rgba : std::vector<std::uint8_t>{};
+    };
+    // Red, green and blue in the middle row.
+    const auto at = [](const std::vector<std::uint8_t>& rgba, std::size_t x) {
+        const std::uint8_t* p = &rgba.at(4 * (32 * 64 + x));
+        return std::array<int, 3>{p[0], p[1], p[2]};
+    };
+    std::vector<std::uint64_t> empty;
+    for (int round = 0; round < 3; ++round) {
+        const auto nothing = picture();
+        const ColliderId id = world.add(make_collider({.name = "ball", .shape = SolidMeshDesc{}}, data));
+        const auto there = picture();
+        const std::uint64_t with_field = device->memory().used();
+        EXPECT_NE(at(there, 32), at(nothing, 32));
+        EXPECT_EQ(at(there, 62), at(nothing, 62));
+        view->set_overlays({});
+        EXPECT_NE(picture(), there) << "its own material";
+        view->set_overlays({find_overlay("distance_fields").value()});
+        world.move(id, {{}, {0.7f, 0, 0}});
+        world.step(1.0 / 60);
+        EXPECT_NE(at(picture(), 62), at(nothing, 62)) << "moved";
+        world.remove(id);
+        picture();
+        empty.push_back(device->memory().used());
+        EXPECT_GT(with_field, empty.back() + mesh.positions.size() * sizeof(Vec3));
+        EXPECT_EQ(empty.back(), empty.front());
     }
 }
 
