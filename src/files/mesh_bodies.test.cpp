@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -154,6 +155,35 @@ TEST(OpenMesh, that_is_too_large_for_floats_is_noted) {
         });
         EXPECT_EQ(noted, size > 1e4f);
     }
+}
+
+// Closed from 0.25 s to 0.5 s.
+TEST(SurfaceMeshes, that_close_on_cloth_report_it_and_let_it_go) {
+    SceneDesc scene = with_sheet(0.5f, 21, {.position = {0, 0.002f, 0}}, SelfCollision::exact);
+    const auto box = [](const char* name, std::array<float, 3> size) {
+        return ColliderDesc{.name = name,
+                            .shape = SolidMeshDesc{
+                                .mesh = make_box(size, {2, 2, 2}), .resolution = 16, .contact = MeshContact::surface}};
+    };
+    scene.colliders.push_back(box("lower", {0.4f, 0.2f, 0.4f}));
+    scene.colliders.back().transform.position = {0, -0.1f, 0};
+    scene.colliders.push_back(box("upper", {0.2f, 0.2f, 0.2f}));
+    scene.colliders.back().motion = {{.time = 0, .position = {0, 0.25f, 0}},
+                                     {.time = 0.25f, .position = {0, 0.095f, 0}},
+                                     {.time = 0.5f, .position = {0, 0.095f, 0}},
+                                     {.time = 0.75f, .position = {0, 0.25f, 0}}};
+    auto world = SceneWorld::create(scene, {.backend = "cpu"});
+    ASSERT_TRUE(world.ok()) << world.error().message();
+    std::uint64_t tangled = 0, left = 0;
+    for (int i = 0; i < 75; ++i) {
+        const Frame& frame = world->step();
+        EXPECT_EQ(frame.reports & report_non_finite, 0u);
+        if (i < 45) tangled = std::max(tangled, frame.cloth_contacts.tangled);
+        left += i >= 55 ? frame.cloth_contacts.tangled : 0;
+    }
+    EXPECT_GT(tangled, 0u);
+    EXPECT_EQ(left, 0u);
+    EXPECT_EQ(crossings_with_colliders(world->world()), 0u);
 }
 
 TEST(OpenMesh, of_a_size_out_of_range_is_named) {
