@@ -109,6 +109,25 @@ TEST_F(Cli, contact_forces_are_the_force_on_each_collider) {
     const Outcome said = weft("run sheet.json --frames 60 --contact-forces");
     EXPECT_NE(said.out.find("on scale"), std::string::npos) << said.out;
     EXPECT_NE(said.out.find("64 contacts"), std::string::npos) << said.out;
+    EXPECT_EQ(said.out.find("not counted"), std::string::npos) << said.out;
+    EXPECT_EQ(scale["complete"], true);
+}
+
+TEST_F(Cli, contact_forces_say_if_contact_with_triangles_is_missing) {
+    write("cube.obj",
+          "v 0 -1 0\nv 1 -1 0\nv 1 -1 1\nv 0 -1 1\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\n"
+          "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+    write("sheet.json",
+          R"({ "weft": 1, "cloths": [{ "self_collision": "exact", "transform": { "position": [0.5, 0.01, 0.5] },
+                                 "mesh": { "grid": { "size": [0.3, 0.3], "resolution": [8, 8] } } }],
+                             "colliders": [{ "name": "cube", "mesh": { "file": "cube.obj", "resolution": 16, "contact": "surface" } },
+                                           { "name": "ground", "plane": {}, "transform": { "position": [0, -1, 0] } }] })");
+    const Json with = stats("--frames 20 --contact-forces");
+    EXPECT_EQ(with["colliders"][0]["contacts"], 0);
+    EXPECT_EQ(with["colliders"][0]["complete"], false);
+    EXPECT_EQ(with["colliders"][1]["complete"], true);
+    const Outcome said = weft("run sheet.json --frames 20 --contact-forces");
+    EXPECT_NE(said.out.find("0 contacts; contact with its triangles is not counted"), std::string::npos) << said.out;
 }
 
 TEST_F(Cli, crossings_are_counted_in_the_last_frame_or_in_every_one) {

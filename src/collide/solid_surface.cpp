@@ -242,6 +242,46 @@ double SolidSurface::winding_gradient_bound(Vec3 center, double radius) const {
     return boundary_length_ / (4 * std::numbers::pi * gap * gap);
 }
 
+namespace {
+
+using Corners3 = std::array<Vec3, 3>;
+
+// Whether a plane across `axis` is between the triangles, with room for rounding.
+bool separates(const Offset& axis, const Corners3& a, const Corners3& b) {
+    double least[2], most[2];
+    for (int side = 0; side < 2; ++side) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double along = dot(axis, Offset(a[0], (side == 0 ? a : b)[k]));
+            least[side] = k == 0 ? along : std::min(least[side], along);
+            most[side] = k == 0 ? along : std::max(most[side], along);
+        }
+    }
+    const double size = std::max({std::abs(least[0]), std::abs(most[0]), std::abs(least[1]), std::abs(most[1])});
+    return std::max(least[1] - most[0], least[0] - most[1]) > 1e-9 * size;
+}
+
+// By the planes of both triangles and those along an edge of each. Triangles in one plane are not told apart.
+bool are_apart(const Corners3& a, const Corners3& b) {
+    const Offset of_a[] = {{a[0], a[1]}, {a[1], a[2]}, {a[2], a[0]}},
+                 of_b[] = {{b[0], b[1]}, {b[1], b[2]}, {b[2], b[0]}};
+    if (separates(cross(of_a[0], of_a[1]), a, b) || separates(cross(of_b[0], of_b[1]), a, b)) return true;
+    for (const Offset& p : of_a)
+        for (const Offset& q : of_b)
+            if (separates(cross(p, q), a, b)) return true;
+    return false;
+}
+
+}  // namespace
+
+bool SolidSurface::may_touch(const std::array<Vec3, 3>& triangle) const {
+    bool touches = false;
+    triangle_tree_.for_each_overlap(bounds_of(triangle), [&](std::uint32_t t) {
+        const auto& [a, b, c] = oriented_.triangles[t];
+        touches = touches || !are_apart(triangle, {positions_[a], positions_[b], positions_[c]});
+    });
+    return touches;
+}
+
 double SolidSurface::distance_to_limit(Vec3 point, double winding) const {
     const auto [x, y, z] = winding_.gradient_at(point);
     return distance_from_limit(winding) / std::max(std::hypot(x, y, z), 1e-30);

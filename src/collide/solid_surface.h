@@ -46,6 +46,10 @@ class SolidSurface {
     /// `guess`: a triangle that is likely to be near, or `none`. A good guess makes the search faster.
     Nearest nearest(Vec3 point, std::uint32_t guess) const;
 
+    /// Whether the surface may touch a triangle. False only if a plane separates the triangle from each one of the
+    /// surface.
+    bool may_touch(const std::array<Vec3, 3>& triangle) const;
+
     /// How far the winding number must exceed one half. An open flat sheet winds around points close to it almost half
     /// a time; with this margin, which is more than the error of the winding number, none of them is inside.
     static constexpr double margin = 0.01;
@@ -86,6 +90,11 @@ class SignedDistanceWalk {
     }
     /// Negative inside. In and near a hole, the estimated distance to the surface that closes it if that is less.
     double distance_at(Vec3 point);
+    /// Whether all points that a way through no triangle connects with the last point, and that are within `radius` of
+    /// it, are on the same side.
+    bool keeps_side_within(double radius) const {
+        return SolidSurface::distance_from_limit(winding_) - drift_ - SolidSurface::margin > radius * gradient_bound_;
+    }
 
   private:
     double distance_to_closing_surface(Vec3 point, double distance);

@@ -119,5 +119,38 @@ TEST(SolidSurface, a_walk_gives_the_same_signs_as_winding_numbers) {
     EXPECT_GT(bounded, 50);
 }
 
+// A triangle that touches no triangle of the surface, and in whose neighborhood the winding number cannot reach its
+// limit through a hole, is on one side.
+TEST(SolidSurface, a_triangle_that_touches_nothing_is_on_one_side) {
+    const TriangleMesh mesh = open_sphere_with_flips();
+    WorkerTeam team(1);
+    const SolidSurface surface(mesh.positions, orient_triangles(mesh.positions, mesh.triangles), team);
+    testing_kernels::Random random(5);
+    int mixed = 0, on_one_side = 0, across = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double size = std::pow(10.0, random.number(-1.0, 0.7));
+        const reference::vec3 at = random.vector(11);
+        const std::array<Vec3, 3> x{in_floats(at + random.vector(size)), in_floats(at + random.vector(size)),
+                                    in_floats(at + random.vector(size))};
+        const Vec3 middle = (x[0] + x[1] + x[2]) / 3.0f;
+        const double radius = std::max({length(x[0] - middle), length(x[1] - middle), length(x[2] - middle)});
+        SignedDistanceWalk walk(surface, surface.winding_gradient_bound(middle, radius));
+        const bool inside = walk.distance_at(middle) < 0;
+        const bool one_side = walk.keeps_side_within(radius) && !surface.may_touch(x);
+        bool differs = false;
+        for (int k = 0; k < 30; ++k) {
+            const auto u = static_cast<float>(random.number(0, 1)),
+                       v = static_cast<float>(random.number(0, 1)) * (1 - u);
+            const Vec3 p = x[0] * u + x[1] * v + x[2] * (1 - u - v);
+            differs = differs || surface.inside(p) != inside;
+        }
+        mixed += one_side && differs;
+        on_one_side += one_side, across += differs;
+    }
+    EXPECT_EQ(mixed, 0);
+    EXPECT_GT(on_one_side, 1000);
+    EXPECT_GT(across, 200);
+}
+
 }  // namespace
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include "files/surface_crossings.test.h"
 #include "mesh/procedural.h"
 #include "solver/measures/statistics.h"
+#include "weft/scene_world.h"
 
 #include <weft/weft.h>
 

@@ -152,6 +152,23 @@ Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const Me
     return built;
 }
 
+namespace {
+
+// Contact with triangles computes in floats. Beyond this, rounding is a tenth of the distance that cloth of the default
+// thickness keeps.
+constexpr double largest_rounding = 1e-4;  // m
+
+void note_rounding(const Bounds& box, const std::string& name, std::vector<std::string>& notes) {
+    const auto largest = [](Vec3 v) { return double{std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})}; };
+    const double extent = std::max(largest(box.min), largest(box.max)), rounding = std::ldexp(extent, -24);
+    if (!(rounding > largest_rounding)) return;
+    notes.push_back("collider '" + name + "': its coordinates are up to " + number_text(std::round(extent)) +
+                    " m and rounded to " + number_text(std::round(rounding * 1e5) / 1e5) +
+                    " m, so cloth may pass through its triangles");
+}
+
+}  // namespace
+
 Result<std::shared_ptr<const ClothModel>> surface_of(const ColliderDesc& collider, const ShapeData* data,
                                                      const std::string& pointer, std::vector<std::string>& notes) {
     const auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape);
@@ -160,6 +177,7 @@ Result<std::shared_ptr<const ClothModel>> surface_of(const ColliderDesc& collide
     if (!surface) return within(pointer + "/mesh", surface.errors());
     if (const std::uint32_t count = surface->report.duplicate_triangles; count > 0)
         notes.push_back("collider '" + collider.name + "': " + std::to_string(count) + " doubled triangles left out");
+    note_rounding(data->bounds, collider.name, notes);
     return std::move(surface->model);
 }
 

@@ -24,6 +24,12 @@ Json axes(Vec3 v) {
     return Json::array({v.x, v.y, v.z});
 }
 
+// Whether all of its contact is recorded: contact with its triangles is not.
+bool is_complete(const World& world, const Collider& collider) {
+    return std::ranges::all_of(world.frame().cloths,
+                               [&](const ClothFrame& cloth) { return shape_acts_on(collider, *cloth.model); });
+}
+
 // Of the last frame.
 Json loads(const World& world) {
     Json list = Json::array();
@@ -33,7 +39,8 @@ Json loads(const World& world) {
         list.push_back({{"name", world.collider(load.collider).name},
                         {"force", axes(load.force)},
                         {"torque", axes(load.torque)},
-                        {"contacts", load.contacts}});
+                        {"contacts", load.contacts},
+                        {"complete", is_complete(world, world.collider(load.collider))}});
     }
     return list;
 }
@@ -296,9 +303,10 @@ void print_summary(const Json& s) {
     if (s.contains("colliders")) {
         for (const Json& load : s["colliders"]) {
             const auto axis = [&](const char* of, std::size_t k) { return load[of][k].get<double>(); };
-            std::printf("  on %-10s force %.3g, %.3g, %.3g N, torque %.3g, %.3g, %.3g N m, %u contacts\n",
+            std::printf("  on %-10s force %.3g, %.3g, %.3g N, torque %.3g, %.3g, %.3g N m, %u contacts%s\n",
                         load["name"].get<std::string>().c_str(), axis("force", 0), axis("force", 1), axis("force", 2),
-                        axis("torque", 0), axis("torque", 1), axis("torque", 2), load["contacts"].get<unsigned>());
+                        axis("torque", 0), axis("torque", 1), axis("torque", 2), load["contacts"].get<unsigned>(),
+                        load["complete"].get<bool>() ? "" : "; contact with its triangles is not counted");
         }
     }
     std::string reports;

@@ -102,6 +102,8 @@ void PenetrationSearch::search_face(const Vec3 (&corners)[3], const Collider& co
     const double before = face_depth_;
     face_depth_ = 0;
     add_part({{a, b, c}, std::numeric_limits<double>::infinity()}, probe);
+    // Cloth that lies on a mesh is near it everywhere, so the distance at its samples would exclude nothing.
+    if (!parts_.empty() && face_depth_ <= 0 && probe.same_side(corners)) parts_.clear();
     if (!parts_.empty()) {
         for (const Point& p : {a, b, c, half(a, b), half(b, c), half(c, a)}) sample(p, probe);
     }

@@ -126,6 +126,24 @@ TEST(PenetrationSearch, needs_few_samples_where_cloth_lies_flat) {
     EXPECT_LE(found.samples, 200u * 2 * 7);
 }
 
+TEST(PenetrationSearch, needs_few_samples_where_cloth_lies_on_a_mesh) {
+    TriangleMesh open = make_box({4, 1, 4}, {9, 3, 9});
+    std::erase_if(open.triangles, [&](const Triangle& t) {
+        return std::max({open.positions[t[0]].y, open.positions[t[1]].y, open.positions[t[2]].y}) < -0.49f;
+    });
+    for (const TriangleMesh& mesh : {make_box({4, 1, 4}, {9, 3, 9}), open}) {
+        Sheet sheet(grid(11));
+        const Collider collider = mesh_collider(mesh, {0, -0.501f, 0}, 24);
+        const Penetration above = measured(sheet, {collider});
+        EXPECT_EQ(above.max, 0);
+        EXPECT_LE(above.samples, 200u);
+        sheet.positions[60].y -= 0.0015f;
+        const Penetration below = measured(sheet, {collider});
+        EXPECT_NEAR(below.max, 0.0005, 1e-6);
+        EXPECT_EQ(below.count, 6u) << "faces around the particle";
+    }
+}
+
 TEST(PenetrationSearch, survives_degenerate_input) {
     constexpr float bad = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(PenetrationSearch().measure({}, {}).max, 0);

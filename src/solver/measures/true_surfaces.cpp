@@ -60,10 +60,17 @@ TrueSurfaces::Probe TrueSurfaces::probe(const Collider& collider, Vec3 center, d
         probe.mesh_ = &of_mesh(collider.data);
         const Vec3 local = probe.mesh_->to_cells(to_local(collider.pose, center));
         // A little more, because the points are rounded.
-        const double in_cells = radius / probe.mesh_->cell * 1.001 + 0.01;
-        probe.mesh_->walk.enter_region(probe.mesh_->surface.winding_gradient_bound(local, in_cells));
+        probe.radius_ = radius / probe.mesh_->cell * 1.001 + 0.01;
+        probe.mesh_->walk.enter_region(probe.mesh_->surface.winding_gradient_bound(local, probe.radius_));
     }
     return probe;
+}
+
+bool TrueSurfaces::Probe::same_side(const Vec3 (&triangle)[3]) const {
+    if (!mesh_ || !mesh_->walk.keeps_side_within(radius_)) return false;
+    std::array<Vec3, 3> local;
+    for (std::size_t k = 0; k < 3; ++k) local[k] = mesh_->to_cells(to_local(collider_.pose, triangle[k]));
+    return !mesh_->surface.may_touch(local);
 }
 
 double TrueSurfaces::Probe::distance(Vec3 world) {

@@ -30,6 +30,9 @@ class TrueSurfaces {
         double distance(Vec3 world);
         /// Of the last point: out of the collider, unit, world. Only for convex shapes.
         Vec3 normal() const { return normal_; }
+        /// Whether a triangle around the last point is on the same side as that point, as a whole. Only for meshes,
+        /// where it may say no although it is.
+        bool same_side(const Vec3 (&triangle)[3]) const;
 
       private:
         friend class TrueSurfaces;
@@ -38,6 +41,7 @@ class TrueSurfaces {
 
         const Collider& collider_;
         OfMesh* mesh_ = nullptr;
+        double radius_ = 0;  // of the region, in cells
         Vec3 normal_{};
     };
     /// For points within `radius` of `center`. The collider must outlive the probe.
