@@ -140,12 +140,12 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
 // The log of contacts adds up floats, so with a log one thread does this for all, in the order of the contacts.
 void ClothRun::move_faces(bool last, Worker worker) const {
     FaceContacts& contacts = cloth_.face_contacts;
-    if (cloth_.account.empty()) return contacts.move(worker.number, view_, last);
+    if (cloth_.account.empty()) return contacts.move(worker.number, view_);
     if (worker.number != 0) return;
     contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
         cloth_.near_colliders.trace(particle, collider, by, lever);
     });
-    for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_, last);
+    for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_);
 }
 
 // Likewise.

@@ -102,11 +102,13 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
 
 // Appends the contacts of the lanes in `listed`.
 WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, const FaceRow& row, FaceRows& to) {
-    alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16], lever[4 * 16], swept[16];
+    alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16], gaps[4 * 16], lever[4 * 16],
+        swept[16];
     // The third weight is what the others leave.
     store_blocks(vec3(row.weights.x, row.weights.y, row.static_friction), row.kinetic_friction, weights);
     store_blocks(row.normal, row.offset, plane);
     store_blocks(row.start, row.gap_at_start, start);
+    store_blocks(row.corner_gaps, real(0.0f), gaps);
     store_blocks(row.lever, real(0.0f), lever);
     store(row.swept, swept);
     for (std::uint32_t bits = bits_of(listed); bits != 0; bits &= bits - 1) {
@@ -115,6 +117,7 @@ WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, con
         __builtin_memcpy(to.weights + 4 * at, weights + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.plane + 4 * at, plane + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.start + 4 * at, start + 4 * lane, 4 * sizeof(float));
+        __builtin_memcpy(to.gaps + 4 * at, gaps + 4 * lane, 4 * sizeof(float));
         __builtin_memcpy(to.lever + 4 * at, lever + 4 * lane, 4 * sizeof(float));
         for (int axis = 0; axis < 4; ++axis) to.sum[4 * at + axis] = 0;
         to.displacement[4 * at + 3] = swept[lane];
@@ -223,7 +226,7 @@ WEFT_FN FaceRow load_row(const FaceRows& rows, std::size_t i, float depenetratio
 }
 
 // Adds the pushes of the lanes' contacts to the sums of one of their corners.
-WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts, bool last, const FaceSums& to) {
+WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts, const FaceSums& to) {
     const real scale = real(static_cast<float>(WEFT_PUSH_QUANTA_PER_METER));
     const real size2 = dot(push, push);
     acts = acts && is_push(size2);
@@ -234,7 +237,7 @@ WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts,
                          to_contact_quanta(sqrt(size2), scale), quanta[0]);
     for (std::uint32_t bits = bits_of(acts); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
-        to.add(to, corners[lane], quanta[lane], last);
+        to.add(to, corners[lane], quanta[lane]);
     }
 }
 
@@ -251,9 +254,11 @@ inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, bool la
         const vec3 point = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
         vec3 push[3];
         if (last) {
-            real missing[3];
+            real missing[3], unused;
+            const vec3 packed = load_blocks(rows.gaps + 4 * i, unused);
+            const real gaps[3] = {packed.x, packed.y, packed.z};
             for (int k = 0; k < 3; ++k) {
-                missing[k] = face_retreat(row, point, x[k], real(nearest));
+                missing[k] = face_retreat(row, point, x[k], gaps[k], real(nearest));
                 push[k] = row.normal * missing[k];
             }
             store_blocks(vec3(missing[0], missing[1], missing[2]), row.swept, rows.displacement + 4 * i);
@@ -268,6 +273,6 @@ inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, bool la
             for (int k = 0; k < 3; ++k) push[k] = displacement * (w[k] * weights[k]);
         }
         for (int k = 0; k < 3; ++k)
-            add_face_pushes(rows.corners[static_cast<std::size_t>(k)] + i, push[k], mine && w[k] > real(0.0f), last, to);
+            add_face_pushes(rows.corners[static_cast<std::size_t>(k)] + i, push[k], mine && w[k] > real(0.0f), to);
     }
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float meters_per_quantum = static_cast<float>(1.0 / WEFT_PUSH_QUANTA_PER_METER);
 
-constexpr std::size_t blocks_per_contact = 6;
+constexpr std::size_t blocks_per_contact = 7;
 
 struct FaceTarget {
     FaceSum* sums;
@@ -22,29 +22,24 @@ std::uint32_t length_of_push(const std::int32_t* quanta) {
     return static_cast<std::uint32_t>(quanta[3]) + 1;
 }
 
-void add_alone(const FaceSums& to, std::uint32_t particle, const std::int32_t* quanta, bool last) {
+void add_alone(const FaceSums& to, std::uint32_t particle, const std::int32_t* quanta) {
     const auto& [sums, pushed] = *static_cast<const FaceTarget*>(to.sums);
     FaceSum& sum = sums[particle];
     if (sum[3] == 0) pushed->push_back(particle);
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<std::uint32_t>(quanta[axis]);
-    sum[3] = last ? std::max(sum[3], length_of_push(quanta)) : sum[3] + 1;
+    sum[3] = std::max(sum[3], length_of_push(quanta));
 }
 
 // While other threads do so too.
-void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* quanta, bool last) {
+void add_shared(const FaceSums& to, std::uint32_t particle, const std::int32_t* quanta) {
     const auto& [sums, pushed] = *static_cast<const FaceTarget*>(to.sums);
     FaceSum& sum = sums[particle];
     for (std::size_t axis = 0; axis < 3; ++axis)
         std::atomic_ref(sum[axis]).fetch_add(static_cast<std::uint32_t>(quanta[axis]), std::memory_order_relaxed);
     std::atomic_ref counter(sum[3]);
-    std::uint32_t before = 0;
-    if (last) {
-        const std::uint32_t size = length_of_push(quanta);
-        before = counter.load(std::memory_order_relaxed);
-        while (before < size && !counter.compare_exchange_weak(before, size, std::memory_order_relaxed)) {
-        }
-    } else {
-        before = counter.fetch_add(1, std::memory_order_relaxed);
+    const std::uint32_t size = length_of_push(quanta);
+    std::uint32_t before = counter.load(std::memory_order_relaxed);
+    while (before < size && !counter.compare_exchange_weak(before, size, std::memory_order_relaxed)) {
     }
     if (before == 0) pushed->push_back(particle);
 }
@@ -82,8 +77,9 @@ void FaceContacts::make_room(Part& part, std::size_t rows) {
         std::copy_n(part.corners.begin() + static_cast<std::ptrdiff_t>(k * room), part.rows.count,
                     corners.begin() + static_cast<std::ptrdiff_t>(k * more));
     part.blocks = std::move(blocks), part.corners = std::move(corners);
-    float** const arrays[blocks_per_contact] = {&part.rows.weights, &part.rows.plane,        &part.rows.start,
-                                                &part.rows.sum,     &part.rows.displacement, &part.rows.lever};
+    float** const arrays[blocks_per_contact] = {&part.rows.weights, &part.rows.plane, &part.rows.start,
+                                                &part.rows.gaps,    &part.rows.sum,   &part.rows.displacement,
+                                                &part.rows.lever};
     for (std::size_t i = 0; i < blocks_per_contact; ++i) *arrays[i] = &part.blocks[i * more].x;
     for (std::size_t k = 0; k < 3; ++k) part.rows.corners[k] = &part.corners[k * more];
 }
@@ -221,17 +217,15 @@ Vec3 FaceContacts::total(const FaceSum& sum) {
     return {axis(0), axis(1), axis(2)};
 }
 
-float FaceContacts::share_of(const FaceSum& sum, bool last) {
+float FaceContacts::share_of(const FaceSum& sum) {
     const Vec3 all = total(sum);
-    const auto count = static_cast<float>(sum[3]);
-    return scalar::face_share(last, last ? count * meters_per_quantum : count, {all.x, all.y, all.z});
+    return scalar::face_share(static_cast<float>(sum[3]) * meters_per_quantum, {all.x, all.y, all.z});
 }
 
-void FaceContacts::move(unsigned worker, const ParticleView& particles, bool last) {
+void FaceContacts::move(unsigned worker, const ParticleView& particles) {
     for (const std::uint32_t p : parts_[worker].pushed) {
         FaceSum& sum = sums_[p];
-        const float share = share_of(sum, last);
-        const Vec3 by = total(sum) * share;
+        const Vec3 by = total(sum) * share_of(sum);
         float* x = particles.position + 4 * std::size_t{p};
         x[0] += by.x, x[1] += by.y, x[2] += by.z;
         sum = {};

@@ -14,7 +14,7 @@
 
 namespace weft::cpu {
 
-/// Sum of pushes in quanta, by axis; then their number, or in the last sweep the length of the longest.
+/// Sum of pushes in quanta, by axis; then the length of the longest, plus one.
 using FaceSum = std::array<std::uint32_t, 4>;
 
 /// Each worker lists the contacts of the faces of its own particles' tiles. All then add their pushes to sums per
@@ -42,7 +42,7 @@ class FaceContacts {
     void push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last, float depenetration,
               float nearest);
     /// Moves the particles whose first push came from a contact of this worker.
-    void move(unsigned worker, const ParticleView& particles, bool last);
+    void move(unsigned worker, const ParticleView& particles);
     /// Calls visit(particle, collider, push, lever): what each contact's push does to a particle, and where the contact
     /// is, from the collider's position. By collider and particle in the order of faces. Between push() and move().
     template <class Visit>
@@ -86,7 +86,7 @@ class FaceContacts {
     /// m: the sum of the pushes.
     static Vec3 total(const FaceSum& sum);
     /// The part of each push that is taken (face_share()).
-    static float share_of(const FaceSum& sum, bool last);
+    static float share_of(const FaceSum& sum);
 
     unsigned workers_ = 0;
     std::vector<Part> parts_;
@@ -109,7 +109,7 @@ void FaceContacts::for_each_push(const ParticleView& particles, bool last, Visit
                     const float w = particles.position[4 * std::size_t{p} + 3];
                     const FaceSum& sum = sums_[p];
                     if (!(w > 0) || sum[3] == 0) continue;
-                    const float share = last ? share_of(sum, last) : share_of(sum, last) * w;
+                    const float share = last ? share_of(sum) : share_of(sum) * w;
                     visit(p, group.collider, push_of(part.rows, i, k, last) * share,
                           Vec3{lever[0], lever[1], lever[2]});
                 }

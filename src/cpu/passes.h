@@ -84,6 +84,7 @@ struct FaceRows {
     float* weights = nullptr;  ///< of the first two corners; static and kinetic friction
     float* plane = nullptr;    ///< normal, offset
     float* start = nullptr;    ///< the point at the start; its gap there
+    float* gaps = nullptr;     ///< of the corners at the start
     float* sum = nullptr;      ///< ContactSum
     /// By the sweep before, m: displacement per inverse mass and weight; of the last sweep, by corner, along the
     /// normal. The fourth float is 1 if the face touches on its way.
@@ -96,7 +97,7 @@ struct FaceRows {
 struct FaceSums {
     void* sums;
     /// Adds a push of a contact and its length to the sums of a particle, in quanta (cloth_contact.kernel.h).
-    void (*add)(const FaceSums&, std::uint32_t particle, const std::int32_t* quanta, bool last);
+    void (*add)(const FaceSums&, std::uint32_t particle, const std::int32_t* quanta);
 };
 
 /// Where constraints in parallel projection write the corrections of their particles.

@@ -255,7 +255,7 @@ struct FaceContactArgs {
     uint sweep;
 };
 
-#define WEFT_FACE_CONTACT_BLOCKS 5u  // of four floats per face and slot; with a contact log one more
+#define WEFT_FACE_CONTACT_BLOCKS 6u  // of four floats per face and slot; with a contact log one more
 #define WEFT_FACE_SUM 6u             // words per particle
 #define WEFT_NEAR_FACES 1u           // mark: faces of the particle may touch, or contact has moved it
 #define WEFT_SWEPT_FACES 2u          // mark: a face of the particle touches on its way

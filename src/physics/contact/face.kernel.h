@@ -130,17 +130,34 @@ WEFT_FN void search_edge(Solid solid, Corners x, FacePoint p, FacePoint q, inout
     search_between(solid, x, edge, best, enough, searches);
 }
 
-// Where a way from a point leaves the triangle: weights. `normal`: of the triangle, as long as twice its area.
-WEFT_FN vec3 end_of_way(Corners x, vec3 weights, vec3 way, vec3 normal)
+// How the weights of a point change along a way on the triangle. `normal`: of the triangle, as long as twice its area.
+WEFT_FN vec3 rates_of(Corners x, vec3 way, vec3 normal)
 {
     real scale = real(1) / max(dot(normal, normal), real(1e-36));
     real v = dot(cross(way, x.c - x.a), normal) * scale, w = dot(cross(x.b - x.a, way), normal) * scale;
-    real u = -v - w;
+    return vec3(-v - w, v, w);
+}
+WEFT_FN vec3 part_along(vec3 way, vec3 edge) { return edge * (dot(way, edge) / max(dot(edge, edge), real(1e-36))); }
+
+// A way that would leave the triangle at once goes along the border instead.
+WEFT_FN vec3 way_within(Corners x, vec3 weights, vec3 way, vec3 normal)
+{
+    vec3 rates = rates_of(x, way, normal);
+    real least = real(1e-4);
+    way = select(weights.x < least && rates.x < real(0), part_along(way, x.c - x.b), way);
+    way = select(weights.y < least && rates.y < real(0), part_along(way, x.a - x.c), way);
+    return select(weights.z < least && rates.z < real(0), part_along(way, x.b - x.a), way);
+}
+
+// Where a way from a point leaves the triangle: weights.
+WEFT_FN vec3 end_of_way(Corners x, vec3 weights, vec3 way, vec3 normal)
+{
+    vec3 rates = rates_of(x, way, normal);
     real far = real(1e18);
-    real t = min(select(u < real(0), weights.x / max(-u, real(1e-18)), far),
-                 min(select(v < real(0), weights.y / max(-v, real(1e-18)), far),
-                     select(w < real(0), weights.z / max(-w, real(1e-18)), far)));
-    vec3 end = weights + vec3(u, v, w) * select(t < far, t, real(0));
+    real t = min(select(rates.x < real(0), weights.x / max(-rates.x, real(1e-18)), far),
+                 min(select(rates.y < real(0), weights.y / max(-rates.y, real(1e-18)), far),
+                     select(rates.z < real(0), weights.z / max(-rates.z, real(1e-18)), far)));
+    vec3 end = weights + rates * select(t < far, t, real(0));
     end = vec3(max(end.x, real(0)), max(end.y, real(0)), max(end.z, real(0)));
     return end * (real(1) / (end.x + end.y + end.z));
 }
@@ -149,7 +166,8 @@ WEFT_FN vec3 end_of_way(Corners x, vec3 weights, vec3 way, vec3 normal)
 // 1. on its edges, where they cross edges of the body;
 // 2. at the foot of the body's nearest point, or of the center of its rounding (Macklin et al. 2020, "Local Optimization
 //    for Robust Signed Distance Field Collision"), where the body is round;
-// 3. down the slope; then along the ridge on which that ends, if there is one: to a corner of the body.
+// 3. down the slope, or along the border where the slope leads out; then along the ridge on which that ends, and so on:
+//    to a corner of the body.
 //   point    where to start
 //   enough   m: a triangle that cannot come nearer than this, if the slope only grows, is left alone
 WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point, real enough)
@@ -157,6 +175,7 @@ WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point
     real zero = real(0), one = real(1);
     mask searches = lowest_of(x, point) < enough;
     if (!any(searches)) return point;
+    mask looks = searches;
 
     FacePoint a = face_point(solid, x, vec3(one, zero, zero)), b = face_point(solid, x, vec3(zero, one, zero)),
               c = face_point(solid, x, vec3(zero, zero, one));
@@ -171,19 +190,41 @@ WEFT_OUTLINED_FN FacePoint least_on_face(Solid solid, Corners x, FacePoint point
     ClosestPoints foot = closest_vertex_triangle(inner, x.a, x.b, x.c);
     best = nearer(best, face_point(solid, x, vec3(-foot.w1, -foot.w2, -foot.w3)));
 
+    // What the triangle cannot come nearer than: the tangent planes at both ends of a line, mixed so that they are level
+    // where the line is lowest, lie below a distance whose slope only grows.
+    real fine = real(1e-4) * longest_of(x.b - x.a, x.c - x.b, x.a - x.c);
     vec3 slope = best.normal - up * dot(best.normal, up);
-    for (int line = 0; line < 2; ++line) {
+    for (int line = 0; line < 4 && any(searches); ++line) {
         Interval way;
         way.low = best;
-        way.high = face_point(solid, x, end_of_way(x, best.weights, -slope, normal));
-        best = nearer(best, way.high);
-        way = search_between(solid, x, way, best, enough, searches);
+        way.high = face_point(solid, x, end_of_way(x, best.weights, way_within(x, best.weights, -slope, normal), normal));
+        best = choose(searches && way.high.distance < best.distance, way.high, best);
+        way = search_between(solid, x, way, best, real(1e18), searches);
         vec3 fall = way.low.normal - up * dot(way.low.normal, up);
         vec3 rise = way.high.normal - up * dot(way.high.normal, up);
         vec3 turn = rise - fall;
-        slope = fall + turn * clamp01(-dot(fall, turn) / max(dot(turn, turn), real(1e-12)));
+        real part = clamp01(-dot(fall, turn) / max(dot(turn, turn), real(1e-12)));
+        slope = fall + turn * part;
+        real low = way.low.distance - dot(fall, point_of(x, way.low.weights));
+        real high = way.high.distance - dot(rise, point_of(x, way.high.weights));
+        real bound = low + (high - low) * part + min(dot(slope, x.a), min(dot(slope, x.b), dot(slope, x.c)));
+        searches = searches && bound < min(enough, best.distance - fine);
     }
-    return choose(searches, best, point);
+    return choose(looks, best, point);
+}
+
+// Where a triangle is nearest to a body, no slope leads along the triangle, or along the edge that the point is on. A corner
+// or an edge of the body has many slopes there, of which this one pushes the triangle away without pushing it aside.
+WEFT_FN vec3 slope_across(Corners x, FacePoint point)
+{
+    vec3 w = point.weights, slope = point.normal;
+    mask off_a = w.x < min(w.y, w.z), off_b = w.y < w.z;
+    vec3 edge = select(off_a, x.c - x.b, select(off_b, x.a - x.c, x.b - x.a));
+    vec3 normal = cross(x.b - x.a, x.c - x.a);
+    vec3 across = select(min(w.x, min(w.y, w.z)) > real(0.001), part_along(slope, normal), slope - part_along(slope, edge));
+    real size = sqrt(max(dot(across, across), real(1e-30)));
+    // What slides along a face of the body keeps its normal to the last bit; a triangle that is edge-on has none.
+    return select(size < real(0.99) && size > real(0.05), across * (real(1) / size), slope);
 }
 
 // What a triangle and a body do in a substep.
@@ -226,8 +267,10 @@ WEFT_OUTLINED_FN FaceContact swept_face(Solid solid, Corners from, Corners to,
     FaceContact contact;
     contact.touches = !(now.distance > least) || time < real(1);
     contact.weights = now.weights;
+    Corners there = between(from, to, time);
+    now.normal = slope_across(there, now);
     contact.normal = now.normal;
-    vec3 touched = point_of(between(from, to, time), now.weights);
+    vec3 touched = point_of(there, now.weights);
     contact.place = touched;
     contact.gap = dot(now.normal, point_of(to, now.weights) - touched) + now.distance;
     contact.gap_at_start = first.distance;
@@ -267,7 +310,7 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
     FacePoint last = least_on_face(solid, to, center, nearest);
     FaceContact contact;
     contact.weights = last.weights;
-    contact.normal = last.normal;
+    contact.normal = slope_across(to, last);
     contact.place = point_of(to, last.weights);
     contact.gap = last.distance - nearest;
     contact.gap_at_start = real(0);
@@ -332,6 +375,7 @@ struct FaceRow {
     vec3 lever;                               // from the body's origin to where it touches, world, m
     real offset;                              // m: normal·point + offset is the gap
     real gap_at_start;                        // m
+    vec3 corner_gaps;                         // of the corners at the start of the substep, m
     vec3 start;                               // the point at the start of the substep, plus how far the body carried it
     real static_friction, kinetic_friction;
     real depenetration;                       // m
@@ -348,6 +392,9 @@ WEFT_FN FaceRow face_row(ContactBody body, FaceContact contact, Corners x, Corne
     row.offset = contact.gap - dot(row.normal, point_of(x, contact.weights));
     row.gap_at_start = contact.gap_at_start;
     row.start = point_of(start, contact.weights) + carried_by(body, point_of(local, contact.weights));
+    row.corner_gaps = vec3(dot(row.normal, start.a + carried_by(body, local.a)),
+                           dot(row.normal, start.b + carried_by(body, local.b)),
+                           dot(row.normal, start.c + carried_by(body, local.c))) + vec3(row.offset);
     row.static_friction = body.static_friction;
     row.kinetic_friction = body.kinetic_friction;
     row.depenetration = body.depenetration;
@@ -369,16 +416,17 @@ WEFT_FN vec3 face_displacement(FaceRow row, vec3 point, real inverse_mass, inout
     return (x - point) * select(inverse_mass > real(0), real(1) / max(inverse_mass, real(1e-30)), real(0));
 }
 
-// The last sweep keeps faces from passing, where the sweeps before have not sufficed: no corner stays behind the plane on
-// which the face touched. That holds a face back as a whole, whereas a point of it alone would let it turn into a body
-// that moves fast. Faces that began deep inside are on no side. How far a corner has to move along the normal.
-//   point, corner  the row's point and the corner now
-WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real nearest)
+// The last sweep keeps faces from passing, where the sweeps before have not sufficed: no corner goes behind the plane on
+// which the face touched, or farther behind than it began. That holds a face back as a whole, whereas a point of it alone
+// would let it turn into a body that moves fast. Faces that began deep inside are on no side. How far a corner has to move
+// along the normal.
+//   point, corner, corner_gap  the row's point and the corner now; of corner_gaps
+WEFT_FN real face_retreat(FaceRow row, vec3 point, vec3 corner, real corner_gap, real nearest)
 {
     real goal = min(real(-0.75) * nearest, row.gap_at_start);
     mask acts = row.swept > real(0) ||
                 (row.gap_at_start > real(-3) * nearest && dot(row.normal, point) + row.offset < goal);
-    real missing = max(goal - (dot(row.normal, corner) + row.offset), real(0));
+    real missing = max(min(goal, corner_gap) - (dot(row.normal, corner) + row.offset), real(0));
     return select(acts, missing, real(0));
 }
 
@@ -389,12 +437,12 @@ WEFT_FN mask is_push(real size2)
     return size2 > real(0.25 / (WEFT_PUSH_QUANTA_PER_METER * WEFT_PUSH_QUANTA_PER_METER));
 }
 
-// The part of its pushes that moves a particle, so that many faces do not push it too far: their mean, or in the last
-// sweep the longest push in their mean direction.
-//   count  of the pushes; in the last sweep the length of the longest one, m
-WEFT_FN real face_share(mask last, real count, vec3 total)
+// The part of its pushes that moves a particle, so that many faces do not push it too far: it goes in their mean direction,
+// no farther than the longest of them.
+//   longest  m
+WEFT_FN real face_share(real longest, vec3 total)
 {
-    return select(last, min(count / max(sqrt(dot(total, total)), real(1e-9)), real(1)), real(1) / count);
+    return min(longest / max(sqrt(dot(total, total)), real(1e-9)), real(1));
 }
 
 // A particle that is held goes only a part of its way relative to the body. `from`, `to`: in the body's frame.

@@ -43,7 +43,8 @@ void store_contact(uint place, FaceRow row)
     face_contact_args.at.contacts.at[place + 2u] = vec4(row.start, row.gap_at_start);
     face_contact_args.at.contacts.at[place + 3u] = vec4(0.0);
     face_contact_args.at.contacts.at[place + 4u] = vec4(vec3(0.0), row.swept > 0.0 ? 2.0 : 1.0);
-    if (logs_faces()) face_contact_args.at.contacts.at[place + 5u] = vec4(row.lever, 0.0);
+    face_contact_args.at.contacts.at[place + 5u] = vec4(row.corner_gaps, 0.0);
+    if (logs_faces()) face_contact_args.at.contacts.at[place + 6u] = vec4(row.lever, 0.0);
 }
 FaceRow load_contact(uint place)
 {
@@ -140,12 +141,8 @@ void add_to_faces(uint particle, vec3 push)
     for (uint axis = 0u; axis < 3u; ++axis)
         atomicAdd(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + axis],
                   uint(int(to_contact_quanta(push[axis], WEFT_PUSH_QUANTA_PER_METER))));
-    if (face_contact_args.at.sweep == WEFT_FACE_SWEEPS) {
-        uint size = uint(int(to_contact_quanta(sqrt(size2), WEFT_PUSH_QUANTA_PER_METER))) + 1u;
-        atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + 3u], size);
-    } else {
-        atomicAdd(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + 3u], 1u);
-    }
+    uint size = uint(int(to_contact_quanta(sqrt(size2), WEFT_PUSH_QUANTA_PER_METER))) + 1u;
+    atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + 3u], size);
 }
 
 void run_push_faces(uint f)
@@ -162,9 +159,10 @@ void run_push_faces(uint f)
         vec3 point = point_of(face.x, row.weights);
         vec3 a, b, c, by;
         if (face_contact_args.at.sweep == WEFT_FACE_SWEEPS) {
-            by = vec3(face_retreat(row, point, face.x.a, nearest_of_faces()),
-                      face_retreat(row, point, face.x.b, nearest_of_faces()),
-                      face_retreat(row, point, face.x.c, nearest_of_faces()));
+            vec3 gaps = face_contact_args.at.contacts.at[place + 5u].xyz;
+            by = vec3(face_retreat(row, point, face.x.a, gaps.x, nearest_of_faces()),
+                      face_retreat(row, point, face.x.b, gaps.y, nearest_of_faces()),
+                      face_retreat(row, point, face.x.c, gaps.z, nearest_of_faces()));
             a = row.normal * by.x;
             b = row.normal * by.y;
             c = row.normal * by.z;
@@ -227,15 +225,15 @@ void log_pushes(uint p, float share)
             vec3 by = face_contact_args.at.contacts.at[place + 4u].xyz;
             vec3 push = last ? row.normal * by[mine] : by * row.weights[mine];
             log_push(p, face_contact_args.at.slots.at[slot], push * share,
-                     face_contact_args.at.contacts.at[place + 5u].xyz);
+                     face_contact_args.at.contacts.at[place + 6u].xyz);
         }
     }
 }
 
 void run_move_faces(uint p)
 {
-    uint count = face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u];
-    if (count == 0u) return;
+    uint longest = face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u];
+    if (longest == 0u) return;
     vec4 x = load_point(face_contact_args.at.position, p);
     vec3 total = vec3(0.0);
     for (uint axis = 0u; axis < 3u; ++axis) {
@@ -244,7 +242,7 @@ void run_move_faces(uint p)
     }
     face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u] = 0u;
     bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
-    float share = face_share(last, last ? float(count) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER) : float(count), total);
+    float share = face_share(float(longest) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER), total);
     if (logs_faces()) log_pushes(p, last ? share : share * x.w);
     store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
 }
