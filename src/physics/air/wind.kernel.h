@@ -1,11 +1,20 @@
 // Gusts and turbulence of a wind (law: air.md). The mean flow is defined by each kind of wind (winds.def).
 
-// Up to three vectors; the kernel file of each kind documents their meaning.
+// Up to three vectors and three numbers; the kernel file of each kind documents their meaning.
 struct WindNumbers {
     vec3 n0, n1, n2;
+    real s0, s1, s2;
 };
 
-// The wind at a point, without gusts and turbulence.
+// Where a source has wind, and how much.
+struct WindBounds {
+    vec3 x, y, z;      // axes of the source
+    vec3 edge;         // m     half extents of its box, with the border
+    real per_border;   // 1/m   inverse width of the border
+    real strength;     // of the velocity
+};
+
+// The wind at a point relative to the source's position, without gusts and turbulence.
 struct Flow {
     vec3 velocity;   // m/s
     real q1, q2;     // m    two coordinates perpendicular to it
@@ -21,6 +30,21 @@ struct WindLife {
     real noise_time;       // time over period, modulo 289
     vec3 noise_offset;     // from the seed, whole numbers
 };
+
+// 1 in the box and 0 outside of its border, smooth between, along one axis.
+WEFT_FN real share_along(real q, real edge, real per_border)
+{
+    real t = min(max((edge - abs(q)) * per_border, real(0)), real(1));
+    return t * t * (real(3) - t * real(2));
+}
+
+// The factor of the wind at a point relative to the source's position.
+WEFT_FN real wind_share(vec3 p, WindBounds b)
+{
+    real share = share_along(dot(p, b.x), b.edge.x, b.per_border);
+    share = share * share_along(dot(p, b.y), b.edge.y, b.per_border);
+    return b.strength * (share * share_along(dot(p, b.z), b.edge.z, b.per_border));
+}
 
 // `number` identifies the triangle: an integer from 0, below 2^24.
 WEFT_FN vec3 live_wind(Flow flow, real number, WindLife life)
