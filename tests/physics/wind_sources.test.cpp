@@ -2,6 +2,10 @@
 
 #include "backend_runs.h"
 
+#include "collide/convex_hull.h"
+#include "collide/distance_field.h"
+#include "mesh/procedural.h"
+
 #include <numbers>
 
 namespace weft::physical {
@@ -157,6 +161,12 @@ void add_scene(World& world) {
                              .transform = {.position = {0.9f, 0, 0.5f}, .rotation_degrees = {0, 30, 10}},
                              .motion = {{0, {0.9f, 0, 0.5f}, {}}, {0.3f, {-0.9f, 0, 0.5f}, {0, 90, 0}}}}));
     world.add(make_collider({.shape = PlaneDesc{.offset = -0.8f}}));
+    const TriangleMesh block = make_box({0.3f, 0.5f, 0.4f}, {2, 2, 2}), ball = make_sphere(0.25f, 3);
+    world.add(make_collider({.shape = ConvexDesc{}, .transform = {.position = {-0.9f, 0.5f, -0.5f}}},
+                            std::make_shared<ShapeData>(make_convex_data(*convex_hull(block.positions)))));
+    auto field = build_distance_field(ball.positions, ball.triangles, {.cells = 24, .threads = 1});
+    world.add(make_collider({.shape = SolidMeshDesc{}, .transform = {.position = {-0.9f, -0.4f, 0.6f}}},
+                            std::make_shared<ShapeData>(std::move(field->data))));
     world.add(make_sheet({.resolution = {21, 17}, .rotation_degrees = {70, 5, 0}, .pinned = [](Vec3 p) {
                               return p.z < -0.49f && std::abs(p.x) > 0.49f;
                           }}));

@@ -2,7 +2,7 @@
 #include "io/scenes/scene_file.h"
 #include "io/scenes/scene_writer.h"
 
-#include "read_scene.test.h"
+#include "io/scenes/read_scene.test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

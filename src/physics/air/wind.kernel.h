@@ -46,8 +46,8 @@ WEFT_FN real wind_share(vec3 p, WindBounds b)
     return b.strength * (share * share_along(dot(p, b.z), b.edge.z, b.per_border));
 }
 
-// `number` identifies the triangle: an integer from 0, below 2^24.
-WEFT_FN vec3 live_wind(Flow flow, real number, WindLife life)
+// The sine of a gust's phase.
+WEFT_FN real gust_at(Flow flow, real number, WindLife life)
 {
     vec3 at = vec3(flow.q1 * life.gust_per_meter, flow.q2 * life.gust_per_meter, real(0.5));
     real smooth_phase = perlin(at + vec3(life.noise_offset.z, life.noise_offset.x, life.noise_offset.y));
@@ -57,9 +57,19 @@ WEFT_FN vec3 live_wind(Flow flow, real number, WindLife life)
     real second = permute_289(mod_289(first + life.noise_offset.y));
     real rate = real(0.5) + real(0.0625) * (first - floor((first + real(0.5)) * real(0.0625)) * real(16));
     mask own = life.scattered > real(0.5);
-    real turns = select(own, life.gust_turns * rate + second * real(1.0 / 289.0), life.gust_turns + smooth_phase);
+    return sin_turns(
+        select(own, life.gust_turns * rate + second * real(1.0 / 289.0), life.gust_turns + smooth_phase));
+}
 
-    vec3 eddy = vec3(flow.q1 * life.noise_per_meter, flow.q2 * life.noise_per_meter, life.noise_time);
-    real noise = perlin(eddy + life.noise_offset);
-    return flow.velocity * (real(1) + life.gust * sin_turns(turns) + life.turbulence * noise);
+// `number` identifies the triangle: an integer from 0, below 2^24.
+WEFT_FN vec3 live_wind(Flow flow, real number, WindLife life)
+{
+    // Noise is most of the work. Many winds have none.
+    real gust = real(0), noise = real(0);
+    if (any(life.gust > real(0))) gust = gust_at(flow, number, life);
+    if (any(life.turbulence > real(0))) {
+        vec3 eddy = vec3(flow.q1 * life.noise_per_meter, flow.q2 * life.noise_per_meter, life.noise_time);
+        noise = perlin(eddy + life.noise_offset);
+    }
+    return flow.velocity * (real(1) + life.gust * gust + life.turbulence * noise);
 }
