@@ -141,6 +141,7 @@ TEST(WindShare, is_one_in_the_box_and_falls_smoothly_to_nothing_over_the_border)
     const auto at = [&](vec3 p) { return reference::wind_share(p, bounds); };  // 1 × 2 × 3 with a border of 0.5
     EXPECT_EQ(at({0.99, -1.99, 2.99}), 1);
     EXPECT_NEAR(at({1.25, 0, 0}), 0.5, 1e-12);
+    EXPECT_NEAR(at({1.05, 0, 0}), 0.972, 1e-12) << "flat at its ends";
     EXPECT_NEAR(at({1.25, -2.25, 3.25}), 0.125, 1e-12);
     EXPECT_EQ(at({-1.5, 0, 0}), 0);
     EXPECT_EQ(at({0, 2.51, 0}), 0);
