@@ -122,11 +122,13 @@ TEST_F(Glsl, lines_compile) {
 }
 
 TEST_F(Glsl, every_wind_compiles) {
-#define WEFT_WIND(name, Name)                                                                               \
-    EXPECT_EQ(compile("    WindNumbers w = WindNumbers(x[0].xyz, x[1].xyz, x[2].xyz);\n"                    \
-                      "    WindLife life = WindLife(n[0], n[1], n[2], n[3], n[4], n[5], n[6], x[3].xyz);\n" \
-                      "    x[i].xyz = live_wind(flow_" #name "(x[i].xyz, w), float(i), life);\n"),          \
-              "")                                                                                           \
+#define WEFT_WIND(name, Name)                                                                                          \
+    EXPECT_EQ(                                                                                                         \
+        compile("    WindNumbers w = WindNumbers(x[0].xyz, x[1].xyz, x[2].xyz, n[0], n[1], n[2]);\n"                   \
+                "    WindLife life = WindLife(n[0], n[1], n[2], n[3], n[4], n[5], n[6], x[3].xyz);\n"                  \
+                "    WindBounds b = WindBounds(x[0].xyz, x[1].xyz, x[2].xyz, x[3].xyz, n[0], n[1]);\n"                 \
+                "    x[i].xyz = live_wind(flow_" #name "(x[i].xyz, w), float(i), life) * wind_share(x[i].xyz, b);\n"), \
+        "")                                                                                                            \
         << #name;
 #include "physics/air/winds.def"
 #undef WEFT_WIND

@@ -51,9 +51,6 @@ enum class Tethers { automatic, on, off };
 /// a wider gap and without that guarantee. An exact and a fast cloth meet as fast ones.
 enum class SelfCollision { off, fast, exact };
 
-/// `directional`: the same velocity everywhere.
-enum class WindKind { directional };
-
 /// `smooth`: neighboring triangles get the same gust. `scattered`: each triangle has its own phase and frequency.
 enum class GustPhase { smooth, scattered };
 
@@ -72,23 +69,6 @@ struct TurbulenceDesc {
     float scale = 0.5f;  ///< m, > 0: size of an eddy across the wind
     float period = 1;    ///< s, ≥ 0: lifetime of an eddy; 0: eddies do not change
     friend bool operator==(const TurbulenceDesc&, const TurbulenceDesc&) = default;
-};
-
-/// One wind source.
-struct WindDesc {
-    WindKind kind = WindKind::directional;
-    Vec3 velocity = {};  ///< m/s, each component within ±1e4
-    GustDesc gust = {};
-    TurbulenceDesc turbulence = {};
-    std::uint32_t seed = 0;  ///< selects the random gusts and eddies, 0…16777215
-    friend bool operator==(const WindDesc&, const WindDesc&) = default;
-};
-
-/// The air around the cloths.
-struct AirDesc {
-    float density = 1.225f;           ///< kg/m³, 0…1e4
-    std::vector<WindDesc> wind = {};  ///< their velocities add up
-    friend bool operator==(const AirDesc&, const AirDesc&) = default;
 };
 
 /// Diagonals of the cells of a grid. `uniform`: all along +x+z. `alternating`: a checkerboard of both directions.
@@ -138,6 +118,63 @@ struct TransformDesc {
     Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx
     float scale = 1;             ///< > 0
     friend bool operator==(const TransformDesc&, const TransformDesc&) = default;
+};
+
+/// The same velocity everywhere.
+struct DirectionalDesc {
+    friend bool operator==(const DirectionalDesc&, const DirectionalDesc&) = default;
+};
+/// A round turbulent jet from a nozzle at the source's position, which blows along the velocity. On the axis the air
+/// has the full velocity for 6 diameters; then it slows down as 1/x. Behind the nozzle the air is still.
+struct JetDesc {
+    float diameter = 0.3f;  ///< m, 1e-6…1e6, of the nozzle
+    friend bool operator==(const JetDesc&, const JetDesc&) = default;
+};
+/// A Lamb-Oseen vortex around the source's local y axis. The velocity of the source is added on the axis and fades away
+/// from it.
+struct VortexDesc {
+    float swirl = 5;      ///< m/s, within ±1e4: largest speed around the axis, right-handed
+    float inflow = 0;     ///< m/s, within ±1e4: largest speed toward the axis; negative: away from it
+    float radius = 0.3f;  ///< m, 1e-6…1e6: where both are largest
+    friend bool operator==(const VortexDesc&, const VortexDesc&) = default;
+};
+
+/// Bounds of a wind source: a box at its position, along its axes. Outside of the border the source has no wind.
+struct WindBoxDesc {
+    Vec3 half_extents{1, 1, 1};  ///< m, > 0, half of the size along the local x, y and z
+    float border = 0.1f;         ///< m, ≥ 0: distance from the box over which the wind fades
+    friend bool operator==(const WindBoxDesc&, const WindBoxDesc&) = default;
+};
+
+/// Place, direction and strength of a wind source at a time. They are interpolated linearly between keys and constant
+/// before the first and after the last one.
+struct WindKey {
+    float time = 0;              ///< s
+    Vec3 position = {};          ///< m
+    Vec3 rotation_degrees = {};  ///< R = Rz·Ry·Rx; each angle is interpolated, 360° more adds a turn
+    float strength = 1;          ///< factor of all velocities of the source, 0…100
+    friend bool operator==(const WindKey&, const WindKey&) = default;
+};
+
+/// One wind source.
+struct WindDesc {
+    std::variant<DirectionalDesc, JetDesc, VortexDesc> kind = {};
+    Vec3 velocity = {};                   ///< m/s, each component within ±1e4, in the source's local frame
+    TransformDesc transform = {};         ///< place and direction; `scale` is ignored
+    std::vector<WindKey> motion = {};     ///< by ascending time; empty: the source stays at `transform`
+    std::optional<WindBoxDesc> box = {};  ///< nullopt: not bounded
+    float shelter = 0;  ///< m, 0…1e6: a triangle with a collider this near against the wind gets none; 0: no shelter
+    GustDesc gust = {};
+    TurbulenceDesc turbulence = {};
+    std::uint32_t seed = 0;  ///< selects the random gusts and eddies, 0…16777215
+    friend bool operator==(const WindDesc&, const WindDesc&) = default;
+};
+
+/// The air around the cloths.
+struct AirDesc {
+    float density = 1.225f;           ///< kg/m³, 0…1e4
+    std::vector<WindDesc> wind = {};  ///< their velocities add up
+    friend bool operator==(const AirDesc&, const AirDesc&) = default;
 };
 
 /// Selects particles by number. Fails if a number is out of range, or the vertex belongs to no triangle.

@@ -185,11 +185,7 @@ void ClothRun::run_faces(const Pass& pass, Worker worker) const {
     if (pass.kind == PassKind::faces) return passes_.faces(cloth_.surface(), mine);
     const AirView air = cloth_.air(input_.air_density);
     if (pass.kind == PassKind::air) return passes_.air(air, mine, numbers_.h);
-    bool first = true;
-    for (const WindNow& wind : input_.winds) {
-        passes_.wind[static_cast<std::uint32_t>(wind.kind)](air, wind, first, mine);
-        first = false;
-    }
+    run_winds(air, mine, worker.number);
 }
 
 void ClothRun::run_targets(std::uint32_t substep, Range mine) const {

@@ -236,6 +236,7 @@ AirView ClothState::air(float density) {
             .stride = model->face_stride,
             .mass = face_mass.data(),
             .wind = wind.empty() ? nullptr : &wind[0].x,
+            .sheltered = nullptr,
             .impulse = &by_face[0].x,
             .drag = 0.5f * density * fabric.drag,
             .lift = 0.5f * density * fabric.lift,
@@ -273,6 +274,9 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     face_contacts.prepare(model->capacity(), model->face_stride,
                           has_face_contact(plan) ? static_cast<std::uint32_t>(colliders) : 0, workers);
     wind.resize(has(plan.frame_begin, PassKind::wind) ? model->face_stride : 0);
+    sheltered.resize(colliders > 0 ? wind.size() : 0);
+    sheltering.resize(sheltered.empty() ? 0 : workers);
+    for (std::vector<std::uint32_t>& numbers : sheltering) numbers.reserve(colliders);
     if (has(plan.substep, PassKind::air) && face_mass.empty()) {
         const std::vector<float> masses = face_masses(*model);
         face_mass.assign(masses.begin(), masses.end());

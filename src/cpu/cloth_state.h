@@ -49,10 +49,12 @@ struct ClothState {
     /// Values that particles sum over their triangles: the air's impulse, and at the end of a frame the normals. One
     /// extra element stays zero.
     AlignedVector<Vec4> by_face;
-    std::vector<LevelState> levels;              ///< one per level of the model, if a plan uses them
-    AlignedVector<Vec4> wind;                    ///< per triangle; empty without wind
-    AlignedVector<float> face_mass;              ///< kg, per triangle; empty until a plan has air
-    std::unique_ptr<const JacobiGather> gather;  ///< null until a plan uses averaged Jacobi
+    std::vector<LevelState> levels;                      ///< one per level of the model, if a plan uses them
+    AlignedVector<Vec4> wind;                            ///< per triangle; empty without wind
+    AlignedVector<Vec4> sheltered;                       ///< AirView::sheltered; empty without wind or colliders
+    std::vector<std::vector<std::uint32_t>> sheltering;  ///< per worker: numbers of colliders
+    AlignedVector<float> face_mass;                      ///< kg, per triangle; empty until a plan has air
+    std::unique_ptr<const JacobiGather> gather;          ///< null until a plan uses averaged Jacobi
     AlignedVector<Vec4> corrections;
     std::vector<AlignedVector<float>> line_scratch;  ///< per worker
     double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame

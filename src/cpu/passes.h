@@ -153,6 +153,7 @@ struct AirView {
     std::uint32_t stride;
     const float* mass;  ///< kg per triangle
     float* wind;        ///< blocks of four per triangle, m/s; nullptr without wind
+    float* sheltered;   ///< of one wind that colliders can stop: blocks of four, the last 0 in shelter; or nullptr
     float* impulse;     ///< blocks of four per triangle, kg·m/s: a corner's third; then one of zeros
     float drag, lift;   ///< ½ρC, kg/m³
     bool sine_lift;
@@ -210,8 +211,12 @@ struct Passes {
     /// Adds the pushes of all contacts to the particles' sums. `last`: of the sweep that keeps faces from passing.
     void (*push_faces)(const ParticleView&, const FaceRows&, bool last, float depenetration, float nearest,
                        const FaceSums&);
-    /// Adds to the wind of each triangle, or sets it. One entry per kind of wind.
+    /// Adds to the wind of each triangle, or sets it; with AirView::sheltered, sets that. One entry per kind of wind.
     std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;
+    /// Marks triangles that have the collider within `reach` m against AirView::sheltered.
+    void (*shelter)(const AirView&, const ContactView&, float reach, Range);
+    /// Adds AirView::sheltered to the wind of each triangle, or sets it.
+    void (*add_sheltered)(const AirView&, bool first, Range);
     void (*air)(const AirView&, Range, float h);
     void (*push)(const ParticleView&, const AirView&, Range);
     void (*faces)(const SurfaceView&, Range);

@@ -304,40 +304,7 @@ WEFT_FN vec3 spread(Vec3 v) { return vec3(real(v.x), real(v.y), real(v.z)); }
 
 #include "cpu/contact.inl"
 
-#define WEFT_WIND(name, Name)                                    \
-    struct Name##Wind {                                          \
-        WEFT_FN static Flow flow(vec3 p, const WindNumbers& n) { \
-            return flow_##name(p, n);                            \
-        }                                                        \
-    };
-#include "physics/air/winds.def"
-#undef WEFT_WIND
-
-// 0, 1, 2, … in the lanes.
-WEFT_FN real lane_numbers() {
-    float numbers[16];
-    for (int lane = 0; lane < 16; ++lane) numbers[lane] = static_cast<float>(lane);
-    return load(numbers);
-}
-
-template <class Wind>
-inline void wind_pass(const AirView& air, const WindNow& wind, bool first, Range range) {
-    const WindNumbers numbers = {spread(wind.numbers[0]), spread(wind.numbers[1]), spread(wind.numbers[2])};
-    const WindLife life = {real(wind.gust),           real(wind.gust_turns),     real(wind.gust_per_meter),
-                           real(wind.scattered ? 1.0f : 0.0f), real(wind.turbulence), real(wind.noise_per_meter),
-                           real(wind.noise_time),     spread(wind.noise_offset)};
-    const real lanes = lane_numbers();
-    for (std::size_t t = range.begin; t < range.end; t += lane_count) {
-        real unused;
-        const vec3 a = gather_blocks(air.position, air.faces + t, unused);
-        const vec3 b = gather_blocks(air.position, air.faces + std::size_t{air.stride} + t, unused);
-        const vec3 c = gather_blocks(air.position, air.faces + std::size_t{2} * air.stride + t, unused);
-        const vec3 middle = (a + b + c) * real(1.0f / 3.0f);
-        vec3 u = live_wind(Wind::flow(middle, numbers), real(static_cast<float>(t)) + lanes, life);
-        if (!first) u = u + load_blocks(air.wind + 4 * t, unused);
-        store_blocks(u, real(0.0f), air.wind + 4 * t);
-    }
-}
+#include "cpu/wind.inl"
 
 inline void air_pass(const AirView& air, Range range, float h) {
     const AirFabric fabric = {real(air.drag), real(air.lift), real(air.sine_lift ? 1.0f : 0.0f)};
@@ -417,6 +384,8 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/air/winds.def"
         },
 #undef WEFT_WIND
+        .shelter = shelter_pass,
+        .add_sheltered = add_sheltered_pass,
         .air = air_pass,
         .push = push_around_pass,
         .faces = faces_pass,

@@ -302,6 +302,7 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
                               .stride = faces,
                               .mass = mass.data(),
                               .wind = &wind[0].x,
+                              .sheltered = nullptr,
                               .impulse = &impulse[0].x,
                               .drag = 0.7f,
                               .lift = 0.4f,
@@ -309,7 +310,13 @@ TEST_P(InstructionSet, blows_and_pushes_alike) {
                               .around = around};
             for (std::uint32_t kind = 0; kind < wind_kind_count; ++kind) {
                 const WindNow now{.kind = static_cast<WindKind>(kind),
-                                  .numbers = {Vec3{3, 1, 0}, Vec3{0, 0, 1}, Vec3{-0.3f, 0.9f, 0}},
+                                  .vectors = {Vec3{3, 1, 0}, Vec3{0, 0, 1}, Vec3{-0.3f, 0.9f, 0}},
+                                  .numbers = {0.5f, 2, -1},
+                                  .position = {0.1f, -0.2f, 0.3f},
+                                  .axes = {},
+                                  .edge = {1, 2, 3},
+                                  .per_border = 0.7f,
+                                  .strength = 1.3f,
                                   .gust = 0.3f,
                                   .gust_turns = 5.3f,
                                   .gust_per_meter = 0.25f,

@@ -80,6 +80,14 @@ TEST_F(MalformedScene, gravity_and_air_at_their_ends) {
                           R"(}, "turbulence": {"strength": 100, "period": 1e-38, "scale": )" + scale + "}}]}");
         }
     }
+    for (const char* wind :
+         {R"("kind": "jet", "diameter": 1e-6, "shelter": 1e6)", R"("kind": "jet", "diameter": 1e6)",
+          R"("kind": "vortex", "swirl": 1e4, "inflow": -1e4, "radius": 1e-6)",
+          R"("kind": "vortex", "radius": 1e6, "box": {"half_extents": [1e-9, 1e-9, 1e-9], "border": 0})"}) {
+        expect_to_last(hung, R"(, "air": {"density": 1e4, "wind": [{"velocity": [1e4, 1e4, 1e4],
+            "motion": {"keys": [{"strength": 100}]}, )" +
+                                 std::string(wind) + "}]}");
+    }
     EXPECT_EQ(problem(hung, R"(, "air": {"density": -1})"), "/air/density: must be ≥ 0 kg/m³, got -1");
 }
 

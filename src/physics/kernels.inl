@@ -1,9 +1,10 @@
 // All kernels, to be included inside a namespace that defines the lanes. Kernels have no include guards: each namespace
 // compiles its own copy of the same text. Include the *.data.h files before, outside any namespace. The preprocessor
-// cannot generate an #include from constraints.def, so list a new constraint or wind here too.
+// cannot generate an #include from constraints.def, so list a new constraint here too.
 
 // clang-format off: each file depends on those before it
 #include "physics/trigonometry.kernel.h"
+#include "physics/exponential.kernel.h"
 #include "physics/accumulate.kernel.h"
 #include "physics/integrate/integrate.kernel.h"
 #include "physics/surface/normals.kernel.h"
@@ -12,7 +13,9 @@
 
 #include "physics/air/noise.kernel.h"
 #include "physics/air/wind.kernel.h"
-#include "physics/air/directional.kernel.h"
+#define WEFT_WIND_KERNELS
+#include "physics/air/winds.def"
+#undef WEFT_WIND_KERNELS
 #include "physics/air/air.kernel.h"
 
 #include "physics/tether/tether.kernel.h"
@@ -37,4 +40,5 @@
 #undef WEFT_SHAPE_KERNELS
 #include "physics/contact/swept.kernel.h"
 #include "physics/contact/face.kernel.h"
+#include "physics/air/shelter.kernel.h"
 // clang-format on

@@ -262,9 +262,17 @@ void check_air(const AirDesc& air, const std::string& pointer, Problems& problem
     check_values(air_keys, &air, pointer, problems);
     for (std::size_t i = 0; i < air.wind.size(); ++i) {
         const std::string place = at(at(pointer, "wind"), i);
-        check_values(wind_keys, &air.wind[i], place, problems);
-        check_values(gust_keys, &air.wind[i].gust, at(place, "gust"), problems);
-        check_values(turbulence_keys, &air.wind[i].turbulence, at(place, "turbulence"), problems);
+        const WindDesc& wind = air.wind[i];
+        check_values(wind_keys, &wind, place, problems);
+#define WEFT_WIND(name, Name) \
+    if (const auto* kind = std::get_if<Name##Desc>(&wind.kind)) check_values(name##_parameters, kind, place, problems);
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+        check_values(pose_keys, &wind.transform, at(place, "transform"), problems);
+        check_keys(wind.motion, wind_key_keys, at(at(place, "motion"), "keys"), problems);
+        if (wind.box) check_values(wind_box_keys, &*wind.box, at(place, "box"), problems);
+        check_values(gust_keys, &wind.gust, at(place, "gust"), problems);
+        check_values(turbulence_keys, &wind.turbulence, at(place, "turbulence"), problems);
     }
 }
 

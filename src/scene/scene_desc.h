@@ -14,23 +14,21 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace weft {
 
-// weft/scene.h must list the winds in the same order.
-#define WEFT_WIND(name, Name) WindKind::name,
-inline constexpr WindKind wind_order[] = {
+// weft/scene.h must list the kinds of wind in the order of winds.def.
+template <class, class... Kinds>
+using WindKinds = std::variant<Kinds...>;
+#define WEFT_WIND(name, Name) , Name##Desc
+static_assert(std::is_same_v<decltype(WindDesc::kind), WindKinds<void
 #include "physics/air/winds.def"
-};
+                                                                 >>);
 #undef WEFT_WIND
-static_assert([] {
-    int number = 0;
-    for (const WindKind kind : wind_order)
-        if (static_cast<int>(kind) != number++) return false;
-    return true;
-}());
 
 /// The material of a cloth or a collider in images and exports.
 struct SceneMaterial {

@@ -12,7 +12,13 @@ const SceneHead scene_head;
 const FabricHead fabric_head;
 const SceneDesc scene;
 const AirDesc air;
+const WindHead wind_head;
 const WindDesc wind;
+const WindKey wind_key;
+const WindBoxDesc wind_box;
+#define WEFT_WIND(name, Name) const Name##Desc name##_wind;
+#include "physics/air/winds.def"
+#undef WEFT_WIND
 const SceneCloth cloth;
 const MeshFileDesc mesh_file;
 const GridDesc grid;
@@ -41,7 +47,15 @@ std::vector<SceneTable> all_tables() {
         {"", scene_keys, &scene},
         {"/solver", solver_keys, &scene.solver},
         {"/air", air_keys, &air},
+        {"/air/wind/*", wind_head_keys, &wind_head},
         {"/air/wind/*", wind_keys, &wind},
+#define WEFT_WIND(name, Name) {"/air/wind/*", name##_parameters, &name##_wind},
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+        {"/air/wind/*/transform", pose_keys, &wind.transform},
+        {"/air/wind/*/motion", motion_keys, nullptr},
+        {"/air/wind/*/motion/keys/*", wind_key_keys, &wind_key},
+        {"/air/wind/*/box", wind_box_keys, &wind_box},
         {"/air/wind/*/gust", gust_keys, &wind.gust},
         {"/air/wind/*/turbulence", turbulence_keys, &wind.turbulence},
         {"/cloths/*", cloth_keys, &cloth},

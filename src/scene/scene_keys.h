@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/parameter.h"
+#include "physics/air/winds.def"
 #include "physics/contact/shapes.def"
 #include "scene/scene_desc.h"
 
@@ -26,6 +27,9 @@ inline constexpr std::uint64_t max_made_vertices = 1u << 24;
 /// Keys of a file that a SceneDesc does not store.
 struct SceneHead {
     std::uint32_t weft = scene_format;
+};
+struct WindHead {
+    int kind = 0;  ///< number of the alternative of WindDesc::kind
 };
 struct FabricHead {
     std::string preset = "cotton";
@@ -93,15 +97,46 @@ inline constexpr std::string_view wind_choices = std::string_view(
     ).substr(1);
 #undef WEFT_WIND
 
+inline constexpr Parameter wind_head_keys[] = {
+    {.key = "kind", .kind = ParameterKind::choice, .offset = offsetof(WindHead, kind),
+     .what = "`directional`: the same everywhere; `jet`: a round turbulent jet from a nozzle; `vortex`: air that turns "
+             "around the source's y axis",
+     .choices = wind_choices},
+};
+
 inline constexpr Parameter wind_keys[] = {
-    {.key = "kind", .kind = ParameterKind::choice, .offset = offsetof(WindDesc, kind),
-     .what = "`directional`: the same everywhere", .choices = wind_choices},
     {.key = "velocity", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(WindDesc, velocity), .min = -1e4,
-     .max = 1e4, .unit = "m/s", .what = "velocity of the air"},
+     .max = 1e4, .unit = "m/s",
+     .what = "velocity of the air, along the axes of the source; of a `jet` at its nozzle, of a `vortex` on its axis"},
+    {.key = "transform", .kind = ParameterKind::object, .what = "position and rotation of the source"},
+    {.key = "motion", .kind = ParameterKind::object, .what = "`\"static\"`, or how it moves and changes"},
+    {.key = "box", .kind = ParameterKind::object, .what = "bounds of the source; by default it has none"},
+    {.key = "shelter", .offset = offsetof(WindDesc, shelter), .min = 0, .max = far_away, .unit = "m",
+     .what = "a triangle gets none of this wind if a collider stands within this distance against it; 0: colliders do "
+             "not stop the wind"},
     {.key = "gust", .kind = ParameterKind::object, .what = "change over time"},
     {.key = "turbulence", .kind = ParameterKind::object, .what = "change from place to place"},
     {.key = "seed", .kind = ParameterKind::integer, .offset = offsetof(WindDesc, seed), .min = 0, .max = 16777215,
      .what = "selects the random gusts and eddies"},
+};
+
+inline constexpr Parameter wind_key_keys[] = {
+    {.key = "time", .offset = offsetof(WindKey, time), .min = 0, .max = 1e6, .unit = "s",
+     .what = "later than the time of the key before"},
+    {.key = "position", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(WindKey, position),
+     .min = -far_away, .max = far_away, .unit = "m", .what = "position, in place of the transform's"},
+    {.key = "rotation", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(WindKey, rotation_degrees),
+     .min = -any_float, .unit = "°", .what = "rotation, in place of the transform's; 360 more adds a turn"},
+    {.key = "strength", .offset = offsetof(WindKey, strength), .min = 0, .max = 100,
+     .what = "factor of all velocities of the source"},
+};
+
+inline constexpr Parameter wind_box_keys[] = {
+    {.key = "half_extents", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(WindBoxDesc, half_extents),
+     .min = 0, .max = far_away, .min_excluded = true, .unit = "m",
+     .what = "half of the size along the x, y and z axes of the source, around its position"},
+    {.key = "border", .offset = offsetof(WindBoxDesc, border), .min = 0, .max = far_away, .unit = "m",
+     .what = "distance from the box over which the wind fades to nothing"},
 };
 
 inline constexpr Parameter gust_keys[] = {

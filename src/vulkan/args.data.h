@@ -98,10 +98,22 @@ struct WindIn {
     vec4 n1;            // w: gust_turns
     vec4 n2;            // w: gust_per_meter
     vec4 noise_offset;  // w: scattered
+    vec4 position;      // w: strength
+    vec4 axis_x;        // w: edge along it
+    vec4 axis_y;
+    vec4 axis_z;
+    float s0;
+    float s1;
+    float s2;
+    float per_border;
     float turbulence;
     float noise_per_meter;
     float noise_time;
     uint kind;
+    float shelter;  // m
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 struct TargetIn {
@@ -272,6 +284,7 @@ struct FaceArgs {
     Vec4s by_face;  // results of air and faces, per triangle
     FrameRef frame;
     WindRef winds;
+    CollidersRef colliders;  // wind only; 0 without colliders
     uint stride;
     uint count;
 };

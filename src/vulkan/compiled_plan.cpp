@@ -272,6 +272,7 @@ class Compiler {
                 .by_face = state(cloth_.by_face),
                 .frame = input_.frame(),
                 .winds = input_.winds(),
+                .colliders = island_.colliders,
                 .stride = model_.face_stride,
                 .count = model_.face_stride};
     }

@@ -10,7 +10,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(FrameIn) == 112 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 80 && sizeof(TargetIn) == 32);
+static_assert(sizeof(FrameIn) == 112 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 176 && sizeof(TargetIn) == 32);
 
 constexpr std::uint64_t report_bytes = WEFT_REPORT_WORDS * sizeof(std::uint32_t);
 
@@ -19,14 +19,26 @@ Vec4 with(Vec3 v, float w) {
 }
 
 WindIn wind_in(const WindNow& wind) {
-    return {.n0 = with(wind.numbers[0], wind.gust),
-            .n1 = with(wind.numbers[1], wind.gust_turns),
-            .n2 = with(wind.numbers[2], wind.gust_per_meter),
+    return {.n0 = with(wind.vectors[0], wind.gust),
+            .n1 = with(wind.vectors[1], wind.gust_turns),
+            .n2 = with(wind.vectors[2], wind.gust_per_meter),
             .noise_offset = with(wind.noise_offset, wind.scattered ? 1.0f : 0.0f),
+            .position = with(wind.position, wind.strength),
+            .axis_x = with(wind.axes.x, wind.edge.x),
+            .axis_y = with(wind.axes.y, wind.edge.y),
+            .axis_z = with(wind.axes.z, wind.edge.z),
+            .s0 = wind.numbers[0],
+            .s1 = wind.numbers[1],
+            .s2 = wind.numbers[2],
+            .per_border = wind.per_border,
             .turbulence = wind.turbulence,
             .noise_per_meter = wind.noise_per_meter,
             .noise_time = wind.noise_time,
-            .kind = static_cast<std::uint32_t>(wind.kind)};
+            .kind = static_cast<std::uint32_t>(wind.kind),
+            .shelter = wind.shelter,
+            .unused0 = 0,
+            .unused1 = 0,
+            .unused2 = 0};
 }
 
 // Strain times rest length over lambda of stretch. Same factor as in tension_in() (solver/plan/tension.h).

@@ -66,10 +66,11 @@ TEST(Allocation, is_over_when_the_first_frame_is) {
     if (!WEFT_COUNTS) GTEST_SKIP() << "a sanitizer counts here";
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
         for (const auto& [workers, cloths] : {std::pair(0u, 1), {1u, 1}, {1u, 3}}) {
-            World world =
-                make_world({.solver = {.substeps = 3, .iterations = 2, .projection = projection, .hierarchy = true},
-                            .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .turbulence = {.strength = 0.4f}}}}},
-                           {.workers = workers});
+            World world = make_world(
+                {.solver = {.substeps = 3, .iterations = 2, .projection = projection, .hierarchy = true},
+                 .air = AirDesc{.wind = {{.velocity = {3, 0, 1}, .shelter = 1, .turbulence = {.strength = 0.4f}},
+                                         {.kind = VortexDesc{}, .motion = {{.time = 0}, {.time = 1}}}}}},
+                {.workers = workers});
             const ColliderId ball =
                 world.add(make_collider({.shape = SphereDesc{0.2f}, .motion = {{0, {}, {}}, {9, {1, 0, 0}, {}}}}));
             const auto model =

@@ -128,6 +128,16 @@ class RandomScene {
         for (std::uint32_t i = below(3); i > 0; --i) {
             WindDesc& wind = air.wind.emplace_back();
             fill(wind_keys, &wind);
+            std::uint32_t kind = below(3);
+#define WEFT_WIND(name, Name) \
+    if (kind-- == 0) fill(name##_parameters, &wind.kind.emplace<Name##Desc>());
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+            fill(pose_keys, &wind.transform);
+            draw_keys(
+                wind.motion, wind_key_keys,
+                WindKey{.position = wind.transform.position, .rotation_degrees = wind.transform.rotation_degrees});
+            if (maybe()) fill(wind_box_keys, &wind.box.emplace());
             fill(gust_keys, &wind.gust);
             fill(turbulence_keys, &wind.turbulence);
         }

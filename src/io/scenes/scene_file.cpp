@@ -30,14 +30,53 @@ void read_head(ObjectReader& scene) {
                                                               number_text(head.weft));
 }
 
+// The keys of a motion, if there is one that is not "static". `like`: values that a key does not give.
+template <class Key>
+void read_motion(ObjectReader& o, std::span<const Parameter> table, const Key& like, std::vector<Key>& result) {
+    const json* found = o.find("motion");
+    if (!found || *found == "static") return;
+    const std::string place = at(o.pointer(), "motion");
+    if (!found->is_object()) {
+        o.problems().add(place, "must be \"static\" or an object with keys, got " + json_text(*found));
+        return;
+    }
+    o.object("motion", [&](ObjectReader& motion) {
+        motion.know(motion_keys);
+        motion.objects("keys", [&](ObjectReader& key) { key.values(table, &result.emplace_back(like)); });
+        if (motion.find("keys") == nullptr || (motion.find("keys")->is_array() && motion.find("keys")->empty()))
+            motion.problems().add(at(place, "keys"), "must hold at least one key");
+    });
+}
+
+// Keys of a kind of wind, which are a problem if the wind is of another kind.
+template <class Kind>
+void read_kind(ObjectReader& o, std::string_view name, bool chosen, std::span<const Parameter> table, WindDesc& wind) {
+    if (chosen) return o.values(table, &wind.kind.emplace<Kind>());
+    o.know(table);
+    for (const Parameter& p : table)
+        if (o.find(p.key)) o.problems().add(at(o.pointer(), p.key), "requires \"kind\": " + in_quotes(name));
+}
+
+void read_wind(ObjectReader& o, WindDesc& wind) {
+    WindHead head;
+    o.values(wind_head_keys, &head);
+    o.values(wind_keys, &wind);
+    int kind = 0;
+#define WEFT_WIND(name, Name) read_kind<Name##Desc>(o, #name, head.kind == kind++, name##_parameters, wind);
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+    o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &wind.transform); });
+    read_motion(o, wind_key_keys,
+                WindKey{.position = wind.transform.position, .rotation_degrees = wind.transform.rotation_degrees},
+                wind.motion);
+    o.object("box", [&](ObjectReader& box) { box.values(wind_box_keys, &wind.box.emplace()); });
+    o.object("gust", [&](ObjectReader& gust) { gust.values(gust_keys, &wind.gust); });
+    o.object("turbulence", [&](ObjectReader& t) { t.values(turbulence_keys, &wind.turbulence); });
+}
+
 void read_air(ObjectReader& o, AirDesc& air) {
     o.values(air_keys, &air);
-    o.objects("wind", [&](ObjectReader& wind) {
-        WindDesc& desc = air.wind.emplace_back();
-        wind.values(wind_keys, &desc);
-        wind.object("gust", [&](ObjectReader& gust) { gust.values(gust_keys, &desc.gust); });
-        wind.object("turbulence", [&](ObjectReader& t) { t.values(turbulence_keys, &desc.turbulence); });
-    });
+    o.objects("wind", [&](ObjectReader& wind) { read_wind(wind, air.wind.emplace_back()); });
 }
 
 template <class Shape>
@@ -119,28 +158,6 @@ void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     read_material(o, default_material(cloth), cloth.material);
 }
 
-void read_motion(ObjectReader& o, ColliderDesc& collider) {
-    const json* found = o.find("motion");
-    if (!found || *found == "static") return;
-    const std::string place = at(o.pointer(), "motion");
-    if (!found->is_object()) {
-        o.problems().add(place, "must be \"static\" or an object with keys, got " + json_text(*found));
-        return;
-    }
-    o.object("motion", [&](ObjectReader& motion) {
-        motion.know(motion_keys);
-        motion.objects("keys", [&](ObjectReader& key) {
-            // Values that a key does not give are those of the transform.
-            PoseKey& pose = collider.motion.emplace_back();
-            pose.position = collider.transform.position;
-            pose.rotation_degrees = collider.transform.rotation_degrees;
-            key.values(pose_key_keys, &pose);
-        });
-        if (motion.find("keys") == nullptr || (motion.find("keys")->is_array() && motion.find("keys")->empty()))
-            motion.problems().add(at(place, "keys"), "must hold at least one key");
-    });
-}
-
 template <class Shape>
 void read_shape(ObjectReader& collider, std::string_view kind, std::span<const Parameter> keys, Shape& shape) {
     collider.object(kind, [&](ObjectReader& o) { o.values(keys, &shape); });
@@ -163,7 +180,10 @@ void read_collider(ObjectReader& o, SceneCollider& collider) {
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
     o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
-    read_motion(o, collider);
+    read_motion(
+        o, pose_key_keys,
+        PoseKey{.position = collider.transform.position, .rotation_degrees = collider.transform.rotation_degrees},
+        collider.motion);
     read_material(o, default_material(collider), collider.material);
 }
 

@@ -35,6 +35,18 @@ const Kinds kinds[] = {
     {"/stitches/*/b", {"vertices", "points"}},
 };
 
+/// Keys that require one value of the object's key `kind`.
+struct KindKeys {
+    std::string_view place;
+    std::string_view kind;
+    std::span<const Parameter> keys;
+};
+const KindKeys keys_of_kinds[] = {
+#define WEFT_WIND(name, Name) {"/air/wind/*", #name, name##_parameters},
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+};
+
 std::vector<const SceneTable*> tables_at(std::string_view place) {
     std::vector<const SceneTable*> found;
     for (const SceneTable& table : scene_tables()) {
@@ -139,7 +151,7 @@ Json material_names() {
 Json word_for(std::string_view place) {
     if (place == "/cloths/*/fabric") return {{"enum", fabric_names()}};
     if (place == "/cloths/*/material") return {{"enum", material_names()}};
-    if (place == "/colliders/*/motion") return {{"const", "static"}};
+    if (place == "/colliders/*/motion" || place == "/air/wind/*/motion") return {{"const", "static"}};
     return nullptr;
 }
 
@@ -220,6 +232,11 @@ Json object_schema(const std::string& place) {
         }
     }
     if (!required.empty()) schema["required"] = required;
+    for (const KindKeys& of : keys_of_kinds) {
+        if (of.place != place) continue;
+        const Json with = {{"properties", {{"kind", {{"const", of.kind}}}}}, {"required", {"kind"}}};
+        for (const Parameter& p : of.keys) schema["dependentSchemas"][std::string(p.key)] = with;
+    }
     const auto* found = std::ranges::find(kinds, place, &Kinds::place);
     if (found == std::end(kinds)) return schema;
     for (const std::string_view key : found->keys) schema["oneOf"].push_back({{"required", Json::array({key})}});

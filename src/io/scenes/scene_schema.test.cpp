@@ -69,7 +69,7 @@ class Validator {
     bool targets_of_object(const std::string& keyword, const Json& argument, const Json& schema,
                            const Json& value) const {
         static const std::set<std::string> known = {"properties", "additionalProperties", "required",
-                                                    "dependentRequired"};
+                                                    "dependentRequired", "dependentSchemas"};
         EXPECT_TRUE(known.contains(keyword)) << "unknown keyword " << keyword;
         if (!value.is_object()) return true;
         const auto has = [&](const Json& key) { return value.contains(key.get<std::string>()); };
@@ -77,6 +77,12 @@ class Validator {
         if (keyword == "dependentRequired") {
             for (const auto& [key, others] : argument.items()) {
                 if (has(key) && !std::ranges::all_of(others, has)) return false;
+            }
+            return true;
+        }
+        if (keyword == "dependentSchemas") {
+            for (const auto& [key, other] : argument.items()) {
+                if (has(key) && !valid(other, value)) return false;
             }
             return true;
         }
@@ -105,6 +111,9 @@ std::string with_cloth(const std::string& keys) {
 std::string with_collider(const std::string& keys) {
     return R"({ "weft": 1, "cloths": [ {} ], "colliders": [ { )" + keys + " } ] }";
 }
+std::string with_wind(const std::string& keys) {
+    return R"({ "weft": 1, "cloths": [ {} ], "air": { "wind": [ { )" + keys + " } ] } }";
+}
 std::string with_pictures(const std::string& keys) {
     return R"({ "weft": 1, "cloths": [ {} ], )" + keys + " }";
 }
@@ -125,32 +134,41 @@ TEST(SceneSchema, TakesEveryScene) {
 }
 
 TEST(SceneSchema, TakesWhatTheReaderTakes) {
-    for (const std::string& scene : {
-             std::string(R"({ "weft": 1, "cloths": [ {} ] })"),
-             with_cloth(R"("fabric": "silk", "pins": [ { "vertices": [0, 1] } ])"),
-             with_cloth(R"("fabric": { "preset": "denim", "stretch": 40, "bend": [1, 2, 3], "rest_angle": "mesh" })"),
-             with_cloth(R"("fabric": { "rest_angle": -90, "friction": [0.1, 0.2], "inextensible": true })"),
-             with_cloth(R"("mesh": { "file": "a.obj", "scale": 0.01, "up": "z" }, "pins": [ { "color": [1, 0, 0] } ])"),
-             with_cloth(R"("mesh": { "grid": { "resolution": [2, 4096] } }, "transform": { "rotation": [1e9, 0, 0] })"),
-             with_cloth(R"("pins": [ { "box": { "min": [-1, -1, -1], "max": [1, 1, 1] } } ])"),
-             with_cloth(R"("velocity": [0, -15, 0], "self_collision": "exact")"),
-             with_cloth(R"("self_collision": "fast")"),
-             with_cloth(R"("self_collision": true)"),
-             with_cloth(R"("self_collision": false)"),
-             with_collider(R"("plane": {}, "friction": 0)"),
-             with_collider(
-                 R"("sphere": { "radius": 1e-9 }, "friction": [1, 1], "transform": { "position": [1, 2, 3] })"),
-             with_collider(R"("sphere": {}, "name": "ball")"),
-             with_pictures(R"("camera": {}, "light": {})"),
-             with_pictures(R"("camera": { "position": [1, 2, 3], "target": [0, 0, 0], "fov": 30 })"),
-             with_pictures(
-                 R"("light": { "sun": { "azimuth": -360, "color": [1, 0, 0.5] }, "sky": { "intensity": 0 } })"),
-             with_pictures(R"("light": { "environment": { "file": "a.hdr", "visible": false }, "exposure": -2 })"),
-             with_cloth(R"("material": "velvet")"),
-             with_collider(R"("sphere": {}, "material": { "color": [0, 0, 0] })"),
-             with_cloth(R"("material": { "preset": "silk", "color": [0, 0, 0], "roughness": 0.5 })"),
-             with_cloth(R"("material": { "weave": "knit", "uv_tiling": [2, 3], "color_map": "a.png" })"),
-         }) {
+    for (
+        const std::string& scene : {
+            std::string(R"({ "weft": 1, "cloths": [ {} ] })"),
+            with_cloth(R"("fabric": "silk", "pins": [ { "vertices": [0, 1] } ])"),
+            with_cloth(R"("fabric": { "preset": "denim", "stretch": 40, "bend": [1, 2, 3], "rest_angle": "mesh" })"),
+            with_cloth(R"("fabric": { "rest_angle": -90, "friction": [0.1, 0.2], "inextensible": true })"),
+            with_cloth(R"("mesh": { "file": "a.obj", "scale": 0.01, "up": "z" }, "pins": [ { "color": [1, 0, 0] } ])"),
+            with_cloth(R"("mesh": { "grid": { "resolution": [2, 4096] } }, "transform": { "rotation": [1e9, 0, 0] })"),
+            with_cloth(R"("pins": [ { "box": { "min": [-1, -1, -1], "max": [1, 1, 1] } } ])"),
+            with_cloth(R"("velocity": [0, -15, 0], "self_collision": "exact")"),
+            with_cloth(R"("self_collision": "fast")"),
+            with_cloth(R"("self_collision": true)"),
+            with_cloth(R"("self_collision": false)"),
+            with_collider(R"("plane": {}, "friction": 0)"),
+            with_collider(
+                R"("sphere": { "radius": 1e-9 }, "friction": [1, 1], "transform": { "position": [1, 2, 3] })"),
+            with_collider(R"("sphere": {}, "name": "ball")"),
+            with_wind(R"("velocity": [1, 0, 0])"),
+            with_wind(R"("kind": "directional", "motion": "static", "shelter": 2)"),
+            with_wind(
+                R"("kind": "jet", "velocity": [1, 0, 0], "diameter": 0.2, "transform": { "position": [1, 2, 3] })"),
+            with_wind(
+                R"("kind": "vortex", "swirl": -3, "inflow": 1, "radius": 0.2, "box": { "half_extents": [1, 2, 1] })"),
+            with_wind(
+                R"("kind": "jet", "motion": { "keys": [ { "strength": 0 }, { "time": 1, "rotation": [0, 90, 0] } ] })"),
+            with_pictures(R"("camera": {}, "light": {})"),
+            with_pictures(R"("camera": { "position": [1, 2, 3], "target": [0, 0, 0], "fov": 30 })"),
+            with_pictures(
+                R"("light": { "sun": { "azimuth": -360, "color": [1, 0, 0.5] }, "sky": { "intensity": 0 } })"),
+            with_pictures(R"("light": { "environment": { "file": "a.hdr", "visible": false }, "exposure": -2 })"),
+            with_cloth(R"("material": "velvet")"),
+            with_collider(R"("sphere": {}, "material": { "color": [0, 0, 0] })"),
+            with_cloth(R"("material": { "preset": "silk", "color": [0, 0, 0], "roughness": 0.5 })"),
+            with_cloth(R"("material": { "weave": "knit", "uv_tiling": [2, 3], "color_map": "a.png" })"),
+        }) {
         const auto read = parse_scene(scene, "a");
         EXPECT_TRUE(read.ok()) << scene << (read ? "" : read.error().message());
         EXPECT_TRUE(valid(scene)) << scene;
@@ -195,6 +213,19 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_collider(R"("plane": {}, "sphere": {})"),
              with_collider(R"("sphere": { "radius": 0 })"),
              with_collider(R"("sphere": {}, "transform": { "scale": 2 })"),
+             with_wind(R"("kind": "storm")"),
+             with_wind(R"("velocity": [1e6, 0, 0])"),
+             with_wind(R"("diameter": 1)"),
+             with_wind(R"("kind": "vortex", "diameter": 1)"),
+             with_wind(R"("kind": "jet", "swirl": 1)"),
+             with_wind(R"("kind": "jet", "diameter": 0)"),
+             with_wind(R"("kind": "vortex", "radius": 0)"),
+             with_wind(R"("box": { "half_extents": [1, 0, 1] })"),
+             with_wind(R"("box": { "half_extents": 1 })"),
+             with_wind(R"("box": { "border": -1 })"),
+             with_wind(R"("shelter": -1)"),
+             with_wind(R"("transform": { "scale": 2 })"),
+             with_wind(R"("motion": { "keys": [ { "strength": -1 } ] })"),
              with_pictures(R"("camera": [1, 2, 3])"),
              with_pictures(R"("camera": { "position": 1 })"),
              with_pictures(R"("camera": { "fov": 151 })"),

@@ -44,13 +44,16 @@ class SceneWriter {
     JsonNode list(const std::vector<Item>& items, const std::string& place, Write&& write);
 
     JsonNode air(const AirDesc& air, const std::string& place);
+    JsonNode wind(const WindDesc& wind, const std::string& place);
     JsonNode mesh(const MeshDesc& mesh, const std::string& place);
     Child fabric(const SceneCloth& cloth, const std::string& place);
     Child material(const std::optional<SceneMaterial>& material, const MaterialPreset& otherwise,
                    const std::string& place);
     JsonNode pin(const PinDesc& pin, const std::string& place);
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
-    Child motion(const ColliderDesc& collider, const std::string& place);
+    template <class Key>
+    Child motion(const std::vector<Key>& keys, std::span<const Parameter> table, const Key& like,
+                 const std::string& place);
     template <class Shape>
     Child points(const Shape& shape, const std::string& place);
     JsonNode collider(const SceneCollider& collider, std::size_t index, const std::string& place);
@@ -142,16 +145,36 @@ JsonNode SceneWriter::list(const std::vector<Item>& items, const std::string& pl
     return node;
 }
 
+JsonNode SceneWriter::wind(const WindDesc& desc, const std::string& place) {
+    const WindDesc defaults;
+    const WindHead head{static_cast<int>(desc.kind.index())};
+    JsonNode node = object(wind_head_keys, head, WindHead(), place);
+#define WEFT_WIND(name, Name)                                     \
+    if (const auto* kind = std::get_if<Name##Desc>(&desc.kind)) { \
+        const Name##Desc otherwise;                               \
+        values(node, name##_parameters, kind, &otherwise, place); \
+    }
+#include "physics/air/winds.def"
+#undef WEFT_WIND
+    values(node, wind_keys, &desc, &defaults, place, [&](std::string_view key, const std::string& where) -> Child {
+        if (key == "transform") return unless_empty(object(pose_keys, desc.transform, defaults.transform, where));
+        if (key == "motion")
+            return motion(
+                desc.motion, wind_key_keys,
+                WindKey{.position = desc.transform.position, .rotation_degrees = desc.transform.rotation_degrees},
+                where);
+        if (key == "box") return desc.box ? Child(object(wind_box_keys, *desc.box, WindBoxDesc(), where)) : Child();
+        if (key == "gust") return unless_empty(object(gust_keys, desc.gust, defaults.gust, where));
+        assert(key == "turbulence");
+        return unless_empty(object(turbulence_keys, desc.turbulence, defaults.turbulence, where));
+    });
+    return node;
+}
+
 JsonNode SceneWriter::air(const AirDesc& desc, const std::string& place) {
-    const auto wind = [&](const WindDesc& one, const std::string& where) {
-        return object(wind_keys, one, WindDesc(), where, [&](std::string_view key, const std::string& below) -> Child {
-            if (key == "gust") return unless_empty(object(gust_keys, one.gust, GustDesc(), below));
-            assert(key == "turbulence");
-            return unless_empty(object(turbulence_keys, one.turbulence, TurbulenceDesc(), below));
-        });
-    };
     return object(air_keys, desc, AirDesc(), place, [&](std::string_view, const std::string& where) {
-        return unless_empty(list(desc.wind, where, wind));
+        return unless_empty(
+            list(desc.wind, where, [&](const WindDesc& one, const std::string& below) { return wind(one, below); }));
     });
 }
 
@@ -241,15 +264,14 @@ JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std
     });
 }
 
-Child SceneWriter::motion(const ColliderDesc& collider, const std::string& place) {
-    if (collider.motion.empty()) return {};
-    // Values that a key does not give are those of the transform.
-    const PoseKey defaults{
-        .time = 0, .position = collider.transform.position, .rotation_degrees = collider.transform.rotation_degrees};
+// `like`: values that a key does not give.
+template <class Key>
+Child SceneWriter::motion(const std::vector<Key>& keys, std::span<const Parameter> table, const Key& like,
+                          const std::string& place) {
+    if (keys.empty()) return {};
     JsonNode node = JsonNode::object();
-    node.add("keys", list(collider.motion, at(place, "keys"), [&](const PoseKey& key, const std::string& where) {
-                 return object(pose_key_keys, key, defaults, where);
-             }));
+    node.add("keys", list(keys, at(place, "keys"),
+                          [&](const Key& key, const std::string& where) { return object(table, key, like, where); }));
     return node;
 }
 
@@ -283,7 +305,11 @@ JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, con
                   [&](std::string_view key, const std::string& where) -> Child {
                       if (key == "transform")
                           return unless_empty(object(pose_keys, desc.transform, defaults.transform, where));
-                      if (key == "motion") return motion(desc, where);
+                      if (key == "motion")
+                          return motion(desc.motion, pose_key_keys,
+                                        PoseKey{.position = desc.transform.position,
+                                                .rotation_degrees = desc.transform.rotation_degrees},
+                                        where);
                       if (key == "material") return material(desc.material, default_material(desc), where);
 #define WEFT_SHAPE(name, Name)                                                  \
     if (const auto* shape = std::get_if<Name##Desc>(&desc.shape); key == #name) \

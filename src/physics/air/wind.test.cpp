@@ -39,7 +39,7 @@ TEST(Wind, blows_its_own_way_between_its_bounds) {
 }
 
 TEST(Wind, is_the_same_along_itself_and_smooth_across) {
-    const reference::WindNumbers numbers{vec3(0, 0, 4), vec3(1, 0, 0), vec3(0, 1, 0)};
+    const reference::WindNumbers numbers{vec3(0, 0, 4), vec3(1, 0, 0), vec3(0, 1, 0), 0, 0, 0};
     Random random(2);
     for (int i = 0; i < 500; ++i) {
         const vec3 p = random.vector(5);

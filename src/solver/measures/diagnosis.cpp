@@ -1,5 +1,6 @@
 #include "solver/measures/diagnosis.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace weft {
@@ -45,7 +46,9 @@ std::string name_input(const StepInput& input, std::span<const Pose> motion_pose
     if (!finite(input.gravity)) return "gravity is not finite";
     if (!std::isfinite(input.air_density)) return "the density of the air is not finite";
     for (const WindNow& wind : input.winds) {
-        const bool sound = finite(wind.numbers[0]) && finite(wind.numbers[1]) && finite(wind.numbers[2]);
+        const bool sound = std::ranges::all_of(wind.vectors, [](Vec3 v) { return finite(v); }) &&
+                           finite(wind.position) &&
+                           std::ranges::all_of(wind.numbers, [](float x) { return std::isfinite(x); });
         if (!sound) return "a wind is not finite";
     }
     for (std::size_t i = 0; i < input.colliders.size(); ++i) {

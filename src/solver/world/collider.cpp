@@ -3,8 +3,6 @@
 #include "physics/contact/shapes.def"
 #include "physics/scalar.h"
 
-#include <algorithm>
-
 namespace weft {
 namespace {
 
@@ -18,45 +16,12 @@ namespace {
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
 
-// The keys before and after `time`, and the position between them, 0…1.
-template <class Key>
-struct Between {
-    const Key &before, &after;
-    float fraction;
-};
-template <class Key>
-Between<Key> find_between(std::span<const Key> keys, double time) {
-    const auto later = [](double at, const Key& key) { return at < static_cast<double>(key.time); };
-    const auto after = static_cast<std::size_t>(std::upper_bound(keys.begin(), keys.end(), time, later) - keys.begin());
-    if (after == 0) return {keys.front(), keys.front(), 0};
-    if (after == keys.size()) return {keys.back(), keys.back(), 0};
-    const double from = keys[after - 1].time, to = keys[after].time;
-    return {keys[after - 1], keys[after], static_cast<float>((time - from) / (to - from))};
-}
-
-Vec3 mix(Vec3 a, Vec3 b, float fraction) {
-    return a + (b - a) * fraction;
-}
-
 }  // namespace
 
 Pose pose_at(const Collider& collider, double time) {
     if (collider.motion.empty()) return collider.pose;
     const PoseKey key = key_at(collider.motion, time);
     return {rotation_from_degrees(key.rotation_degrees), key.position};
-}
-
-PoseKey key_at(std::span<const PoseKey> keys, double time) {
-    const auto [before, after, fraction] = find_between(keys, time);
-    return {.time = static_cast<float>(time),
-            .position = mix(before.position, after.position, fraction),
-            .rotation_degrees = mix(before.rotation_degrees, after.rotation_degrees, fraction)};
-}
-
-Vec3 offset_at(std::span<const OffsetKey> keys, double time) {
-    if (keys.empty()) return {};
-    const auto [before, after, fraction] = find_between(keys, time);
-    return mix(before.offset, after.offset, fraction);
 }
 
 Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData> data) {

@@ -5,6 +5,7 @@
 #include "collide/shape_data.h"
 #include "scene/scene_desc.h"
 #include "solver/model/cloth_model.h"
+#include "solver/world/keys.h"
 
 #include <array>
 #include <memory>
@@ -82,10 +83,6 @@ Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData
 /// Pose of the collider at a time in s. Positions and angles are interpolated linearly between keys, and constant
 /// before the first and after the last key.
 Pose pose_at(const Collider& collider, double time);
-/// Its position and angles. There must be a key.
-PoseKey key_at(std::span<const PoseKey> keys, double time);
-/// Offset of a pin in m, interpolated the same way; 0 without keys.
-Vec3 offset_at(std::span<const OffsetKey> keys, double time);
 
 /// Distance in m of a world point to the collider's exact surface, negative inside.
 double signed_distance(const Collider& collider, Vec3 world);

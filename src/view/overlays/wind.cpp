@@ -17,10 +17,9 @@ constexpr float to_either_side = 4;
 constexpr float longest = 1.5f;
 
 // m/s: upper bound for gusts.
-double fastest(const std::vector<WindDesc>& winds) {
+double fastest_of(const std::vector<WindDesc>& winds) {
     double sum = 0;
-    for (const WindDesc& wind : winds)
-        sum += length(wind.velocity) * (1.0 + std::abs(wind.gust.amplitude) + std::abs(wind.turbulence.strength));
+    for (const WindDesc& wind : winds) sum += top_speed(wind);
     return sum;
 }
 
@@ -69,8 +68,8 @@ void add_arrow(std::vector<render::Line>& lines, Vec3 from, Vec3 along, Vec4 col
 void wind(const OverlayInput& input, OverlayOutput& output) {
     const auto& air = input.world.settings().air;
     const Bounds bounds = bounds_of_cloths(input);
-    const double most = air ? nice_above(fastest(air->wind)) : 0;  // m/s
-    if (!air || air->wind.empty() || bounds.empty() || !(fastest(air->wind) > 0)) {
+    const double most = air ? nice_above(fastest_of(air->wind)) : 0;  // m/s
+    if (!air || air->wind.empty() || bounds.empty() || !(fastest_of(air->wind) > 0)) {
         output.legends.push_back({.title = "wind: none"});
         return;
     }

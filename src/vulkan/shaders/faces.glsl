@@ -10,6 +10,31 @@ void corners_of(uint t, out uint corner[3], out vec3 x[3])
     }
 }
 
+// Whether a collider of the box stands within `reach` m of the point against the wind.
+bool in_shelter(vec3 p, vec3 wind, float reach)
+{
+    float speed2 = dot(wind, wind);
+    if (!(reach > 0.0) || !(speed2 > 1e-20) || is_none(uvec2(face_args.at.colliders))) return false;
+    vec3 ray = wind * (-1.0 / sqrt(max(speed2, 1e-20)));
+    vec3 end = p + ray * reach, room = vec3(1e-3) + 1e-5 * (abs(p) + abs(end));
+    vec3 low = min(p, end) - room, high = max(p, end) + room;
+    bool hit = false;
+    for (uint node = 0u; node < face_args.at.colliders.at.node_count && !hit;) {
+        vec4 node_low = face_args.at.colliders.at.nodes.at[2u * node];
+        vec4 node_high = face_args.at.colliders.at.nodes.at[2u * node + 1u];
+        uint number = floatBitsToUint(node_high.w);
+        bool inside = overlap(node_low, node_high, low, high);
+        node = inside ? node + 1u : floatBitsToUint(node_low.w);
+        if (!inside || number == WEFT_NO_COLLIDER) continue;
+        ColliderIn collider = face_args.at.colliders.at.colliders.at[number];
+        PoseIn pose = pose_after(face_args.at.colliders, collider, 0u);
+        hit = is_sheltered(solid_of(collider),
+                           unrotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, p - pose.position.xyz),
+                           unrotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, ray), reach);
+    }
+    return hit;
+}
+
 void run_wind(uint t)
 {
     uint corner[3];
@@ -19,15 +44,20 @@ void run_wind(uint t)
     vec3 u = vec3(0.0);
     for (uint i = 0u; i < face_args.at.frame.at.winds; ++i) {
         WindIn wind = face_args.at.winds.at[i];
-        WindNumbers numbers = WindNumbers(wind.n0.xyz, wind.n1.xyz, wind.n2.xyz);
+        vec3 p = middle - wind.position.xyz;
+        WindNumbers numbers = WindNumbers(wind.n0.xyz, wind.n1.xyz, wind.n2.xyz, wind.s0, wind.s1, wind.s2);
+        WindBounds bounds = WindBounds(wind.axis_x.xyz, wind.axis_y.xyz, wind.axis_z.xyz,
+                                       vec3(wind.axis_x.w, wind.axis_y.w, wind.axis_z.w), wind.per_border,
+                                       wind.position.w);
         WindLife life = WindLife(wind.n0.w, wind.n1.w, wind.n2.w, wind.noise_offset.w, wind.turbulence,
                                  wind.noise_per_meter, wind.noise_time, wind.noise_offset.xyz);
         Flow flow = Flow(vec3(0.0), 0.0, 0.0);
         uint kind = 0u;
-#define WEFT_WIND(name, Name) if (wind.kind == kind++) flow = flow_##name(middle, numbers);
+#define WEFT_WIND(name, Name) if (wind.kind == kind++) flow = flow_##name(p, numbers);
 #include "physics/air/winds.def"
 #undef WEFT_WIND
-        u = u + live_wind(flow, float(t), life);
+        vec3 blown = live_wind(flow, float(t), life) * wind_share(p, bounds);
+        if (!in_shelter(middle, blown, wind.shelter)) u = u + blown;
     }
     face_args.at.wind.at[t] = vec4(u, 0.0);
 }
