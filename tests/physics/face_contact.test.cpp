@@ -137,6 +137,31 @@ TEST(FaceContact, holds_tips_between_particles) {
     }
 }
 
+// Corners of triangles on the far side of a tip are behind the plane in which it touches. They stay there.
+TEST(FaceContact, on_a_tip_does_not_tear_the_sheet_about) {
+    const std::pair<ColliderDesc, double> tips[] = {
+        {{.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
+          .transform = {.position = {0, 0.0268f, 0}, .rotation_degrees = {45, 0, 35.2644f}}},
+         1e-3},
+        {{.shape = TaperedCapsuleDesc{{0.1f, 0.0005f}, 0.1f}, .transform = {.position = {0, 0.0995f, 0}}}, 2e-3}};
+    for (const auto& [desc, deepest] : tips) {
+        for (const auto& [x, z] : {std::pair(0.0f, 0.0f), {0.025f, 0.0f}, {0.017f, 0.011f}}) {
+            World world = make_world({.solver = {.substeps = 20}});
+            world.add(make_collider(desc));
+            world.add(
+                make_sheet({.resolution = {21, 21}, .position = {x, 0.25f, z}, .layout = world.settings().layout()}));
+            PenetrationSearch penetration;
+            for (int frame = 0; frame < 40; ++frame) {
+                world.step(1.0 / 60);
+                const Strain strain = measure_strain(world.frame());
+                EXPECT_LT(std::max(strain.stretch.max, strain.shear.max), 0.2) << frame << ", " << x << ", " << z;
+                EXPECT_LT(penetration.measure(world.frame(), world.colliders()).max, deepest)
+                    << frame << ", " << x << ", " << z;
+            }
+        }
+    }
+}
+
 // A sheet over the corner of a box, which a shot hits.
 void add_corner_and_shot(World& world) {
     world.add(make_collider({.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},
