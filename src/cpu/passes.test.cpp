@@ -1,9 +1,6 @@
 // Every instruction set against one lane, constraint by constraint, on random and degenerate input: equal to the bit.
 #include "cpu/passes.h"
-
-#include "collide/convex_hull.h"
-#include "collide/distance_field.h"
-#include "mesh/procedural.h"
+#include "cpu/sample_shapes.test.h"
 
 #include "solver/model/faces_around.h"
 
@@ -412,23 +409,6 @@ TEST_P(InstructionSet, carries_nodes_to_particles_alike_whatever_their_numbers_t
     EXPECT_NE(one_by_one[0], state.position[0]);
     expect_same(spread(*GetParam(), short_numbers), one_by_one, "16 bits");
     expect_same(spread(*GetParam(), long_numbers), one_by_one, "32 bits");
-}
-
-// Data for shapes that read some, at about the place of the particles.
-ShapeBlocks sample_blocks(std::uint32_t shape) {
-    static const ShapeData convex = [] {
-        std::vector<Vec3> corners;
-        for (int i = 0; i < 8; ++i)
-            corners.push_back({i & 1 ? 0.5f : -0.4f, i & 2 ? 0.4f : -0.5f, i & 4 ? 0.6f : -0.3f});
-        return make_convex_data(*convex_hull(corners));
-    }();
-    static const ShapeData mesh = [] {
-        const TriangleMesh sphere = make_sphere(0.6f, 3);
-        return build_distance_field(sphere.positions, sphere.triangles, {.cells = 24, .threads = 1})->data;
-    }();
-    if (shape == static_cast<std::uint32_t>(ShapeKind::convex)) return convex.blocks();
-    if (shape == static_cast<std::uint32_t>(ShapeKind::mesh)) return mesh.blocks();
-    return {};
 }
 
 TEST_P(InstructionSet, touches_every_shape_alike) {

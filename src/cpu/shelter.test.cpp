@@ -1,9 +1,6 @@
 // Shelter from the wind on every instruction set against one lane.
-#include "collide/convex_hull.h"
-#include "collide/distance_field.h"
 #include "cpu/passes.h"
-#include "mesh/procedural.h"
-#include "solver/world/collider.h"
+#include "cpu/sample_shapes.test.h"
 
 #include "base/aligned.h"
 
@@ -47,24 +44,13 @@ struct BlownFaces {
     }
 };
 
-ShapeBlocks blocks_for_shelter(std::uint32_t shape) {
-    static const ShapeData convex = make_convex_data(*convex_hull(make_box({0.8f, 0.6f, 1}, {2, 2, 2}).positions));
-    static const ShapeData mesh = [] {
-        const TriangleMesh sphere = make_sphere(0.6f, 3);
-        return build_distance_field(sphere.positions, sphere.triangles, {.cells = 24, .threads = 1})->data;
-    }();
-    if (shape == static_cast<std::uint32_t>(ShapeKind::convex)) return convex.blocks();
-    if (shape == static_cast<std::uint32_t>(ShapeKind::mesh)) return mesh.blocks();
-    return {};
-}
-
 TEST(ShelterPass, gives_every_shape_the_same_shelter_on_every_instruction_set) {
     for (std::uint32_t shape = 0; shape < shape_kind_count; ++shape) {
         std::uint32_t hits = 0;
         for (unsigned seed = 0; seed < 12; ++seed) {
             const ContactView collider{.kind = static_cast<int>(shape),
                                        .numbers = {0.6f, 0.64f, 0.48f, 0.1f},
-                                       .data = blocks_for_shelter(shape),
+                                       .data = sample_blocks(shape),
                                        .steepness = 1,
                                        .roundness = 0,
                                        .layer_distance = seed % 2 ? 1 : static_cast<float>(far_away),

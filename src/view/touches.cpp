@@ -1,8 +1,8 @@
 #include "view/touches.h"
 
 #include "mesh/grouping.h"
-#include "physics/scalar.h"
 #include "solver/plan/frame_numbers.h"
+#include "solver/world/collider_solid.h"
 
 #include <algorithm>
 #include <array>
@@ -17,18 +17,6 @@ namespace {
 // What touches comes to rest at its distance from the surface, up to what later pushes change: half a thickness for
 // particles, nearest_of_faces() for triangles. Limits between them, in half thicknesses.
 constexpr double farthest_particle = 1.25, farthest_face = 0.75;
-
-// Nearest points with a larger weight are corners, which have contacts of their own.
-constexpr double largest_weight = 0.999;
-
-reference::Solid solid_of(const Collider& collider) {
-    const auto& n = collider.numbers;
-    return {static_cast<int>(collider.shape),
-            {double{n[0]}, double{n[1]}, double{n[2]}, double{n[3]}, blocks_of(collider)},
-            double{steepness_of(collider)},
-            double{roundness_of(collider)},
-            double{layer_distance_of(collider)}};
-}
 
 /// The contacts of one cloth.
 class ClothTouches {
@@ -115,7 +103,7 @@ class ClothTouches {
         const double enough = farthest_face * half_thickness_;
         const auto least = least_on_face(solid, x, face_point(solid, x, reference::center_weights()), enough);
         const auto& w = least.weights;
-        if (!(least.distance < enough) || std::max({w.x, w.y, w.z}) > largest_weight) return std::nullopt;
+        if (!(least.distance < enough) || !is_beside_corners(w)) return std::nullopt;
         return corner(a) * static_cast<float>(w.x) + corner(b) * static_cast<float>(w.y) +
                corner(c) * static_cast<float>(w.z);
     }

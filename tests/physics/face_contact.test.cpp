@@ -6,6 +6,7 @@
 #include "physics/testing.h"
 #include "solver/measures/passages.h"
 #include "solver/measures/penetration.h"
+#include "solver/world/collider_solid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,15 +14,6 @@
 
 namespace weft::physical {
 namespace {
-
-reference::Solid solid_of(const Collider& collider) {
-    const auto& n = collider.numbers;
-    return {static_cast<int>(collider.shape),
-            {double{n[0]}, double{n[1]}, double{n[2]}, double{n[3]}, blocks_of(collider)},
-            double{steepness_of(collider)},
-            double{roundness_of(collider)},
-            double{layer_distance_of(collider)}};
-}
 
 double least_by_sampling(const reference::Solid& solid, const reference::Corners& x) {
     constexpr int parts = 60;

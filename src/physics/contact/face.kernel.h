@@ -351,10 +351,10 @@ WEFT_FN FaceContact face_contact(Solid solid, Corners from, Corners to, FacePoin
 }
 
 // Corners have contact of their own.
+WEFT_FN mask is_beside_corners(vec3 weights) { return max(weights.x, max(weights.y, weights.z)) < real(0.999); }
 WEFT_FN mask touches_beside_corners(FaceContact contact)
 {
-    vec3 w = contact.weights;
-    return contact.touches && max(w.x, max(w.y, w.z)) < real(0.999);
+    return contact.touches && is_beside_corners(contact.weights);
 }
 
 // m: a face on its side of the body comes no nearer after all pushes.

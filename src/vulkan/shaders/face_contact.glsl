@@ -26,8 +26,8 @@ uint face_of_triangle(uint t)
 }
 
 // Blocks per place: weights of the first two corners and friction; normal and offset; start and the gap there; ContactSum;
-// displacement by the sweep before, and whether there is a contact: 0 none, 1 a slow one, 2 one on the way; with a log, the
-// lever.
+// displacement by the sweep before, and whether there is a contact: 0 none, 1 a slow one, 2 one on the way; gaps of the
+// corners at the start; with a log, the lever.
 uint blocks_of_contact() { return logs_faces() ? WEFT_FACE_CONTACT_BLOCKS + 1u : WEFT_FACE_CONTACT_BLOCKS; }
 uint place_of_contact(uint slot, uint f, uint tile)
 {
