@@ -150,6 +150,19 @@ DeviceInfo info_of(VkPhysicalDevice device, std::uint32_t index) {
     return info;
 }
 
+// Keeps the drivers loaded until the process ends. Otherwise the loader unloads them with the last instance and loads
+// them again for the next one, and after some times NVIDIA's driver (580) finds no room left for its thread-local
+// storage: "cannot allocate memory in static TLS block".
+void keep_drivers_loaded() {
+    static const VkInstance kept = [] {
+        VkInstanceCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+        VkInstance instance = VK_NULL_HANDLE;
+        return vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS ? instance : VK_NULL_HANDLE;
+    }();
+    (void)kept;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options) {
@@ -160,6 +173,7 @@ Result<std::shared_ptr<const Instance>> Instance::create(InstanceOptions options
         return Error::of_machine("Vulkan",
                                  std::string("there is no layer ") + layer + "; install vulkan-validationlayers");
     }
+    keep_drivers_loaded();
     auto self = std::shared_ptr<Instance>(new Instance);
     self->functions_ = vkGetInstanceProcAddr;
     self->options_ = std::move(options);
