@@ -71,7 +71,7 @@ Result<void> Commands::begin() {
     if (result != VK_SUCCESS) return device_->error("to record commands", result);
     if (clock_ != VK_NULL_HANDLE) vk.vkCmdResetQueryPool(commands_, clock_, 0, stamps_);
     // Earlier submissions may still write data that these commands read.
-    barrier();
+    indirect_barrier();
     return {};
 }
 
@@ -95,13 +95,25 @@ void Commands::dispatch_indirect(const Buffer& groups, std::uint64_t offset) {
 }
 
 void Commands::barrier() {
+    barrier(false);
+}
+
+void Commands::indirect_barrier() {
+    barrier(true);
+}
+
+void Commands::barrier(bool indirect) {
     VkMemoryBarrier memory{};
     memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                           VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+                           VK_ACCESS_TRANSFER_WRITE_BIT;
     constexpr VkPipelineStageFlags before = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    constexpr VkPipelineStageFlags after = before | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+    VkPipelineStageFlags after = before;
+    if (indirect) {
+        memory.dstAccessMask |= VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+        after |= VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+    }
     device_->vk().vkCmdPipelineBarrier(commands_, before, after, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 

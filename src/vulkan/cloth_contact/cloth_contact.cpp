@@ -202,6 +202,11 @@ class PassRecorder {
     void run(std::string_view program, std::uint32_t groups) {
         if (bind(program)) dispatch_groups(commands_, groups, device_.limits());
     }
+    /// Passes that compute the numbers of workgroups of later ones.
+    void run_single(std::string_view program) {
+        run(program, 1);
+        counted_ = true;
+    }
     /// One invocation per item.
     void run_each(std::string_view program, std::uint32_t items) {
         if (const gpu::Pipeline* pipeline = bind(program))
@@ -229,7 +234,10 @@ class PassRecorder {
             return nullptr;
         }
         const ClothContactArgs args{.data = data_, .round = round_, .search = search_};
-        if (barrier) commands_.barrier();
+        if (barrier) {
+            counted_ ? commands_.indirect_barrier() : commands_.barrier();
+            counted_ = false;
+        }
         commands_.bind(**pipeline);
         commands_.push(std::as_bytes(std::span(&args, 1)));
         return *pipeline;
@@ -242,6 +250,7 @@ class PassRecorder {
     Slot head_;
     std::uint64_t data_;
     std::uint32_t search_ = WEFT_SEARCH_MOTION, round_ = 0;
+    bool counted_ = true;  ///< the pass before may have written numbers of workgroups
     Errors errors_;
 };
 
@@ -252,12 +261,12 @@ void record_search(PassRecorder& passes, std::uint32_t search, std::uint32_t til
     passes.run("contact_track", tiles);
     passes.run("contact_bound_group", groups);
     passes.run("contact_pair_tiles", tiles);
-    passes.run("contact_begin_search", 1);
+    passes.run_single("contact_begin_search");
     passes.run_indirect("contact_keep", offsetof(ContactHead, keep_groups));
     passes.run_indirect("contact_list", offsetof(ContactHead, list_groups), false);
-    passes.run("contact_end_search", 1);
+    passes.run_single("contact_end_search");
     passes.run_indirect("contact_near", offsetof(ContactHead, listed_groups));
-    passes.run("contact_end_near", 1);
+    passes.run_single("contact_end_near");
 }
 
 void record_untangle(PassRecorder& passes, std::uint32_t pairs, std::uint32_t tiles) {
@@ -277,7 +286,7 @@ void record_sweep(PassRecorder& passes, std::uint32_t round, std::uint32_t tiles
 void record_brake(PassRecorder& passes, std::uint32_t tiles, std::uint32_t groups) {
     passes.run_near("contact_find_deep");
     passes.run("contact_brake", tiles);
-    passes.run("contact_end_brake", 1);
+    passes.run_single("contact_end_brake");
     record_search(passes, WEFT_SEARCH_MOTION, tiles, groups, 1);
 }
 
@@ -430,7 +439,7 @@ Result<void> ClothContact::record(gpu::Commands& commands, const Pass& pass, std
     switch (pass.kind) {
         case PassKind::detect:
             passes.round(substep);
-            passes.run("contact_begin", 1);
+            passes.run_single("contact_begin");
             if (room_.tangled > 0) record_untangle(passes, room_.tangled, tiles_);
             record_search(passes, WEFT_SEARCH_MOTION, tiles_, groups_);
             record_brake(passes, tiles_, groups_);

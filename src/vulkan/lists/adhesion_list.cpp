@@ -99,7 +99,7 @@ Result<void> AdhesionList::run(gpu::Commands& commands, std::string_view program
                                std::uint32_t items) const {
     auto pipeline = programs_.get(program);
     if (!pipeline) return pipeline.errors();
-    commands.barrier();
+    items > 0 ? commands.barrier() : commands.indirect_barrier();
     commands.bind(**pipeline);
     commands.push(std::as_bytes(std::span(&args, 1)));
     if (items > 0) {
@@ -117,7 +117,7 @@ Result<void> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass
     if (plan_.method != Method::pbd) args.lambda_use = use_of_lambda(plan_, pass, substep, rounds_of_links(plan_));
     const Command command = make_command(programs_, errors, "side_by_side_adhesion", args, args.count);
     if (!errors.empty()) return errors;
-    commands.barrier();
+    commands.barrier();  // aim() has made the number of workgroups visible
     bind(commands, command, substep);
     commands.dispatch_indirect(arena_.buffer(), head_.offset);
     return {};
