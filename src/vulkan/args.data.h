@@ -225,6 +225,25 @@ struct LevelArgs {
     uint count;
 };
 
+// All constraints of a coarse level with few nodes, sweep by sweep and batch by batch, solved by one workgroup.
+struct LevelLimitArgs {
+    Vec4s position;  // of the level's nodes
+    Uints particles;
+    Floats fields;
+    Floats lambda;
+    Uints batches;  // per batch: its first row, then the number of its rows, with WEFT_SERIAL_BATCH if it is serial
+    FrameRef frame;
+    LimitsRef limits;
+    uint stride;
+    uint nodes;
+    uint batch_count;
+    uint sweeps;
+    uint lambda_use;  // of the first sweep; the others accumulate
+    uint unused;
+};
+
+#define WEFT_SERIAL_BATCH 0x80000000u
+
 // Contact with colliders, and the lists of those near each tile.
 struct ContactArgs {
     Vec4s position;

@@ -18,6 +18,26 @@ struct ListIn {
 // Bytes of shared memory for other purposes: the histogram of limits.glsl and a few numbers.
 constexpr std::uint32_t shared_besides = 512;
 constexpr std::uint32_t quanta_per_point = 3;
+// Shared memory for a constraint of lines.glsl.
+constexpr std::uint64_t line_row_bytes = sizeof(Vec4) + sizeof(float);
+
+// A workgroup with an invocation per item, as far as the device can, and a power of two.
+std::uint32_t workgroup_for(const gpu::Device& device, std::uint32_t items) {
+    const std::uint32_t most = std::min(device.limits().workgroup_invocations, device.limits().workgroup_size[0]);
+    const std::uint32_t least = std::max(1u, std::min(64u, most));
+    return std::clamp(std::bit_ceil(std::max(1u, items)), least, std::bit_floor(most));
+}
+
+// Room for `nodes` in elements of `element` bytes beside other data, or 1 if there is not enough. Rounded up, because
+// each different number needs its own pipeline.
+std::uint32_t room_for_nodes(const gpu::Device& device, std::uint32_t nodes, std::uint64_t element,
+                             std::uint64_t other_bytes) {
+    constexpr std::uint32_t step = 256;
+    const std::uint64_t shared = device.limits().shared_memory, rounded = (nodes + step - 1) / step * step;
+    for (const std::uint64_t room : {rounded, std::uint64_t{nodes}})
+        if (nodes > 0 && room * element + other_bytes <= shared) return static_cast<std::uint32_t>(room);
+    return 1;
+}
 
 }  // namespace
 
@@ -27,9 +47,8 @@ bool fits_shared_memory(const gpu::Device& device, std::uint32_t points, bool su
 }
 
 std::uint32_t shared_line_rows(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes) {
-    constexpr std::uint64_t each = sizeof(Vec4) + sizeof(float);
     const std::uint64_t shared = device.limits().shared_memory;
-    const std::uint64_t room = shared > other_bytes ? (shared - other_bytes) / each : 0;
+    const std::uint64_t room = shared > other_bytes ? (shared - other_bytes) / line_row_bytes : 0;
     if (rows.of_block == 0 || room < rows.of_block) return 1;
     // Rounded up, because each different number needs its own pipeline.
     constexpr std::uint64_t step = 256;
@@ -55,6 +74,13 @@ Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view
     return programs.get(name, constants);
 }
 
+Result<const gpu::Pipeline*> level_limits_pipeline(Programs& programs, std::string_view name, std::uint32_t widest,
+                                                   std::uint32_t nodes) {
+    const gpu::Device& device = programs.device();
+    const std::array constants = {workgroup_for(device, widest), room_for_nodes(device, nodes, sizeof(Vec4), 0)};
+    return programs.get(name, constants);
+}
+
 std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t first, const SharedPoints& points,
                                 const LineRows& lines, const Repeat& repeat) {
     lists_.push_back({.first = first,
@@ -64,6 +90,7 @@ std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t
                       .lines = lines});
     for (const Command& command : commands) {
         widest_ = std::max(widest_, command.invocations);
+        nodes_ = std::max(nodes_, command.nodes);
         assert(command.program < 64);
         used_ |= std::uint64_t{1} << command.program;
     }
@@ -99,15 +126,17 @@ Result<void> CommandLists::choose_pipeline(const gpu::Device& device, Programs& 
         lines.of_batch = std::max(lines.of_batch, list.lines.of_batch);
         if (list.points.sums != 0) quanta = std::max(quanta, list.points.count * quanta_per_point);
     }
-    const std::uint32_t most = std::min(device.limits().workgroup_invocations, device.limits().workgroup_size[0]);
-    const std::uint32_t least = std::max(1u, std::min(64u, most));
     const std::uint64_t taken = shared_besides + points * sizeof(Vec4) + quanta * sizeof(std::uint32_t);
-    const std::array constants = {std::clamp(std::bit_ceil(std::max(1u, widest_)), least, std::bit_floor(most)),
+    // Lines and coarse levels take turns in the same memory (level_limits.glsl). Lines without room need it to be 1.
+    std::uint32_t line_rows = shared_line_rows(device, lines, taken);
+    if (lines.of_block == 0 || line_rows > 1)
+        line_rows = std::max(line_rows, room_for_nodes(device, nodes_, line_row_bytes, taken));
+    const std::array constants = {workgroup_for(device, widest_),
                                   static_cast<std::uint32_t>(used_),
                                   static_cast<std::uint32_t>(used_ >> 32),
                                   points,
                                   quanta,
-                                  shared_line_rows(device, lines, taken)};
+                                  line_rows};
     auto pipeline = programs.get("fused", constants);
     if (!pipeline) return pipeline.errors();
     pipeline_ = *pipeline;

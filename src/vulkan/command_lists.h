@@ -27,6 +27,11 @@ LineRows largest_lines(const ConstraintTable& table);
 /// whole batch if they fit, and at least those of a block. 1: none.
 std::uint32_t shared_line_rows(const gpu::Device& device, const LineRows& rows, std::uint64_t other_bytes = 0);
 
+/// The pipeline of the shader `name` that solves a coarse level with `nodes` nodes, whose largest batch has `widest`
+/// constraints.
+Result<const gpu::Pipeline*> level_limits_pipeline(Programs& programs, std::string_view name, std::uint32_t widest,
+                                                   std::uint32_t nodes);
+
 /// The pipeline of the shader `name` that solves lines, for blocks of at most `rows` constraints.
 Result<const gpu::Pipeline*> lines_pipeline(Programs& programs, std::string_view name, std::uint32_t rows);
 
@@ -52,6 +57,7 @@ class CommandLists {
 
     std::vector<List> lists_;
     std::uint32_t widest_ = 0;  ///< invocations of the widest command
+    std::uint32_t nodes_ = 0;   ///< of the largest coarse level
     std::uint64_t used_ = 0;    ///< one bit per shader that a command uses
     Arena arena_;
     Slot table_;

@@ -490,6 +490,7 @@ class Compiler {
             .weights = of_model(buffers_.levels[pass.level].restriction_weight),
             .stride = 0,
             .count = level.count};
+        if (pass.kind == PassKind::interpolation) limits_follow_ = true;
         if (pass.kind == PassKind::restriction) {
             add(list, "restriction", args, level.count, pass, substep);
         } else if (pass.kind == PassKind::node_correction) {
@@ -516,7 +517,40 @@ class Compiler {
         add(list, "prolongation", args, args.count, pass, substep);
     }
 
+    // One command for all batches and sweeps if one workgroup solves the level.
+    void add_level_limits(List& list, const Pass& pass, std::uint32_t substep) {
+        const CoarseLevel& level = model_.hierarchy[pass.level];
+        const LevelBuffers& buffers = buffers_.levels[pass.level];
+        const WorkBuffers::Level& mine = work_.levels[pass.level];
+        const LevelLimitArgs args{.position = work(mine.position),
+                                  .particles = of_model(buffers.limits.particles),
+                                  .fields = of_model(buffers.limits.fields),
+                                  .lambda = work(mine.lambda),
+                                  .batches = of_model(buffers.batches),
+                                  .frame = input_.frame(),
+                                  .limits = state(cloth_.limits),
+                                  .stride = level.limits.stride,
+                                  .nodes = level.count,
+                                  .batch_count = static_cast<std::uint32_t>(level.limits.batches.size()),
+                                  .sweeps = coarse_sweeps,
+                                  .lambda_use = use_of_lambda(pass, substep),
+                                  .unused = 0};
+        std::uint32_t widest = 0;
+        for (const Batch& batch : level.limits.batches) widest = std::max(widest, batch.serial ? 1 : batch.rows);
+        Command& command = add(list, "level_limits", args, widest, pass, substep);
+        command.groups = 1;
+        command.nodes = level.count;
+        auto pipeline = level_limits_pipeline(programs_, "level_limits", widest, level.count);
+        if (pipeline) command.pipeline = *pipeline;
+        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
+    }
+
     void add_reach(List& list, const Pass& pass, std::uint32_t substep) {
+        if (model_.hierarchy[pass.level].count < nodes_for_many_threads) {
+            if (limits_follow_) add_level_limits(list, pass, substep);
+            limits_follow_ = false;
+            return;
+        }
         const ConstraintTable& table = model_.hierarchy[pass.level].limits;
         const TableBuffers& rows = buffers_.levels[pass.level].limits;
         RowArgs args = row_args(ConstraintKind::coarse_limit);
@@ -542,6 +576,7 @@ class Compiler {
     const IslandPart& island_;
     IslandPlan passes_;
     bool first_pass_ = true;
+    bool limits_follow_ = false;  ///< the constraints of the level of the last interpolation have no command yet
     Errors errors_;
     Command nothing_;  ///< not in any list
 };

@@ -19,6 +19,7 @@ struct Command {
     std::uint32_t invocations = 0;
     std::uint32_t groups = 0;     ///< workgroups; 0: as many as the invocations fill
     std::uint32_t line_rows = 0;  ///< lines only: constraints of the largest block
+    std::uint32_t nodes = 0;      ///< level_limits only: nodes of the level
     bool needs_barrier = true;    ///< reads or writes data that the command before it writes
     Pass pass{};                  ///< the pass that the command belongs to
     bool single = false;          ///< small enough for one workgroup

@@ -59,12 +59,19 @@ const Command& command_of(std::span<const CompiledPlan> plans, const PlanPart& p
     return plans[part.member].commands[part.begin];
 }
 
-// The pipeline for many cloths. For lines, it has room for the largest block of all cloths.
+// The pipeline for many cloths. For lines, it has room for the largest block of all cloths; for a coarse level, for the
+// largest level.
 Result<const gpu::Pipeline*> pipeline_for_many(Programs& programs, std::span<const CompiledPlan> plans,
                                                const SharedPass& pass) {
-    std::uint32_t line_rows = 0;
-    for (const PlanPart& part : pass.parts) line_rows = std::max(line_rows, command_of(plans, part).line_rows);
+    std::uint32_t line_rows = 0, nodes = 0, widest = 0;
+    for (const PlanPart& part : pass.parts) {
+        const Command& command = command_of(plans, part);
+        line_rows = std::max(line_rows, command.line_rows);
+        nodes = std::max(nodes, command.nodes);
+        widest = std::max(widest, command.invocations);
+    }
     const std::string name = std::string(shaders()[pass.program].name) + "_many";
+    if (nodes > 0) return level_limits_pipeline(programs, name, widest, nodes);
     return line_rows > 0 ? lines_pipeline(programs, name, line_rows) : programs.get(name);
 }
 

@@ -1,5 +1,7 @@
 #include "vulkan/model_buffers.h"
 
+#include "vulkan/args.data.h"
+
 #include <algorithm>
 
 namespace weft::vulkan {
@@ -7,7 +9,7 @@ namespace {
 
 // Arrays that the arena reads when it is built.
 struct Lists {
-    std::vector<std::vector<std::uint32_t>> blocks, prolongation_nodes;
+    std::vector<std::vector<std::uint32_t>> blocks, prolongation_nodes, batches;
     std::vector<std::uint32_t> faces_by_tile, offsets, items, span_ends;
     std::vector<float> masses, span_lengths;
 };
@@ -19,6 +21,13 @@ TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists)
     for (const LineBlock& block : table.blocks) list.insert(list.end(), {block.begin, block.length});
     buffers.blocks = arena.add_array(list);
     return buffers;
+}
+
+std::vector<std::uint32_t> list_batches(const ConstraintTable& table) {
+    std::vector<std::uint32_t> list;
+    for (const Batch& batch : table.batches)
+        list.insert(list.end(), {batch.begin, batch.rows | (batch.serial ? WEFT_SERIAL_BATCH : 0)});
+    return list;
 }
 
 // Lists of the triangles at each particle, one after another. Leaves out the zeros that pad packets of lanes, which do
@@ -53,15 +62,18 @@ Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind)
         self->tables[kind] = add_table(arena, model.constraints[kind], lists);
     lists.prolongation_nodes.reserve(model.hierarchy.size());
+    lists.batches.reserve(model.hierarchy.size());
     for (const CoarseLevel& level : model.hierarchy) {
         auto& nodes = lists.prolongation_nodes.emplace_back(level.prolongation.weight.size());
         for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = level.prolongation.node(i);
+        lists.batches.push_back(list_batches(level.limits));
         self->levels.push_back({.restriction_begin = arena.add_array(level.restriction.begin),
                                 .restriction_node = arena.add_array(level.restriction.node),
                                 .restriction_weight = arena.add_array(level.restriction.weight),
                                 .prolongation_node = arena.add_array(nodes),
                                 .prolongation_weight = arena.add_array(level.prolongation.weight),
-                                .limits = add_table(arena, level.limits, lists)});
+                                .limits = add_table(arena, level.limits, lists),
+                                .batches = arena.add_array(lists.batches.back())});
     }
     list_around(model, lists);
     lists.masses = face_masses(model);

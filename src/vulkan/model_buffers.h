@@ -19,6 +19,7 @@ struct TableBuffers {
 struct LevelBuffers {
     Slot restriction_begin, restriction_node, restriction_weight, prolongation_node, prolongation_weight;
     TableBuffers limits;
+    Slot batches;  ///< LevelLimitArgs::batches
 };
 
 class ModelBuffers {

@@ -51,6 +51,7 @@ foreach(pass push normals)
 endforeach()
 weft_pass(lines lines.comp LineArgs)
 weft_pass(limits limits.comp LimitArgs)
+weft_pass(level_limits level_limits.comp LevelLimitArgs)
 
 set(constraints ${PROJECT_SOURCE_DIR}/src/physics/constraints.def)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${constraints})

@@ -28,6 +28,12 @@ constexpr double far = 2;
 // does not hold for means that nearly coincide, nor for a pin, whose pull acts on the cloth on both sides of the line.
 constexpr double closest = 0.9;
 
+// A batch of few constraints takes as long as one constraint. On a level that one thread solves, only a batch of one
+// gains nothing.
+ColoringOptions coloring_of_level(std::uint32_t nodes) {
+    return nodes < nodes_for_many_threads ? ColoringOptions{.min_rows = 2} : ColoringOptions{};
+}
+
 constexpr double unreached = LocalWays::unreached;
 
 // The parents of a finer node: up to four coarse nodes, nearest first.
@@ -411,7 +417,7 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
                 rows.add({node, link.to}, {static_cast<float>(allowed), static_cast<float>(limit.compliance)});
             }
         }
-        level.limits = pack_rows(ConstraintKind::coarse_limit, rows, count);
+        level.limits = pack_rows(ConstraintKind::coarse_limit, rows, count, coloring_of_level(count));
         level.ways = coarse;
         levels.push_back(std::move(level));
         graph = std::move(coarse);

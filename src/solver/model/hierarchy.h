@@ -43,6 +43,9 @@ struct Restriction {
     AlignedVector<float> weight;         ///< [member · lane_padding + node in its packet]; sums to 1
 };
 
+/// Levels with at least this many nodes are shared among threads: a sweep then takes longer than its barriers.
+inline constexpr std::uint32_t nodes_for_many_threads = 2048;
+
 struct CoarseLevel {
     std::uint32_t count = 0;
     AlignedVector<std::uint32_t> particle;  ///< node -> particle; padded

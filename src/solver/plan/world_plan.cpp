@@ -9,10 +9,6 @@
 namespace weft {
 namespace {
 
-// Sweeps over the constraints of a coarse level. Levels are small, so sweeps are cheap, and they leave less error to
-// the finer levels.
-constexpr std::uint32_t sweeps = 4;
-
 class Planner {
   public:
     Planner(const StepSettings& settings, std::span<const PlannedCloth> cloths,
@@ -105,7 +101,7 @@ class Planner {
                 return i < model.hierarchy.size() ? model.hierarchy[i].limits.batches.size() : 0;
             });
             passes.push_back({.kind = PassKind::interpolation, .level = i, .source = RowSource::level});
-            for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+            for (std::uint32_t sweep = 0; sweep < coarse_sweeps; ++sweep) {
                 for (std::uint32_t batch = 0; batch < batches; ++batch)
                     passes.push_back({.kind = PassKind::coarse_limit,
                                       .constraint = ConstraintKind::coarse_limit,

@@ -127,8 +127,9 @@ LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t subs
 using PlainStiffness = std::array<std::array<float, 2>, constraint_kind_count>;
 PlainStiffness plain_stiffness(const Fabric& fabric, std::uint32_t iterations);
 
-/// Levels with at least this many nodes are shared among threads: a sweep then takes longer than its barriers.
-inline constexpr std::uint32_t nodes_for_many_threads = 2048;
+/// Sweeps over the constraints of a coarse level. Levels are small, so sweeps are cheap, and they leave less error to
+/// the finer levels.
+inline constexpr std::uint32_t coarse_sweeps = 4;
 
 /// The plan as text: one line per run of equal passes.
 std::string describe(const WorldPlan& plan);

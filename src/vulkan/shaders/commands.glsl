@@ -26,6 +26,7 @@ WEFT_COMMAND(ContactArgs)
 WEFT_COMMAND(FaceContactArgs)
 WEFT_COMMAND(KeepArgs)
 WEFT_COMMAND(LevelArgs)
+WEFT_COMMAND(LevelLimitArgs)
 WEFT_COMMAND(FaceArgs)
 WEFT_COMMAND(AroundArgs)
 WEFT_COMMAND(LineArgs)
@@ -54,6 +55,9 @@ WEFT_COMMAND(RowArgs)
 #endif
 #ifndef WEFT_PUSHES_level_args
 #define level_args LevelArgsRef(command)
+#endif
+#ifndef WEFT_PUSHES_level_limit_args
+#define level_limit_args LevelLimitArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_face_args
 #define face_args FaceArgsRef(command)

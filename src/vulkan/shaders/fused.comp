@@ -11,6 +11,7 @@
 #include "vulkan/shaders/levels.glsl"
 #include "vulkan/shaders/limits.glsl"
 #include "vulkan/shaders/lines.glsl"
+#include "vulkan/shaders/level_limits.glsl"
 #include "vulkan/shaders/particles.glsl"
 #include "vulkan/shaders/rows.glsl"
 #include <shader_ids.glsl>
@@ -109,6 +110,9 @@ void run_command(uint me, uint all)
     WEFT_EACH(normals)
     case WEFT_ID_lines:
         if (uses(WEFT_ID_lines)) run_all_lines();
+        break;
+    case WEFT_ID_level_limits:
+        if (uses(WEFT_ID_level_limits)) run_level_limits();
         break;
     case WEFT_ID_limits:
         if (uses(WEFT_ID_limits)) run_limits();

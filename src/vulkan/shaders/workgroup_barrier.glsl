@@ -11,4 +11,10 @@ void workgroup_barrier()
                    gl_SemanticsAcquireRelease);
 }
 
+// The same for shared memory only. Accesses to device memory may go on beyond it.
+void shared_barrier()
+{
+    controlBarrier(gl_ScopeWorkgroup, gl_ScopeWorkgroup, gl_StorageSemanticsShared, gl_SemanticsAcquireRelease);
+}
+
 #endif
