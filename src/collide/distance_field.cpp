@@ -473,6 +473,7 @@ Result<DistanceField> build_distance_field(std::span<const Vec3> positions, std:
     builder.write(field.data.words);
     field.data.steepness = static_cast<float>(builder.steepness());
     field.data.layer_distance = layer_distance_of(field.cell);
+    field.is_sheet = surface.is_sheet();
     field.has_inside = builder.has_inside();
 
     field.thin = find_thin_parts(surface, builder.samples(), team);

@@ -29,7 +29,7 @@ struct DistanceFieldOptions {
 };
 
 /// Changes when the field of some mesh does, so that fields kept on disk are built again.
-inline constexpr std::uint32_t distance_field_version = 2;
+inline constexpr std::uint32_t distance_field_version = 3;
 
 /// Kernels number blocks of 16 bytes by floats, which are exact up to 2^24.
 inline constexpr std::size_t largest_distance_field = std::size_t{16} << 24;
@@ -50,7 +50,8 @@ struct DistanceField {
     std::uint32_t zero_area = 0;            ///< triangles left out
     std::uint32_t flipped = 0;              ///< triangles turned around to face the same way as their neighbors
     bool closed = false;                    ///< the surface has no holes
-    bool has_inside = false;                ///< false for sheets, whose field pushes nothing out
+    bool is_sheet = false;                  ///< solid for two cells behind the side that its triangles face
+    bool has_inside = false;                ///< false if the field pushes nothing out
     ThinParts thin;                         ///< parts thinner than two cells; lengths in m
 
     std::size_t bytes() const { return data.words.size() * sizeof(float); }
@@ -63,7 +64,9 @@ struct DistanceField {
 ///   - a closed part inside another one is a cavity if its orientation is the opposite, else part of the solid;
 ///   - a hole is closed by the surface on which the winding number is one half. There the value is an estimate of the
 ///     distance to that surface, so that it does not jump;
-///   - half a shell is solid up to that surface, near the plane of its opening; a flat sheet has no inside.
+///   - half a shell is solid up to that surface, near the plane of its opening;
+///   - a sheet, which encloses nothing, is solid for two cells behind the side that its triangles face
+///     (SolidSurface::is_sheet()).
 ///
 /// Interpolation cuts convex edges and tips off, by up to a third of a cell. Values there are lowered until the
 /// surface, at points half a cell apart, is at most 0.02 cells outside the field's solid, as far as that makes no value

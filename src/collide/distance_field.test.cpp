@@ -193,7 +193,7 @@ TEST(DistanceField, has_a_new_version_when_it_changes) {
     StateHash hash;
     for (const float word : field.data.words) hash.add(word);
     hash.add(field.data.steepness);
-    EXPECT_EQ(distance_field_version, 2u);
+    EXPECT_EQ(distance_field_version, 3u);
     EXPECT_EQ(hash.text(), "882ae4deca4e1a8e") << "raise distance_field_version, then write both numbers here";
 }
 
@@ -341,17 +341,54 @@ TEST(DistanceField, fills_half_a_shell) {
     }
 }
 
-TEST(DistanceField, of_a_sheet_has_no_inside) {
-    TriangleMesh sheet = make_grid({1, 1}, {9, 9}, GridDiagonal::alternating);
-    const DistanceField flat = field_of(sheet);
-    EXPECT_FALSE(flat.has_inside);
-    EXPECT_NEAR(read(flat, {0, 0.02f, 0}).distance, 0.02, 0.003);
-    EXPECT_NEAR(read(flat, {0, -0.02f, 0}).distance, 0.02, 0.003);
+// Above, beside and behind a bumpy sheet of 1 m that faces up: the nearest point of the surface lies straight below or
+// above, about.
+TEST(DistanceField, of_a_sheet_is_solid_behind_it) {
+    TriangleMesh sheet = make_grid({1, 1}, {33, 33}, GridDiagonal::alternating);
+    const auto height = [](float x, float z) { return 0.03f * std::sin(9 * x) * std::cos(7 * z); };
+    for (Vec3& p : sheet.positions) p.y = height(p.x, p.z);
+    for (const std::uint32_t cells : {24u, 64u}) {
+        const DistanceField field = field_of(sheet, cells);
+        EXPECT_TRUE(field.is_sheet && field.has_inside && !field.closed);
+        const float thickness = 2 * field.cell;
+        std::mt19937 random(1);
+        std::uniform_real_distribution<float> place(-0.35f, 0.35f), above(-3 * field.cell, 2 * field.cell);
+        for (int i = 0; i < 2000; ++i) {
+            const float x = place(random), z = place(random), y = above(random);
+            const double distance = read(field, {x, height(x, z) + y, z}).distance;
+            const float expected = y > 0 ? y : y > -thickness ? -std::min(-y, thickness + y) : -thickness - y;
+            // Trilinear values are not as deep as the middle of the solid, one cell below the surface.
+            const double tolerance = 0.2 * double{std::abs(expected)} + (y > 0 ? 0.25 : 0.6) * double{field.cell};
+            EXPECT_NEAR(distance, double{expected}, tolerance) << y;
+            if (std::abs(expected) > 0.2f * field.cell) {
+                EXPECT_EQ(distance < 0, expected < 0) << y;
+            }
+        }
+        for (int i = 0; i < 500; ++i) {  // beside it there is nothing
+            const Vec3 beside{0.5f + 1.5f * field.cell + std::abs(place(random)), 2 * place(random), place(random)};
+            EXPECT_GT(read(field, beside).distance, 0);
+        }
+    }
+    TriangleMesh turned = sheet;
+    for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+    const DistanceField field = field_of(turned, 24);
+    EXPECT_LT(read(field, {0, 0.5f * field.cell, 0}).distance, 0) << "solid on the other side";
+    EXPECT_GT(read(field, {0, -0.5f * field.cell, 0}).distance, 0);
     TriangleMesh triangle;
     testing_meshes::add_triangle(triangle, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-    const DistanceField single = field_of(triangle, DistanceFieldOptions::fewest_cells);
-    EXPECT_FALSE(single.has_inside);
-    EXPECT_NEAR(read(single, {0.2f, 0.2f, 0.4f}).distance, 0.4, 0.1);
+    EXPECT_TRUE(field_of(triangle, DistanceFieldOptions::fewest_cells).is_sheet);
+}
+
+// Ground with stones on it, which are closed: both are solid.
+TEST(DistanceField, of_a_sheet_and_closed_parts_has_both) {
+    TriangleMesh ground = make_grid({2, 2}, {17, 17}, GridDiagonal::alternating);
+    append_mesh(ground, make_sphere(0.3f, 3), {0.2f, 0.1f, 0});
+    const DistanceField field = field_of(ground, 48);
+    EXPECT_TRUE(field.is_sheet);
+    for (const Vec3 p : {Vec3{-0.5f, -0.04f, 0.3f}, Vec3{0.2f, 0.36f, 0}, Vec3{0.45f, 0.15f, 0}})
+        EXPECT_LT(read(field, p).distance, 0) << p.x;
+    for (const Vec3 p : {Vec3{-0.5f, 0.04f, 0.3f}, Vec3{0.2f, 0.44f, 0}, Vec3{0.6f, 0.15f, 0}})
+        EXPECT_GT(read(field, p).distance, 0) << p.x;
 }
 
 TEST(DistanceField, names_parts_that_are_too_thin) {

@@ -213,6 +213,25 @@ SolidSurface::SolidSurface(std::vector<Vec3> positions, OrientedTriangles orient
         boundary_length_ += double{length(positions_[b] - positions_[a])};
     }
     boundary_tree_ = Bvh(boxes);
+    constexpr double most_of_sheet = 0.25;
+    is_sheet_ = !boxes.empty() && std::abs(mean_winding()) < most_of_sheet;
+}
+
+// By area, over some of the triangles.
+double SolidSurface::mean_winding() const {
+    constexpr std::size_t most_samples = 2000;
+    const std::size_t step = (oriented_.triangles.size() + most_samples - 1) / most_samples;
+    double sum = 0, total = 0;
+    for (std::size_t t = 0; t < oriented_.triangles.size(); t += step) {
+        const auto [a, b, c] = oriented_.triangles[t];
+        const Vec3 &p = positions_[a], &q = positions_[b], &r = positions_[c];
+        const double area = area_between(p, q, r);
+        const Vec3 middle = (p + q + r) * (1.0f / 3),
+                   up = normalized(cross(q - p, r - p)) * static_cast<float>(1e-3 * std::sqrt(area));
+        sum += area * 0.5 * (winding(middle + up) + winding(middle - up));
+        total += area;
+    }
+    return sum / total;
 }
 
 SolidSurface::Nearest SolidSurface::nearest(Vec3 point, std::uint32_t guess) const {
@@ -295,18 +314,28 @@ double SignedDistanceWalk::distance_at(Vec3 point) {
     const bool clear = step < 0.999 * (distance + distance_before_) && nearest_ != none;
     if (clear) drift_ += step * gradient_bound_;
     // Twice the margin: the evaluated number has an error of up to one.
-    const double spare = SolidSurface::distance_from_limit(winding_) - 2 * SolidSurface::margin;
+    const double spare = surface_.distance_from_limit(winding_) - 2 * SolidSurface::margin;
     if (!clear || !(drift_ < spare)) winding_ = surface_.winding(point), drift_ = 0;
     before_ = point, distance_before_ = distance, nearest_ = found.triangle;
-    const double size = std::min(distance, distance_to_closing_surface(point, distance));
-    return SolidSurface::is_inside(winding_) ? -size : size;
+    const double closing = distance_to_closing_surface(point, distance);
+    if (surface_.is_sheet()) return distance_to_sheet(distance, closing);
+    const double size = std::min(distance, closing);
+    return surface_.is_inside(winding_) ? -size : size;
+}
+
+// A sheet is solid behind its triangles, as far as sheet_thickness and as the surface that closes its holes, which is
+// part of the solid only near the triangles.
+double SignedDistanceWalk::distance_to_sheet(double distance, double closing) const {
+    const double beyond = distance - SolidSurface::sheet_thickness;
+    if (!surface_.is_inside(winding_)) return std::min(distance, std::max(closing, beyond));
+    return beyond < 0 ? -std::min({distance, closing, -beyond}) : beyond;
 }
 
 // Infinite where it is not needed: on closed surfaces, and where even the bound on the gradient lets the winding number
 // reach the limit only farther away than the surface. Close to the surface it would make no difference.
 double SignedDistanceWalk::distance_to_closing_surface(Vec3 point, double distance) {
     constexpr double close = 0.5;
-    const double spare = SolidSurface::distance_from_limit(winding_) - drift_ - SolidSurface::margin;
+    const double spare = surface_.distance_from_limit(winding_) - drift_ - SolidSurface::margin;
     if (distance < close || spare > distance * gradient_bound_) return std::numeric_limits<double>::infinity();
     if (drift_ > 0) winding_ = surface_.winding(point), drift_ = 0;
     return surface_.distance_to_limit(point, winding_);

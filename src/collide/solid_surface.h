@@ -2,6 +2,9 @@
 //
 // The triangles may have holes, may overlap and may be partly turned around. A point is inside if the surface winds
 // around it (winding_number.h) more than half a time, in either direction.
+//
+// A sheet, such as terrain or a wall without a back, winds around no point much more than half a time. It is solid for
+// a short way behind the side that its triangles face: there the winding number is positive.
 #pragma once
 
 #include "base/workers.h"
@@ -50,15 +53,27 @@ class SolidSurface {
     /// surface.
     bool may_touch(const std::array<Vec3, 3>& triangle) const;
 
-    /// How far the winding number must exceed one half. An open flat sheet winds around points close to it almost half
-    /// a time; with this margin, which is more than the error of the winding number, none of them is inside.
+    /// Whether the surface is open and, on average, winds around a point on it less than a quarter of a time: a flat
+    /// one not at all, half a sphere 0.32 times, a closed surface half a time. A point on it is in the middle of both
+    /// sides.
+    bool is_sheet() const { return is_sheet_; }
+    /// How far a sheet is solid behind its surface, in the unit of length.
+    static constexpr double sheet_thickness = 2;
+
+    /// How far the winding number must exceed one half, unless the surface is a sheet. With this margin, which is more
+    /// than the error of the winding number, no point next to a flat part is inside because of it alone.
     static constexpr double margin = 0.01;
     double winding(Vec3 point) const { return winding_.at(point); }
     /// How far the winding number is from where a point counts as inside.
-    static double distance_from_limit(double winding) { return std::abs(std::abs(winding) - (0.5 + margin)); }
+    double distance_from_limit(double winding) const {
+        return is_sheet_ ? std::abs(winding) : std::abs(std::abs(winding) - (0.5 + margin));
+    }
     /// Where the winding number changes from inside to outside in a hole, at first order. In the unit of length.
     double distance_to_limit(Vec3 point, double winding) const;
-    static bool is_inside(double winding) { return winding > 0.5 + margin || winding < -0.5 - margin; }
+    /// For a sheet: behind it, at any distance.
+    bool is_inside(double winding) const {
+        return is_sheet_ ? winding > 0 : winding > 0.5 + margin || winding < -0.5 - margin;
+    }
     bool inside(Vec3 point) const { return is_inside(winding(point)); }
 
     /// Bound on the gradient of the winding number, per unit of length, for all points within `radius` of `center` that
@@ -69,11 +84,14 @@ class SolidSurface {
     std::span<const Triangle> triangles() const { return oriented_.triangles; }
 
   private:
+    double mean_winding() const;
+
     std::vector<Vec3> positions_;
     OrientedTriangles oriented_;
     Bvh triangle_tree_, boundary_tree_;
     WindingNumber winding_;
     double boundary_length_ = 0;
+    bool is_sheet_ = false;
 };
 
 /// Signed distances along a path whose points are close to each other. Finds the nearest triangle from that of the
@@ -93,11 +111,13 @@ class SignedDistanceWalk {
     /// Whether all points that a way through no triangle connects with the last point, and that are within `radius` of
     /// it, are on the same side.
     bool keeps_side_within(double radius) const {
-        return SolidSurface::distance_from_limit(winding_) - drift_ - SolidSurface::margin > radius * gradient_bound_;
+        if (surface_.is_sheet() && winding_ > 0) return false;  // the solid ends behind it
+        return surface_.distance_from_limit(winding_) - drift_ - SolidSurface::margin > radius * gradient_bound_;
     }
 
   private:
     double distance_to_closing_surface(Vec3 point, double distance);
+    double distance_to_sheet(double distance, double closing) const;
 
     const SolidSurface& surface_;
     double gradient_bound_;

@@ -110,13 +110,59 @@ TEST(SolidSurface, a_walk_gives_the_same_signs_as_winding_numbers) {
             const double winding = exact_winding_number(at, surface.positions(), surface.triangles());
             const double distance = walk.distance_at(at);
             if (std::abs(std::abs(winding) - 0.5 - SolidSurface::margin) < SolidSurface::margin) continue;
-            different += (distance < 0) != SolidSurface::is_inside(winding);
+            different += (distance < 0) != surface.is_inside(winding);
             inside += distance < 0;
         }
     }
     EXPECT_EQ(different, 0);
     EXPECT_GT(inside, 1000);
     EXPECT_GT(bounded, 50);
+}
+
+// Inside is what lies behind a sheet, nearer than its thickness.
+TEST(SolidSurface, a_walk_around_a_sheet_gives_the_signs_of_winding_numbers_and_distances) {
+    TriangleMesh mesh = make_grid({20, 20}, {9, 9}, GridDiagonal::alternating);
+    for (Vec3& p : mesh.positions) p.y = std::sin(0.7f * p.x) * std::cos(0.5f * p.z);
+    WorkerTeam team(1);
+    const SolidSurface surface(mesh.positions, orient_triangles(mesh.positions, mesh.triangles), team);
+    ASSERT_TRUE(surface.is_sheet());
+    testing_kernels::Random random(11);
+    int different = 0, inside = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 center = in_floats(random.vector(12));
+        SignedDistanceWalk walk(surface, surface.winding_gradient_bound(center, 5));
+        Vec3 at = center;
+        for (int step = 0; step < 60; ++step) {
+            const Vec3 next = at + in_floats(random.vector(0.8));
+            if (length(next - center) < 5) at = next;
+            const double winding = exact_winding_number(at, surface.positions(), surface.triangles()),
+                         size = std::sqrt(surface.nearest(at, none).squared_distance), distance = walk.distance_at(at);
+            EXPECT_LE(std::abs(distance), size);
+            if (std::abs(winding) < 2 * SolidSurface::margin) continue;
+            different += (distance < 0) != (winding > 0 && size < SolidSurface::sheet_thickness);
+            inside += distance < 0;
+        }
+    }
+    EXPECT_EQ(different, 0);
+    EXPECT_GT(inside, 500);
+}
+
+// By how far the surface closes: a flat sheet, caps of a sphere, and a sphere with a small hole.
+TEST(SolidSurface, tells_sheets_from_shells) {
+    WorkerTeam team;
+    const auto is_sheet = [&](const TriangleMesh& mesh) {
+        return SolidSurface(mesh.positions, orient_triangles(mesh.positions, mesh.triangles), team).is_sheet();
+    };
+    const auto cap = [](float lowest) {
+        TriangleMesh ball = make_sphere(10, 4);
+        std::erase_if(ball.triangles, [&](const Triangle& t) { return ball.positions[t[0]].y < lowest; });
+        return ball;
+    };
+    EXPECT_TRUE(is_sheet(make_grid({10, 10}, {5, 5}, GridDiagonal::uniform)));
+    EXPECT_TRUE(is_sheet(cap(7)));
+    EXPECT_FALSE(is_sheet(cap(0))) << "half a sphere";
+    EXPECT_FALSE(is_sheet(cap(-8)));
+    EXPECT_FALSE(is_sheet(make_sphere(10, 3)));
 }
 
 // A triangle that touches no triangle of the surface, and in whose neighborhood the winding number cannot reach its

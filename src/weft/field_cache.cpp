@@ -29,7 +29,7 @@ struct FieldHead {
     std::uint32_t samples = 0, thin = 0;
     float least_thickness = 0;
     Vec3 place{}, low{}, high{};
-    std::uint32_t unused = 0;
+    std::uint32_t is_sheet = 0;
     std::uint64_t words = 0;
 };
 static_assert(std::is_trivially_copyable_v<FieldHead>);
@@ -63,6 +63,7 @@ FieldHead head_of(const FieldCache::Key& key, const DistanceField& field) {
             .place = field.thin.place,
             .low = field.data.bounds.min,
             .high = field.data.bounds.max,
+            .is_sheet = field.is_sheet,
             .words = field.data.words.size()};
 }
 
@@ -76,6 +77,7 @@ DistanceField field_from(const FieldHead& head) {
     field.zero_area = head.zero_area;
     field.flipped = head.flipped;
     field.closed = head.closed != 0;
+    field.is_sheet = head.is_sheet != 0;
     field.has_inside = head.has_inside != 0;
     field.thin = {head.samples, head.thin, head.least_thickness, head.place};
     field.data.bounds = {head.low, head.high};

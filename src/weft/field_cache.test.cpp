@@ -62,6 +62,7 @@ TEST_F(FieldCaches, give_back_the_whole_field) {
     EXPECT_EQ(kept->flipped, 3u);
     EXPECT_EQ(kept->closed, field_.closed);
     EXPECT_EQ(kept->has_inside, field_.has_inside);
+    EXPECT_EQ(kept->is_sheet, field_.is_sheet);
     EXPECT_EQ(kept->thin.samples, field_.thin.samples);
     EXPECT_EQ(kept->thin.thin, field_.thin.thin);
     EXPECT_EQ(kept->thin.least_thickness, field_.thin.least_thickness);

@@ -2,6 +2,7 @@
 
 #include "collide/convex_hull.h"
 #include "collide/distance_field.h"
+#include "collide/solid_surface.h"
 #include "scene/problems.h"
 #include "solver/model/collider_surface.h"
 
@@ -95,13 +96,17 @@ void note_field(const DistanceField& field, bool as_surface, const ShapeSource& 
     count(field.zero_area, "triangles without an area left out");
     count(field.flipped, "triangles face the other way than their neighbors; turned around");
     const std::string others = as_surface ? " for cloth without exact self-collision" : "";
-    if (!field.has_inside) {
-        source.note(as_surface ? "the mesh encloses nothing, so cloth without exact self-collision passes through it"
-                               : "the mesh encloses nothing, so cloth passes through it");
+    const auto rounded = [](double x, double digits) { return number_text(std::round(x * digits) / digits); };
+    if (field.is_sheet) {
+        source.note("the mesh is a sheet; it is solid for " + rounded(SolidSurface::sheet_thickness * field.cell, 1e4) +
+                    " m behind the side that its triangles face" + (as_surface ? "," : "") + others);
+    } else if (!field.has_inside) {
+        source.note("the mesh encloses nothing, so cloth" +
+                    std::string(as_surface ? " without exact self-collision" : "") + " passes through it");
+    } else if (!field.closed) {
+        source.note("the mesh is open; its holes count as closed" + others);
     }
-    if (!field.closed && field.has_inside) source.note("the mesh is open; its holes count as closed" + others);
     if (field.thin.thin > 0) {
-        const auto rounded = [](double x, double digits) { return number_text(std::round(x * digits) / digits); };
         const Vec3 at = field.thin.place;
         source.note(rounded(100.0 * field.thin.thin / field.thin.samples, 100) +
                     " % of its surface are thinner than two cells of the distance field (" +
