@@ -134,12 +134,22 @@ std::int64_t PairSearch::remaining(const TileState& tile) const {
     return tile.moving ? tile.lifetime - (tick_ - tile.listed) : never;
 }
 
+// Where neither the tile nor its trajectory moves, one computation lasts for the frame.
+float PairSearch::deviation(TileState& tile, const Vec4* positions, float ticks) const {
+    const bool is_constant = rests(tile) && !tile.moving;
+    if (is_constant && tile.deviation >= 0) return tile.deviation;
+    const float deviation = loops_->deviation(tile, &positions->x, ticks);
+    tile.deviation = is_constant ? deviation : -1;
+    return deviation;
+}
+
 void PairSearch::check_start(const Vec4* positions) {
     for (TileState& tile : tiles_) {
         if (tile.listed < 0) continue;
-        const float deviation = loops_->deviation(tile, &positions->x, static_cast<float>(tick_ - tile.listed));
-        tile.strays[0] = deviation + tile.most_around;
-        if (!(deviation <= tile.slack)) tile.listed = -1;
+        tile.deviation = -1;
+        const float away = deviation(tile, positions, static_cast<float>(tick_ - tile.listed));
+        tile.strays[0] = away + tile.most_around;
+        if (!(away <= tile.slack)) tile.listed = -1;
     }
 }
 
@@ -147,8 +157,9 @@ void PairSearch::measure(const Vec4* places, const Vec4* other_places, std::vect
                          const LedTeam& team) {
     distance.resize(tiles_.size());
     of_owned_.resize(tiles_.size());
-    for_each_tile(team,
-                  [&](std::uint32_t i) { of_owned_[i] = loops_->measure(tiles_[i], &places->x, &other_places->x); });
+    for_each_tile(team, [&](std::uint32_t i) {
+        of_owned_[i] = rests(tiles_[i]) ? 0 : loops_->measure(tiles_[i], &places->x, &other_places->x);
+    });
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
         distance[i] = of_owned_[i];
         for (const std::uint32_t owner : owners_[i]) distance[i] = std::max(distance[i], of_owned_[owner]);
@@ -161,9 +172,9 @@ bool PairSearch::find_outdated(const Vec4* positions, std::span<const float> rea
         bool outdated = all || tile.listed < 0 || remaining(tile) < 1;
         if (!outdated) {
             const auto ticks = static_cast<float>(tick_ + 1 - tile.listed);
-            const float deviation = loops_->deviation(tile, &positions->x, ticks);
-            tile.strays[1] = std::max(tile.strays[1], deviation + tile.most_around);
-            outdated = !(deviation + (reach.empty() ? 0 : reach[i]) <= tile.slack);
+            const float away = deviation(tile, positions, ticks);
+            tile.strays[1] = std::max(tile.strays[1], away + tile.most_around);
+            outdated = !(away + (reach.empty() ? 0 : reach[i]) <= tile.slack);
         }
         outdated_[i] = outdated;
     });
@@ -242,6 +253,7 @@ void PairSearch::begin_list(TileState& tile, bool moving) {
                                                               : longest_lifetime);
     tile.moving = moving;
     tile.listed = tick_;
+    tile.deviation = -1;
     tile.bounded = tile.gathered = -1;
     const std::uint32_t count = tile.tile->vertex_count;
     const auto velocity = [&](std::uint32_t i) {
@@ -259,7 +271,7 @@ void PairSearch::begin_list(TileState& tile, bool moving) {
 }
 
 void PairSearch::bound(TileState& tile) {
-    if (tile.bounded == tick_) return;
+    if (tile.bounded == tick_ || (tile.bounded >= 0 && !tile.moving)) return;
     tile.bounded = tick_;
     tile.middle = tile.moving ? 0.5f * static_cast<float>(remaining(tile)) : 0.0f;
     loops_->bound(tile, static_cast<float>(tick_ - tile.listed));

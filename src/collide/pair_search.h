@@ -62,6 +62,7 @@ struct TileState {
     std::array<float, 2> strays{};
     float most_around = 0;  ///< of all vertices
     float slack = 0;        ///< m: how far a vertex may be from its listed trajectory; at most that of the cloth
+    float deviation = -1;   ///< m: of a tile that rests in this frame, from its trajectory; negative: not known yet
 
     // At the tick `bounded`.
     std::int64_t bounded = -1;
@@ -159,6 +160,8 @@ class PairSearch {
     /// Starts anew with these cloths, whose particles must not overlap. Keeps all lists if nothing differs.
     void set_cloths(const SearchLoops& loops, std::vector<SearchedCloth> cloths);
 
+    /// The cloths (by index) that do not move in this frame. Call before check_start(), after set_cloths().
+    void set_resting(std::span<const std::uint8_t> rests) { rests_.assign(rests.begin(), rests.end()); }
     /// Drops the lists of tiles with a vertex farther than its slack from its listed trajectory at the start of the
     /// current tick. Call where positions may have changed from outside.
     void check_start(const Vec4* positions);
@@ -197,6 +200,8 @@ class PairSearch {
     std::uint64_t searched_tiles() const { return searched_; }
 
   private:
+    bool rests(const TileState& tile) const { return !rests_.empty() && rests_[tile.cloth] != 0; }
+    float deviation(TileState& tile, const Vec4* positions, float ticks) const;
     float full_slack(const TileState& tile) const { return cloths_[tile.cloth].slack; }
     std::int64_t remaining(const TileState& tile) const;
     void find_owners();
@@ -234,6 +239,7 @@ class PairSearch {
     std::vector<std::vector<std::uint32_t>> owners_;  // by tile: other tiles that own some of its vertices
     std::vector<float> of_owned_;                     // m, by tile: measured distance of the vertices that it owns
     std::vector<std::uint8_t> outdated_;
+    std::vector<std::uint8_t> rests_;               // by cloth; empty: none
     std::array<AlignedVector<float>, 9> bounds_;    // of all tiles: center, half, mean velocity
     std::vector<std::uint32_t> sorted_;             // tiles along an axis
     std::vector<std::vector<std::uint32_t>> near_;  // by tile: tiles of higher numbers to list it with

@@ -41,10 +41,12 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
     records_marks_ = step.input.contact_marks;
 
     std::vector<SearchedCloth> searched;
+    std::vector<std::uint8_t> rests;
     carriers_.clear();
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         const ClothModel& model = *cloths_[i]->model;
         prepare_particles(*cloths_[i], *steps[i], step.input.surface_motion);
+        if (model.tiles) rests.push_back(cloths_[i]->rests);
         if (model.tiles)
             searched.push_back({model.tiles, cloths_[i]->base, model.start.data(), pair_thickness(model),
                                 slack_per_cap * cap_of(model, 0), model.collision.surface, model.collision.filter,
@@ -56,6 +58,7 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
         if (cloth.surface) cloth.slack = least_slack;
     least_cap_ = carried_cap(least_slack / slack_per_cap, step.input.surface_motion);
     search_.set_cloths(loops_->search, std::move(searched));
+    search_.set_resting(rests);
     search_.check_start(x_);
     caps_.resize(search_.tile_count()), own_caps_.resize(search_.tile_count());
     for (std::uint32_t tile = 0; tile < caps_.size(); ++tile) {
