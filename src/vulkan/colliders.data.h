@@ -13,6 +13,9 @@
 
 #ifdef __cplusplus
 namespace weft::vulkan {
+using AddressWords = std::uint64_t;
+#else
+#define AddressWords uvec2  // shaders copy ColliderIn, and some drivers cannot compile copies of references
 #endif
 
 struct ColliderIn {
@@ -23,7 +26,7 @@ struct ColliderIn {
     uint flags;             // WEFT_COLLIDER_…
     float adhesion_distance;    // m
     float adhesion_compliance;  // m/N
-    Uints data;                 // of the shape; 0 if its numbers say everything
+    AddressWords data;          // of the shape; 0 if its numbers say everything
     uint first_pose;  // in CollidersIn::poses: the pose after n substeps is number first_pose + n · pose_step
     uint pose_step;   // 0: the collider rests in this frame
     float steepness;  // swept.kernel.h
