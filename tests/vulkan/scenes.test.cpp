@@ -49,7 +49,7 @@ TEST(VulkanScenes, are_as_on_the_cpu) {
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(WEFT_SOURCE_DIR) / "scenes")) {
         if (entry.path().extension() != ".json") continue;
         SCOPED_TRACE(entry.path().filename().string());
-        const Outcome cpu = simulate(entry.path(), "cpu", 4), vulkan = simulate(entry.path(), "vulkan", 4);
+        const Outcome cpu = simulate(entry.path(), "cpu", 2), vulkan = simulate(entry.path(), "vulkan", 2);
         EXPECT_EQ(cpu.reports, vulkan.reports);
         EXPECT_NEAR(vulkan.stretch, cpu.stretch, 0.02 * cpu.stretch + 1e-6);
         EXPECT_NEAR(vulkan.residual, cpu.residual, 0.02 * cpu.residual + 1e-6);
