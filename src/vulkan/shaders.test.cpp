@@ -31,6 +31,7 @@ TEST(Shaders, the_compiler_has_fused_nothing) {
 
 using Pipelines = DeviceTest;
 
+// Labels: slow no-asan
 TEST_F(Pipelines, are_made_of_every_shader) {
     for (const gpu::Shader& shader : shaders()) {
         SCOPED_TRACE(shader.name);

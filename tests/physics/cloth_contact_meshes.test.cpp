@@ -89,6 +89,7 @@ TEST(ClothContactMeshes, malformed_triangles_stay_finite) {
 }
 
 // At distance 0 its halves have no sides; vertices at one place are one particle then.
+// Labels: slow
 TEST(ClothContactMeshes, a_sheet_folded_flat_onto_itself_stays_finite) {
     for (const float apart : {0.0f, 1e-6f, 0.002f}) {
         TriangleMesh mesh = make_grid({1, 1}, {21, 21}, GridDiagonal::alternating);
