@@ -268,6 +268,7 @@ TEST(FreeWay, leads_through_no_surface_of_the_field) {
 
 // Labels: slow no-asan
 // In fine cells outside. Elsewhere the values jump.
+// Labels: slow no-asan
 TEST(FreeWay, steepness_bounds_the_slope) {
     for (const FieldCase& of : field_cases()) {
         const auto& [name, mesh, field] = of;

@@ -60,11 +60,12 @@ TEST(Adhesion, finds_the_nearest_points_anew_in_every_frame) {
     EXPECT_EQ(fall.world.frame().reports, report_none);
 }
 
+// Labels on Vulkan: no-asan
 TEST(Adhesion, carries_the_sheet_along_with_the_spheres) {
-    Fall fall = make_fall(make_world({.solver = {.substeps = 20}}));
-    run(fall.world, 0.5);
+    Fall fall = make_fall(make_world({.solver = {.substeps = 10}}));
+    run(fall.world, 0.4);
     const Vec3 before = center_of_mass(fall.world.frame().cloths[0]);
-    for (int i = 1; i <= 60; ++i) {
+    for (int i = 1; i <= 30; ++i) {
         for (std::size_t s = 0; s < fall.spheres.size(); ++s) {
             Pose pose = fall.world.collider(fall.spheres[s]).pose;
             pose.position += Vec3{0.01f, 0.005f, 0};
@@ -74,23 +75,24 @@ TEST(Adhesion, carries_the_sheet_along_with_the_spheres) {
         ASSERT_GT(fall.world.frame().lists.rows, 0u);
     }
     const Vec3 after = center_of_mass(fall.world.frame().cloths[0]);
-    EXPECT_NEAR(after.x - before.x, 0.6f, 0.03f);
-    EXPECT_NEAR(after.y - before.y, 0.3f, 0.03f);
+    EXPECT_NEAR(after.x - before.x, 0.3f, 0.03f);
+    EXPECT_NEAR(after.y - before.y, 0.15f, 0.03f);
 }
 
+// Labels on Vulkan: no-asan
 TEST(Adhesion, holds_a_sheet_from_above_and_soft_springs_let_it_go) {
     for (const float compliance : {0.0f, 1.0f}) {
-        World world = make_world({.solver = {.substeps = 20}});
+        World world = make_world({.solver = {.substeps = 10}});
         for (const float x : {-0.3f, 0.3f})
             for (const float z : {-0.3f, 0.3f}) world.add(sticky({x, radius + 0.002f, z}, compliance));
         world.add(make_sheet({.resolution = {33, 33}}));
-        run(world, 1);
+        run(world, 0.75);
         const float y = center_of_mass(world.frame().cloths[0]).y;
         if (compliance == 0) {
             EXPECT_GT(y, -0.3f);
             EXPECT_GT(world.frame().lists.rows, 4u);
         } else {
-            EXPECT_LT(y, -2.0f);
+            EXPECT_LT(y, -1.0f);
             EXPECT_EQ(world.frame().lists.rows, 0u);
         }
     }
@@ -107,23 +109,24 @@ TEST(Adhesion, leaves_pinned_particles_alone) {
 }
 
 // A full list costs time, but loses no constraint and changes no bit of the result.
+// Labels on Vulkan: no-asan
 TEST(Adhesion, has_the_same_bits_however_long_the_list_is) {
     std::string expected;
     for (const Projection projection : {Projection::automatic, Projection::jacobi}) {
         std::string of_projection;
-        for (const std::uint32_t capacity : {1u, 40u, 100'000u}) {
+        for (const std::uint32_t capacity : {1u, 2'000u}) {
             const ClothLayout layout{.lines = projection == Projection::automatic, .hierarchy = true};
             World world =
                 make_world({.solver = {.substeps = 5, .iterations = 2, .projection = projection, .hierarchy = true},
                             .list_capacity = capacity});
-            Fall fall = make_fall(std::move(world));
-            fall.world.add(make_sheet({.resolution = {33, 33}, .position = {0, 0.2f, 0}, .layout = layout}));
+            Fall fall = make_fall(std::move(world), 0, 25);
+            fall.world.add(make_sheet({.resolution = {25, 25}, .position = {0, 0.2f, 0}, .layout = layout}));
             std::uint64_t repeats = 0;
-            for (int i = 0; i < 20; ++i) {
+            for (int i = 0; i < 12; ++i) {  // until both have met the spheres
                 fall.world.step(1.0 / 60);
                 repeats += fall.world.frame().lists.repeats;
             }
-            EXPECT_EQ(repeats > 0, capacity < 100'000u);
+            EXPECT_EQ(repeats > 0, capacity == 1);
             EXPECT_LE(fall.world.frame().lists.rows, fall.world.frame().lists.capacity);
             const std::string hash = fall.world.state_hash();
             if (of_projection.empty()) of_projection = hash;
@@ -146,17 +149,18 @@ TEST(Adhesion, goes_on_with_the_same_bits_after_a_restore) {
     EXPECT_EQ(other.world.state_hash(), fall.world.state_hash());
 }
 
+// Labels on Vulkan: no-asan
 TEST(Adhesion, of_two_cloths_in_an_island_is_that_of_each) {
     std::uint64_t rows[2] = {};
     for (const bool tied : {false, true}) {
-        Fall fall = make_fall(make_world({.solver = {.substeps = 5}}));
+        Fall fall = make_fall(make_world({.solver = {.substeps = 5}}), 0, 25);
         SheetDesc far_away{.resolution = {9, 9}, .position = {10, 0, 0}};
         const ClothId second = fall.world.add(make_sheet(far_away));
         // A spring so soft that it does nothing.
         if (tied)
             fall.world.add(
                 {Stitch{fall.world.cloth_id(0), second, {.particles = {0, 0, 0}}, {.particles = {0, 0, 0}}, 0, 1e12f}});
-        run(fall.world, 0.4);
+        run(fall.world, 0.25);
         rows[tied] = fall.world.frame().lists.rows;
     }
     EXPECT_GT(rows[0], 0u);
@@ -178,6 +182,7 @@ TEST(Adhesion, with_a_frame_that_is_not_finite_goes_back_to_where_it_began) {
 }
 
 #ifdef WEFT_VULKAN
+// Labels: slow no-asan
 TEST(Adhesion, is_the_same_on_both_backends) {
     Fall cpu = make_fall(make_world({.solver = {.substeps = 5, .iterations = 2}, .list_capacity = 1}, CpuOptions{}));
     for (const char* execution : {"streamed", "grouped", "fused"}) {
