@@ -430,9 +430,16 @@ TEST_F(Cli, info_lists_what_there_is) {
     for (const Json& fabric : info["fabrics"]) {
         if (fabric["name"] == "cotton") {
             EXPECT_EQ(fabric["density"], 0.14);
+            EXPECT_EQ(fabric["strength"], Json::array({320, 320}));
+            EXPECT_EQ(fabric["breaking_force"], 3900);
+            EXPECT_EQ(fabric["breaking_elongation"], 0.08);
         }
+        EXPECT_GT(fabric["tongue_tear_force"], 0) << fabric;
+        EXPECT_NE(words.find(fabric["tearing_source"].get<std::string>()), std::string::npos) << fabric;
     }
     EXPECT_EQ(info["fabric_units"]["density"], "kg/m²");
+    EXPECT_EQ(info["fabric_units"]["tear_energy"], "J/m");
+    EXPECT_EQ(info["fabric_units"]["breaking_force"], "N/m");
     EXPECT_EQ(info["material_units"]["thread_spacing"], "mm");
     ASSERT_FALSE(info["materials"].empty());
     for (const Json& material : info["materials"]) {
