@@ -69,6 +69,7 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     model.faces = std::move(faces);
     model.faces_by_tile = std::make_shared<const FacesByTile>(lay_out_by_tile(model.triangles(), model.particle_count));
     model.face_area = std::vector<float>(rest.area);
+    model.face_warp = std::vector<Vec3>(rest.warp);
 }
 
 // Finds edges by their ends. Topology sorts edges by lower end, then by upper end.
