@@ -50,6 +50,12 @@ TEST_F(Cli, stats_have_every_figure) {
     }
     EXPECT_GT(s["stretch"]["p99"], 0);
     EXPECT_LE(s["stretch"]["p99"], s["stretch"]["max"]);
+    EXPECT_GT(s["tension"]["mean"], 0);
+    EXPECT_LE(s["tension"]["mean"], s["tension"]["max"]);
+    EXPECT_LE(s["tension"]["max"], s["tension"]["worst"]["max"]);
+    EXPECT_LE(s["tension"]["load"]["max"], s["tension"]["load"]["worst"]["max"]);
+    EXPECT_EQ(s["tension"]["load"]["cloth"], "sheet");
+    EXPECT_TRUE(s["tension"]["load"]["worst"]["frame"].is_number() && s["tension"]["particle"].is_number());
     EXPECT_GT(s["kinetic_energy"], 0);
     EXPECT_GT(s["mean_speed"], 0.01);
     EXPECT_GT(s["max_speed"], 0);
