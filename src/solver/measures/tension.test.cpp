@@ -218,6 +218,47 @@ TEST(TensionMeasure, of_a_shape_that_is_not_flat_at_rest) {
     }
 }
 
+// Bent by 90° at rest along a row of particles, across the warp.
+TEST(TensionMeasure, follows_the_threads_around_a_crease) {
+    const TriangleMesh flat_mesh = tension_mesh(TestMesh::alternating, 8);
+    const auto bent = [](Vec3 x) { return x.x > 0 ? Vec3{0, x.x, x.z} : x; };
+    TriangleMesh mesh = flat_mesh;
+    for (Vec3& x : mesh.positions) x = bent(x);
+    const auto flat = tension_model(flat_mesh, woven(2000, 500, 50)), creased = tension_model(mesh, flat->fabric);
+    const std::vector<Vec4> pulled = strained(*flat, {2e-3, 0, 0});
+    std::vector<Vec4> positions;
+    for (const Vec4& p : pulled) {
+        const Vec3 x = bent(p.xyz());
+        positions.push_back({x.x, x.y, x.z, 1});
+    }
+    const ClothTension expected = measure_tension(make_stress_table(*flat, flat->triangles()), pulled),
+                       measured = measure_tension(make_stress_table(*creased, creased->triangles()), positions);
+    for (std::uint32_t p = 0; p < flat->particle_count; ++p)
+        EXPECT_NEAR(measured.tension[p], expected.tension[p], 1e-3) << "particle " << p;
+}
+
+// With these stiffnesses k(φ) is 400 N/m in every direction, so threads matter for the strength alone.
+TEST(TensionMeasure, takes_the_mean_of_the_threads_at_a_seam) {
+    Fabric fabric = woven(480, 480, 100);
+    fabric.tear = {.strength = {50, 500}, .tear_energy = 0, .tear_ratio = 0};
+    const auto model = tension_model(tension_mesh(TestMesh::alternating, 8), fabric);
+    ClothModel seam = *model;
+    std::vector<Vec3> warp(seam.face_warp.begin(), seam.face_warp.end());
+    for (std::uint32_t t = 0; t < warp.size(); ++t) {
+        const auto [a, b, c] = model->triangles()[t];
+        const float middle = model->rest_position(a).x + model->rest_position(b).x + model->rest_position(c).x;
+        warp[t] = {std::cos(0.35f), 0, middle > 0 ? std::sin(0.35f) : -std::sin(0.35f)};
+    }
+    seam.face_warp = std::move(warp);
+    const ClothTension measured = measure_tension(make_stress_table(seam, seam.triangles()),
+                                                  strained(*model, Continuum(480, 480, 100).strain(1, 0, 0)));
+    for (std::uint32_t iz = 1; iz < 8; ++iz) {
+        EXPECT_NEAR(measured.tension[iz * 9 + 4], 1, 5e-3) << iz;
+        EXPECT_NEAR(measured.load[iz * 9 + 4], 1.0 / 50, 1e-3) << "at the seam, along the mean warp: " << iz;
+        EXPECT_LT(measured.load[iz * 9 + 1], 0.95 / 50) << "beside it: " << iz;
+    }
+}
+
 // A sheet with a slit from the side x = -0.5 m to its middle, 1 mm wide. `tip`: the particle at the end.
 struct SlitSheet {
     std::shared_ptr<const ClothModel> model;
