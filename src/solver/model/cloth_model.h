@@ -113,7 +113,7 @@ struct ClothModel {
     /// Triangle corners for the surface passes: [corner · face_stride + triangle], padded with dummies.
     SharedArray<std::uint32_t> faces;
     SharedArray<float> face_area;  ///< m², per triangle at rest; 0 if it was removed
-    SharedArray<Vec3> face_warp;   ///< per triangle: direction of the warp at rest, unit, in its plane
+    SharedArray<float> face_warp;  ///< rad, per triangle at rest: from its first side to the warp, about its normal
     std::uint32_t triangle_count = 0, face_stride = 0;
     std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< its `nothing` is face_stride
     std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();

@@ -27,13 +27,17 @@ struct RestTriangle {
     vec3 normal, warp;
 };
 
-RestTriangle at_rest(const ClothModel& model, const Triangle& triangle, std::uint32_t t) {
+// `wound`: the same corners, perhaps in the other direction.
+RestTriangle at_rest(const ClothModel& model, const Triangle& triangle, const Triangle& wound, std::uint32_t t) {
+    const auto place = [&](std::uint32_t p) { return reference::to_double(model.rest_position(p)); };
+    const vec3 side = place(triangle[1]) - place(triangle[0]);
+    const vec3 normal = unit(cross(side, place(triangle[2]) - place(triangle[0])));
     RestTriangle rest{};
-    for (std::size_t k = 0; k < 3; ++k) rest.corners[k] = reference::to_double(model.rest_position(triangle[k]));
-    rest.normal = unit(cross(rest.corners[1] - rest.corners[0], rest.corners[2] - rest.corners[0]));
-    const vec3 warp = reference::to_double(model.face_warp[t]);
-    rest.warp = unit(warp - rest.normal * dot(warp, rest.normal));
-    if (!has_direction(rest.normal)) rest.warp = vec3(0, 0, 0);
+    for (std::size_t k = 0; k < 3; ++k) rest.corners[k] = place(wound[k]);
+    rest.normal = wound[1] == triangle[1] ? normal : -normal;
+    if (!has_direction(normal)) return rest;
+    const double angle = model.face_warp[t];
+    rest.warp = unit(side) * std::cos(angle) + cross(normal, unit(side)) * std::sin(angle);
     return rest;
 }
 
@@ -171,7 +175,7 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
     for (std::size_t i = 0; i < alive.size(); ++i) {
         const Triangle triangle = alive[i];
         const double area = model.face_area[numbers[i]];
-        const RestTriangle rest = at_rest(model, triangle, numbers[i]);
+        const RestTriangle rest = at_rest(model, triangles[numbers[i]], triangle, numbers[i]);
         if (!has_direction(rest.warp)) continue;
         StressTable::Face face{.corners = {triangle[0], triangle[1], triangle[2]}, .area = area};
         for (std::size_t k = 0; k < 3; ++k) {
