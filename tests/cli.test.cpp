@@ -50,6 +50,12 @@ TEST_F(Cli, stats_have_every_figure) {
     }
     EXPECT_GT(s["stretch"]["p99"], 0);
     EXPECT_LE(s["stretch"]["p99"], s["stretch"]["max"]);
+    EXPECT_GT(s["tension"]["mean"], 0);
+    EXPECT_LE(s["tension"]["mean"], s["tension"]["max"]);
+    EXPECT_LE(s["tension"]["max"], s["tension"]["worst"]["max"]);
+    EXPECT_LE(s["tension"]["load"]["max"], s["tension"]["load"]["worst"]["max"]);
+    EXPECT_EQ(s["tension"]["load"]["cloth"], "sheet");
+    EXPECT_TRUE(s["tension"]["load"]["worst"]["frame"].is_number() && s["tension"]["particle"].is_number());
     EXPECT_GT(s["kinetic_energy"], 0);
     EXPECT_GT(s["mean_speed"], 0.01);
     EXPECT_GT(s["max_speed"], 0);
@@ -430,9 +436,16 @@ TEST_F(Cli, info_lists_what_there_is) {
     for (const Json& fabric : info["fabrics"]) {
         if (fabric["name"] == "cotton") {
             EXPECT_EQ(fabric["density"], 0.14);
+            EXPECT_EQ(fabric["strength"], Json::array({320, 320}));
+            EXPECT_EQ(fabric["breaking_force"], 3900);
+            EXPECT_EQ(fabric["breaking_elongation"], 0.08);
         }
+        EXPECT_GT(fabric["tongue_tear_force"], 0) << fabric;
+        EXPECT_NE(words.find(fabric["tearing_source"].get<std::string>()), std::string::npos) << fabric;
     }
     EXPECT_EQ(info["fabric_units"]["density"], "kg/m²");
+    EXPECT_EQ(info["fabric_units"]["tear_energy"], "J/m");
+    EXPECT_EQ(info["fabric_units"]["breaking_force"], "N/m");
     EXPECT_EQ(info["material_units"]["thread_spacing"], "mm");
     ASSERT_FALSE(info["materials"].empty());
     for (const Json& material : info["materials"]) {

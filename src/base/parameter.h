@@ -34,6 +34,7 @@ struct Parameter {
     std::size_t offset = 0;  ///< of the first element in the struct that the table describes
     double min = 0, max = std::numeric_limits<float>::max();
     bool min_excluded = false;         ///< the value must be greater than `min`
+    bool zero_too = false;             ///< 0 is valid although it is below `min`
     std::string_view unit = {};        ///< SI; empty for a pure number
     std::string_view above_hint = {};  ///< end of the message about a value above `max`
     std::string_view what = {};        ///< one line of documentation

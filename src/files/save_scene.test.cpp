@@ -9,6 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 namespace weft {
 namespace {
 
@@ -88,13 +91,16 @@ TEST(SaveScene, KeepsWhatAProgramHasChanged) {
                           .pins = {{.select = VertexPins{{0}}, .attach = "gone"}}})
                     .ok());
     for (int i = 0; i < 5; ++i) simulation.step();
-    ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("silk").set("density", 0.1)).ok());
+    ASSERT_TRUE(simulation.set_fabric(cloth, FabricDesc("silk").set("density", 0.1).set("strength", {7, 8})).ok());
     ASSERT_TRUE(simulation.set_gravity({0, -5, 0}).ok());
     ASSERT_TRUE(simulation.move(ball, {0.5f, 0, 0.5f}, {0, 10, 0}).ok());
     ASSERT_TRUE(simulation.remove(gone).ok());
     simulation.step();
     const auto saved = simulation.save_scene(path);
     ASSERT_TRUE(saved.ok()) << saved.error().message();
+    std::ifstream written(path);
+    const std::string text(std::istreambuf_iterator<char>(written), {});
+    EXPECT_NE(text.find("\"strength\""), std::string::npos) << text;
 
     auto loaded = Simulation::load(path, {.backend = "cpu"});
     ASSERT_TRUE(loaded.ok()) << loaded.error().message();

@@ -202,12 +202,14 @@ std::string range_problem(const Parameter& parameter, double value, std::string_
     const double min = integer ? parameter.min : static_cast<float>(parameter.min);
     const double max = integer ? parameter.max : static_cast<float>(parameter.max);
     const bool below = parameter.min_excluded ? value <= min : value < min;
+    if (parameter.zero_too && value == 0) return {};
     // A side without a limit still has the range of float.
     if (!std::isfinite(value) || (below ? min == -any_float : value > max && max == any_float))
         return "must be a finite number, got " + text;
     if (!below && value <= max) return {};
-    std::string bound =
-        below ? (parameter.min_excluded ? "> " : "≥ ") + number_text(parameter.min) : "≤ " + number_text(parameter.max);
+    std::string bound = below ? (parameter.zero_too ? "0 or " : "") +
+                                    std::string(parameter.min_excluded ? "> " : "≥ ") + number_text(parameter.min)
+                              : "≤ " + number_text(parameter.max);
     if (!parameter.unit.empty()) (bound += ' ') += parameter.unit;
     return "must be " + bound + ", got " + text + std::string(below ? "" : parameter.above_hint);
 }

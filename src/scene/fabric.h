@@ -5,6 +5,7 @@
 #include "physics/air/air.data.h"
 #include "physics/constraints.data.h"
 #include "physics/contact/contact.data.h"
+#include "physics/tear/tear.data.h"
 
 #include <weft/result.h>
 #include <weft/scene.h>
@@ -40,6 +41,7 @@ struct Fabric {
     BodyMaterial body;
     ContactMaterial contact;
     AirMaterial air;
+    TearMaterial tear;
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping) \
     WEFT_IF_FABRIC_##source(Name##Material name;)
 #include "physics/constraints.def"
@@ -58,12 +60,21 @@ struct FabricTable {
 /// All tables, in the order of the documentation. Address of a value: fabric + table.offset + p.offset.
 std::span<const FabricTable> fabric_tables();
 
+/// Figures of tearing tests, from which the strength and the tear energy of a preset are computed (tearing.def).
+struct TearingFigures {
+    double elongation = 0;         ///< at break, 0.1 for 10 %
+    double breaking_force = 0;     ///< N/m, per width
+    double tear_force = 0;         ///< N, of a tongue tear
+    std::string_view source = {};  ///< where each figure comes from, and which of them are chosen
+};
+
 struct FabricPreset {
     std::string_view name;
     std::string_view source;  ///< where the values come from, and which of them are chosen, not measured
     Fabric fabric;
     bool woven_or_knitted = true;
     std::string_view material = "cotton";  ///< used where a scene gives none
+    TearingFigures tearing = {};
 };
 
 /// The fabric that a program describes. The places of its problems are below `pointer`.

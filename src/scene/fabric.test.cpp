@@ -15,13 +15,13 @@ constexpr double earth_gravity = 9.81;
 
 TEST(Fabric, HasEveryPreset) {
     for (const char* name : {"trouser", "denim", "tablecloth", "tshirt", "jacket", "swimsuit", "ponte-roma", "rib-knit",
-                             "blanket", "cotton", "silk", "chiffon", "wool", "leather", "rubber"}) {
+                             "blanket", "cotton", "silk", "chiffon", "wool", "ripstop", "leather", "rubber"}) {
         const FabricPreset* preset = find_fabric(name);
         ASSERT_TRUE(preset) << name;
         EXPECT_EQ(preset->name, name);
         EXPECT_FALSE(preset->source.empty()) << name;
     }
-    EXPECT_EQ(fabric_presets().size(), 15u);
+    EXPECT_EQ(fabric_presets().size(), 16u);
     EXPECT_FALSE(find_fabric(""));
     EXPECT_FALSE(find_fabric("Cotton"));
 }
@@ -80,6 +80,35 @@ TEST(Fabric, BendingLengthIsThatOfTextiles) {
     }
 }
 
+TEST(Fabric, TearsAtThePublishedElongation) {
+    for (const FabricPreset& preset : fabric_presets()) {
+        const TearMaterial& tear = preset.fabric.tear;
+        const TearingFigures& figures = preset.tearing;
+        for (int i = 0; i < 2; ++i)
+            EXPECT_NEAR(tear.strength[i] / preset.fabric.stretch.stretch[i], figures.elongation, 1e-6) << preset.name;
+        const double reduced = (tear.strength[0] + tear.strength[1]) / 2 / figures.breaking_force;
+        EXPECT_NEAR(tear.tear_energy / (2 * figures.tear_force * reduced), 1, 0.005) << preset.name;
+        EXPECT_EQ(tear.tear_ratio, 0) << preset.name;
+        EXPECT_LE(reduced, 1) << preset.name << ": real cloth stiffens";
+        EXPECT_FALSE(figures.source.empty()) << preset.name;
+    }
+    const TearingFigures ripstop = find_fabric("ripstop")->tearing;
+    EXPECT_NEAR(ripstop.breaking_force, 42 * 4.448222 / 0.0254, 50) << "42 lbf/in";
+    EXPECT_NEAR(ripstop.tear_force, 5 * 4.448222, 0.3) << "5 lbf";
+    EXPECT_NEAR(find_fabric("trouser")->tearing.breaking_force, 75 * 4.448222 / 0.0254, 50) << "75 lbf on an inch";
+    EXPECT_NEAR(find_fabric("denim")->tearing.breaking_force, 244 / 0.0254, 50) << "244 N on an inch";
+    EXPECT_NEAR(find_fabric("cotton")->tearing.breaking_force, 22 * 4.448222 / 0.0254, 50) << "22 lbf on an inch";
+    EXPECT_NEAR(find_fabric("wool")->tearing.breaking_force, 80 * 4.448222 / 0.0254, 50) << "80 lbf on an inch";
+    // Each figure has a source or the word "chosen".
+    for (const FabricPreset& preset : fabric_presets()) {
+        const std::string_view source = preset.tearing.source;
+        const auto has = [&](std::string_view text) { return source.find(text) != source.npos; };
+        if (has("every value is chosen")) continue;
+        for (const char* figure : {"elongation", "breaking force", "tear force"})
+            EXPECT_TRUE(has(figure)) << preset.name << ": " << figure;
+    }
+}
+
 TEST(Fabric, LeatherAndRubberAreNoTextiles) {
     for (const FabricPreset& preset : fabric_presets())
         EXPECT_EQ(preset.woven_or_knitted, preset.name != "leather" && preset.name != "rubber") << preset.name;
@@ -92,8 +121,10 @@ TEST(Fabric, SourcesSayWhatIsMeasured) {
     for (const char* name :
          {"trouser", "denim", "tablecloth", "tshirt", "jacket", "swimsuit", "ponte-roma", "rib-knit", "blanket"})
         EXPECT_TRUE(says(name, "Wang, O'Brien, Ramamoorthi 2011")) << name;
-    for (const char* name : {"cotton", "silk", "chiffon", "wool"}) EXPECT_TRUE(says(name, "DrapeTester")) << name;
-    for (const char* name : {"silk", "chiffon", "wool", "leather", "rubber"}) EXPECT_TRUE(says(name, "chosen")) << name;
+    for (const char* name : {"cotton", "silk", "chiffon", "wool", "ripstop"})
+        EXPECT_TRUE(says(name, "DrapeTester")) << name;
+    for (const char* name : {"silk", "chiffon", "wool", "ripstop", "leather", "rubber"})
+        EXPECT_TRUE(says(name, "chosen")) << name;
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ std::string range_text(const Parameter& p) {
     const std::string min = number_text(p.min), max = number_text(p.max);
     if (!below) return above ? "≤ " + max : "any";
     if (p.min_excluded || !above) return (p.min_excluded ? "> " : "≥ ") + min + (above ? ", ≤ " + max : "");
-    return min + " … " + max;
+    return (p.zero_too ? "0 or " : "") + min + " … " + max;
 }
 
 std::string default_text(const Parameter& p, const void* defaults) {
@@ -114,6 +114,14 @@ std::string row(const FabricPreset& preset) {
            micro(f.bend.bend[2]) + " |";
 }
 
+std::string tearing_row(const FabricPreset& preset) {
+    const TearMaterial& tear = preset.fabric.tear;
+    return "| `" + std::string(preset.name) + "` | " + number_text(std::round(1000 * preset.tearing.elongation) / 10) +
+           " | " + number_text(preset.tearing.breaking_force / 1000) + " | " + number_text(preset.tearing.tear_force) +
+           " | " + number_text(tear.strength[0]) + ", " + number_text(tear.strength[1]) + " | " +
+           number_text(tear.tear_energy) + " |";
+}
+
 TEST(SceneReference, HasARowForEveryKey) {
     const std::string text = reference();
     ASSERT_FALSE(text.empty());
@@ -144,7 +152,8 @@ TEST(SceneReference, HasNoRowForAKeyThatIsNone) {
 TEST(SceneReference, HasARowForEveryFabric) {
     const std::string text = reference();
     for (const FabricPreset& preset : fabric_presets())
-        EXPECT_NE(text.find('\n' + row(preset)), text.npos) << "missing:\n" << row(preset);
+        for (const std::string& line : {row(preset), tearing_row(preset)})
+            EXPECT_NE(text.find('\n' + line), text.npos) << "missing:\n" << line;
 }
 
 }  // namespace

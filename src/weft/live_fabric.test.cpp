@@ -47,6 +47,19 @@ bool rebuilding(const SceneWorld& world) {
     return world.world().is_rebuilding(world.world().cloth_id(0));
 }
 
+// Limits of tension are numbers of the fabric alone: no constraint changes, and nothing is built again.
+TEST(LiveFabric, takes_other_limits_of_tension_as_it_is) {
+    SceneWorld world = open_world(hung_sheet()), untouched = open_world(hung_sheet());
+    advance(world, 3), advance(untouched, 3);
+    Fabric fabric = find_fabric("cotton")->fabric;
+    fabric.tear = {.strength = {50, 60}, .tear_energy = 7, .tear_ratio = 1.5f};
+    ASSERT_TRUE(world.set_fabric(world.world().cloth_id(0), fabric, "cotton").ok());
+    EXPECT_EQ(model_of(world).fabric.tear.strength[1], 60);
+    EXPECT_FALSE(rebuilding(world));
+    advance(world, 3), advance(untouched, 3);
+    EXPECT_EQ(world.world().state_hash(), untouched.world().state_hash());
+}
+
 // Expects the model to equal one that is built from the document.
 void expect_built_model(const SceneWorld& world) {
     const ClothModel& now = model_of(world);

@@ -169,6 +169,18 @@ TEST(Simulation, describes_fabrics_by_keys) {
                                               "/fabric/damping: must be ≥ 0 s, got -1"));
 }
 
+TEST(Simulation, takes_limits_of_tension_as_keys) {
+    Simulation simulation = make_simulation();
+    ClothDesc cloth = small_sheet();
+    cloth.fabric = FabricDesc("ripstop").set("strength", 100).set("tear_energy", 0).set("tear_ratio", 1);
+    EXPECT_TRUE(simulation.add(cloth).ok());
+    cloth.fabric = FabricDesc("ripstop").set("strength", {100, NAN}).set("tear_energy", NAN).set("tear_ratio", 0.99);
+    EXPECT_THAT(messages(simulation.add(cloth)),
+                testing::UnorderedElementsAre("/fabric/strength/1: must be a finite number, got nan",
+                                              "/fabric/tear_energy: must be a finite number, got nan",
+                                              "/fabric/tear_ratio: must be 0 or ≥ 1, got 0.99"));
+}
+
 TEST(Simulation, says_what_is_wrong_with_what_it_is_given) {
     EXPECT_THAT(messages(Simulation::create({.solver = {.substeps = 0}})),
                 ElementsAre("/solver/substeps: must be ≥ 1, got 0"));

@@ -429,7 +429,7 @@ TEST(Overlays, of_nothing_are_nothing) {
 }
 
 TEST(Overlays, are_found_by_name) {
-    ASSERT_EQ(overlays().size(), 10u);
+    ASSERT_EQ(overlays().size(), 11u);
     for (const Overlay& overlay : overlays()) EXPECT_EQ(*find_overlay(overlay.name), &overlay);
     EXPECT_EQ((*find_overlay("contacts"))->needs, OverlayNeeds::contact_forces);
     EXPECT_EQ((*find_overlay("cloth_contacts"))->needs, OverlayNeeds::contact_marks);

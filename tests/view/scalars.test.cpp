@@ -158,6 +158,49 @@ TEST(BendingOverlay, does_not_mind_how_triangles_wind) {
         for (std::uint32_t x = 2; x < 9; ++x) ASSERT_NEAR(values[z * 11 + x], 2, 0.05);
 }
 
+TEST(TensionOverlay, is_the_tension_over_the_strength) {
+    SheetDesc desc;
+    desc.fabric.stretch = {.stretch = {400, 400}, .compression = {400, 400}, .shear = 0};
+    desc.fabric.tear = {.strength = {100, 100}, .tear_energy = 0, .tear_ratio = 0};
+    World world = make_world({}, desc);
+    Shown shown(world);
+    shown.place([](Vec3 p) { return Vec3{p.x * 1.02f, p.y, p.z}; });
+    const OverlayOutput output = shown.draw("tension");
+    ASSERT_EQ(output.scalars.size(), 1u);
+    expect_all(output.scalars[0].values, 0.08f, 1e-3f);
+    EXPECT_EQ(output.scalars[0].least, 0);
+    EXPECT_EQ(output.scalars[0].most, 0.1f);
+    EXPECT_EQ(output.scalars[0].scale, render::ColorScale::amount);
+    EXPECT_EQ(output.legends[0].title, "tension / strength");
+    shown.place([](Vec3 p) { return p * 0.9f; });
+    expect_all(shown.draw("tension").scalars[0].values, 0, 1e-6f);
+    EXPECT_EQ(shown.draw("tension").scalars[0].most, 0.01f);
+}
+
+TEST(TensionOverlay, is_in_newtons_per_meter_without_a_strength) {
+    SheetDesc desc;
+    desc.fabric.stretch = {.stretch = {400, 400}, .compression = {400, 400}, .shear = 0};
+    desc.fabric.tear = {.strength = {0, 0}, .tear_energy = 0, .tear_ratio = 0};
+    World world = make_world({}, desc);
+    Shown alone(world);
+    alone.place([](Vec3 p) { return Vec3{p.x * 1.02f, p.y, p.z}; });
+    const OverlayOutput output = alone.draw("tension");
+    expect_all(output.scalars[0].values, 8, 0.01f);
+    EXPECT_EQ(output.scalars[0].most, 10);
+    EXPECT_EQ(output.legends[0].title, "tension, N/m");
+    // Beside a cloth with a strength, each has its own scale.
+    desc.fabric.tear.strength[0] = desc.fabric.tear.strength[1] = 1000;
+    world.add(make_sheet(desc));
+    Shown both(world);
+    both.place([](Vec3 p) { return Vec3{p.x * 1.02f, p.y, p.z}; });
+    const OverlayOutput two = both.draw("tension");
+    ASSERT_EQ(two.scalars.size(), 2u);
+    ASSERT_EQ(two.legends.size(), 2u);
+    EXPECT_EQ(two.scalars[0].most, 10);
+    EXPECT_NEAR(two.scalars[1].values[0], 0.008, 1e-4);
+    EXPECT_EQ(two.scalars[1].most, 0.01f);
+}
+
 TEST(ScalarOverlays, the_last_one_wins_and_the_legend_is_its_own) {
     World world = make_world({}, SheetDesc{});
     Shown shown(world);

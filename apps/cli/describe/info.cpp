@@ -53,6 +53,9 @@ Json value_json(const Parameter& parameter, const void* base) {
     return list;
 }
 
+// In the order of the output; the figures behind `strength` and `tear_energy`.
+constexpr std::pair<const char*, const char*> tearing_units[] = {{"breaking_force", "N/m"}, {"tongue_tear_force", "N"}};
+
 Json fabric_json(const FabricPreset& preset) {
     Json fabric = {{"name", preset.name}, {"source", preset.source}, {"material", preset.material}};
     for (const FabricTable& table : fabric_tables()) {
@@ -61,6 +64,10 @@ Json fabric_json(const FabricPreset& preset) {
                 value_json(parameter, reinterpret_cast<const char*>(&preset.fabric) + table.offset);
         }
     }
+    fabric["breaking_force"] = preset.tearing.breaking_force;
+    fabric["breaking_elongation"] = preset.tearing.elongation;
+    fabric["tongue_tear_force"] = preset.tearing.tear_force;
+    fabric["tearing_source"] = preset.tearing.source;
     return fabric;
 }
 
@@ -119,6 +126,7 @@ Json gather() {
         }
     };
     for (const FabricTable& table : fabric_tables()) add_units("fabric_units", table.parameters);
+    for (const auto& [key, unit] : tearing_units) info["fabric_units"][key] = unit;
     add_units("material_units", material_parameters);
     for (const FabricPreset& preset : fabric_presets()) info["fabrics"].push_back(fabric_json(preset));
     for (const MaterialPreset& preset : material_presets()) info["materials"].push_back(material_json(preset));
@@ -148,22 +156,52 @@ std::pair<std::string, std::string> source_and_cloth(const std::string& text) {
                                       : std::pair(text.substr(0, colon), text.substr(colon + 2));
 }
 
+// Numbers texts in the order of their first appearance.
+class Sources {
+  public:
+    std::ptrdiff_t number(const std::string& text) {
+        const auto known = std::ranges::find(texts_, text);
+        const auto number = known - texts_.begin() + 1;
+        if (known == texts_.end()) texts_.push_back(text);
+        return number;
+    }
+    void print() const {
+        for (std::size_t i = 0; i < texts_.size(); ++i)
+            std::printf("  [%zu] %s\n", i + 1, wrapped(texts_[i], 94, 6).c_str());
+    }
+
+  private:
+    std::vector<std::string> texts_;
+};
+
+void print_strengths(const Json& fabrics) {
+    std::printf("strength of fabrics\n  %-12s %10s  %10s  %10s  %-12s  %11s  %s\n", "name", "elongation", "breaks at",
+                "tongue tear", "strength N/m", "tear_energy", "source");
+    std::printf("  %-12s %10s  %10s  %10s  %-12s  %11s\n", "", "%", "kN/m", "N", "warp/weft", "J/m");
+    Sources sources;
+    for (const Json& fabric : fabrics) {
+        const auto number = [&](const char* key) { return fabric[key].get<double>(); };
+        std::printf("  %-12s %10.3g  %10.3g  %11.3g  %-12s  %11.3g  [%td]\n", fabric["name"].get<std::string>().c_str(),
+                    100 * number("breaking_elongation"), number("breaking_force") / 1000, number("tongue_tear_force"),
+                    triple(fabric["strength"], 1, "%.4g").c_str(), number("tear_energy"),
+                    sources.number(fabric["tearing_source"].get<std::string>()));
+    }
+    sources.print();
+}
+
 void print_fabrics(const Json& fabrics) {
     std::printf("fabrics\n  %-12s %8s  %-11s  %9s  %-15s  %s\n", "name", "kg/m²", "stretch N/m", "shear N/m",
                 "bend µN·m", " source");
     std::printf("  %-12s %7s  %-11s  %9s  %-15s\n", "", "", "warp/weft", "", "warp/bias/weft");
-    std::vector<std::string> sources;
+    Sources sources;
     for (const Json& fabric : fabrics) {
         const auto [source, cloth] = source_and_cloth(fabric["source"].get<std::string>());
-        const auto known = std::ranges::find(sources, source);
-        const auto number = known - sources.begin() + 1;
-        if (known == sources.end()) sources.push_back(source);
         std::printf("  %-12s %7.4f  %-11s  %9.0f  %-15s  [%td] %s\n", fabric["name"].get<std::string>().c_str(),
                     fabric["density"].get<double>(), triple(fabric["stretch"], 1, "%.0f").c_str(),
-                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(), number, cloth.c_str());
+                    fabric["shear"].get<double>(), triple(fabric["bend"], 1e6, "%.3g").c_str(), sources.number(source),
+                    cloth.c_str());
     }
-    for (std::size_t i = 0; i < sources.size(); ++i)
-        std::printf("  [%zu] %s\n", i + 1, wrapped(sources[i], 94, 6).c_str());
+    sources.print();
 }
 
 void print_materials(const Json& materials) {
@@ -205,6 +243,7 @@ void print_text(const Json& info) {
         }
     }
     print_fabrics(info["fabrics"]);
+    print_strengths(info["fabrics"]);
     print_materials(info["materials"]);
 }
 

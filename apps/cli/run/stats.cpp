@@ -69,6 +69,32 @@ Json passages_of(const World& world, const Frame& names, const Passages& passage
     return json;
 }
 
+Json place_json(const TensionSummary::Place& place, const Frame& names) {
+    return {{"max", place.value}, {"cloth", names.cloths[place.at.cloth].model->name}, {"particle", place.at.particle}};
+}
+
+Json worst_json(const WorstTension& worst, const Frame& names) {
+    if (!worst.place) return nullptr;
+    Json json = {{"frame", worst.frame}};
+    json.update(place_json(*worst.place, names));
+    return json;
+}
+
+// Null where there is nothing to measure: inextensible cloth has no tension, and cloth without limits no load.
+Json tension_json(const TensionSummary& last, const WorstTension& tension, const WorstTension& load,
+                  const Frame& names) {
+    Json json = {{"mean", nullptr}, {"max", nullptr}, {"cloth", nullptr}, {"particle", nullptr}};
+    if (last.most) json.update(place_json(*last.most, names));
+    if (last.mean) json["mean"] = *last.mean;
+    json["worst"] = worst_json(tension, names);
+    json["load"] = nullptr;
+    if (last.load) {
+        json["load"] = place_json(*last.load, names);
+        json["load"]["worst"] = worst_json(load, names);
+    }
+    return json;
+}
+
 // The value that 99 % of the edges along warp and weft do not exceed. JSON shows a NaN as null.
 double stretch_percentile(const Frame& frame, bool finite) {
     if (!finite) return std::nan("");
@@ -118,6 +144,18 @@ RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames, Co
         passages_.add(session.world().frame(), session.world().colliders());
 }
 
+void WorstTension::add(const std::optional<TensionSummary::Place>& of_frame, std::uint64_t index) {
+    if (!of_frame || (place && !(of_frame->value > place->value))) return;
+    place = of_frame;
+    frame = index;
+}
+
+void RunStatistics::add_tension(const Frame& frame) {
+    tension_ = tension_meter_.measure(frame);
+    worst_tension_.add(tension_->most, frame.index);
+    worst_load_.add(tension_->load, frame.index);
+}
+
 void RunStatistics::add(const World& world) {
     const Frame& frame = world.summary();
     step_ms_.push_back(frame.step_ms);
@@ -140,6 +178,7 @@ void RunStatistics::add(const World& world) {
             worst_penetration_frame_ = frame.index;
         }
         passages_.add(world.frame(), world.colliders());
+        add_tension(world.frame());
     }
     if (frame.index == snapshot_frame_) {
         collect_positions(world.frame(), snapshot_);
@@ -192,6 +231,10 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     const Penetration penetration =
         penetration_ ? *penetration_ : penetration_search_.measure(frame, world.colliders());
     const bool worst_before = worst_penetration_.max > penetration.max;
+    const TensionSummary tension = tension_ ? *tension_ : TensionMeter().measure(frame);
+    WorstTension worst_tension = worst_tension_, worst_load = worst_load_;
+    worst_tension.add(tension.most, frame.index);
+    worst_load.add(tension.load, frame.index);
     const Intersections crossings = crossings_ ? *crossings_ : count_intersections(frame, world.colliders());
 
     Json stats;
@@ -212,6 +255,7 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["stretch"]["p99"] = stretch_percentile(frame, measures.finite);
     stats["shear"] = mean_max(measures.strain.shear);
     stats["residual"] = {{"mean", measures.residual.mean}, {"max", measures.residual.max}};
+    stats["tension"] = tension_json(tension, worst_tension, worst_load, frame);
     stats["kinetic_energy"] = measures.kinetic_energy;
     stats["mean_speed"] = mean_speed_of_end;
     stats["max_speed"] = measures.max_speed;
@@ -276,6 +320,14 @@ void print_summary(const Json& s) {
                 100 * number("stretch", "p99"), 100 * number("stretch", "max"));
     std::printf("  residual      mean %.3f %%, max %.3f %%\n", 100 * number("residual", "mean"),
                 100 * number("residual", "max"));
+    if (const Json& tension = s["tension"]; !tension["max"].is_null()) {
+        std::printf("  tension       mean %.3g N/m, max %.3g N/m", tension["mean"].get<double>(),
+                    tension["max"].get<double>());
+        if (const Json& load = tension["load"]; !load.is_null())
+            std::printf(", at most %.3g of the strength, in cloth '%s'", load["max"].get<double>(),
+                        load["cloth"].get<std::string>().c_str());
+        std::printf("\n");
+    }
     std::printf("  penetration   max %.3g mm", 1000 * number("penetration", "max"));
     if (const Json& worst = s["penetration"]["worst"]; !worst["collider"].is_null())
         std::printf(", worst %.3g mm in frame %llu, in collider '%s'", 1000 * worst["max"].get<double>(),

@@ -3,6 +3,7 @@
 
 #include "solver/measures/passages.h"
 #include "solver/measures/statistics.h"
+#include "solver/measures/tension.h"
 #include "weft/scene_world.h"
 
 #include <weft/result.h>
@@ -28,8 +29,15 @@ enum class CountCrossings { last, every };
 /// Reads the value of --crossings.
 Result<CountCrossings> read_crossings(const std::string& word);
 
-/// Frames in which penetration is measured. In `every`, passages are counted too.
+/// Frames in which penetration and tension are measured. In `every`, passages are counted too.
 enum class MeasurePenetration { last, every };
+
+/// The largest value of all measured frames.
+struct WorstTension {
+    std::optional<TensionSummary::Place> place;
+    std::uint64_t frame = 0;
+    void add(const std::optional<TensionSummary::Place>& of_frame, std::uint64_t index);
+};
 
 class RunStatistics {
   public:
@@ -45,6 +53,7 @@ class RunStatistics {
 
   private:
     double mean_speed(const Frame& frame) const;
+    void add_tension(const Frame& frame);
     std::size_t order_lost(const Frame& frame) const;
 
     double frame_seconds_;
@@ -66,6 +75,9 @@ class RunStatistics {
     Penetration worst_penetration_;
     std::uint64_t worst_penetration_frame_ = 0;
     PassageWatch passages_;
+    TensionMeter tension_meter_;
+    std::optional<TensionSummary> tension_;  ///< of the last frame; nullopt: not measured
+    WorstTension worst_tension_, worst_load_;
     SheetOrder order_;  ///< followed through the counted frames
 };
 

@@ -29,7 +29,8 @@ constexpr std::string_view full_scene = R"({
           "mesh": { "grid": { "size": [2, 3], "resolution": [5, 9], "diagonal": "cross" } },
           "transform": { "position": [1, 2, 3], "rotation": [90, 0, -45], "scale": 2 },
           "fabric": { "preset": "denim", "density": 0.5, "damping": 0.2, "stretch": [100, 200], "compression": 50,
-                      "shear": 12, "inextensible": true, "bend": 2e-5, "rest_angle": 30, "thickness": 0.001,
+                      "shear": 12, "inextensible": true, "strength": [90, 80],
+                      "tear_energy": 2.5, "tear_ratio": 1.25, "bend": 2e-5, "rest_angle": 30, "thickness": 0.001,
                       "friction": [0.6, 0.5] },
           "pins": [ { "vertices": [0, 4] }, { "box": { "min": [-1, -2, -3], "max": [1, 2, 3] } } ] },
         { "mesh": { "file": "models/../bunny.obj", "scale": 0.01, "up": "z" }, "fabric": "silk",
@@ -113,6 +114,10 @@ TEST(SceneFile, ReadsEveryKeyOfAFabric) {
     EXPECT_THAT(f.stretch.compression, ElementsAre(50.0f, 50.0f));
     EXPECT_EQ(f.stretch.shear, 12);
     EXPECT_TRUE(f.stretch.inextensible);
+    EXPECT_EQ(f.tear.strength[0], 90);
+    EXPECT_EQ(f.tear.strength[1], 80);
+    EXPECT_EQ(f.tear.tear_energy, 2.5f);
+    EXPECT_EQ(f.tear.tear_ratio, 1.25f);
     EXPECT_THAT(f.bend.bend, ElementsAre(2e-5f, 2e-5f, 2e-5f));
     EXPECT_EQ(f.bend.rest_angle, 30);
     EXPECT_EQ(f.contact.thickness, 0.001f);
@@ -197,6 +202,12 @@ TEST(SceneFile, NamesWrongValues) {
         {cloth(R"("fabric": {"density": 1e39})"),
          {"s.json: /cloths/0/fabric/density: must be ≤ 10000 kg/m², got 1e39"}},
         {cloth(R"("fabric": {"stretch": -5})"), {"s.json: /cloths/0/fabric/stretch: must be ≥ 0 N/m, got -5"}},
+        {cloth(R"("fabric": {"strength": [100, -1]})"),
+         {"s.json: /cloths/0/fabric/strength/1: must be ≥ 0 N/m, got -1"}},
+        {cloth(R"("fabric": {"tear_energy": -2})"), {"s.json: /cloths/0/fabric/tear_energy: must be ≥ 0 J/m, got -2"}},
+        {cloth(R"("fabric": {"tear_ratio": 0.5})"), {"s.json: /cloths/0/fabric/tear_ratio: must be 0 or ≥ 1, got 0.5"}},
+        {cloth(R"("fabric": {"tear_ratio": -1})"), {"s.json: /cloths/0/fabric/tear_ratio: must be 0 or ≥ 1, got -1"}},
+        {cloth(R"("fabric": {"tear_ratio": 1001})"), {"s.json: /cloths/0/fabric/tear_ratio: must be ≤ 1000, got 1001"}},
         {cloth(R"("fabric": {"bend": [1, -2, 3]})"), {"s.json: /cloths/0/fabric/bend/1: must be ≥ 0 N·m, got -2"}},
         {cloth(R"("transform": {"position": [0, 1e300, 0]})"),
          {"s.json: /cloths/0/transform/position/1: must be ≤ 1000000 m, got 1e300"}},
@@ -309,7 +320,7 @@ TEST(SceneFile, NamesUnknownKeysAndChoices) {
          {"s.json: /cloths/0/fabric/preset: unknown fabric \"linnen\"; known are \"trouser\", \"denim\", "
           "\"tablecloth\", "
           "\"tshirt\", \"jacket\", \"swimsuit\", \"ponte-roma\", \"rib-knit\", \"blanket\", \"cotton\", \"silk\", "
-          "\"chiffon\", \"wool\", \"leather\" and \"rubber\""}},
+          "\"chiffon\", \"wool\", \"ripstop\", \"leather\" and \"rubber\""}},
     });
 }
 

@@ -122,6 +122,7 @@ Json one_number(const Parameter& p) {
     if (p.min > -any_float) schema[p.min_excluded ? "exclusiveMinimum" : "minimum"] = limit_json(p.min);
     const double most = integer ? std::min<double>(p.max, std::numeric_limits<std::uint32_t>::max()) : p.max;
     if (most < any_float) schema["maximum"] = limit_json(most);
+    if (p.zero_too) return {{"anyOf", Json::array({{{"const", 0}}, schema})}};
     return schema;
 }
 

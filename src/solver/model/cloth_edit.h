@@ -16,7 +16,7 @@ namespace weft {
 /// New corners for a triangle.
 struct TriangleEdit {
     std::uint32_t triangle = 0;
-    std::array<std::uint32_t, 3> corners{};  ///< particles
+    std::array<std::uint32_t, 3> corners{};  ///< particles, in the order of the corners that they replace
     std::uint32_t alive = 1;                 ///< 0: the triangle and its mass are removed
     friend bool operator==(const TriangleEdit&, const TriangleEdit&) = default;
 };

@@ -69,6 +69,14 @@ void lay_out_faces(ClothModel& model, const RestShape& rest) {
     model.faces = std::move(faces);
     model.faces_by_tile = std::make_shared<const FacesByTile>(lay_out_by_tile(model.triangles(), model.particle_count));
     model.face_area = std::vector<float>(rest.area);
+    std::vector<float> warp(count);
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const auto [a, b, c] = topology.triangles[t];
+        const Vec3 side = topology.rest_positions[b] - topology.rest_positions[a];
+        const Vec3 normal = normalized(cross(side, topology.rest_positions[c] - topology.rest_positions[a]));
+        warp[t] = std::atan2(dot(cross(normal, side), rest.warp[t]), dot(side, rest.warp[t]));
+    }
+    model.face_warp = std::move(warp);
 }
 
 // Finds edges by their ends. Topology sorts edges by lower end, then by upper end.

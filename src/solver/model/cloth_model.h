@@ -112,7 +112,8 @@ struct ClothModel {
     Elasticity elasticity;
     /// Triangle corners for the surface passes: [corner · face_stride + triangle], padded with dummies.
     SharedArray<std::uint32_t> faces;
-    SharedArray<float> face_area;  ///< m², per triangle at rest
+    SharedArray<float> face_area;  ///< m², per triangle at rest; 0 if it was removed
+    SharedArray<float> face_warp;  ///< rad, per triangle at rest: from its first side to the warp, about its normal
     std::uint32_t triangle_count = 0, face_stride = 0;
     std::shared_ptr<const FacesAround> around = std::make_shared<FacesAround>();  ///< its `nothing` is face_stride
     std::shared_ptr<const ClothEdges> edges = std::make_shared<ClothEdges>();

@@ -1,0 +1,151 @@
+#include "physics/testing.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace weft {
+namespace {
+
+using namespace testing_kernels;
+using reference::PlaneStress;
+using reference::TearSide;
+using reference::Tension;
+
+PlaneStress stress(double xx, double yy, double xy) {
+    return {(xx + yy) / 2, (xx - yy) / 2, xy};
+}
+
+TearSide side_at(double degrees, double rest, double pull, double push) {
+    const double twice = degrees * std::numbers::pi / 90;
+    return {rest, pull, push, std::cos(twice), std::sin(twice)};
+}
+
+TEST(Tear, finds_principal_tension_and_its_direction) {
+    Random random(1);
+    for (int i = 0; i < 2000; ++i) {
+        const double xx = random.number(-5, 5), yy = random.number(-5, 5), xy = random.number(-5, 5);
+        const Tension t = reference::principal_tension(stress(xx, yy, xy));
+        EXPECT_NEAR(t.x * t.x + t.y * t.y, 1, 1e-12);
+        EXPECT_NEAR(xx * t.x + xy * t.y, t.most * t.x, 1e-11);
+        EXPECT_NEAR(xy * t.x + yy * t.y, t.most * t.y, 1e-11);
+        EXPECT_NEAR(t.most + t.least, xx + yy, 1e-11);
+        EXPECT_GE(t.most, t.least);
+    }
+}
+
+TEST(Tear, survives_equal_principal_values_and_extremes) {
+    for (const double size : {0.0, 1e-30, 1.0, 1e9}) {
+        for (const auto& [xx, yy, xy] :
+             {std::array{1.0, 1.0, 0.0}, std::array{-1.0, -1.0, 0.0}, std::array{1.0, 1.0, 1e-17},
+              std::array{1.0, 1.0 + 1e-16, 0.0}, std::array{0.0, 1.0, 0.0}, std::array{0.0, 0.0, -1.0}}) {
+            const auto f = [&](double v) { return static_cast<float>(v * size); };
+            const scalar::Tension t = scalar::principal_tension({(f(xx) + f(yy)) / 2, (f(xx) - f(yy)) / 2, f(xy)});
+            EXPECT_TRUE(std::isfinite(t.most) && std::isfinite(t.least)) << size;
+            EXPECT_NEAR(t.x * t.x + t.y * t.y, 1, 1e-6) << size << ' ' << xx << ' ' << yy << ' ' << xy;
+        }
+    }
+    const Tension alike = reference::principal_tension(stress(3, 3, 0));
+    EXPECT_EQ(alike.most, 3);
+    EXPECT_EQ(alike.x, 1);
+    const Tension weft = reference::principal_tension(stress(0, 2, 0));
+    EXPECT_EQ(std::abs(weft.y), 1);
+    EXPECT_EQ(weft.x, 0);
+}
+
+TEST(Tear, turning_keeps_the_tensor) {
+    Random random(2);
+    for (int i = 0; i < 200; ++i) {
+        const PlaneStress s = stress(random.number(-2, 2), random.number(-2, 2), random.number(-2, 2));
+        const double angle = random.number(-4, 4);
+        const PlaneStress turned = reference::turn_stress(s, std::cos(2 * angle), std::sin(2 * angle));
+        const Tension before = reference::principal_tension(s), after = reference::principal_tension(turned);
+        EXPECT_NEAR(before.most, after.most, 1e-12);
+        const double x = before.x * std::cos(angle) - before.y * std::sin(angle);
+        const double y = before.x * std::sin(angle) + before.y * std::cos(angle);
+        EXPECT_NEAR(std::abs(x * after.x + y * after.y), 1, 1e-9);
+    }
+}
+
+TEST(Tear, a_side_pulls_and_pushes_along_itself) {
+    const TearSide side = side_at(30, 2, 100, 40);
+    const Tension pulled = reference::principal_tension(
+        reference::side_stress(reference::side_strain(vec3(0, 0, 0), vec3(0, 0, 2.02), side), side));
+    EXPECT_NEAR(pulled.most, 1, 1e-12);
+    EXPECT_NEAR(pulled.least, 0, 1e-12);
+    EXPECT_NEAR(std::atan2(pulled.y, pulled.x), std::numbers::pi / 6, 1e-12);
+    const Tension pushed = reference::principal_tension(
+        reference::side_stress(reference::side_strain(vec3(0, 0, 0), vec3(1.98, 0, 0), side), side));
+    EXPECT_NEAR(pushed.most, 0, 1e-12);
+    EXPECT_NEAR(pushed.least, -0.4, 1e-12);
+}
+
+// The stress is the derivative of the energy of the springs by the strain: sum of k eps^2/2 per area.
+TEST(Tear, is_the_derivative_of_the_energy) {
+    Random random(3);
+    for (int i = 0; i < 100; ++i) {
+        const TearSide sides[] = {side_at(random.number(0, 180), 1, random.number(1, 9), random.number(1, 9)),
+                                  side_at(random.number(0, 180), 1, random.number(1, 9), random.number(1, 9)),
+                                  side_at(random.number(0, 180), 1, random.number(1, 9), random.number(1, 9))};
+        const double strain[] = {random.number(-0.1, 0.1), random.number(-0.1, 0.1), random.number(-0.1, 0.1)};
+        // n^T E n of a side for the strain tensor E.
+        const auto along = [](const TearSide& side, const double(&e)[3]) {
+            return 0.5 * (e[0] + e[1]) + 0.5 * side.c2 * (e[0] - e[1]) + side.s2 * e[2];
+        };
+        const auto energy = [&](const double(&e)[3]) {
+            double sum = 0;
+            for (const TearSide& side : sides) {
+                const double s = along(side, e);
+                sum += 0.5 * (s > 0 ? side.pull : side.push) * s * s;
+            }
+            return sum;
+        };
+        PlaneStress total = reference::no_stress();
+        for (const TearSide& side : sides)
+            total = reference::add_stress(total, reference::side_stress(along(side, strain), side), 1);
+        constexpr double step = 1e-6;
+        for (int k = 0; k < 3; ++k) {
+            double more[3] = {strain[0], strain[1], strain[2]}, less[3] = {strain[0], strain[1], strain[2]};
+            more[k] += step, less[k] -= step;
+            const double slope = (energy(more) - energy(less)) / (2 * step);
+            // e[2] stands for xy and yx.
+            const double expected = k == 0   ? total.mean + total.difference
+                                    : k == 1 ? total.mean - total.difference
+                                             : 2 * total.mixed;
+            EXPECT_NEAR(slope, expected, 1e-5);
+        }
+    }
+}
+
+TEST(Tear, degenerate_sides_have_no_stress) {
+    for (const float rest : {0.0f, 1e-30f}) {
+        const scalar::TearSide side{rest, 1e9f, 1e9f, 1, 0};
+        EXPECT_EQ(scalar::side_strain({0, 0, 0}, {1, 0, 0}, side), 0);
+        EXPECT_EQ(scalar::triangle_stress({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, side, side, side).mean, 0);
+    }
+    // Collapsed now, sound at rest: compressed, finite.
+    const scalar::TearSide side{1, 100, 100, 1, 0};
+    EXPECT_EQ(scalar::triangle_stress({1, 1, 1}, {1, 1, 1}, {1, 1, 1}, side, side, side).mean, -150);
+}
+
+TEST(Tear, strength_between_the_threads_follows_both) {
+    EXPECT_NEAR(1 / reference::inverse_strength(1, 0, 1.0 / 50, 1.0 / 200), 50, 1e-12);
+    EXPECT_NEAR(1 / reference::inverse_strength(0, 1, 1.0 / 50, 1.0 / 200), 200, 1e-12);
+    EXPECT_NEAR(1 / reference::inverse_strength(0.6, 0.8, 1.0 / 70, 1.0 / 70), 70, 1e-12) << "the same everywhere";
+    EXPECT_EQ(reference::inverse_strength(0, 1, 1.0 / 50, 0), 0) << "no limit along the weft";
+}
+
+// Irwin: K = sqrt(energy · stiffness); the mean of K/sqrt(2 pi r) over the first edge.
+TEST(Tear, limit_at_the_end_of_a_cut_is_the_mean_over_the_first_edge) {
+    const double energy = 3, stiffness = 500, edge = 0.02, intensity = std::sqrt(energy * stiffness);
+    double sum = 0;
+    constexpr int steps = 4000000;
+    for (int i = 0; i < steps; ++i)
+        sum += intensity / std::sqrt(2 * std::numbers::pi * edge * (i + 0.5) / steps) / steps;
+    EXPECT_NEAR(1 / reference::inverse_cut_limit(stiffness, edge, energy), sum, 1e-3 * sum);
+    EXPECT_EQ(reference::inverse_cut_limit(stiffness, edge, 0), 0);
+    EXPECT_EQ(reference::inverse_cut_limit(0, edge, energy), 0);
+}
+
+}  // namespace
+}  // namespace weft

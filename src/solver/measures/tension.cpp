@@ -1,0 +1,130 @@
+#include "solver/measures/tension.h"
+
+#include "solver/measures/measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft {
+namespace {
+
+using reference::vec3;
+
+// A strain limit below this would be within the rounding of positions.
+constexpr double least_strain_limit = 1e-4;
+
+vec3 place(const Vec4& p) {
+    return vec3(p.x, p.y, p.z);
+}
+
+struct Averages {
+    std::vector<reference::PlaneStress> stress;  // sums, weighted by area
+    std::vector<double> ratio;                   // largest strain of the sides over its limit
+};
+
+Averages gather(const StressTable& table, std::span<const Vec4> positions) {
+    const std::size_t count = table.area.size();
+    Averages sums{std::vector<reference::PlaneStress>(count, reference::no_stress()), std::vector<double>(count)};
+    const double limit = table.tear_ratio > 0 ? std::max(table.tear_ratio - 1, least_strain_limit) : 0;
+    for (const StressTable::Face& face : table.faces) {
+        const vec3 x[3] = {place(positions[face.corners[0]]), place(positions[face.corners[1]]),
+                           place(positions[face.corners[2]])};
+        const auto stress = reference::triangle_stress(x[0], x[1], x[2], face.sides[0], face.sides[1], face.sides[2]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            reference::PlaneStress& sum = sums.stress[face.corners[k]];
+            const auto& [c2, s2] = face.turns[k];
+            sum = reference::add_stress(sum, reference::turn_stress(stress, c2, s2), face.area);
+            if (limit == 0) continue;
+            const double part = reference::side_strain(x[k], x[(k + 1) % 3], face.sides[k]) / limit;
+            for (const std::uint32_t p : {face.corners[k], face.corners[(k + 1) % 3]})
+                sums.ratio[p] = larger(sums.ratio[p], part);
+        }
+    }
+    return sums;
+}
+
+// N/m, of the triangles around each particle that ends a cut, in the direction of its tension.
+std::vector<double> stiffness_at_cut_ends(const StressTable& table, std::span<const reference::Tension> tensions) {
+    std::vector<double> stiffness(table.area.size());
+    for (const StressTable::Face& face : table.faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t p = face.corners[k];
+            if (!(table.cut_end[p] > 0)) continue;
+            const auto& [c2, s2] = face.turns[k];
+            for (reference::TearSide side : face.sides) {
+                const auto turned = reference::turn_stress({0, side.c2, side.s2}, c2, s2);
+                side.c2 = turned.difference, side.s2 = turned.mixed;
+                stiffness[p] +=
+                    reference::side_stiffness(side, tensions[p].x, tensions[p].y) * face.area / table.area[p];
+            }
+        }
+    }
+    return stiffness;
+}
+
+void keep_larger(std::optional<TensionSummary::Place>& most, std::span<const double> values, std::uint32_t cloth) {
+    for (std::uint32_t p = 0; p < values.size(); ++p) {
+        const bool first_nan = std::isnan(values[p]) && !(most && std::isnan(most->value));
+        if (!most || values[p] > most->value || first_nan) most = {values[p], {cloth, p}};
+    }
+}
+
+}  // namespace
+
+bool has_limit(const StressTable& table) {
+    const bool of_tension = table.inverse_strength[0] > 0 || table.inverse_strength[1] > 0 || table.tear_energy > 0;
+    return table.tear_ratio > 0 || (of_tension && !table.inextensible);
+}
+
+ClothTension measure_tension(const StressTable& table, std::span<const Vec4> positions) {
+    const std::size_t count = table.area.size();
+    ClothTension result{std::vector<double>(count), {}};
+    Averages sums = gather(table, positions);
+    result.load = std::move(sums.ratio);
+    if (table.inextensible) return result;
+
+    std::vector<reference::Tension> tensions(count);
+    for (std::size_t p = 0; p < count; ++p) {
+        if (!(table.area[p] > 0)) continue;
+        tensions[p] = reference::principal_tension(
+            reference::add_stress(reference::no_stress(), sums.stress[p], 1 / table.area[p]));
+        result.tension[p] = larger(0, tensions[p].most);
+    }
+    const std::vector<double> stiffness = stiffness_at_cut_ends(table, tensions);
+    for (std::size_t p = 0; p < count; ++p) {
+        const reference::Tension& t = tensions[p];
+        const bool cut = table.cut_end[p] > 0 && table.tear_energy > 0;
+        const double inverse =
+            cut ? reference::inverse_cut_limit(stiffness[p], table.cut_end[p], table.tear_energy)
+                : reference::inverse_strength(t.x, t.y, table.inverse_strength[0], table.inverse_strength[1]);
+        result.load[p] = larger(result.load[p], result.tension[p] * inverse);
+    }
+    return result;
+}
+
+TensionSummary TensionMeter::measure(const Frame& frame) {
+    TensionSummary summary;
+    double sum = 0, area = 0;
+    entries_.resize(frame.cloths.size());
+    for (std::uint32_t i = 0; i < frame.cloths.size(); ++i) {
+        const ClothFrame& cloth = frame.cloths[i];
+        Entry& entry = entries_[i];
+        const ClothModel& model = *cloth.model;
+        if (entry.topology_version != cloth.topology_version || entry.particle_count != model.particle_count ||
+            !(entry.fabric == model.fabric))
+            entry = {make_stress_table(model, cloth.triangles), model.fabric, cloth.topology_version,
+                     model.particle_count};
+        const ClothTension of_cloth = measure_tension(entry.table, cloth.positions);
+        if (has_limit(entry.table)) keep_larger(summary.load, of_cloth.load, i);
+        if (entry.table.inextensible) continue;
+        keep_larger(summary.most, of_cloth.tension, i);
+        for (std::size_t p = 0; p < of_cloth.tension.size(); ++p) {
+            sum += of_cloth.tension[p] * entry.table.area[p];
+            area += entry.table.area[p];
+        }
+    }
+    if (summary.most) summary.mean = area > 0 ? sum / area : 0;
+    return summary;
+}
+
+}  // namespace weft

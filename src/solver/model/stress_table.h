@@ -1,0 +1,36 @@
+// What the stress of a cloth is computed from, per triangle and particle (physics/tear/tear.md).
+#pragma once
+
+#include "physics/scalar.h"
+#include "solver/model/cloth_model.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace weft {
+
+struct StressTable {
+    struct Face {
+        std::array<std::uint32_t, 3> corners{};
+        std::array<reference::TearSide, 3> sides{};  ///< side k runs from corner k to the next one
+        double area = 0;                             ///< m²
+        /// Per corner: cosine and sine of twice the angle from the particle's axes to those of the triangle.
+        std::array<std::array<double, 2>, 3> turns{};
+    };
+    /// Triangles that are degenerate at rest, or were removed, are left out.
+    std::vector<Face> faces;
+    std::vector<double> area;     ///< m², per particle: that of its triangles
+    std::vector<double> cut_end;  ///< m, per particle: mean length of its edges if a cut ends there, 0 elsewhere
+    bool inextensible = false;    ///< stress cannot be computed, and all stiffnesses are 0
+
+    std::array<double, 2> inverse_strength{};  ///< m/N, warp and weft; 0: no limit
+    double tear_energy = 0;                    ///< J/m; 0: none
+    double tear_ratio = 0;                     ///< 0: none
+};
+
+/// A cut ends at a particle of the rim with more than 270° of cloth around it at rest. `triangles`: the current ones.
+/// Stiffnesses are those of the fabric: edits of single constraints (RowEdit) do not change them.
+StressTable make_stress_table(const ClothModel& model, const TriangleView& triangles);
+
+}  // namespace weft
