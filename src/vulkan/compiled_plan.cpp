@@ -62,6 +62,12 @@ class Compiler {
         return command;
     }
 
+    // In place of the usual one of the shader.
+    void set_pipeline(Command& command, const Result<const gpu::Pipeline*>& pipeline) {
+        if (pipeline) command.pipeline = *pipeline;
+        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
+    }
+
     std::uint64_t state(Slot slot) const { return cloth_.address(slot); }
     std::uint64_t state(PointArray array) const { return cloth_.address(array); }
     std::uint64_t of_model(Slot slot) const { return buffers_.address(slot); }
@@ -391,9 +397,7 @@ class Compiler {
         Command& command = add(list, "lines", args, batch.blocks * lane_padding, pass, substep);
         command.groups = batch.blocks;
         command.line_rows = largest_lines(table).of_block;
-        auto pipeline = lines_pipeline(programs_, "lines", command.line_rows);
-        if (pipeline) command.pipeline = *pipeline;
-        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
+        set_pipeline(command, lines_pipeline(programs_, "lines", command.line_rows));
     }
 
     void add_corrections(List& list, const Pass& pass, std::uint32_t substep) {
@@ -540,9 +544,7 @@ class Compiler {
         Command& command = add(list, "level_limits", args, widest, pass, substep);
         command.groups = 1;
         command.nodes = level.count;
-        auto pipeline = level_limits_pipeline(programs_, "level_limits", widest, level.count);
-        if (pipeline) command.pipeline = *pipeline;
-        if (!pipeline) errors_.insert(errors_.end(), pipeline.errors().begin(), pipeline.errors().end());
+        set_pipeline(command, level_limits_pipeline(programs_, "level_limits", widest, level.count));
     }
 
     void add_reach(List& list, const Pass& pass, std::uint32_t substep) {
