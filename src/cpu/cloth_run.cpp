@@ -103,9 +103,22 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
 
 void ClothRun::run_lines(const Pass& pass, std::uint32_t substep, Worker worker) const {
     const ConstraintTable& table = model().table(pass.constraint);
-    const std::span<const LineBlock> blocks = share_of_blocks(table, table.batches[pass.batch], worker);
+    const Batch& batch = table.batches[pass.batch];
+    if (batch.halves) {
+        // Few are in use, and their padding shares dummies, so one thread runs them.
+        if (worker.number != 0) return;
+        const auto all = std::span(table.blocks).subspan(batch.first_block, batch.blocks);
+        for (const LineBlock& block : all)
+            if (cloth_.uses_halves(block.begin, block.end())) run_blocks(pass, substep, std::span(&block, 1), worker);
+        return;
+    }
+    const std::span<const LineBlock> blocks = share_of_blocks(table, batch, worker);
+    if (!blocks.empty()) run_blocks(pass, substep, blocks, worker);
+}
+
+void ClothRun::run_blocks(const Pass& pass, std::uint32_t substep, std::span<const LineBlock> blocks,
+                          Worker worker) const {
     const RowView rows = cloth_.rows(pass.constraint);
-    if (blocks.empty()) return;
     const Range range{blocks.front().begin, blocks.back().end()};
     const auto kind = static_cast<std::uint32_t>(pass.constraint);
     if (pass.kind == PassKind::damp) {
@@ -128,14 +141,24 @@ void ClothRun::run_rows(const Pass& pass, std::uint32_t substep, Worker worker) 
     const ConstraintTable& table = model().table(pass.constraint);
     const Batch& batch = table.batches[pass.batch];
     if (batch.blocks > 0) return run_lines(pass, substep, worker);
-    const Passes& passes = batch.serial ? scalar_passes() : passes_;
-    Range range{batch.begin, batch.begin + batch.rows};
-    if (batch.serial) {
+    if (batch.halves) {
         if (worker.number != 0) return;
+        for (std::uint32_t begin = batch.begin; begin < batch.padded_end(); begin += lane_padding) {
+            const std::uint32_t end = std::min(begin + lane_padding, batch.begin + batch.rows);
+            if (cloth_.uses_halves(begin, begin + lane_padding))
+                run_range(pass, substep, {begin, batch.serial ? end : begin + lane_padding}, batch.serial);
+        }
+    } else if (batch.serial) {
+        if (worker.number == 0) run_range(pass, substep, {batch.begin, batch.begin + batch.rows}, true);
     } else {
         const Share share = worker.of(padded(batch.rows));
-        range = {batch.begin + share.begin, batch.begin + share.end};
+        run_range(pass, substep, {batch.begin + share.begin, batch.begin + share.end}, false);
     }
+}
+
+// `serial`: one constraint after another.
+void ClothRun::run_range(const Pass& pass, std::uint32_t substep, Range range, bool serial) const {
+    const Passes& passes = serial ? scalar_passes() : passes_;
     const auto kind = static_cast<std::uint32_t>(pass.constraint);
     const RowView rows = cloth_.rows(pass.constraint);
     if (pass.kind == PassKind::damp) {

@@ -44,7 +44,9 @@ class ClothRun {
         return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));
     }
     void run_rows(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void run_range(const Pass& pass, std::uint32_t substep, Range range, bool serial) const;
     void run_lines(const Pass& pass, std::uint32_t substep, Worker worker) const;
+    void run_blocks(const Pass& pass, std::uint32_t substep, std::span<const LineBlock> blocks, Worker worker) const;
     void run_corrections(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const;
     void run_faces(const Pass& pass, Worker worker) const;

@@ -17,6 +17,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
     std::ranges::copy(start_velocities(*model), mine.velocity.begin());
     remember();
     stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
+    find_halves();
     by_face.resize(std::size_t{model->face_stride} + 1);
     update_normals();
 }
@@ -49,6 +50,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     remember();
     for (auto& of_table : lambda) of_table.clear();
     stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
+    find_halves();
     gather = nullptr;
     face_mass.clear();
     levels.clear();
@@ -88,6 +90,7 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     const bool same_levels = other->hierarchy.shares(model->hierarchy);
     const bool same_faces = other->faces.shares(model->faces);
     model = std::move(other);
+    find_halves();
     gather = nullptr;
     if (!same_masses) weigh();
     if (!same_levels) levels.clear();
@@ -187,6 +190,20 @@ RowView ClothState::rows(ConstraintKind kind) {
     const ConstraintTable& table = model->table(kind);
     return {table.stride, table.particles.data(), table.fields.data(), lambda[static_cast<std::uint32_t>(kind)].data(),
             limits};
+}
+
+void ClothState::find_halves() {
+    const ConstraintTable& table = model->table(ConstraintKind::stretch);
+    halves_used_.assign(table.second_halves / lane_padding, 0);
+    for (std::uint32_t row = 0; row < table.second_halves; ++row)
+        if (!table.is_dummy(table.particles[table.second_halves + row])) halves_used_[row / lane_padding] = 1;
+}
+
+bool ClothState::uses_halves(std::uint32_t begin, std::uint32_t end) const {
+    const std::uint32_t first = model->table(ConstraintKind::stretch).second_halves;
+    return std::any_of(halves_used_.begin() + (begin - first) / lane_padding,
+                       halves_used_.begin() + (end - first) / lane_padding,
+                       [](std::uint8_t used) { return used != 0; });
 }
 
 SurfaceView ClothState::surface() {

@@ -77,6 +77,8 @@ struct ClothState {
         return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)];
     }
     RowView rows(ConstraintKind kind);
+    /// Whether any of these second halves of stretch constraints is in use (tear_table.h).
+    bool uses_halves(std::uint32_t begin, std::uint32_t end) const;
     SurfaceView surface();
     LevelView level(std::uint32_t i);
     ParticleView level_particles(std::uint32_t i);
@@ -100,6 +102,8 @@ struct ClothState {
 
   private:
     void weigh();
+    void find_halves();
+    std::vector<std::uint8_t> halves_used_;  ///< per lane_padding second halves: whether any is in use
     ProlongationView prolongation_from(std::uint32_t i) const;
 };
 

@@ -90,6 +90,12 @@ WEFT_FN mask mask_of(std::uint32_t bits) {
     return {hn::LoadMaskBits(D(), bytes)};
 }
 
+// Whether two lists name the same element, lane by lane.
+WEFT_FN mask same_index(const std::uint32_t* a, const std::uint32_t* b) {
+    const hn::Rebind<std::uint32_t, D> tag;
+    return {hn::RebindMask(D(), hn::Eq(hn::LoadU(tag, a), hn::LoadU(tag, b)))};
+}
+
 // Writes the numbers of the lanes in `m`, one after another. Writes lane_count numbers in all; those after them are of
 // no use.
 template <class Tag>

@@ -18,6 +18,7 @@ WEFT_FN real most(real x) { return x; }
 WEFT_FN bool any(mask m) { return m; }
 WEFT_FN std::uint32_t bits_of(mask m) { return m ? 1u : 0u; }
 WEFT_FN mask mask_of(std::uint32_t bits) { return (bits & 1u) != 0; }
+WEFT_FN mask same_index(const std::uint32_t* a, const std::uint32_t* b) { return *a == *b; }
 WEFT_FN void compress(const std::uint32_t* from, mask, std::uint32_t* to) { *to = *from; }
 WEFT_FN void compress(real from, mask, real* to) { *to = from; }
 WEFT_FN void fill(std::uint32_t number, std::uint32_t* to) { *to = number; }

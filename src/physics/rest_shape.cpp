@@ -45,6 +45,16 @@ float area_at(const RestShape& rest, const Edge& edge) {
            (edge.triangle1 == none ? 0.0f : rest.area[edge.triangle1]);
 }
 
+void complete(RestShape& rest) {
+    rest.frames = rest_frames(rest);
+    rest.cos2_to_warp.reserve(rest.topology.edges.size());
+    rest.area_at_edge.reserve(rest.topology.edges.size());
+    for (const Edge& edge : rest.topology.edges) {
+        rest.cos2_to_warp.push_back(cos2_at(rest, edge));
+        rest.area_at_edge.push_back(area_at(rest, edge));
+    }
+}
+
 }  // namespace
 
 RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
@@ -69,13 +79,13 @@ RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology) {
         if (!(dot(warp, warp) > 0.5f)) warp = warp_without_uvs(normalized(n));
         rest.warp.push_back(warp);
     }
-    rest.frames = rest_frames(rest);
-    rest.cos2_to_warp.reserve(topology.edges.size());
-    rest.area_at_edge.reserve(topology.edges.size());
-    for (const Edge& edge : topology.edges) {
-        rest.cos2_to_warp.push_back(cos2_at(rest, edge));
-        rest.area_at_edge.push_back(area_at(rest, edge));
-    }
+    complete(rest);
+    return rest;
+}
+
+RestShape make_rest_shape(const Topology& topology, std::vector<float> area, std::vector<Vec3> warp) {
+    RestShape rest{.topology = topology, .area = std::move(area), .warp = std::move(warp)};
+    complete(rest);
     return rest;
 }
 

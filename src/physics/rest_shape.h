@@ -40,6 +40,8 @@ inline float area_of(Vec3 a, Vec3 b, Vec3 c) {
 /// Without UVs, or in a triangle whose UVs are degenerate, the warp is the x axis projected onto the triangle (the z
 /// axis if the triangle faces x).
 RestShape make_rest_shape(const TriangleMesh& mesh, const Topology& topology);
+/// The same with given areas and warps, as RestShape has them.
+RestShape make_rest_shape(const Topology& topology, std::vector<float> area, std::vector<Vec3> warp);
 
 /// Stiffness at an angle to the warp, interpolated from the values along warp, bias (45°) and weft: (warp·cos² +
 /// weft·sin²)(1 - s) + bias·s with s = sin²(2φ).

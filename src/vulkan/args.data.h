@@ -173,7 +173,7 @@ struct RowArgs {
     Vec4s corrections;  // correct only: [slot · stride + row]
     Uints sums;         // correct only, in fixed point: four per particle; 0 for floats
     Floats share;       // correct only: [row]; 0 for plain constraints
-    Uints blocks;       // lines only: begin and length of each block
+    Uints blocks;       // lines only: begin and length of each block, with WEFT_CUT_BLOCK
     FrameRef frame;
     LimitsRef limits;
     float plain_positive;  // part of C that plain constraints correct while C > 0
@@ -243,6 +243,8 @@ struct LevelLimitArgs {
 };
 
 #define WEFT_SERIAL_BATCH 0x80000000u
+// In the length of a block of lines: a line may end within it.
+#define WEFT_CUT_BLOCK 0x80000000u
 
 // Contact with colliders, and the lists of those near each tile.
 struct ContactArgs {

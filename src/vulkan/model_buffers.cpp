@@ -18,7 +18,8 @@ TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists)
     TableBuffers buffers{
         .particles = arena.add_array(table.particles), .fields = arena.add_array(table.fields), .blocks = {}};
     auto& list = lists.blocks.emplace_back();
-    for (const LineBlock& block : table.blocks) list.insert(list.end(), {block.begin, block.length});
+    for (const LineBlock& block : table.blocks)
+        list.insert(list.end(), {block.begin, block.length | (block.cut ? WEFT_CUT_BLOCK : 0)});
     buffers.blocks = arena.add_array(list);
     return buffers;
 }

@@ -34,12 +34,20 @@ struct RowEdit {
     friend bool operator==(const RowEdit&, const RowEdit&) = default;
 };
 
+/// Edges at one vertex of the mesh to open: links of the cloth's tear table (tear_table.h), in the ring of that vertex.
+struct Opening {
+    std::array<std::uint32_t, 2> links = {none, none};
+    friend bool operator==(const Opening&, const Opening&) = default;
+};
+
 /// Edits of one cloth. They are applied in the order of the members.
 struct ClothEdit {
     /// Particles to copy. Copies are appended; the first has the number `particle_count`. A copy has the position and
     /// velocity of the original and is not pinned.
     std::vector<std::uint32_t> appended = {};
     std::vector<TriangleEdit> triangles = {};
+    /// Opens edges, one opening after another (Opener). Only for cloth that was built with a tear table.
+    std::vector<Opening> openings = {};
     /// Constraints to add: copies of constraint `row` with these particles and this stiffness factor.
     std::vector<RowEdit> added = {};
     std::vector<RowEdit> rows = {};
@@ -47,10 +55,10 @@ struct ClothEdit {
 };
 
 /// Returns the model with these changes. Particle masses are recomputed from the triangles; a particle without
-/// triangles keeps its mass. If particles or triangles change, coarse levels are removed; tethers stay unless `rows`
-/// removes them. All other data is shared with `from`. Fails on indices out of range, on constraints of one batch that
-/// would share a particle, and if the model's reserve is used up. Changes of particles and triangles also fail unless
-/// each vertex of the render mesh is one particle.
+/// triangles keeps its mass. If particles or triangles change, coarse levels are removed, and tethers stay unless
+/// `rows` removes them; openings alone rebuild both for each piece. All other data is shared with `from`. Fails on
+/// indices out of range, on constraints of one batch that would share a particle, and if the model's reserve is used
+/// up. Changes of particles and triangles also fail unless each vertex of the render mesh is one particle.
 Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit);
 
 }  // namespace weft

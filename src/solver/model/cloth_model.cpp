@@ -7,6 +7,7 @@
 #include "scene/scene_keys.h"
 #include "solver/model/lines.h"
 #include "solver/model/masses.h"
+#include "solver/model/tear_table.h"
 
 #include <algorithm>
 #include <cassert>
@@ -162,7 +163,7 @@ Result<void> check_drawn(const TriangleMesh& mesh) {
 }
 
 void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind, const RowList& rows, bool lines,
-               const ColoringOptions& options, std::uint32_t spare, BuildClock& clock) {
+               const ColoringOptions& options, const ClothReserve& reserve, BuildClock& clock) {
     ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
     clock.spent_on(kind == ConstraintKind::tether ? BuildPart::tethers : BuildPart::rows);
     if (lines) {
@@ -172,7 +173,8 @@ void add_table(ClothModel& model, const Topology& topology, ConstraintKind kind,
         clock.spent_on(BuildPart::coloring);
         table = pack_rows(kind, rows, model.room(), coloring);
     }
-    if (spare > 0 && table.rows > 0) add_spare_rows(table, spare);
+    if (reserve.openings && kind == ConstraintKind::stretch) add_second_halves(table);
+    if (reserve.constraints > 0 && table.rows > 0) add_spare_rows(table, reserve.constraints);
     clock.spent_on(BuildPart::tables);
 }
 
@@ -231,7 +233,7 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     model.fabric.plate = model.fabric.distance_bend = model.fabric.bend;
     const auto add = [&](ConstraintKind kind, const RowList& rows) {
         const bool lines = layout.lines && kind == ConstraintKind::stretch;
-        add_table(model, topology, kind, rows, lines, coloring, reserve.constraints, clock);
+        add_table(model, topology, kind, rows, lines, coloring, reserve, clock);
     };
 #define WEFT_CONSTRAINT(name, Name, particles, moved, lambdas, source, damping)                \
     WEFT_IF_FABRIC_##source(add(ConstraintKind::name, build_##name(rest, model.fabric.name));) \
@@ -241,6 +243,11 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 #undef WEFT_CONSTRAINT
 
     measure_edges(model, rest);
+    if (reserve.openings) {
+        auto tears = make_tear_table(model, topology);
+        if (!tears) return tears.errors();
+        model.tears = std::move(*tears);
+    }
     model.make_tiles_if_needed();
     clock.spent_on(BuildPart::rest);
     return {};
@@ -338,7 +345,10 @@ void ClothModel::append_vertices(const std::vector<std::uint32_t>& sources) {
     };
     std::vector<std::uint32_t> vertex(particle_count), particles(vertex_to_particle.begin(), vertex_to_particle.end());
     for (std::uint32_t v = 0; v < particles.size(); ++v) vertex[particles[v]] = v;
-    for (std::uint32_t i = 0; i < sources.size(); ++i) particles.push_back(particle_count + i);
+    for (std::uint32_t i = 0; i < sources.size(); ++i) {
+        vertex.push_back(static_cast<std::uint32_t>(particles.size()));
+        particles.push_back(particle_count + i);
+    }
     vertex_to_particle = std::move(particles);
     set_mesh_of_particles(appended(drawn_->mesh.uvs, vertex), appended(drawn_->mesh.colors, vertex));
 }

@@ -60,7 +60,10 @@ inline bool can_collide(const ClothCollision& a, const ClothCollision& b) {
 struct ClothReserve {
     std::uint32_t particles = 0;
     std::uint32_t constraints = 0;  ///< per kind of constraint that the cloth has
+    bool openings = false;          ///< its edges can be opened: it has a tear table, and room for second halves
 };
+
+struct TearTable;
 
 struct ClothModelDesc {
     std::string name = {};
@@ -123,6 +126,10 @@ struct ClothModel {
     /// Particles along a curve through the cloth; null if it has no contact of particles with cloth.
     std::shared_ptr<const std::vector<std::uint32_t>> along_curve;
     std::uint64_t topology_version = first_topology_version;
+    std::shared_ptr<const TearTable> tears;  ///< null unless its edges can be opened
+    /// Per appended particle, the first of which follows those that the cloth was built with: the particle it is a copy
+    /// of.
+    SharedArray<std::uint32_t> copied_from;
 
     BuildTimes build_times;
 

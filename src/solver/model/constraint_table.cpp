@@ -30,8 +30,11 @@ AlignedVector<T> widened(const SharedArray<T>& from, std::uint32_t stride, std::
 
 }  // namespace
 
-void add_spare_rows(ConstraintTable& table, std::uint32_t count) {
-    const std::uint32_t before = table.stride, stride = before + padded(count);
+namespace {
+
+// Appends padding to the table.
+void widen(ConstraintTable& table, std::uint32_t stride) {
+    const std::uint32_t before = table.stride;
     AlignedVector<std::uint32_t> particles = widened(table.particles, before, stride, 0u);
     for (std::uint32_t slot = 0; slot < table.arity; ++slot)
         for (std::uint32_t row = before; row < stride; ++row)
@@ -40,6 +43,33 @@ void add_spare_rows(ConstraintTable& table, std::uint32_t count) {
     table.fields = widened(table.fields, before, stride, 0.0f);
     table.geometry = widened(table.geometry, before, stride, no_area);
     table.stride = stride;
+}
+
+}  // namespace
+
+void add_second_halves(ConstraintTable& table) {
+    table.second_halves = table.stride;
+    widen(table, 2 * table.stride);
+}
+
+void use_second_halves(ConstraintTable& table) {
+    const bool spare = table.spare_used > 0;  // its batch stays last
+    const std::size_t count = table.batches.size() - spare;
+    std::vector<Batch> halves(table.batches.begin(), table.batches.begin() + static_cast<std::ptrdiff_t>(count));
+    const auto blocks = static_cast<std::uint32_t>(table.blocks.size());
+    for (std::uint32_t i = 0; i < blocks; ++i)
+        table.blocks.push_back({table.blocks[i].begin + table.second_halves, table.blocks[i].length});
+    for (Batch& batch : halves) {
+        batch.begin += table.second_halves;
+        batch.first_block += blocks;
+        batch.halves = true;
+    }
+    table.batches.insert(table.batches.begin() + static_cast<std::ptrdiff_t>(count), halves.begin(), halves.end());
+}
+
+void add_spare_rows(ConstraintTable& table, std::uint32_t count) {
+    const std::uint32_t before = table.stride;
+    widen(table, before + padded(count));
     table.first_spare = before;
     table.spare_rows = count;
 }

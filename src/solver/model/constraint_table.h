@@ -25,6 +25,7 @@ struct Batch {
     bool serial = false;  ///< the overflow: constraints that share particles and run one after another, in order
     /// For constraints on lines: the blocks of the batch. Only neighbors on a line share a particle.
     std::uint32_t first_block = 0, blocks = 0;
+    bool halves = false;  ///< second halves of constraints whose edge was opened (tear_table.h); most rows are padding
 
     std::uint32_t padded_end() const { return begin + padded(rows); }
 };
@@ -34,6 +35,8 @@ struct Batch {
 /// stiffness from their last particle to itself.
 struct LineBlock {
     std::uint32_t begin = 0, length = 0;
+    /// Some of its lines end within them: a constraint need not begin at the particle at which the one before it ends.
+    bool cut = false;
     std::uint32_t end() const { return begin + length * lane_padding; }
 };
 
@@ -56,6 +59,9 @@ struct ConstraintTable {
     /// Padding from first_spare on is room for constraints that are added while the cloth moves (cloth_edit.h):
     /// spare_rows in total, spare_used in use.
     std::uint32_t first_spare = 0, spare_rows = 0, spare_used = 0;
+    /// Rows second_halves … 2 · second_halves are the second halves of the rows below, which belong to the second
+    /// triangle of an edge while it is open. 0: the table has none.
+    std::uint32_t second_halves = 0;
 
     /// Whether a row is a constraint. Padding acts on dummies or, on lines, on one particle twice.
     bool is_real(std::uint32_t row) const {
@@ -86,6 +92,11 @@ constexpr std::uint32_t dummy(std::uint32_t first, std::uint32_t slot, std::uint
     return first + slot * lane_padding + row % lane_padding;
 }
 
+/// Adds a second half for each constraint: the same batches and blocks once more, as padding. They are projected only
+/// when `batches` lists them (use_second_halves). Call it before add_spare_rows().
+void add_second_halves(ConstraintTable& table);
+/// Lists the batches of the second halves.
+void use_second_halves(ConstraintTable& table);
 /// Adds room for `count` constraints.
 void add_spare_rows(ConstraintTable& table, std::uint32_t count);
 

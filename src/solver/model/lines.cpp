@@ -261,7 +261,7 @@ ConstraintTable pack_lines(const RowList& stretch, std::span<const Vec3> positio
     std::size_t block = 0;
     for (const auto& color : lines.colors) {
         for (std::size_t i = 0; i < color.size(); i += lane_padding, ++block) {
-            const auto [begin, length] = table.blocks[block];
+            const std::uint32_t begin = table.blocks[block].begin, length = table.blocks[block].length;
             for (std::uint32_t lane = 0; lane < lane_padding; ++lane) {
                 if (i + lane < color.size()) {
                     writer.write_line(begin + lane, lines.paths, color[i + lane], length);

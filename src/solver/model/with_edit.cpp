@@ -2,6 +2,8 @@
 #include "physics/change_rows.h"
 #include "solver/model/cloth_edit.h"
 #include "solver/model/masses.h"
+#include "solver/model/opened_cloth.h"
+#include "solver/model/rebuilt_limits.h"
 
 #include <algorithm>
 #include <atomic>
@@ -48,15 +50,28 @@ class Editor {
     explicit Editor(const ClothModel& from) : model_(std::make_shared<ClothModel>(from)) {}
 
     Result<std::shared_ptr<const ClothModel>> run(const ClothEdit& edit) {
-        const bool reshaped = !edit.appended.empty() || !edit.triangles.empty();
+        const bool has_openings = !edit.openings.empty(), other = !edit.appended.empty() || !edit.triangles.empty();
+        const bool reshaped = has_openings || other;
         if (reshaped && !model_->mesh_is_of_particles())
             return Error{
                 "cloth '" + model_->name + "'",
                 "has a render mesh of its own, or vertices that share a particle: its triangles cannot change"};
-        if (auto done = append(edit.appended); !done) return done.errors();
+        for (std::size_t i = 0; i < edit.appended.size(); ++i)
+            if (auto known = check_particle("appended particle " + std::to_string(i), edit.appended[i]); !known)
+                return known.errors();
+        if (auto done = append(edit.appended, false); !done) return done.errors();
         if (auto done = set_triangles(edit.triangles); !done) return done.errors();
+        if (has_openings) {
+            if (auto done = open(edit.openings); !done) return done.errors();
+        }
         if (reshaped) {
             if (auto done = reshape(); !done) return done.errors();
+            if (other) {
+                model_->hierarchy = {};
+                model_->pin_spans = {};
+            } else {
+                rebuild_limits(*model_);
+            }
         }
         for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
             if (auto done = change_table(static_cast<ConstraintKind>(kind), edit); !done) return done.errors();
@@ -71,23 +86,75 @@ class Editor {
                      "there are only " + text(model_->particle_count) + " particles, got number " + text(particle)};
     }
 
-    Result<void> append(const std::vector<std::uint32_t>& sources) {
+    Result<void> open(const std::vector<Opening>& openings) {
+        const std::string name = "cloth '" + model_->name + "'";
+        if (!model_->tears) return Error{name, "was not built to be cut or torn"};
+        OpenedArrays arrays(*model_);
+        const auto first_copy = static_cast<std::ptrdiff_t>(arrays.copied_from.size());
+        Opener opener(*model_, arrays);
+        const auto& entries = model_->tears->entries;
+        for (std::size_t i = 0; i < openings.size(); ++i) {
+            const auto& links = openings[i].links;
+            for (const std::uint32_t link : links) {
+                if (link == none) continue;
+                if (link >= entries.size() || entries[link].next == none ||
+                    entries[link].vertex != entries[links[0] == none ? link : links[0]].vertex)
+                    return Error{"opening " + std::to_string(i), "must name edges inside the cloth at one vertex"};
+            }
+            if (!opener.open(openings[i]))
+                return Error{name, "has no room for more particles at opening " + std::to_string(i) + " of " +
+                                       std::to_string(openings.size())};
+        }
+        const std::vector<std::uint32_t> copies(arrays.copied_from.begin() + first_copy, arrays.copied_from.end());
+        take_constraints(arrays);
+        model_->faces = std::move(arrays.faces);
+        model_->make_tiles_if_needed();
+        return append(copies, true);  // a copy may be one of an earlier copy
+    }
+
+    // Takes all constraints over, and lists their second halves when there are some.
+    void take_constraints(OpenedArrays& arrays) {
+        for (ConstraintTable& table : model_->constraints) {
+            OpenedArrays::Rows& rows = arrays.rows[static_cast<std::uint32_t>(table.kind)];
+            table.particles = std::move(rows.particles);
+            table.fields = std::move(rows.fields);
+            table.geometry = std::move(rows.geometry);
+            table.rows = rows.rows;
+        }
+        auto edges = std::make_shared<ClothEdges>(*model_->edges);
+        for (std::size_t i = 0; i < edges->without_row.size(); ++i)
+            for (std::size_t end = 0; end < 2; ++end)
+                edges->without_row[i][end] = arrays.faces[model_->tears->without_row[i][end]];
+        ConstraintTable& stretch = model_->constraints[static_cast<std::uint32_t>(ConstraintKind::stretch)];
+        for (std::size_t i = 0; i < arrays.blocks.size(); ++i) stretch.blocks[i] = arrays.blocks[i];
+        if (std::ranges::none_of(stretch.batches, &Batch::halves)) {
+            use_second_halves(stretch);
+            for (LineBlock& block : std::span(stretch.blocks).subspan(arrays.blocks.size())) block.cut = true;
+            for (std::uint32_t row = 0; row < stretch.second_halves; ++row)
+                edges->axial_rows[stretch.second_halves + row] = edges->axial_rows[row];
+        }
+        model_->edges = std::move(edges);
+    }
+
+    // `pinned`: copies of pinned particles are pinned too.
+    Result<void> append(const std::vector<std::uint32_t>& sources, bool pinned) {
         if (sources.empty()) return {};
         if (sources.size() > model_->reserve)
             return Error{"cloth '" + model_->name + "'", "has room for " + text(model_->reserve) +
                                                              " more particles, got " + std::to_string(sources.size())};
-        for (std::size_t i = 0; i < sources.size(); ++i)
-            if (auto known = check_particle("appended particle " + std::to_string(i), sources[i]); !known) return known;
         AlignedVector<Vec4> start(model_->start.begin(), model_->start.end());
         AlignedVector<float> mass(model_->mass.begin(), model_->mass.end());
         for (std::size_t i = 0; i < sources.size(); ++i) {
             start[model_->particle_count + i] = start[sources[i]];
-            start[model_->particle_count + i].w = 1 / mass[sources[i]];  // not pinned
+            if (!pinned || start[sources[i]].w > 0) start[model_->particle_count + i].w = 1 / mass[sources[i]];
             mass.push_back(mass[sources[i]]);
         }
         model_->start = std::move(start);
         model_->mass = std::move(mass);
         model_->append_vertices(sources);
+        std::vector<std::uint32_t> copied_from(model_->copied_from.begin(), model_->copied_from.end());
+        copied_from.insert(copied_from.end(), sources.begin(), sources.end());
+        model_->copied_from = std::move(copied_from);
         model_->particle_count += static_cast<std::uint32_t>(sources.size());
         model_->reserve -= static_cast<std::uint32_t>(sources.size());
         return {};
@@ -138,13 +205,12 @@ class Editor {
         AlignedVector<Vec4> start(model.start.begin(), model.start.end());
         for (std::uint32_t p = 0; p < model.particle_count; ++p) {
             if (offsets[p] == offsets[p + 1]) mass[p] = model.mass[p];
-            start[p].w = start[p].w > 0 ? 1 / mass[p] : 0;
         }
+        weigh_opened(model, mass);
+        for (std::uint32_t p = 0; p < model.particle_count; ++p) start[p].w = start[p].w > 0 ? 1 / mass[p] : 0;
         if (auto weighed = check_masses(mass); !weighed) return weighed;
         model_->mass = std::move(mass);
         model_->start = std::move(start);
-        model_->hierarchy = {};
-        model_->pin_spans = {};
         model_->reset_mesh();
         model_->topology_version = ++versions;
         return {};
@@ -204,7 +270,8 @@ class Editor {
     }
 
     static bool lies_in_line(const ConstraintTable& table, std::uint32_t row) {
-        return !table.blocks.empty() && row < table.blocks.back().end() && row >= table.blocks.front().begin;
+        const auto after = std::ranges::upper_bound(table.blocks, row, {}, &LineBlock::begin);
+        return after != table.blocks.begin() && row < (after - 1)->end();
     }
 
     Result<void> set_row(OpenTable& open, const RowEdit& row) const {

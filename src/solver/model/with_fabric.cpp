@@ -3,6 +3,7 @@
 #include "physics/change_rows.h"
 #include "solver/model/cloth_model.h"
 #include "solver/model/masses.h"
+#include "solver/model/opened_cloth.h"
 
 #include <algorithm>
 #include <bit>
@@ -56,6 +57,7 @@ Result<void> change_masses(ClothModel& model, float before_density, float densit
     AlignedVector<float> mass = lump_masses(model.face_area, model.triangles(), model.particle_count, density);
     for (std::uint32_t p = 0; p < model.particle_count; ++p)
         if (!(mass[p] > 0)) mass[p] = before[p] * ratio;  // its triangles were removed (cloth_edit.h)
+    weigh_opened(model, mass);
     model.mass = std::move(mass);
     if (auto weighed = check_masses(model.mass); !weighed) return weighed;
     AlignedVector<Vec4> start(model.start.begin(), model.start.end());

@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and the format version. On a machine of the other byte order neither matches.
-constexpr std::uint32_t magic = 0x74666577, version = 4;
+constexpr std::uint32_t magic = 0x74666577, version = 5;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;
@@ -101,6 +101,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
         for (const ClothEdit& edit : cloth.edits) {
             out.list(edit.appended);
             out.list(edit.triangles);
+            out.list(edit.openings);
             out.list(edit.rows);
             out.list(edit.added);
         }
@@ -147,6 +148,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
             ClothEdit& edit = cloth.edits.emplace_back();
             edit.appended = in.list<std::uint32_t>();
             edit.triangles = in.list<TriangleEdit>();
+            edit.openings = in.list<Opening>();
             edit.rows = in.list<RowEdit>();
             edit.added = in.list<RowEdit>();
         }

@@ -64,9 +64,9 @@ class World {
     /// removing the cloth drop the pending model. If building fails, the cloth keeps its model. Does nothing for a
     /// cloth with edits, because the new model would not have them.
     void rebuild_later(ClothId id, BuildModel build);
-    /// Changes single constraints, triangles and particles, within the reserve of the model. Positions and velocities
-    /// are kept. Coarse levels are removed if triangles or particles change. Edits belong to the saved state until
-    /// set_model().
+    /// Changes single constraints, triangles and particles, or opens edges, within the reserve of the model
+    /// (with_edit). Positions and velocities are kept. Copies that openings make are pinned like their originals. Edits
+    /// belong to the saved state until set_model().
     Result<void> edit(ClothId id, const ClothEdit& edit);
     /// Whether a model is pending for the cloth.
     bool is_rebuilding(ClothId id) const { return pending_.contains(id); }

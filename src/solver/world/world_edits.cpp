@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "solver/world/world.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace weft {
@@ -20,10 +21,25 @@ Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     Cloth& cloth = cloths_[cloths_.find(id)];
     auto model = with_edit(*cloth.model, edit);
     if (!model) return model.errors();
-    if (auto set = backend_->set_topology(cloth.handle, *model, edit.appended); !set) return set;
+    const std::size_t copied_before = cloth.model->copied_from.size();
+    const std::span copied((*model)->copied_from.begin() + copied_before, (*model)->copied_from.end());
+    if (auto set = backend_->set_topology(cloth.handle, *model, copied); !set) return set;
+    // A copy made by an opening is pinned, and moved, like its original.
     std::vector<ParticleWeight> copies;
-    for (std::uint32_t p = cloth.model->particle_count; p < (*model)->particle_count; ++p)
-        copies.push_back({p, 1 / (*model)->mass[p]});
+    std::vector<std::uint32_t> pinned = cloth.pinned;
+    KinematicTargets targets = cloth.targets;
+    for (std::uint32_t i = 0; i < copied.size(); ++i) {
+        const std::uint32_t p = cloth.model->particle_count + i;
+        const bool holds = i >= edit.appended.size() && std::ranges::binary_search(pinned, copied[i]);
+        copies.push_back({p, holds ? 0 : 1 / (*model)->mass[p]});
+        if (!holds) continue;
+        pinned.push_back(p);
+        const auto target = std::ranges::lower_bound(targets.particles, copied[i], {}, &KinematicTarget::particle);
+        if (target == targets.particles.end() || target->particle != copied[i]) continue;
+        KinematicTarget same = *target;
+        same.particle = p;
+        targets.particles.insert(std::ranges::upper_bound(targets.particles, p, {}, &KinematicTarget::particle), same);
+    }
     if (auto set = backend_->set_weights(cloth.handle, copies); !set) {
         (void)backend_->set_topology(cloth.handle, cloth.model, {});
         return set;
@@ -31,6 +47,8 @@ Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     if (!cloth.unedited) cloth.unedited = cloth.model;
     cloth.edits.push_back(edit);
     cloth.model = std::move(*model);
+    cloth.pinned = std::move(pinned);
+    cloth.targets = std::move(targets);
     pending_.drop(id);
     list_cloths();
     replan();
@@ -116,6 +134,8 @@ void World::hash_edits(const Cloth& cloth, StateHash& hash) {
             hash.add(triangle.triangle), hash.add(triangle.alive);
             for (const std::uint32_t corner : triangle.corners) hash.add(corner);
         }
+        for (const Opening& opening : edit.openings)
+            for (const std::uint32_t link : opening.links) hash.add(link);
         for (const RowEdit& row : edit.rows) hash_row(row, hash);
         for (const RowEdit& row : edit.added) hash_row(row, hash);
     }

@@ -48,7 +48,7 @@ uvec2 advanced(uvec2 address, uint bytes)
 void run_all_lines()
 {
     for (uint b = 0u; b < line_args.at.count;) {
-        uint base = line_args.at.blocks.at[2u * b], end = b + 1u;
+        uint base = first_row_of(b), end = b + 1u;
         while (end < line_args.at.count && (shared_line_rows == 1u || row_after_block(end) - base <= shared_line_rows))
             ++end;
         if (b > 0u) workgroup_barrier();

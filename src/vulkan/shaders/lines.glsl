@@ -17,10 +17,16 @@ struct LineRound {
     uint base;  // first row in shared memory
 };
 
-// First row after the block.
-uint row_after_block(uint block)
+uint first_row_of(uint block) { return line_args.at.blocks.at[2u * block]; }
+// Constraints of each of its lines.
+uint length_of(uint block) { return line_args.at.blocks.at[2u * block + 1u] & ~WEFT_CUT_BLOCK; }
+// Whether a line may end within the block, so that a constraint need not begin where the one before it ends.
+bool is_cut(uint block) { return (line_args.at.blocks.at[2u * block + 1u] & WEFT_CUT_BLOCK) != 0u; }
+uint row_after_block(uint block) { return first_row_of(block) + length_of(block) * WEFT_LANE_PADDING; }
+// Whether row r continues the line of the row before it.
+bool continues_line(uint r)
 {
-    return line_args.at.blocks.at[2u * block] + line_args.at.blocks.at[2u * block + 1u] * WEFT_LANE_PADDING;
+    return line_args.at.particles.at[r] == line_args.at.particles.at[line_args.at.stride + r - WEFT_LANE_PADDING];
 }
 
 vec4 line_number(LineRound round, uint r)
@@ -126,24 +132,34 @@ void run_lines(LineRound round)
     uint me = gl_LocalInvocationID.x, all = gl_WorkGroupSize.x;
     Step h = substep_of(line_args.at.frame);
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
+        uint begin = first_row_of(b), rows = length_of(b) * WEFT_LANE_PADDING;
         for (uint i = me; i < rows; i += all) begin_row(round, begin + i, h);
     }
     workgroup_barrier();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
-        for (uint i = me; i < rows; i += all) couple_row(round, begin + i, i < WEFT_LANE_PADDING);
+        uint begin = first_row_of(b), rows = length_of(b) * WEFT_LANE_PADDING;
+        bool cut = is_cut(b);
+        for (uint i = me; i < rows; i += all)
+            couple_row(round, begin + i, i < WEFT_LANE_PADDING || (cut && !continues_line(begin + i)));
     }
     workgroup_barrier();
     for (uint i = me; i < (round.end - round.first) * WEFT_LANE_PADDING; i += all) {
         uint b = round.first + i / WEFT_LANE_PADDING;
-        solve_line(round, line_args.at.blocks.at[2u * b] + i % WEFT_LANE_PADDING, line_args.at.blocks.at[2u * b + 1u]);
+        solve_line(round, first_row_of(b) + i % WEFT_LANE_PADDING, length_of(b));
     }
     workgroup_barrier();
     for (uint b = round.first; b < round.end; ++b) {
-        uint begin = line_args.at.blocks.at[2u * b], rows = line_args.at.blocks.at[2u * b + 1u] * WEFT_LANE_PADDING;
-        for (uint i = me; i < rows; i += all)
-            end_row(round, begin + i, i < WEFT_LANE_PADDING, i + WEFT_LANE_PADDING >= rows);
+        uint begin = first_row_of(b), rows = length_of(b) * WEFT_LANE_PADDING;
+        bool cut = is_cut(b);
+        for (uint i = me; i < rows; i += all) {
+            uint r = begin + i;
+            bool first = i < WEFT_LANE_PADDING, last = i + WEFT_LANE_PADDING >= rows;
+            if (cut) {
+                first = first || !continues_line(r);
+                last = last || !continues_line(r + WEFT_LANE_PADDING);
+            }
+            end_row(round, r, first, last);
+        }
     }
 }
 

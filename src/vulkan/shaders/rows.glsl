@@ -168,7 +168,7 @@ RowRange rows_of(uint i)
         uint block = i / WEFT_LANE_PADDING;
         if (block >= row_args.at.count) return RowRange(0u, 0u, 1u);
         return RowRange(row_args.at.blocks.at[2u * block] + i % WEFT_LANE_PADDING,
-                        row_args.at.blocks.at[2u * block + 1u], WEFT_LANE_PADDING);
+                        row_args.at.blocks.at[2u * block + 1u] & ~WEFT_CUT_BLOCK, WEFT_LANE_PADDING);
     }
     return RowRange(row_args.at.begin + i, i < row_args.at.count ? 1u : 0u, 1u);
 }

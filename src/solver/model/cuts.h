@@ -1,0 +1,29 @@
+// Finds the edges to open for a cut.
+#pragma once
+
+#include "solver/model/cloth_edit.h"
+#include "solver/model/cloth_model.h"
+
+#include <weft/result.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft {
+
+/// Opens all edges between triangles of different groups. `group`: per triangle of the model. The model must have a
+/// tear table. Edges that are open already are left out.
+std::vector<Opening> openings_between(const ClothModel& model, std::span<const std::uint32_t> group);
+
+/// Opens the edges nearest to a plane, so that no triangle has its center on the other side of the cut: the cut runs
+/// within 2/3 of an edge of the plane. `positions`: of the particles, m. `normal` need not have length 1.
+std::vector<Opening> openings_along_plane(const ClothModel& model, std::span<const Vec4> positions, Vec3 point,
+                                          Vec3 normal);
+
+/// Opens a path of edges near a stroke: a polyline on the cloth, m. The path runs between the particles nearest to the
+/// stroke's ends, and prefers edges near the stroke. Empty if both ends have the same nearest particle.
+std::vector<Opening> openings_along_stroke(const ClothModel& model, std::span<const Vec4> positions,
+                                           std::span<const Vec3> stroke);
+
+}  // namespace weft

@@ -1,0 +1,71 @@
+// The parts of a cloth that change when edges of its mesh are opened: corners of triangles, the particles of
+// constraints, masses. A model is made from them after an edit (with_edit); a backend keeps them while the cloth tears.
+#pragma once
+
+#include "physics/stretch/stretch_law.h"
+#include "solver/model/cloth_edit.h"
+#include "solver/model/tear_table.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft {
+
+/// Arrays as in ClothModel, with room for all particles that can be appended.
+struct OpenedArrays {
+    struct Rows {
+        AlignedVector<std::uint32_t> particles;
+        AlignedVector<float> fields, geometry;
+        std::uint32_t rows = 0;  ///< without padding
+    };
+    AlignedVector<std::uint32_t> faces;
+    std::array<Rows, constraint_kind_count> rows;
+    std::vector<LineBlock> blocks;  ///< of the stretch table
+    /// Per lane_padding rows of the stretch table's second halves: whether any is in use.
+    std::vector<std::uint8_t> halves_used;
+    AlignedVector<float> mass;               ///< kg, per particle
+    std::vector<std::uint32_t> copied_from;  ///< per appended particle: the particle that was copied
+    std::vector<std::array<std::uint32_t, 2>> without_row;
+    std::uint32_t particle_count = 0;
+    std::uint32_t room = 0;  ///< particles that can still be appended
+
+    /// Copies the arrays of a model.
+    explicit OpenedArrays(const ClothModel& model);
+};
+
+/// Sets the masses of particles at vertices that have copies, in the way that Opener does.
+void weigh_opened(const ClothModel& model, std::span<float> mass);
+
+/// Opens edges. The result depends only on the order of the openings.
+class Opener {
+  public:
+    /// `model` must have a tear table, and must be the one from which `arrays` were copied or an earlier one.
+    Opener(const ClothModel& model, OpenedArrays& arrays);
+
+    /// Parts the triangles at the vertex of the links along these edges. If they then form several fans, the first fan
+    /// keeps the particle, and each other fan gets a copy. The same is done at the far ends, where an edge that was
+    /// open before now parts them. Constraints follow their triangles; those that cross an open edge end. Returns false
+    /// and changes nothing if there is no room for the copies.
+    bool open(const Opening& opening);
+
+  private:
+    void weigh(std::uint32_t vertex);
+    void part(std::uint32_t vertex, std::span<const std::uint32_t> opened);
+    std::uint32_t fans(std::uint32_t vertex, std::span<const std::uint32_t> opened);
+    bool is_closed(const TearTable::Entry& entry) const;
+    void update_rows(std::uint32_t vertex);
+    void update_stretch(std::uint32_t row);
+    void update_row(const ConstraintTable& table, std::uint32_t row);
+    void part_stiffness(std::uint32_t row);
+    void mark_cut(std::uint32_t row);
+
+    const ClothModel& model_;
+    const TearTable& table_;
+    OpenedArrays& arrays_;
+    StretchLaw law_;
+    std::vector<std::uint32_t> fan_;  ///< scratch: per entry of a ring, the first entry of its fan
+};
+
+}  // namespace weft

@@ -1,0 +1,12 @@
+// Coarse levels and tethers of a cloth whose triangles have changed.
+#pragma once
+
+#include "solver/model/cloth_model.h"
+
+namespace weft {
+
+/// Rebuilds coarse levels, spans of pins and tethers from the model's triangles, if it has any: each piece of cloth
+/// gets its own.
+void rebuild_limits(ClothModel& model);
+
+}  // namespace weft

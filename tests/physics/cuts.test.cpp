@@ -1,0 +1,192 @@
+// Cloth whose edges are opened while it moves.
+
+#include "solver/model/cuts.h"
+#include "sheet.h"
+
+#include <cmath>
+
+namespace weft::physical {
+namespace {
+
+// A square meter that hangs upright by its upper row. Even columns, so that the plane x = 0 runs along one.
+std::shared_ptr<const ClothModel> make_curtain(std::uint32_t side, const ClothLayout& layout,
+                                               const Fabric& fabric = {}) {
+    TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
+    ClothModelDesc desc{
+        .name = "curtain", .fabric = fabric, .layout = layout, .reserve = {.particles = 4 * side, .openings = true}};
+    for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
+        Vec3& x = mesh.positions[p];
+        if (x.z < -0.499f) desc.pins.particles.push_back(p);
+        x = {x.x, -x.z, 0};
+    }
+    auto topology = build_topology(mesh, {.reorder = false});
+    desc.mesh = std::move(mesh);
+    auto built = build_cloth_model(std::move(desc), std::move(*topology));
+    EXPECT_TRUE(built.ok());
+    return *built;
+}
+
+// Half of it, as a cloth of its own: `side` × (side + 1) / 2 particles.
+std::shared_ptr<const ClothModel> make_half(std::uint32_t side, float center, const ClothLayout& layout,
+                                            const Fabric& fabric = {}) {
+    // The diagonals of the right half continue those of the left one.
+    TriangleMesh mesh = make_grid({0.5f, 1}, {(side + 1) / 2, side}, GridDiagonal::alternating);
+    ClothModelDesc desc{.name = "half", .fabric = fabric, .layout = layout};
+    for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
+        Vec3& x = mesh.positions[p];
+        if (x.z < -0.499f) desc.pins.particles.push_back(p);
+        x = {x.x + center, -x.z, 0};
+    }
+    auto topology = build_topology(mesh, {.reorder = false});
+    desc.mesh = std::move(mesh);
+    auto built = build_cloth_model(std::move(desc), std::move(*topology));
+    EXPECT_TRUE(built.ok());
+    return *built;
+}
+
+SolverDesc solver_with(bool lines) {
+    return {.substeps = 20, .projection = lines ? Projection::lines : Projection::gauss_seidel, .hierarchy = lines};
+}
+
+// A soft pull to the side makes both halves swing.
+WorldSettings pulled(bool lines) {
+    return {.gravity = {0.3f, -9.81f, 1}, .solver = solver_with(lines)};
+}
+
+std::vector<Opening> down_the_middle(const World& world, ClothId id) {
+    return openings_along_plane(*world.model(id), world.frame().cloths[0].positions, {}, {1, 0, 0});
+}
+
+TEST(Cuts, part_a_sheet_into_what_two_sheets_of_half_the_width_are) {
+    constexpr std::uint32_t side = 33;
+    for (const bool lines : {true, false}) {
+        const ClothLayout layout{.lines = lines, .hierarchy = lines};
+        Fabric fabric;
+        fabric.body.damping = 0.01f;
+        World cut = make_world(pulled(lines)), twins = make_world(pulled(lines));
+        const ClothId id = cut.add(make_curtain(side, layout, fabric));
+        ASSERT_TRUE(cut.edit(id, {.openings = down_the_middle(cut, id)}).ok());
+        EXPECT_EQ(cut.model(id)->copied_from.size(), side);
+        twins.add(make_half(side, -0.25f, layout, fabric));
+        twins.add(make_half(side, 0.25f, layout, fabric));
+        run(cut, 4), run(twins, 4);
+        const auto& whole = cut.frame().cloths[0];
+        double squared = 0, farthest = 0;
+        std::size_t count = 0;
+        for (std::size_t half = 0; half < 2; ++half) {
+            const ClothFrame& twin = twins.frame().cloths[half];
+            for (std::uint32_t p = 0; p < twin.positions.size(); ++p) {
+                const std::uint32_t row = p / ((side + 1) / 2), column = p % ((side + 1) / 2);
+                std::uint32_t q = row * side + column + (half == 1 ? side / 2 : 0);
+                const bool on_cut = column == (half == 0 ? side / 2 : 0);
+                // One of the two particles on the cut is the original, the other a copy: the nearer one is meant.
+                const auto distance = [&](std::uint32_t other) {
+                    return static_cast<double>(length(whole.positions[other].xyz() - twin.positions[p].xyz()));
+                };
+                double d = distance(q);
+                for (std::uint32_t copy = side * side; on_cut && copy < whole.positions.size(); ++copy)
+                    if (cut.model(id)->copied_from[copy - side * side] == q) d = std::min(d, distance(copy));
+                squared += d * d, farthest = std::max(farthest, d), ++count;
+            }
+        }
+        const double rms = std::sqrt(squared / static_cast<double>(count));
+        RecordProperty(lines ? "rms_lines_mm" : "rms_mm", std::to_string(1000 * rms));
+        EXPECT_LT(rms, 0.002) << "farthest " << farthest;
+        EXPECT_EQ(cut.frame().reports, report_none);
+    }
+}
+
+TEST(Cuts, leave_no_pull_between_the_pieces) {
+    const ClothLayout layout{.lines = true, .hierarchy = true};
+    const auto run_with = [&](bool dragged) {
+        World world = make_world({.solver = solver_with(true)});
+        const ClothId id = world.add(make_curtain(17, layout));
+        EXPECT_TRUE(world.edit(id, {.openings = down_the_middle(world, id)}).ok());
+        run(world, 0.5);
+        if (dragged) {
+            KinematicTargets targets;
+            targets.motions.push_back({.offsets = {{0, {}}, {0.5f, {}}, {1, {1, 0.2f, 0}}}});
+            std::vector<std::uint32_t> pinned;
+            const auto& model = *world.model(id);
+            for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+                if (model.start[p].w > 0) continue;
+                pinned.push_back(p);
+                const bool right = model.rest_position(p).x > 0.01f;
+                if (right) targets.particles.push_back({p, 0, model.rest_position(p)});
+            }
+            EXPECT_TRUE(world.set_pins(id, pinned, targets).ok());
+        }
+        run(world, 1);
+        return std::vector<Vec4>(world.frame().cloths[0].positions.begin(), world.frame().cloths[0].positions.end());
+    };
+    const auto still = run_with(false), dragged = run_with(true);
+    double left = 0, right = 0;
+    for (std::uint32_t p = 0; p < 17 * 17; ++p) {
+        const double moved = static_cast<double>(length(still[p].xyz() - dragged[p].xyz()));
+        if (p % 17 < 8) left = std::max(left, moved);
+        if (p % 17 > 8) right = std::max(right, moved);
+    }
+    EXPECT_GT(right, 0.9);
+    EXPECT_LT(left, 1e-4);
+}
+
+TEST(Cuts, go_on_with_the_same_bits_after_a_restore_and_in_every_number_of_threads) {
+    const auto model = make_curtain(33, {.lines = true, .hierarchy = true});
+    std::string hash;
+    for (const unsigned workers : {0u, 1u, 3u}) {
+        World world = make_world({.solver = solver_with(true)}, CpuOptions{.workers = workers});
+        const ClothId id = world.add(model);
+        run(world, 0.1);
+        ASSERT_TRUE(world.edit(id, {.openings = down_the_middle(world, id)}).ok());
+        run(world, 0.1);
+        const Snapshot middle = world.save();
+        run(world, 0.1);
+        if (hash.empty()) hash = world.state_hash();
+        EXPECT_EQ(world.state_hash(), hash) << workers << " workers";
+        World other = make_world({.solver = solver_with(true)}, CpuOptions{.workers = workers});
+        other.add(model);
+        ASSERT_TRUE(other.restore(*snapshot_from_bytes(to_bytes(middle))).ok());
+        run(other, 0.1);
+        EXPECT_EQ(other.state_hash(), hash);
+    }
+}
+
+// The largest strain of edges at the cut, along it. Without lines of their own, the second halves would stretch.
+TEST(Cuts, keep_both_sides_of_the_cut_short) {
+    World world = make_world({.solver = solver_with(true)});
+    const ClothId id = world.add(make_curtain(33, {.lines = true, .hierarchy = true}));
+    ASSERT_TRUE(world.edit(id, {.openings = down_the_middle(world, id)}).ok());
+    run(world, 2);
+    const ClothMeasures measures = world.measure();
+    EXPECT_LT(measures.strain.stretch.mean, 0.002);
+    EXPECT_LT(measures.strain.stretch.max, 0.02);
+}
+
+#ifdef WEFT_VULKAN
+TEST(Cuts, are_the_same_on_both_backends) {
+    for (const bool lines : {true, false}) {
+        const auto model = make_curtain(33, {.lines = lines, .hierarchy = lines});
+        const auto hash_of = [&](World world) {
+            const ClothId id = world.add(model);
+            run(world, 0.1);
+            // A slit across the cut, so that lines of all directions end and go on.
+            const std::vector<Vec3> stroke{{-0.3f, -0.1f, 0}, {0.25f, 0.1f, 0}};
+            for (int i = 0; i < 2; ++i) {
+                const auto openings =
+                    i == 0 ? openings_along_stroke(*world.model(id), world.frame().cloths[0].positions, stroke)
+                           : down_the_middle(world, id);
+                EXPECT_TRUE(world.edit(id, {.openings = openings}).ok());
+                run(world, 0.1);
+            }
+            return world.state_hash();
+        };
+        World device(checked_vulkan_backend({}), pulled(lines));
+        if (device.backend().device().find("llvmpipe") == std::string::npos)
+            GTEST_SKIP() << "equal bits are promised where a device rounds divisions and roots as IEEE 754 says";
+        EXPECT_EQ(hash_of(std::move(device)), hash_of(make_world(pulled(lines), CpuOptions{})));
+    }
+}
+#endif
+
+}  // namespace
+}  // namespace weft::physical
