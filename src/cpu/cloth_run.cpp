@@ -6,8 +6,7 @@ namespace weft::cpu {
 namespace {
 
 // Whole blocks, distributed so that all workers get nearly the same number of constraints.
-std::span<const LineBlock> share_of_blocks(const ConstraintTable& table, const Batch& batch, Worker worker) {
-    const auto blocks = std::span(table.blocks).subspan(batch.first_block, batch.blocks);
+std::span<const LineBlock> share_of_blocks(std::span<const LineBlock> blocks, const Batch& batch, Worker worker) {
     const auto bound = [&](unsigned r) {
         const std::uint64_t row = batch.begin + std::uint64_t{batch.rows} * r / worker.count;
         const auto middle = [](const LineBlock& block) { return block.begin + block.length * lane_padding / 2; };
@@ -43,6 +42,10 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
     if (!island_pass.all && !takes_part(planned_, pass)) return false;
     if (is_face_contact(pass.kind)) {
         run_face_contact(pass, substep, worker);
+        return false;
+    }
+    if (pass.kind == PassKind::tear) {
+        if (worker.number == 0) cloth_.tearing->run(model(), cloth_.now(), cloth_.weights(), substep);
         return false;
     }
     switch (pass_info(pass.kind).over) {
@@ -107,12 +110,13 @@ void ClothRun::run_lines(const Pass& pass, std::uint32_t substep, Worker worker)
     if (batch.halves) {
         // Few are in use, and their padding shares dummies, so one thread runs them.
         if (worker.number != 0) return;
-        const auto all = std::span(table.blocks).subspan(batch.first_block, batch.blocks);
+        const auto all = cloth_.blocks().subspan(batch.first_block, batch.blocks);
         for (const LineBlock& block : all)
             if (cloth_.uses_halves(block.begin, block.end())) run_blocks(pass, substep, std::span(&block, 1), worker);
         return;
     }
-    const std::span<const LineBlock> blocks = share_of_blocks(table, batch, worker);
+    const std::span<const LineBlock> blocks =
+        share_of_blocks(cloth_.blocks().subspan(batch.first_block, batch.blocks), batch, worker);
     if (!blocks.empty()) run_blocks(pass, substep, blocks, worker);
 }
 
@@ -206,6 +210,7 @@ void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, W
 void ClothRun::run_faces(const Pass& pass, Worker worker) const {
     const Range mine = as_range(worker.of(model().face_stride));
     if (pass.kind == PassKind::faces) return passes_.faces(cloth_.surface(), mine);
+    if (pass.kind == PassKind::watch_tears) return cloth_.tearing->watch(passes_, model(), view_.position, mine);
     const AirView air = cloth_.air(input_.air_density);
     if (pass.kind == PassKind::air) return passes_.air(air, mine, numbers_.h);
     run_winds(air, mine, worker.number);

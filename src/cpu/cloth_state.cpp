@@ -18,6 +18,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
     remember();
     stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
     find_halves();
+    begin_tearing();
     by_face.resize(std::size_t{model->face_stride} + 1);
     update_normals();
 }
@@ -51,6 +52,7 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     for (auto& of_table : lambda) of_table.clear();
     stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
     find_halves();
+    begin_tearing();
     gather = nullptr;
     face_mass.clear();
     levels.clear();
@@ -64,6 +66,7 @@ void ClothState::set_material(std::shared_ptr<const ClothModel> other) {
     assert(other->point_count() == model->point_count());
     const bool same_masses = other->mass.shares(model->mass);
     model = std::move(other);
+    begin_tearing();
     if (!same_masses) weigh();
 }
 
@@ -91,6 +94,7 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     const bool same_faces = other->faces.shares(model->faces);
     model = std::move(other);
     find_halves();
+    begin_tearing();
     gather = nullptr;
     if (!same_masses) weigh();
     if (!same_levels) levels.clear();
@@ -177,6 +181,7 @@ Bounds ClothState::bounds() const {
 }
 
 void ClothState::roll_back() {
+    if (tearing) tearing->roll_back(*model, weights());
     for (std::size_t p = base; p < std::size_t{base} + model->capacity(); ++p) {
         const Vec4& x = world.good_position[p];
         world.start[p] = x;
@@ -188,8 +193,22 @@ void ClothState::roll_back() {
 
 RowView ClothState::rows(ConstraintKind kind) {
     const ConstraintTable& table = model->table(kind);
-    return {table.stride, table.particles.data(), table.fields.data(), lambda[static_cast<std::uint32_t>(kind)].data(),
-            limits};
+    float* const multipliers = lambda[static_cast<std::uint32_t>(kind)].data();
+    if (!tearing) return {table.stride, table.particles.data(), table.fields.data(), multipliers, limits};
+    const OpenedArrays::Rows& torn = tearing->arrays().rows[static_cast<std::uint32_t>(kind)];
+    return {table.stride, torn.particles.data(), torn.fields.data(), multipliers, limits};
+}
+
+std::span<const LineBlock> ClothState::blocks() const {
+    return tearing ? tearing->arrays().blocks : model->table(ConstraintKind::stretch).blocks;
+}
+
+const std::uint32_t* ClothState::faces() const {
+    return tearing ? tearing->arrays().faces.data() : model->faces.data();
+}
+
+void ClothState::begin_tearing() {
+    tearing = model->tear_law ? std::make_unique<Tearing>(*model) : nullptr;
 }
 
 void ClothState::find_halves() {
@@ -201,13 +220,14 @@ void ClothState::find_halves() {
 
 bool ClothState::uses_halves(std::uint32_t begin, std::uint32_t end) const {
     const std::uint32_t first = model->table(ConstraintKind::stretch).second_halves;
-    return std::any_of(halves_used_.begin() + (begin - first) / lane_padding,
-                       halves_used_.begin() + (end - first) / lane_padding,
+    const std::vector<std::uint8_t>& all = tearing ? tearing->arrays().halves_used : halves_used_;
+    return std::any_of(all.begin() + (begin - first) / lane_padding,
+                       all.begin() + (end - first) / lane_padding,
                        [](std::uint8_t used) { return used != 0; });
 }
 
 SurfaceView ClothState::surface() {
-    return {&now().position[0].x, model->faces.data(),     model->face_stride,
+    return {&now().position[0].x, faces(),                 model->face_stride,
             &by_face[0].x,        view_of(*model->around), &normals()[0].x};
 }
 
@@ -249,7 +269,7 @@ AirView ClothState::air(float density) {
     const Particles mine = now();
     return {.position = &mine.position[0].x,
             .velocity = &mine.velocity[0].x,
-            .faces = model->faces.data(),
+            .faces = faces(),
             .stride = model->face_stride,
             .mass = face_mass.data(),
             .wind = wind.empty() ? nullptr : &wind[0].x,

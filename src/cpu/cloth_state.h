@@ -6,6 +6,7 @@
 #include "cpu/contact_account.h"
 #include "cpu/face_contacts.h"
 #include "cpu/passes.h"
+#include "cpu/tearing.h"
 #include "cpu/world_arrays.h"
 #include "solver/model/cloth_model.h"
 #include "solver/model/jacobi.h"
@@ -58,6 +59,7 @@ struct ClothState {
     AlignedVector<Vec4> corrections;
     std::vector<AlignedVector<float>> line_scratch;  ///< per worker
     double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame
+    std::unique_ptr<Tearing> tearing;                ///< null unless the cloth tears
     Limits limits;                                   ///< in this frame, of tethers and coarse limits
 
     /// Keeps the particles; anchors may change. `new_base` is their new first index.
@@ -79,6 +81,10 @@ struct ClothState {
     RowView rows(ConstraintKind kind);
     /// Whether any of these second halves of stretch constraints is in use (tear_table.h).
     bool uses_halves(std::uint32_t begin, std::uint32_t end) const;
+    /// Of the stretch constraints.
+    std::span<const LineBlock> blocks() const;
+    /// Corners of the triangles, [corner · stride + triangle].
+    const std::uint32_t* faces() const;
     SurfaceView surface();
     LevelView level(std::uint32_t i);
     ParticleView level_particles(std::uint32_t i);
@@ -102,6 +108,7 @@ struct ClothState {
 
   private:
     void weigh();
+    void begin_tearing();
     void find_halves();
     std::vector<std::uint8_t> halves_used_;  ///< per lane_padding second halves: whether any is in use
     ProlongationView prolongation_from(std::uint32_t i) const;

@@ -289,6 +289,8 @@ class CpuBackend final : public Backend {
             const ClothStep& one = *job.steps[i];
             one.frame->reports = job.reports[i];
             one.frame->detail.clear();
+            one.frame->openings.clear();
+            if (job.cloths[i]->tearing) one.frame->openings = job.cloths[i]->tearing->openings();
             all |= job.reports[i];
             if (one.contact_forces && !job.cloths[i]->account.empty())
                 job.cloths[i]->account.collect(*one.contact_forces);
@@ -300,6 +302,7 @@ class CpuBackend final : public Backend {
             const ClothStep& one = *job.steps[i];
             cpu::ClothState& state = *job.cloths[i];
             if (one.contact_forces) one.contact_forces->clear();
+            one.frame->openings.clear();
             one.frame->reports |= report_non_finite;
             one.frame->detail = culprit;
             state.roll_back();

@@ -169,6 +169,17 @@ struct SurfaceView {
     float* normals;  ///< blocks of four
 };
 
+/// What decides which triangles of a cloth that tears are watched (tearing.h).
+struct TearView {
+    const float* position;
+    const std::uint32_t* faces;  ///< [corner · stride + triangle]
+    std::uint32_t stride;
+    const float* sides;      ///< as in TearLaw
+    float inverse_strength;  ///< m/N, the larger one
+    float inverse_stretch;
+    std::uint16_t* hot;  ///< per lane_padding triangles: a bit for each
+};
+
 /// In the arrays by constraint kind, an entry is nullptr if no plan uses it (physics/constraint_parts.h).
 struct Passes {
     std::string_view isa;
@@ -219,6 +230,8 @@ struct Passes {
     void (*add_sheltered)(const AirView&, bool first, Range);
     void (*air)(const AirView&, Range, float h);
     void (*push)(const ParticleView&, const AirView&, Range);
+    /// Marks triangles whose tension or strain is above this part of its limit.
+    void (*watch_tears)(const TearView&, float part, Range);
     void (*faces)(const SurfaceView&, Range);
     void (*normals)(const SurfaceView&, Range);
     /// Whether every float in [begin, end) is finite; both multiples of lane_padding.

@@ -306,6 +306,8 @@ WEFT_FN vec3 spread(Vec3 v) { return vec3(real(v.x), real(v.y), real(v.z)); }
 
 #include "cpu/wind.inl"
 
+#include "cpu/tear.inl"
+
 inline void air_pass(const AirView& air, Range range, float h) {
     const AirFabric fabric = {real(air.drag), real(air.lift), real(air.sine_lift ? 1.0f : 0.0f)};
     const real third = real(1.0f / 3.0f);
@@ -388,6 +390,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .add_sheltered = add_sheltered_pass,
         .air = air_pass,
         .push = push_around_pass,
+        .watch_tears = watch_tears_pass,
         .faces = faces_pass,
         .normals = normals_around_pass,
         .all_finite = all_finite_pass,

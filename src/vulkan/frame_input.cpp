@@ -1,5 +1,6 @@
 #include "vulkan/frame_input.h"
 
+#include "physics/stretch/stretch_law.h"
 #include "solver/plan/frame_numbers.h"
 #include "vulkan/pose_in.h"
 
@@ -46,7 +47,7 @@ float strain_per_lambda(const ClothModel& model, double substep_seconds) {
     const StretchMaterial& fabric = model.fabric.stretch;
     const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
     if (fabric.inextensible || !(softest > 0) || !(substep_seconds > 0)) return 0;
-    return static_cast<float>(-1 / (substep_seconds * substep_seconds * softest));
+    return static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(fabric).softest_spring()));
 }
 
 FrameIn frame_in(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,

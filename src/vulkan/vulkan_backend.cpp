@@ -51,6 +51,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
+        if (model->tear_law)
+            return Error{"cloth '" + model->name + "'", "tears, which the Vulkan backend cannot do; use the CPU"};
         auto cloth = make_cloth(std::move(model), base);
         if (!cloth) return cloth.errors();
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });

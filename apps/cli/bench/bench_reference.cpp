@@ -154,6 +154,8 @@ class TrafficCounter {
             case PassKind::move_particles:
             case PassKind::hold_particles:
             case PassKind::settle_particles:
+            case PassKind::watch_tears:
+            case PassKind::tear:
                 return {};           // the number of pairs and contacts is known only during the run
             case PassKind::predict:  // four arrays read, four written
                 return {.own = 0, .shared = 8 * block * points};

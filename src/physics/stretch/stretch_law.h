@@ -22,6 +22,9 @@ class StretchLaw {
         return {compliance(pull_, cos2, strip), compliance(push_, cos2, strip)};
     }
 
+    /// N/m: the softer one of the springs along warp and weft. Diagonals carry the rest of the fabric's stiffness.
+    double softest_spring() const { return pull_.warp < pull_.weft ? pull_.warp : pull_.weft; }
+
   private:
     struct Side {
         float warp, weft;  ///< N/m

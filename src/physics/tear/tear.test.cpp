@@ -17,8 +17,8 @@ PlaneStress stress(double xx, double yy, double xy) {
 }
 
 TearSide side_at(double degrees, double rest, double pull, double push) {
-    const double twice = degrees * std::numbers::pi / 90;
-    return {rest, pull, push, std::cos(twice), std::sin(twice)};
+    const double angle = degrees * std::numbers::pi / 180;
+    return {rest, pull, push, std::cos(angle), std::sin(angle)};
 }
 
 TEST(Tear, finds_principal_tension_and_its_direction) {
@@ -70,12 +70,12 @@ TEST(Tear, turning_keeps_the_tensor) {
 TEST(Tear, a_side_pulls_and_pushes_along_itself) {
     const TearSide side = side_at(30, 2, 100, 40);
     const Tension pulled = reference::principal_tension(
-        reference::side_stress(reference::side_strain(vec3(0, 0, 0), vec3(0, 0, 2.02), side), side));
+        reference::side_stress(reference::side_strain(vec3(0, 0, 0), vec3(0, 0, 2.02), side), side, side.x, side.y));
     EXPECT_NEAR(pulled.most, 1, 1e-12);
     EXPECT_NEAR(pulled.least, 0, 1e-12);
     EXPECT_NEAR(std::atan2(pulled.y, pulled.x), std::numbers::pi / 6, 1e-12);
     const Tension pushed = reference::principal_tension(
-        reference::side_stress(reference::side_strain(vec3(0, 0, 0), vec3(1.98, 0, 0), side), side));
+        reference::side_stress(reference::side_strain(vec3(0, 0, 0), vec3(1.98, 0, 0), side), side, side.x, side.y));
     EXPECT_NEAR(pushed.most, 0, 1e-12);
     EXPECT_NEAR(pushed.least, -0.4, 1e-12);
 }
@@ -90,7 +90,7 @@ TEST(Tear, is_the_derivative_of_the_energy) {
         const double strain[] = {random.number(-0.1, 0.1), random.number(-0.1, 0.1), random.number(-0.1, 0.1)};
         // n^T E n of a side for the strain tensor E.
         const auto along = [](const TearSide& side, const double(&e)[3]) {
-            return 0.5 * (e[0] + e[1]) + 0.5 * side.c2 * (e[0] - e[1]) + side.s2 * e[2];
+            return side.x * side.x * e[0] + side.y * side.y * e[1] + 2 * side.x * side.y * e[2];
         };
         const auto energy = [&](const double(&e)[3]) {
             double sum = 0;
@@ -102,7 +102,7 @@ TEST(Tear, is_the_derivative_of_the_energy) {
         };
         PlaneStress total = reference::no_stress();
         for (const TearSide& side : sides)
-            total = reference::add_stress(total, reference::side_stress(along(side, strain), side), 1);
+            total = reference::add_stress(total, reference::side_stress(along(side, strain), side, side.x, side.y), 1);
         constexpr double step = 1e-6;
         for (int k = 0; k < 3; ++k) {
             double more[3] = {strain[0], strain[1], strain[2]}, less[3] = {strain[0], strain[1], strain[2]};
@@ -113,6 +113,57 @@ TEST(Tear, is_the_derivative_of_the_energy) {
                                     : k == 1 ? total.mean - total.difference
                                              : 2 * total.mixed;
             EXPECT_NEAR(slope, expected, 1e-5);
+        }
+    }
+}
+
+// At any stretch and in any position the stress is the derivative of the energy by the stretch tensor U of F = R U.
+TEST(Tear, of_a_triangle_is_the_derivative_of_its_energy_at_large_stretch) {
+    Random random(4);
+    for (int i = 0; i < 200; ++i) {
+        double rest[3][2];
+        for (auto& x : rest) x[0] = random.number(-1, 1), x[1] = random.number(-1, 1);
+        const double area = (rest[1][0] - rest[0][0]) * (rest[2][1] - rest[0][1]) -
+                            (rest[1][1] - rest[0][1]) * (rest[2][0] - rest[0][0]);
+        if (std::abs(area) < 0.2) continue;
+        TearSide sides[3];
+        for (int k = 0; k < 3; ++k) {
+            const double x = rest[(k + 1) % 3][0] - rest[k][0], y = rest[(k + 1) % 3][1] - rest[k][1];
+            const double length = std::hypot(x, y);
+            sides[k] = {length, random.number(1, 9), random.number(1, 9), x / length, y / length};
+        }
+        const double u[3] = {random.number(0.4, 4), random.number(0.4, 4), random.number(-0.3, 0.3)};  // xx, yy, xy
+        const auto stretched = [&](const double(&stretch)[3], int k) {
+            return std::array{stretch[0] * rest[k][0] + stretch[2] * rest[k][1],
+                              stretch[2] * rest[k][0] + stretch[1] * rest[k][1]};
+        };
+        const auto energy = [&](const double(&stretch)[3]) {
+            double sum = 0;
+            for (int k = 0; k < 3; ++k) {
+                const auto a = stretched(stretch, k), b = stretched(stretch, (k + 1) % 3);
+                const double strain = std::hypot(b[0] - a[0], b[1] - a[1]) / sides[k].rest - 1;
+                sum += 0.5 * (strain > 0 ? sides[k].pull : sides[k].push) * strain * strain;
+            }
+            return sum;
+        };
+        // A random frame in space; with an area below 0 the triangle is seen from behind.
+        vec3 e1 = random.vector(1), e2 = random.vector(1);
+        e1 = e1 * (1 / norm(e1));
+        e2 = e2 - e1 * dot(e1, e2);
+        e2 = e2 * (1 / norm(e2));
+        vec3 points[3];
+        for (int k = 0; k < 3; ++k) {
+            const auto at = stretched(u, k);
+            points[k] = e1 * at[0] + e2 * at[1];
+        }
+        const PlaneStress s =
+            reference::triangle_stress(points[0], points[1], points[2], sides[0], sides[1], sides[2]);
+        const double expected[3] = {s.mean + s.difference, s.mean - s.difference, 2 * s.mixed};
+        for (int k = 0; k < 3; ++k) {
+            constexpr double step = 1e-6;
+            double more[3] = {u[0], u[1], u[2]}, less[3] = {u[0], u[1], u[2]};
+            more[k] += step, less[k] -= step;
+            EXPECT_NEAR((energy(more) - energy(less)) / (2 * step), expected[k], 1e-4) << i << ' ' << k;
         }
     }
 }

@@ -51,12 +51,9 @@ std::vector<double> stiffness_at_cut_ends(const StressTable& table, std::span<co
             const std::uint32_t p = face.corners[k];
             if (!(table.cut_end[p] > 0)) continue;
             const auto& [c2, s2] = face.turns[k];
-            for (reference::TearSide side : face.sides) {
-                const auto turned = reference::turn_stress({0, side.c2, side.s2}, c2, s2);
-                side.c2 = turned.difference, side.s2 = turned.mixed;
-                stiffness[p] +=
-                    reference::side_stiffness(side, tensions[p].x, tensions[p].y) * face.area / table.area[p];
-            }
+            for (const reference::TearSide& side : face.sides)
+                stiffness[p] += reference::side_stiffness(side, c2, s2, tensions[p].x, tensions[p].y) * face.area /
+                                table.area[p];
         }
     }
     return stiffness;

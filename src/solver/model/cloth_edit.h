@@ -37,6 +37,8 @@ struct RowEdit {
 /// Edges at one vertex of the mesh to open: links of the cloth's tear table (tear_table.h), in the ring of that vertex.
 struct Opening {
     std::array<std::uint32_t, 2> links = {none, none};
+    /// m: how far the far end of each link is from the line that a rip follows, to its left.
+    std::array<float, 2> strayed = {0, 0};
     friend bool operator==(const Opening&, const Opening&) = default;
 };
 

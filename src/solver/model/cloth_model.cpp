@@ -7,6 +7,7 @@
 #include "scene/scene_keys.h"
 #include "solver/model/lines.h"
 #include "solver/model/masses.h"
+#include "solver/model/tear_law.h"
 #include "solver/model/tear_table.h"
 
 #include <algorithm>
@@ -123,6 +124,7 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
         const std::size_t e = index.find(rows.particles[row], rows.particles[std::size_t{rows.stride} + row]);
         has_row[e] = 1;
         edges->axial_rows[row] = axial[e];
+        if (row < rows.second_halves) edges->axial_rows[rows.second_halves + row] = axial[e];
     }
     for (const bool along : {true, false}) {
         for (std::size_t e = 0; e < count; ++e) {
@@ -247,6 +249,10 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
         auto tears = make_tear_table(model, topology);
         if (!tears) return tears.errors();
         model.tears = std::move(*tears);
+        if (reserve.tears) {
+            use_second_halves(model.constraints[static_cast<std::uint32_t>(ConstraintKind::stretch)]);
+            model.tear_law = make_tear_law(model);
+        }
     }
     model.make_tiles_if_needed();
     clock.spent_on(BuildPart::rest);

@@ -61,9 +61,11 @@ struct ClothReserve {
     std::uint32_t particles = 0;
     std::uint32_t constraints = 0;  ///< per kind of constraint that the cloth has
     bool openings = false;          ///< its edges can be opened: it has a tear table, and room for second halves
+    bool tears = false;             ///< it tears by itself where its load exceeds the fabric's limits; implies openings
 };
 
 struct TearTable;
+struct TearLaw;
 
 struct ClothModelDesc {
     std::string name = {};
@@ -127,9 +129,11 @@ struct ClothModel {
     std::shared_ptr<const std::vector<std::uint32_t>> along_curve;
     std::uint64_t topology_version = first_topology_version;
     std::shared_ptr<const TearTable> tears;  ///< null unless its edges can be opened
+    std::shared_ptr<const TearLaw> tear_law;  ///< null unless it tears by itself
     /// Per appended particle, the first of which follows those that the cloth was built with: the particle it is a copy
     /// of.
     SharedArray<std::uint32_t> copied_from;
+    SharedArray<float> strayed;  ///< OpenedArrays::strayed; empty without openings
 
     BuildTimes build_times;
 

@@ -38,6 +38,7 @@ OpenedArrays::OpenedArrays(const ClothModel& model)
       blocks(model.table(ConstraintKind::stretch).blocks),
       mass(model.mass.begin(), model.mass.end()),
       copied_from(model.copied_from.begin(), model.copied_from.end()),
+      strayed(model.strayed.begin(), model.strayed.end()),
       without_row(model.edges->without_row),
       particle_count(model.particle_count),
       room(model.reserve) {
@@ -52,6 +53,7 @@ OpenedArrays::OpenedArrays(const ClothModel& model)
     halves_used.resize(stretch.second_halves / lane_padding);
     for (std::uint32_t row = 0; row < stretch.second_halves; ++row)
         if (!stretch.is_dummy(stretch.particles[stretch.second_halves + row])) halves_used[row / lane_padding] = 1;
+    strayed.resize(model.tears->vertex_count());
     mass.resize(std::size_t{particle_count} + room);
     copied_from.reserve(copied_from.size() + room);
 }
@@ -70,7 +72,12 @@ bool Opener::open(const Opening& opening) {
     // Each vertex needs as many copies as it gets more fans. At the far ends these are at most one per link.
     if (fans(vertex, opened) + count > arrays_.room) return false;
     part(vertex, opened);
-    for (const std::uint32_t link : opened) part(table_.entries[table_.entries[link].twin].vertex, {});
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (opening.links[i] == none) continue;
+        const std::uint32_t far = table_.entries[table_.entries[opening.links[i]].twin].vertex;
+        arrays_.strayed[far] = opening.strayed[i];
+        part(far, {});
+    }
     return true;
 }
 

@@ -27,6 +27,7 @@ struct OpenedArrays {
     std::vector<std::uint8_t> halves_used;
     AlignedVector<float> mass;               ///< kg, per particle
     std::vector<std::uint32_t> copied_from;  ///< per appended particle: the particle that was copied
+    std::vector<float> strayed;              ///< m, per vertex: that of a rip which ends there (Opening)
     std::vector<std::array<std::uint32_t, 2>> without_row;
     std::uint32_t particle_count = 0;
     std::uint32_t room = 0;  ///< particles that can still be appended

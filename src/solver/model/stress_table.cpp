@@ -53,8 +53,8 @@ reference::TearSide make_side(const StretchLaw& law, const RestTriangle& rest, s
     return {.rest = length,
             .pull = stiffness(at.stretched),
             .push = stiffness(at.compressed),
-            .c2 = x * x - y * y,
-            .s2 = 2 * x * y};
+            .x = x,
+            .y = y};
 }
 
 double angle_at(const RestTriangle& rest, std::size_t k) {
@@ -77,7 +77,7 @@ struct Corner {
 
 // The axes of a particle are the mean warp of its triangles, weighted by area, and what is perpendicular to it. A
 // tensor has no sign of direction, so the mean is that of twice the angle.
-void turn_corners(StressTable& table, const std::vector<Corner>& around, vec3 normal) {
+void turn_corners(StressTable& table, const std::vector<Corner>& around, vec3 normal, std::array<vec3, 2>& axes) {
     if (!has_direction(normal)) normal = around.front().normal;
     const vec3 x = unit(laid_over(around.front().warp, around.front().normal, normal)), y = cross(normal, x);
     double mean_c2 = 0, mean_s2 = 0;
@@ -89,6 +89,8 @@ void turn_corners(StressTable& table, const std::vector<Corner>& around, vec3 no
         mean_c2 += table.faces[corner.face].area * turn[0], mean_s2 += table.faces[corner.face].area * turn[1];
     }
     const double size = std::sqrt(mean_c2 * mean_c2 + mean_s2 * mean_s2);
+    const double angle = size > 0 ? 0.5 * std::atan2(mean_s2, mean_c2) : 0;
+    axes = {x * std::cos(angle) + y * std::sin(angle), y * std::cos(angle) - x * std::sin(angle)};
     if (!(size > 0)) return;
     mean_c2 /= size, mean_s2 /= size;
     for (const Corner& corner : around) {
@@ -172,12 +174,14 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
     wind_alike(alive, edges);
     table.area.resize(model.particle_count);
     table.cut_end.resize(model.particle_count);
+    table.axes.assign(model.particle_count, {vec3(1, 0, 0), vec3(0, 0, 1)});
     for (std::size_t i = 0; i < alive.size(); ++i) {
         const Triangle triangle = alive[i];
         const double area = model.face_area[numbers[i]];
         const RestTriangle rest = at_rest(model, triangles[numbers[i]], triangle, numbers[i]);
         if (!has_direction(rest.warp)) continue;
-        StressTable::Face face{.corners = {triangle[0], triangle[1], triangle[2]}, .area = area};
+        StressTable::Face face{
+            .triangle = numbers[i], .corners = {triangle[0], triangle[1], triangle[2]}, .area = area};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t p = triangle[k];
             face.sides[k] = make_side(law, rest, k);
@@ -194,7 +198,7 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
     constexpr double three_quarters = 1.5 * std::numbers::pi + 1e-3;  // room for rounding
     for (std::uint32_t p = 0; p < model.particle_count; ++p) {
         if (around[p].empty()) continue;
-        turn_corners(table, around[p], unit(normals[p]));
+        turn_corners(table, around[p], unit(normals[p]), table.axes[p]);
         if (rim[p] && angles[p] > three_quarters) table.cut_end[p] = lengths[p] / sides[p];
     }
     return table;

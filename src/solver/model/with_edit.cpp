@@ -108,6 +108,7 @@ class Editor {
         const std::vector<std::uint32_t> copies(arrays.copied_from.begin() + first_copy, arrays.copied_from.end());
         take_constraints(arrays);
         model_->faces = std::move(arrays.faces);
+        model_->strayed = std::move(arrays.strayed);
         model_->make_tiles_if_needed();
         return append(copies, true);  // a copy may be one of an earlier copy
     }
@@ -130,8 +131,6 @@ class Editor {
         if (std::ranges::none_of(stretch.batches, &Batch::halves)) {
             use_second_halves(stretch);
             for (LineBlock& block : std::span(stretch.blocks).subspan(arrays.blocks.size())) block.cut = true;
-            for (std::uint32_t row = 0; row < stretch.second_halves; ++row)
-                edges->axial_rows[stretch.second_halves + row] = edges->axial_rows[row];
         }
         model_->edges = std::move(edges);
     }

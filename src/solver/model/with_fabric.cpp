@@ -4,6 +4,7 @@
 #include "solver/model/cloth_model.h"
 #include "solver/model/masses.h"
 #include "solver/model/opened_cloth.h"
+#include "solver/model/tear_law.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +15,10 @@ namespace {
 bool same_stiffness(const StretchMaterial& a, const StretchMaterial& b) {
     return std::ranges::equal(a.stretch, b.stretch) && std::ranges::equal(a.compression, b.compression) &&
            a.shear == b.shear && a.inextensible == b.inextensible;
+}
+
+bool same_tearing(const TearMaterial& a, const TearMaterial& b) {
+    return std::ranges::equal(a.strength, b.strength) && a.tear_energy == b.tear_energy && a.tear_ratio == b.tear_ratio;
 }
 
 // The rest angle is compared by bits, because NaN stands for the angle of the mesh.
@@ -94,6 +99,7 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     if (!same_density)
         if (auto changed = change_masses(*model, from.fabric.body.density, density); !changed) return changed.errors();
     model->elasticity = elasticity_of(stretch, density, from.extent);
+    if (model->tear_law && (!same_stretch || !same_tearing(from.fabric.tear, fabric.tear))) model->tear_law = make_tear_law(*model);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

@@ -60,6 +60,7 @@ enum class Data : std::uint8_t {
     list_rows,      ///< of a dynamic list: the constraints
     face_contacts,  ///< of faces with colliders
     face_sums,      ///< of their pushes, per particle
+    hot,            ///< triangles whose load may soon exceed a limit
     pairs,          ///< of features of cloth that are near each other
 };
 
@@ -88,6 +89,7 @@ enum Stage : std::uint32_t {
     stage_contact,
     stage_cloth_contact,
     stage_velocities,
+    stage_tear,
     stage_damp,
     stage_surface,
     stage_fused,  ///< a whole frame that runs in one dispatch

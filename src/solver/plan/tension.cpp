@@ -1,5 +1,7 @@
 #include "solver/plan/tension.h"
 
+#include "physics/stretch/stretch_law.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,10 +39,10 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
     if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
     // A constraint represents a strip about as wide as it is long, so its force divided by its length is a tension per
-    // width. Strains are counted in bins, which gives the same bits in every order.
+    // width, of its spring alone. The strain is that of the whole fabric. Strains are counted in bins, which gives the same bits in every order.
     std::array<std::uint32_t, bin_count> bins{};
     std::uint32_t count = 0;
-    const double scale = -1 / (substep_seconds * substep_seconds * softest);
+    const double scale = -1 / (substep_seconds * substep_seconds * StretchLaw(fabric.stretch).softest_spring());
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
         for (std::uint32_t row = begin; row < begin + lane_padding; ++row) {
             if (!stretch.is_real(row)) continue;
@@ -54,7 +56,8 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     while (bin > 1 && 20 * (above + bins[bin - 1]) <= count) above += bins[--bin];
     // The upper end of the bin.
     const double strain = bin <= 1 ? 0 : start_of(bin);
-    return static_cast<float>(strain * softest);
+    // At a large stretch, threads that turn toward the pull carry load too, and limits must not take it.
+    return static_cast<float>(strain * (1 + strain) * softest);
 }
 
 }  // namespace weft

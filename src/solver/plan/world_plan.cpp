@@ -25,6 +25,9 @@ class Planner {
         // The wind is evaluated once per frame, because it changes little. Air forces are evaluated every substep.
         if (settings_.air && settings_.wind) plan.frame_begin.push_back({.kind = PassKind::wind});
 
+        const bool tears = std::ranges::any_of(cloths_, [](const PlannedCloth& cloth) { return cloth.model->tear_law != nullptr; });
+        if (tears) plan.frame_begin.push_back({.kind = PassKind::watch_tears});
+
         if (settings_.air) plan.substep.push_back({.kind = PassKind::air});
         if (settings_.air) plan.substep.push_back({.kind = PassKind::push});
         plan.substep.push_back({.kind = PassKind::predict});
@@ -48,6 +51,7 @@ class Planner {
             plan.substep.push_back({.kind = PassKind::hold_particles});
             plan.substep.push_back({.kind = PassKind::settle_particles});
         }
+        if (tears) plan.substep.push_back({.kind = PassKind::tear});
         plan.substep.push_back({.kind = PassKind::velocities});
         if (exact) plan.substep.push_back({.kind = PassKind::separate});
 
@@ -326,6 +330,9 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
                    pass.batch < model.hierarchy[pass.level].limits.batches.size();
         case PassKind::prolongation:
             return !model.hierarchy.empty();
+        case PassKind::watch_tears:
+        case PassKind::tear:
+            return model.tear_law != nullptr;
         case PassKind::detect:
         case PassKind::cloth_contact:
         case PassKind::limit:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/triangle_view.h"
+#include "solver/model/cloth_edit.h"
 #include "solver/model/cloth_model.h"
 #include "solver/plan/pass.h"
 #include "solver/state/cloth_contact_counts.h"
@@ -55,6 +56,7 @@ struct ClothFrame {
     std::uint32_t reports = report_none;
     /// Bits (ContactMark); empty unless WorldSettings::contact_marks was on in the frame.
     std::vector<std::uint32_t> contact_marks;
+    std::vector<Opening> openings;  ///< where it has torn in the frame; the model has them already
     std::string detail;  ///< source of the first non-finite value, or the device's error message
 
     /// Computed by the first call in a frame. Needs normals. Not thread-safe.

@@ -295,6 +295,7 @@ void World::replan() {
     }
     winds_.resize(air ? settings_.air->wind.size() : 0);
 
+    torn_.clear();
     make_islands();
     for (Surface& surface : surfaces_) surface.poses.resize(places);
     for (const Island& island : islands_)
@@ -410,6 +411,10 @@ void World::place_motions(Cloth& cloth, double dt) const {
 void World::advance(double dt) {
     assert(dt > 0 && std::isfinite(dt));
     complete();
+    if (!torn_.empty()) {
+        for (const ClothId id : torn_) pending_.drop(id);
+        replan();
+    }
     while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
     if (settings_.background) pending_.start_next();
     begin_surfaces();
@@ -478,6 +483,7 @@ void World::complete() const {
     if (tangle_.tangle() || frame_.cloth_contacts.tangled > 0) watch_tangle();
     tangle_.count(frame_.cloth_contacts);
     if (settings_.contact_marks) collect_contact_marks();
+    take_openings();
     frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
     if (settings_.contact_forces) unresolved_ = static_cast<std::uint32_t>(frame_.index % contact_logs_.size());

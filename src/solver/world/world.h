@@ -188,6 +188,7 @@ class World {
                                                                   const std::vector<ClothEdit>& edits);
     Result<void> set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits, std::shared_ptr<const ClothModel> model);
     static Result<std::shared_ptr<const ClothModel>> with_fabric_unedited(const Cloth& cloth, const ClothModel& model);
+    std::vector<ParticleWeight> pin_copies(Cloth& cloth, const ClothModel& model, std::size_t plain_copies) const;
     static void hash_edits(const Cloth& cloth, StateHash& hash);
     Result<void> exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model);
     SavedTargets save_targets(const KinematicTargets& targets) const;
@@ -213,6 +214,7 @@ class World {
     std::optional<ParticlePlace> place_of(std::uint32_t particle) const;
     void watch_tangle() const;
     void collect_contact_marks() const;
+    void take_openings() const;
     void complete() const;        ///< waits for the frame that runs on a device
     void complete_and_resolve();  ///< complete(), and resolves the contact log before its memory is freed
     ContactLog& begin_contact_forces(double dt);
@@ -221,7 +223,8 @@ class World {
 
     std::unique_ptr<Backend> backend_;
     WorldSettings settings_;
-    IdList<Cloth, struct ClothTag> cloths_;
+    mutable IdList<Cloth, struct ClothTag> cloths_;
+    mutable std::vector<ClothId> torn_;  ///< cloths whose models changed by tearing since the last replan()
     IdList<Collider, struct ColliderTag> colliders_;
     mutable std::vector<Surface> surfaces_;  ///< of colliders, in the order in which they were added
     std::unique_ptr<ColliderPlaces> places_ = std::make_unique<ColliderPlaces>();

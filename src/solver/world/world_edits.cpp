@@ -13,7 +13,55 @@ void hash_row(const RowEdit& row, StateHash& hash) {
     for (const std::uint32_t particle : row.particles) hash.add(particle);
 }
 
+// The sources of the particles that `after` has beyond those of `before`.
+std::span<const std::uint32_t> copies_since(const ClothModel& before, const ClothModel& after) {
+    const std::size_t known = before.copied_from.size();
+    return {after.copied_from.data() + known, after.copied_from.size() - known};
+}
+
 }  // namespace
+
+// Pins copies of pinned particles, and moves them like these; the first `plain_copies` copies are free. Returns the
+// inverse masses of all copies. `model` is the next one of the cloth.
+std::vector<ParticleWeight> World::pin_copies(Cloth& cloth, const ClothModel& model, std::size_t plain_copies) const {
+    std::vector<ParticleWeight> copies;
+    const std::span sources = copies_since(*cloth.model, model);
+    for (std::uint32_t i = 0; i < sources.size(); ++i) {
+        const std::uint32_t p = cloth.model->particle_count + i;
+        const bool holds = i >= plain_copies && std::ranges::binary_search(cloth.pinned, sources[i]);
+        copies.push_back({p, holds ? 0 : 1 / model.mass[p]});
+        if (!holds) continue;
+        cloth.pinned.push_back(p);
+        auto& targets = cloth.targets.particles;
+        const auto target = std::ranges::lower_bound(targets, sources[i], {}, &KinematicTarget::particle);
+        if (target == targets.end() || target->particle != sources[i]) continue;
+        KinematicTarget same = *target;
+        same.particle = p;
+        targets.insert(std::ranges::upper_bound(targets, p, {}, &KinematicTarget::particle), same);
+    }
+    return copies;
+}
+
+// The backend has opened the edges already. The model follows, so that the frame has its triangles.
+void World::take_openings() const {
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        Cloth& cloth = cloths_[i];
+        const std::vector<Opening>& openings = frame_.cloths[i].openings;
+        if (openings.empty()) continue;
+        auto model = with_edit(*cloth.model, {.openings = openings});
+        assert(model.ok());
+        if (!model || !backend_->set_topology(cloth.handle, *model, {})) continue;
+        (void)pin_copies(cloth, **model, 0);
+        if (!cloth.unedited) cloth.unedited = cloth.model;
+        const bool goes_on = !cloth.edits.empty() && cloth.edits.back() == ClothEdit{.openings = cloth.edits.back().openings};
+        if (!goes_on) cloth.edits.emplace_back();
+        auto& all = cloth.edits.back().openings;
+        all.insert(all.end(), openings.begin(), openings.end());
+        cloth.model = std::move(*model);
+        frame_.cloths[i].model = cloth.model.get();
+        torn_.push_back(cloths_.id_of(i));
+    }
+}
 
 Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     assert(contains(id));
@@ -21,25 +69,10 @@ Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     Cloth& cloth = cloths_[cloths_.find(id)];
     auto model = with_edit(*cloth.model, edit);
     if (!model) return model.errors();
-    const std::size_t copied_before = cloth.model->copied_from.size();
-    const std::span copied((*model)->copied_from.begin() + copied_before, (*model)->copied_from.end());
+    const std::span copied = copies_since(*cloth.model, **model);
     if (auto set = backend_->set_topology(cloth.handle, *model, copied); !set) return set;
-    // A copy made by an opening is pinned, and moved, like its original.
-    std::vector<ParticleWeight> copies;
-    std::vector<std::uint32_t> pinned = cloth.pinned;
-    KinematicTargets targets = cloth.targets;
-    for (std::uint32_t i = 0; i < copied.size(); ++i) {
-        const std::uint32_t p = cloth.model->particle_count + i;
-        const bool holds = i >= edit.appended.size() && std::ranges::binary_search(pinned, copied[i]);
-        copies.push_back({p, holds ? 0 : 1 / (*model)->mass[p]});
-        if (!holds) continue;
-        pinned.push_back(p);
-        const auto target = std::ranges::lower_bound(targets.particles, copied[i], {}, &KinematicTarget::particle);
-        if (target == targets.particles.end() || target->particle != copied[i]) continue;
-        KinematicTarget same = *target;
-        same.particle = p;
-        targets.particles.insert(std::ranges::upper_bound(targets.particles, p, {}, &KinematicTarget::particle), same);
-    }
+    Cloth changed = cloth;
+    const std::vector<ParticleWeight> copies = pin_copies(changed, **model, edit.appended.size());
     if (auto set = backend_->set_weights(cloth.handle, copies); !set) {
         (void)backend_->set_topology(cloth.handle, cloth.model, {});
         return set;
@@ -47,8 +80,8 @@ Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     if (!cloth.unedited) cloth.unedited = cloth.model;
     cloth.edits.push_back(edit);
     cloth.model = std::move(*model);
-    cloth.pinned = std::move(pinned);
-    cloth.targets = std::move(targets);
+    cloth.pinned = std::move(changed.pinned);
+    cloth.targets = std::move(changed.targets);
     pending_.drop(id);
     list_cloths();
     replan();
@@ -135,7 +168,7 @@ void World::hash_edits(const Cloth& cloth, StateHash& hash) {
             for (const std::uint32_t corner : triangle.corners) hash.add(corner);
         }
         for (const Opening& opening : edit.openings)
-            for (const std::uint32_t link : opening.links) hash.add(link);
+            for (std::size_t i = 0; i < 2; ++i) hash.add(opening.links[i]), hash.add(opening.strayed[i]);
         for (const RowEdit& row : edit.rows) hash_row(row, hash);
         for (const RowEdit& row : edit.added) hash_row(row, hash);
     }

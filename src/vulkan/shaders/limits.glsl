@@ -67,7 +67,7 @@ void run_limits()
         while (bin > 1u && 20u * (above + bins[bin - 1u]) <= count) above += bins[--bin];
         // Upper end of the highest bin below the excluded 5 %.
         float strain = bin <= 1u ? 0.0 : start_of(bin);
-        float tension = max(0.0, strain * limit_args.at.softest - limit_args.at.model_tension);
+        float tension = max(0.0, strain * (1.0 + strain) * limit_args.at.softest - limit_args.at.model_tension);
         limit_args.at.limits.at.tension = tension;
         limit_args.at.limits.at.allowed = max(1.0, (1.0 + uintBitsToFloat(strain_bits)) / (1.0 + limit_args.at.stretched * tension));
     }

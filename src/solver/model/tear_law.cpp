@@ -1,0 +1,113 @@
+#include "solver/model/tear_law.h"
+
+#include "solver/model/stress_table.h"
+#include "solver/model/tear_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace weft {
+namespace {
+
+// A strain limit below this would be within the rounding of positions.
+constexpr float least_strain = 1e-4f;
+
+// Corners of the triangles before any opening.
+std::vector<std::uint32_t> first_corners(const ClothModel& model) {
+    std::vector<std::uint32_t> faces(model.faces.begin(), model.faces.end());
+    for (const TearTable::Entry& entry : model.tears->entries) faces[entry.corner] = entry.vertex;
+    return faces;
+}
+
+float single(double x) {
+    return static_cast<float>(x);
+}
+
+class LawBuilder {
+  public:
+    explicit LawBuilder(const ClothModel& model)
+        : model_(model),
+          faces_(first_corners(model)),
+          stress_(make_stress_table(model, {faces_.data(), model.face_stride, model.triangle_count})) {
+        law_.stride = model.face_stride;
+        law_.sides.resize(std::size_t{15} * law_.stride);
+        law_.area.resize(law_.stride);
+        law_.entries.resize(model.tears->entries.size());
+    }
+
+    TearLaw run() {
+        std::vector<std::uint32_t> place(model_.triangle_count, none);
+        for (std::uint32_t i = 0; i < stress_.faces.size(); ++i) {
+            place[stress_.faces[i].triangle] = i;
+            add_sides(stress_.faces[i]);
+        }
+        for (std::uint32_t i = 0; i < law_.entries.size(); ++i) {
+            const TearTable::Entry& entry = model_.tears->entries[i];
+            const std::uint32_t face = place[entry.corner % law_.stride];
+            if (face != none) add_turn(stress_.faces[face], entry.vertex, law_.entries[i]);
+            if (entry.next != none) add_link(entry, law_.entries[i]);
+        }
+        set_limits();
+        return std::move(law_);
+    }
+
+  private:
+    std::uint32_t corner(std::uint32_t triangle, std::uint32_t k) const { return faces_[k * law_.stride + triangle]; }
+    reference::vec3 place_of(std::uint32_t p) const { return reference::to_double(model_.rest_position(p)); }
+
+    void add_sides(const StressTable::Face& face) {
+        const std::uint32_t t = face.triangle;
+        law_.area[t] = single(face.area);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = corner(t, k), b = corner(t, (k + 1) % 3);
+            for (std::uint32_t other = 0; other < 3; ++other) {
+                const std::uint32_t c = face.corners[other], d = face.corners[(other + 1) % 3];
+                if (!(a == c && b == d) && !(a == d && b == c)) continue;
+                const auto& [rest, pull, push, x, y] = face.sides[other];
+                const double way = a == c ? 1 : -1;  // the side may run the other way
+                const std::array numbers{rest, pull, push, way * x, way * y};
+                for (std::uint32_t i = 0; i < 5; ++i)
+                    law_.sides[std::size_t{5 * k + i} * law_.stride + t] = single(numbers[i]);
+            }
+        }
+    }
+    void add_turn(const StressTable::Face& face, std::uint32_t vertex, TearLaw::Entry& entry) const {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            if (face.corners[k] != vertex) continue;
+            entry.turn = {single(face.turns[k][0]), single(face.turns[k][1])};
+            const auto a = place_of(face.corners[(k + 1) % 3]) - place_of(vertex),
+                       b = place_of(face.corners[(k + 2) % 3]) - place_of(vertex);
+            const auto n = cross(a, b);
+            entry.angle = single(std::atan2(std::sqrt(dot(n, n)), dot(a, b)));
+        }
+    }
+    void add_link(const TearTable::Entry& from, TearLaw::Entry& entry) const {
+        const auto along = place_of(faces_[from.far]) - place_of(from.vertex);
+        const auto& axes = stress_.axes[from.vertex];
+        const double x = dot(along, axes[0]), y = dot(along, axes[1]), size = std::sqrt(x * x + y * y);
+        entry.length = single(std::sqrt(dot(along, along)));
+        if (size > 0) entry.along = {single(x / size), single(y / size)};
+    }
+    void set_limits() {
+        if (!stress_.inextensible) {
+            for (std::size_t i = 0; i < 2; ++i) law_.inverse_strength[i] = single(stress_.inverse_strength[i]);
+            law_.tear_energy = single(stress_.tear_energy);
+        }
+        const float ratio = model_.fabric.tear.tear_ratio;
+        if (ratio > 0) law_.inverse_stretch = 1 / std::max(ratio - 1, least_strain);
+    }
+
+    const ClothModel& model_;
+    std::vector<std::uint32_t> faces_;
+    StressTable stress_;
+    TearLaw law_;
+};
+
+}  // namespace
+
+std::shared_ptr<const TearLaw> make_tear_law(const ClothModel& model) {
+    return std::make_shared<const TearLaw>(LawBuilder(model).run());
+}
+
+}  // namespace weft
