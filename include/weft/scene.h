@@ -51,6 +51,11 @@ enum class Tethers { automatic, on, off };
 /// a wider gap and without that guarantee. An exact and a fast cloth meet as fast ones.
 enum class SelfCollision { off, fast, exact };
 
+/// Whether a cloth can part. `cuts`: where Simulation::cut() and cuts of the scene open it. `split`: also by itself,
+/// along edges of its mesh, where its load exceeds the fabric's limits. Needs a mesh in which each vertex is one
+/// particle, and in which no edge has three triangles or more.
+enum class Tearing { off, cuts, split };
+
 /// `smooth`: neighboring triangles get the same gust. `scattered`: each triangle has its own phase and frequency.
 enum class GustPhase { smooth, scattered };
 
@@ -260,6 +265,7 @@ struct ClothDesc {
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
     SelfCollision self_collision = SelfCollision::off;
+    Tearing tearing = Tearing::off;
     std::uint32_t collision_group = 0;          ///< 0…31
     std::uint32_t collision_mask = 0xffffffff;  ///< bit g: collides with cloths of group g
     std::uint32_t layer =

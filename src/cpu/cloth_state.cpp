@@ -221,14 +221,12 @@ void ClothState::find_halves() {
 bool ClothState::uses_halves(std::uint32_t begin, std::uint32_t end) const {
     const std::uint32_t first = model->table(ConstraintKind::stretch).second_halves;
     const std::vector<std::uint8_t>& all = tearing ? tearing->arrays().halves_used : halves_used_;
-    return std::any_of(all.begin() + (begin - first) / lane_padding,
-                       all.begin() + (end - first) / lane_padding,
+    return std::any_of(all.begin() + (begin - first) / lane_padding, all.begin() + (end - first) / lane_padding,
                        [](std::uint8_t used) { return used != 0; });
 }
 
 SurfaceView ClothState::surface() {
-    return {&now().position[0].x, faces(),                 model->face_stride,
-            &by_face[0].x,        view_of(*model->around), &normals()[0].x};
+    return {&now().position[0].x, faces(), model->face_stride, &by_face[0].x, view_of(*model->around), &normals()[0].x};
 }
 
 LevelView ClothState::level(std::uint32_t i) {

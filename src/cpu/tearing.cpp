@@ -136,8 +136,7 @@ Tearing::Watched Tearing::load_of(const ClothModel& model, const Particles& now,
         const std::uint32_t t = entry.corner % law.stride, mine = entry.corner / law.stride;
         const scalar::TearSide sides[3] = {side_of(law, t, 0), side_of(law, t, 1), side_of(law, t, 2)};
         scalar::vec3 x[3];
-        for (std::uint32_t k = 0; k < 3; ++k)
-            x[k] = place_of(now, arrays_.faces[std::size_t{k} * law.stride + t]);
+        for (std::uint32_t k = 0; k < 3; ++k) x[k] = place_of(now, arrays_.faces[std::size_t{k} * law.stride + t]);
         const auto stress = scalar::triangle_stress(x[0], x[1], x[2], sides[0], sides[1], sides[2]);
         const auto& [c2, s2] = law.entries[i].turn;
         sum = scalar::add_stress(sum, scalar::turn_stress(stress, c2, s2), law.area[t]);
@@ -266,8 +265,7 @@ void Tearing::open(const ClothModel& model, const Opening& opening, const Partic
     // Particles at the vertex and at the far ends have other masses now, unless they are pinned.
     std::array<std::uint32_t, 3> vertices{table.entries[opening.links[0]].vertex, none, none};
     for (std::size_t k = 0; k < 2; ++k)
-        if (opening.links[k] != none)
-            vertices[k + 1] = table.entries[table.entries[opening.links[k]].twin].vertex;
+        if (opening.links[k] != none) vertices[k + 1] = table.entries[table.entries[opening.links[k]].twin].vertex;
     for (const std::uint32_t v : vertices) {
         if (v == none) continue;
         for (std::uint32_t i = table.ring_begin[v]; i < table.ring_begin[v + 1]; ++i) {

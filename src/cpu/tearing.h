@@ -31,7 +31,8 @@ class Tearing {
     /// Goes back to the model.
     void roll_back(const ClothModel& model, std::span<float> weights);
 
-    /// Finds the triangles whose load may soon exceed a limit. Every worker calls it with its own triangles, once a frame.
+    /// Finds the triangles whose load may soon exceed a limit. Every worker calls it with its own triangles, once a
+    /// frame.
     void watch(const Passes& passes, const ClothModel& model, const float* position, Range triangles);
     /// Opens edges. One worker calls it in every substep.
     void run(const ClothModel& model, const Particles& now, std::span<float> weights, std::uint32_t substep);
@@ -67,13 +68,13 @@ class Tearing {
 
     OpenedArrays arrays_;
     std::vector<Opening> openings_;
-    std::vector<std::uint32_t> vertex_;      ///< per particle
-    std::vector<std::uint16_t> hot_;         ///< per lane_padding triangles: a bit for each that is watched
-    std::vector<std::uint32_t> ends_;        ///< particles at which a cut ends, ascending
-    std::vector<std::uint8_t> is_watched_;   ///< per particle
-    std::vector<std::uint32_t> watched_;     ///< particles
-    std::vector<Watched> loads_;             ///< of `watched_`
-    std::vector<std::uint32_t> place_;       ///< per particle that is watched: its place in `loads_`
+    std::vector<std::uint32_t> vertex_;     ///< per particle
+    std::vector<std::uint16_t> hot_;        ///< per lane_padding triangles: a bit for each that is watched
+    std::vector<std::uint32_t> ends_;       ///< particles at which a cut ends, ascending
+    std::vector<std::uint8_t> is_watched_;  ///< per particle
+    std::vector<std::uint32_t> watched_;    ///< particles
+    std::vector<Watched> loads_;            ///< of `watched_`
+    std::vector<std::uint32_t> place_;      ///< per particle that is watched: its place in `loads_`
     std::vector<Watched> chosen_;
     std::vector<ParticleWeight> weights_before_;  ///< those that this frame has changed, in the order of the changes
 };

@@ -50,6 +50,7 @@ struct SceneCloth {
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< relative to the geodesic distance
     SelfCollision self_collision = SelfCollision::off;
+    Tearing tearing = Tearing::off;
     std::uint32_t collision_group = 0;
     std::uint32_t collision_mask = ~0u;
     std::uint32_t layer = 0;

@@ -71,6 +71,25 @@ ClothCollision collision_of(const SceneCloth& cloth) {
     return {cloth.self_collision, {1u << cloth.collision_group, cloth.collision_mask}, cloth.layer};
 }
 
+// Room for an eighth of the particles to be doubled, and for some in small cloths.
+ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
+    if (cloth.tearing == Tearing::off) return {};
+    return {.particles = particles / 8 + 256, .openings = true, .tears = cloth.tearing == Tearing::split};
+}
+
+// Openings change the triangles of particles, so the drawn mesh must have the same ones.
+Result<void> check_tearing(const SceneCloth& cloth, const TriangleMesh& mesh, const Topology& topology) {
+    if (cloth.tearing == Tearing::off) return {};
+    if (cloth.render_mesh) return Error{"/tearing", "cannot be used with a render mesh"};
+    if (topology.particle_count == mesh.positions.size() && topology.triangles.size() == mesh.triangles.size())
+        return {};
+    return Error{"/tearing",
+                 "needs a mesh in which every vertex is one particle: " + std::to_string(mesh.positions.size()) +
+                     " vertices make " + std::to_string(topology.particle_count) +
+                     " particles (seams of UVs, or "
+                     "vertices and triangles left out)"};
+}
+
 }  // namespace
 
 Fabric fabric_of(const SceneCloth& cloth) {
@@ -101,6 +120,8 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
     clock.spent_on(BuildPart::topology);
     note_report(cloth.name, topology->report, notes);
+    if (auto can = check_tearing(cloth, loaded->mesh, *topology); !can) return within(pointer, can.errors());
+    const ClothReserve reserve = reserve_of(cloth, topology->particle_count);
 
     BuiltCloth built;
     built.source.topology = options;
@@ -113,7 +134,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                               world, pointer + "/pins");
     if (!pinned) return pinned.errors();
     built.source.pins = pinned->pins;
-    if (drawn) built.source.simulated = std::make_shared<const TriangleMesh>(loaded->mesh);
+    if (drawn || reserve.openings) built.source.simulated = std::make_shared<const TriangleMesh>(loaded->mesh);
     built.targets = std::move(pinned->targets);
     auto model = build_cloth_model({.name = cloth.name,
                                     .mesh = std::move(loaded->mesh),
@@ -123,6 +144,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                     .collision = collision_of(cloth),
                                     .pins = std::move(pinned->pins),
                                     .layout = world.settings().layout(),
+                                    .reserve = reserve,
                                     .build_times = build_times},
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());

@@ -30,6 +30,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .tethers = desc.tethers,
             .tether_slack = desc.tether_slack,
             .self_collision = desc.self_collision,
+            .tearing = desc.tearing,
             .collision_group = desc.collision_group,
             .collision_mask = desc.collision_mask,
             .layer = desc.layer};

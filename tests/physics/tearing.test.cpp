@@ -70,7 +70,8 @@ double load_of(const World& world) {
 
 // Gravity grows over 5 s until the strip's weight is `part` of its strength; then it hangs for `seconds`.
 World hang(const std::shared_ptr<const ClothModel>& model, double part, double seconds, std::uint32_t substeps) {
-    WorldSettings settings{.solver = {.substeps = substeps, .projection = Projection::lines, .hierarchy = !std::getenv("NOLEVELS")}};
+    WorldSettings settings{
+        .solver = {.substeps = substeps, .projection = Projection::lines, .hierarchy = !std::getenv("NOLEVELS")}};
     const float strength = model->fabric.tear.strength[1];
     const auto full = static_cast<float>(part) * strength / model->fabric.body.density;
     World world = make_world(settings);
@@ -93,12 +94,21 @@ Fabric rubber() {
 TEST(Tearing, of_a_hanging_strip_begins_at_its_strength) {
     for (const std::uint32_t cells : {16u, 32u, 64u}) {
         for (const double part : {0.9, 1.1}) {
-            const auto model = make_strip({.resolution = {cells / 4 + 1, cells + 1},
-                                           .fabric = rubber(),
-                                           .pinned = [](Vec3 x) { return x.y > 0.499f; }});
-            const World world = hang(model, part, 3, std::getenv("SUB") ? static_cast<std::uint32_t>(std::atoi(std::getenv("SUB"))) : 20);
+            const auto model =
+                make_strip({.resolution = {cells / 4 + 1, cells + 1}, .fabric = rubber(), .pinned = [](Vec3 x) {
+                                return x.y > 0.499f;
+                            }});
+            const World world = hang(
+                model, part, 3, std::getenv("SUB") ? static_cast<std::uint32_t>(std::atoi(std::getenv("SUB"))) : 20);
             const ClothFrame& cloth = world.frame().cloths[0];
-            std::printf("length %.3f tension %.3f ", [&]{ float low=0; for (const Vec4& x : cloth.positions) low = std::min(low, x.y); return 0.5-low; }(), TensionMeter().measure(world.frame()).most->value / double(model->fabric.tear.strength[1]));
+            std::printf(
+                "length %.3f tension %.3f ",
+                [&] {
+                    float low = 0;
+                    for (const Vec4& x : cloth.positions) low = std::min(low, x.y);
+                    return 0.5 - low;
+                }(),
+                TensionMeter().measure(world.frame()).most->value / double(model->fabric.tear.strength[1]));
             std::printf("cells %u part %.2f: pieces %u, torn at %.2f s, load %.3f, copies %zu\n", cells, part,
                         pieces_of(*cloth.model), world.time(), load_of(world), cloth.model->copied_from.size());
             EXPECT_EQ(pieces_of(*cloth.model), part > 1 ? 2u : 1u);

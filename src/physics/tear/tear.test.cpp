@@ -156,8 +156,7 @@ TEST(Tear, of_a_triangle_is_the_derivative_of_its_energy_at_large_stretch) {
             const auto at = stretched(u, k);
             points[k] = e1 * at[0] + e2 * at[1];
         }
-        const PlaneStress s =
-            reference::triangle_stress(points[0], points[1], points[2], sides[0], sides[1], sides[2]);
+        const PlaneStress s = reference::triangle_stress(points[0], points[1], points[2], sides[0], sides[1], sides[2]);
         const double expected[3] = {s.mean + s.difference, s.mean - s.difference, 2 * s.mixed};
         for (int k = 0; k < 3; ++k) {
             constexpr double step = 1e-6;

@@ -52,8 +52,8 @@ std::vector<double> stiffness_at_cut_ends(const StressTable& table, std::span<co
             if (!(table.cut_end[p] > 0)) continue;
             const auto& [c2, s2] = face.turns[k];
             for (const reference::TearSide& side : face.sides)
-                stiffness[p] += reference::side_stiffness(side, c2, s2, tensions[p].x, tensions[p].y) * face.area /
-                                table.area[p];
+                stiffness[p] +=
+                    reference::side_stiffness(side, c2, s2, tensions[p].x, tensions[p].y) * face.area / table.area[p];
         }
     }
     return stiffness;

@@ -128,7 +128,7 @@ struct ClothModel {
     /// Particles along a curve through the cloth; null if it has no contact of particles with cloth.
     std::shared_ptr<const std::vector<std::uint32_t>> along_curve;
     std::uint64_t topology_version = first_topology_version;
-    std::shared_ptr<const TearTable> tears;  ///< null unless its edges can be opened
+    std::shared_ptr<const TearTable> tears;   ///< null unless its edges can be opened
     std::shared_ptr<const TearLaw> tear_law;  ///< null unless it tears by itself
     /// Per appended particle, the first of which follows those that the cloth was built with: the particle it is a copy
     /// of.

@@ -12,8 +12,8 @@ namespace weft {
 
 struct StressTable {
     struct Face {
-        std::uint32_t triangle = 0;  ///< of the cloth
-        std::array<std::uint32_t, 3> corners{};  ///< perhaps wound in the other direction
+        std::uint32_t triangle = 0;                  ///< of the cloth
+        std::array<std::uint32_t, 3> corners{};      ///< perhaps wound in the other direction
         std::array<reference::TearSide, 3> sides{};  ///< side k runs from corner k to the next one
         double area = 0;                             ///< m²
         /// Per corner: cosine and sine of twice the angle from the particle's axes to those of the triangle.
@@ -21,9 +21,9 @@ struct StressTable {
     };
     /// Triangles that are degenerate at rest, or were removed, are left out.
     std::vector<Face> faces;
-    std::vector<double> area;     ///< m², per particle: that of its triangles
-    /// Per particle: the axes in which `turns` is measured, unit vectors along the mean warp and perpendicular to it, in the
-    /// plane of the cloth at rest.
+    std::vector<double> area;  ///< m², per particle: that of its triangles
+    /// Per particle: the axes in which `turns` is measured, unit vectors along the mean warp and perpendicular to it,
+    /// in the plane of the cloth at rest.
     std::vector<std::array<reference::vec3, 2>> axes;
     std::vector<double> cut_end;  ///< m, per particle: mean length of its edges if a cut ends there, 0 elsewhere
     bool inextensible = false;    ///< stress cannot be computed, and all stiffnesses are 0

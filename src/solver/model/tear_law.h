@@ -16,23 +16,24 @@ struct ClothModel;
 /// ClothModel::faces, entries as in TearTable.
 struct TearLaw {
     std::uint32_t stride = 0;  ///< of triangles
-    /// [(5 · side + number) · stride + triangle]: the numbers of TearSide in their order. Side k runs from corner k to the
-    /// next one. A triangle without stress has sides of length 0.
+    /// [(5 · side + number) · stride + triangle]: the numbers of TearSide in their order. Side k runs from corner k to
+    /// the next one. A triangle without stress has sides of length 0.
     AlignedVector<float> sides;
     AlignedVector<float> area;  ///< m², per triangle; 0 if it has no stress
     struct Entry {
-        std::array<float, 2> turn{1, 0};  ///< cosine and sine of twice the angle from the vertex's axes to the triangle's
-        float angle = 0;                  ///< rad: of the triangle at the vertex
-        float length = 0;                 ///< m: of the link's edge
-        std::array<float, 2> along{};     ///< direction of the link's edge from the vertex, in the vertex's axes
+        std::array<float, 2> turn{1,
+                                  0};  ///< cosine and sine of twice the angle from the vertex's axes to the triangle's
+        float angle = 0;               ///< rad: of the triangle at the vertex
+        float length = 0;              ///< m: of the link's edge
+        std::array<float, 2> along{};  ///< direction of the link's edge from the vertex, in the vertex's axes
     };
     std::vector<Entry> entries;
     std::array<float, 2> inverse_strength{};  ///< m/N, along warp and weft; 0: no limit
     float tear_energy = 0;                    ///< J/m; 0: `inverse_strength` holds at the ends of cuts too
     float inverse_stretch = 0;                ///< 1 over the largest strain of an edge; 0: no limit
 
-    /// Whether the load of a triangle with this tension and strain may be above `part` at one of its corners, unless a cut
-    /// ends there.
+    /// Whether the load of a triangle with this tension and strain may be above `part` at one of its corners, unless a
+    /// cut ends there.
     float largest_inverse_strength() const {
         return inverse_strength[0] > inverse_strength[1] ? inverse_strength[0] : inverse_strength[1];
     }

@@ -99,7 +99,8 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     if (!same_density)
         if (auto changed = change_masses(*model, from.fabric.body.density, density); !changed) return changed.errors();
     model->elasticity = elasticity_of(stretch, density, from.extent);
-    if (model->tear_law && (!same_stretch || !same_tearing(from.fabric.tear, fabric.tear))) model->tear_law = make_tear_law(*model);
+    if (model->tear_law && (!same_stretch || !same_tearing(from.fabric.tear, fabric.tear)))
+        model->tear_law = make_tear_law(*model);
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 

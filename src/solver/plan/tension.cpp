@@ -39,7 +39,8 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     const double softest = std::min(fabric.stretch.stretch[0], fabric.stretch.stretch[1]);
     if (fabric.stretch.inextensible || !(softest > 0) || !(substep_seconds > 0) || lambda.empty()) return 0;
     // A constraint represents a strip about as wide as it is long, so its force divided by its length is a tension per
-    // width, of its spring alone. The strain is that of the whole fabric. Strains are counted in bins, which gives the same bits in every order.
+    // width, of its spring alone. The strain is that of the whole fabric. Strains are counted in bins, which gives the
+    // same bits in every order.
     std::array<std::uint32_t, bin_count> bins{};
     std::uint32_t count = 0;
     const double scale = -1 / (substep_seconds * substep_seconds * StretchLaw(fabric.stretch).softest_spring());

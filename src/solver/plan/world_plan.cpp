@@ -25,7 +25,8 @@ class Planner {
         // The wind is evaluated once per frame, because it changes little. Air forces are evaluated every substep.
         if (settings_.air && settings_.wind) plan.frame_begin.push_back({.kind = PassKind::wind});
 
-        const bool tears = std::ranges::any_of(cloths_, [](const PlannedCloth& cloth) { return cloth.model->tear_law != nullptr; });
+        const bool tears =
+            std::ranges::any_of(cloths_, [](const PlannedCloth& cloth) { return cloth.model->tear_law != nullptr; });
         if (tears) plan.frame_begin.push_back({.kind = PassKind::watch_tears});
 
         if (settings_.air) plan.substep.push_back({.kind = PassKind::air});

@@ -57,7 +57,7 @@ struct ClothFrame {
     /// Bits (ContactMark); empty unless WorldSettings::contact_marks was on in the frame.
     std::vector<std::uint32_t> contact_marks;
     std::vector<Opening> openings;  ///< where it has torn in the frame; the model has them already
-    std::string detail;  ///< source of the first non-finite value, or the device's error message
+    std::string detail;             ///< source of the first non-finite value, or the device's error message
 
     /// Computed by the first call in a frame. Needs normals. Not thread-safe.
     const RenderMesh& render_mesh() const;

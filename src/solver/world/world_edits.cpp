@@ -53,7 +53,8 @@ void World::take_openings() const {
         if (!model || !backend_->set_topology(cloth.handle, *model, {})) continue;
         (void)pin_copies(cloth, **model, 0);
         if (!cloth.unedited) cloth.unedited = cloth.model;
-        const bool goes_on = !cloth.edits.empty() && cloth.edits.back() == ClothEdit{.openings = cloth.edits.back().openings};
+        const bool goes_on =
+            !cloth.edits.empty() && cloth.edits.back() == ClothEdit{.openings = cloth.edits.back().openings};
         if (!goes_on) cloth.edits.emplace_back();
         auto& all = cloth.edits.back().openings;
         all.insert(all.end(), openings.begin(), openings.end());
