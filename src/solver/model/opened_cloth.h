@@ -29,9 +29,11 @@ struct OpenedArrays {
     std::vector<std::uint32_t> copied_from;  ///< per appended particle: the particle that was copied
     std::vector<float> strayed;              ///< m, per vertex: that of a rip which ends there (Opening)
     std::vector<std::array<std::uint32_t, 2>> without_row;
+    std::vector<std::uint32_t> fan;  ///< scratch: per entry of the tear table
     std::uint32_t particle_count = 0;
     std::uint32_t room = 0;  ///< particles that can still be appended
 
+    OpenedArrays() = default;
     /// Copies the arrays of a model.
     explicit OpenedArrays(const ClothModel& model);
 };
@@ -39,7 +41,8 @@ struct OpenedArrays {
 /// Sets the masses of particles at vertices that have copies, in the way that Opener does.
 void weigh_opened(const ClothModel& model, std::span<float> mass);
 
-/// Opens edges. The result depends only on the order of the openings.
+/// Opens edges by the rules of tearing (physics/tear/rules.kernel.h). The result depends only on the order of the
+/// openings.
 class Opener {
   public:
     /// `model` must have a tear table, and must be the one from which `arrays` were copied or an earlier one.
@@ -52,21 +55,11 @@ class Opener {
     bool open(const Opening& opening);
 
   private:
-    void weigh(std::uint32_t vertex);
-    void part(std::uint32_t vertex, std::span<const std::uint32_t> opened);
-    std::uint32_t fans(std::uint32_t vertex, std::span<const std::uint32_t> opened);
-    bool is_closed(const TearTable::Entry& entry) const;
     void update_rows(std::uint32_t vertex);
-    void update_stretch(std::uint32_t row);
-    void update_row(const ConstraintTable& table, std::uint32_t row);
-    void part_stiffness(std::uint32_t row);
-    void mark_cut(std::uint32_t row);
 
     const ClothModel& model_;
-    const TearTable& table_;
     OpenedArrays& arrays_;
     StretchLaw law_;
-    std::vector<std::uint32_t> fan_;  ///< scratch: per entry of a ring, the first entry of its fan
 };
 
 }  // namespace weft

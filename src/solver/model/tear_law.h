@@ -12,6 +12,9 @@ namespace weft {
 
 struct ClothModel;
 
+/// A triangle with this part of the largest load that its particles can have is looked at in every substep of a frame.
+inline constexpr float watched_part_of_load = 0.5f;
+
 /// Numbers of the whole cloth at rest, which openings do not change. Triangles and corners are numbered as in
 /// ClothModel::faces, entries as in TearTable.
 struct TearLaw {

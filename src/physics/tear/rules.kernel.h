@@ -1,0 +1,352 @@
+// Where a cloth tears, and what an opening changes: one text for C++ and GLSL (law: tear.md).
+//
+// It is included where TearCloth and the functions that read and write its numbers are defined: solver/model/tear_cloth.h
+// for C++, vulkan/shaders/tear/tear_cloth.glsl for GLSL. TearTable and TearLaw explain the numbers. Triangles and corners
+// are numbered as in ClothModel::faces: corner = slot * stride + triangle.
+
+#define WEFT_TEAR_NONE 0xffffffffu
+
+// A cut ends at a particle of the rim with more cloth around it at rest, rad: three quarters of a turn, and room for
+// rounding.
+#define WEFT_TEAR_END_ANGLE 4.71338898
+// A rip goes on along an edge that leads forward by at least this part of its length.
+#define WEFT_TEAR_FORWARD 0.35
+
+WEFT_FN uint tear_slot(TearCloth c, uint corner) { return corner / tear_stride(c); }
+WEFT_FN uint tear_triangle(TearCloth c, uint corner) { return corner % tear_stride(c); }
+// The particle at a triangle's corner.
+WEFT_FN uint tear_corner_of(TearCloth c, uint triangle, uint slot) { return tear_face(c, slot * tear_stride(c) + triangle); }
+
+// Whether the triangles on both sides of a link still share its edge.
+WEFT_FN bool tear_is_closed(TearCloth c, uint link)
+{
+    uint next = tear_next(c, link);
+    if (next == WEFT_TEAR_NONE) return false;
+    return tear_face(c, tear_corner(c, link)) == tear_face(c, tear_corner(c, next)) &&
+           tear_face(c, tear_far(c, link)) == tear_face(c, tear_next_far(c, link));
+}
+
+// Whether a cut ends at the particle.
+WEFT_FN bool tear_is_end(TearCloth c, uint particle)
+{
+    uint vertex = tear_vertex_of(c, particle);
+    real angle = real(0);
+    bool open = false;
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
+        if (tear_face(c, tear_corner(c, i)) != particle) continue;
+        angle = angle + tear_angle(c, i);
+        if (!tear_is_closed(c, i)) open = true;
+    }
+    return open && angle > real(WEFT_TEAR_END_ANGLE);
+}
+
+struct TearLoad {
+    real load;   // tension over the limit, or strain over its limit
+    real x, y;   // direction of the tension, in the axes of the vertex
+    bool end;    // a cut ends here
+};
+
+// 1 / limit of the tension `at`, m/N. `area` is that of the particle's triangles.
+WEFT_FN real tear_inverse_limit(TearCloth c, uint particle, TearLoad at, real area)
+{
+    if (!at.end || !(tear_energy(c) > real(0)))
+        return inverse_strength(at.x, at.y, tear_inverse_strength(c, 0u), tear_inverse_strength(c, 1u));
+    uint vertex = tear_vertex_of(c, particle);
+    real stiffness = real(0), length = real(0), links = real(0);
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
+        if (tear_face(c, tear_corner(c, i)) != particle) continue;
+        uint t = tear_triangle(c, tear_corner(c, i));
+        real c2 = tear_turn(c, i, 0u), s2 = tear_turn(c, i, 1u);
+        for (uint k = 0u; k < 3u; ++k)
+            stiffness = stiffness + side_stiffness(tear_side(c, t, k), c2, s2, at.x, at.y) * tear_area(c, t);
+        if (tear_next(c, i) == WEFT_TEAR_NONE) continue;
+        length = length + tear_length(c, i);
+        links = links + real(1);
+    }
+    if (!(links > real(0))) return real(0);
+    return inverse_cut_limit(stiffness / area, length / links, tear_energy(c));
+}
+
+WEFT_FN TearLoad tear_load(TearCloth c, uint particle)
+{
+    uint vertex = tear_vertex_of(c, particle);
+    PlaneStress sum = no_stress();
+    real area = real(0), strain = real(0);
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
+        uint corner = tear_corner(c, i);
+        if (tear_face(c, corner) != particle) continue;
+        uint t = tear_triangle(c, corner), mine = tear_slot(c, corner);
+        vec3 x0 = tear_position(c, tear_corner_of(c, t, 0u)), x1 = tear_position(c, tear_corner_of(c, t, 1u)),
+             x2 = tear_position(c, tear_corner_of(c, t, 2u));
+        TearSide a = tear_side(c, t, 0u), b = tear_side(c, t, 1u), d = tear_side(c, t, 2u);
+        PlaneStress stress = turn_stress(triangle_stress(x0, x1, x2, a, b, d), tear_turn(c, i, 0u), tear_turn(c, i, 1u));
+        sum = add_stress(sum, stress, tear_area(c, t));
+        area = area + tear_area(c, t);
+        if (mine != 2u) strain = max(strain, side_strain(x0, x1, a));   // the two sides at this corner
+        if (mine != 0u) strain = max(strain, side_strain(x1, x2, b));
+        if (mine != 1u) strain = max(strain, side_strain(x2, x0, d));
+    }
+    TearLoad at;
+    at.load = strain * tear_inverse_stretch(c);
+    at.x = real(1);
+    at.y = real(0);
+    at.end = tear_is_end(c, particle);
+    if (!(area > real(0))) return at;
+    Tension tension = principal_tension(add_stress(no_stress(), sum, real(1) / area));
+    at.x = tension.x;
+    at.y = tension.y;
+    at.load = max(at.load, max(tension.most, real(0)) * tear_inverse_limit(c, particle, at, area));
+    return at;
+}
+
+// Whether the triangle's load may soon exceed a limit at a corner where no cut ends.
+WEFT_FN bool tear_is_hot(TearCloth c, uint t, real part)
+{
+    vec3 x0 = tear_position(c, tear_corner_of(c, t, 0u)), x1 = tear_position(c, tear_corner_of(c, t, 1u)),
+         x2 = tear_position(c, tear_corner_of(c, t, 2u));
+    TearSide a = tear_side(c, t, 0u), b = tear_side(c, t, 1u), d = tear_side(c, t, 2u);
+    PlaneStress stress = triangle_stress(x0, x1, x2, a, b, d);
+    real radius = sqrt(stress.difference * stress.difference + stress.mixed * stress.mixed);
+    real strain = max(max(max(real(0), side_strain(x0, x1, a)), side_strain(x1, x2, b)), side_strain(x2, x0, d));
+    real strength = max(tear_inverse_strength(c, 0u), tear_inverse_strength(c, 1u));
+    return (stress.mean + radius) * strength > part || strain * tear_inverse_stretch(c) > part;
+}
+
+// Whether the load of another particle keeps this one closed.
+WEFT_FN bool tear_yields(TearCloth c, uint particle, TearLoad at, uint other)
+{
+    if (other == particle || !tear_is_watched(c, other)) return false;
+    TearLoad there = tear_kept_load(c, other);
+    if (there.end != at.end) return there.end;   // a rip does not start beside the end of another one
+    return there.load > at.load || (there.load == at.load && other < particle);
+}
+
+// Whether no particle within two edges has a larger load.
+WEFT_FN bool tear_is_largest(TearCloth c, uint particle, TearLoad at)
+{
+    uint vertex = tear_vertex_of(c, particle);
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
+        if (tear_face(c, tear_corner(c, i)) != particle) continue;
+        uint t = tear_triangle(c, tear_corner(c, i));
+        for (uint k = 0u; k < 3u; ++k) {
+            uint near = tear_corner_of(c, t, k), there = tear_vertex_of(c, near);
+            for (uint j = tear_ring(c, there); j < tear_ring(c, there + 1u); ++j) {
+                if (tear_face(c, tear_corner(c, j)) != near) continue;
+                uint u = tear_triangle(c, tear_corner(c, j));
+                for (uint l = 0u; l < 3u; ++l)
+                    if (tear_yields(c, particle, at, tear_corner_of(c, u, l))) return false;
+            }
+        }
+    }
+    return true;
+}
+
+// An edge of the particle's fan, and how far from its line a rip is at the edge's other end.
+struct TearChoice {
+    uint link;
+    real strayed;
+};
+
+// The edge that keeps a rip in the direction (x, y) nearest to its line. Edges that lead more aside than forward count as
+// far off the line.
+WEFT_FN TearChoice tear_choose(TearCloth c, uint particle, real x, real y, real strayed, uint taken)
+{
+    TearChoice best;
+    best.link = WEFT_TEAR_NONE;
+    best.strayed = real(0);
+    real least = real(0);
+    uint vertex = tear_vertex_of(c, particle);
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
+        if (i == taken || tear_face(c, tear_corner(c, i)) != particle || !tear_is_closed(c, i)) continue;
+        real along_x = tear_along(c, i, 0u), along_y = tear_along(c, i, 1u), length = tear_length(c, i);
+        real ahead = along_x * x + along_y * y;
+        if (!(ahead > real(0))) continue;
+        real aside = strayed + length * (along_y * x - along_x * y);
+        real off = abs(aside);
+        if (ahead < real(WEFT_TEAR_FORWARD)) off = off + real(2) * length * (real(1) - ahead);
+        if (best.link != WEFT_TEAR_NONE && !(off < least)) continue;
+        best.link = i;
+        best.strayed = aside;
+        least = off;
+    }
+    return best;
+}
+
+struct TearOpening {
+    uint first, second;   // links; `first` is none if nothing opens
+    real first_strayed, second_strayed;
+};
+
+// Inside the cloth a rip starts along two edges. From the rim, and from the end of a cut, it takes one.
+WEFT_FN TearOpening tear_opening(TearCloth c, uint particle, TearLoad at)
+{
+    TearOpening o;
+    o.first = WEFT_TEAR_NONE;
+    o.second = WEFT_TEAR_NONE;
+    o.first_strayed = real(0);
+    o.second_strayed = real(0);
+    real x = -at.y, y = at.x;   // across the tension
+    real back_x = real(0), back_y = real(0);
+    bool whole = true;
+    uint vertex = tear_vertex_of(c, particle);
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
+        if (tear_face(c, tear_corner(c, i)) != particle || tear_is_closed(c, i)) continue;
+        whole = false;
+        if (tear_next(c, i) == WEFT_TEAR_NONE) continue;
+        back_x = back_x + tear_along(c, i, 0u);
+        back_y = back_y + tear_along(c, i, 1u);
+    }
+    if (whole) {
+        TearChoice one = tear_choose(c, particle, x, y, real(0), WEFT_TEAR_NONE);
+        if (one.link == WEFT_TEAR_NONE) return o;
+        TearChoice other = tear_choose(c, particle, -x, -y, real(0), one.link);
+        if (other.link == WEFT_TEAR_NONE) return o;
+        o.first = one.link;
+        o.first_strayed = one.strayed;
+        o.second = other.link;
+        o.second_strayed = other.strayed;
+        return o;
+    }
+    TearChoice chosen;
+    if (at.end && (back_x != real(0) || back_y != real(0))) {
+        if (x * back_x + y * back_y > real(0)) {
+            x = -x;
+            y = -y;
+        }
+        chosen = tear_choose(c, particle, x, y, tear_strayed(c, vertex), WEFT_TEAR_NONE);
+    } else {
+        chosen = tear_choose(c, particle, x, y, real(0), WEFT_TEAR_NONE);
+        TearChoice other = tear_choose(c, particle, -x, -y, real(0), WEFT_TEAR_NONE);
+        if (chosen.link == WEFT_TEAR_NONE || (other.link != WEFT_TEAR_NONE && abs(other.strayed) < abs(chosen.strayed)))
+            chosen = other;
+    }
+    o.first = chosen.link;
+    o.first_strayed = chosen.strayed;
+    return o;
+}
+
+// Gives both triangles of a link the lower number of their fans.
+WEFT_FN void tear_join(TearCloth c, uint link, TearOpening opened)
+{
+    if (link == opened.first || link == opened.second || !tear_is_closed(c, link)) return;
+    uint a = tear_fan(c, link), b = tear_fan(c, tear_next(c, link));
+    uint low = a < b ? a : b;
+    tear_set_fan(c, link, low);
+    tear_set_fan(c, tear_next(c, link), low);
+}
+
+// Whether a fan that begins before `i` has the same particle.
+WEFT_FN bool tear_is_taken(TearCloth c, uint begin, uint i)
+{
+    uint particle = tear_face(c, tear_corner(c, i));
+    for (uint j = begin; j < i; ++j)
+        if (tear_fan(c, j) == j && tear_face(c, tear_corner(c, j)) == particle) return true;
+    return false;
+}
+
+// Groups the ring's triangles to fans, with these links open. Returns how many fans need a particle of their own.
+WEFT_FN uint tear_group(TearCloth c, uint vertex, TearOpening opened)
+{
+    uint begin = tear_ring(c, vertex), end = tear_ring(c, vertex + 1u);
+    for (uint i = begin; i < end; ++i) tear_set_fan(c, i, i);
+    // A ring consists of chains and circles, so a sweep in each direction brings the lowest number to all of a fan.
+    for (uint i = begin; i < end; ++i) tear_join(c, i, opened);
+    for (uint i = end; i > begin; --i) tear_join(c, i - 1u, opened);
+    uint missing = 0u;
+    for (uint i = begin; i < end; ++i)
+        if (tear_fan(c, i) == i && tear_is_taken(c, begin, i)) ++missing;
+    return missing;
+}
+
+// Sets the masses of the particles at the vertex, in single precision and in the order of the ring. Triangles without area
+// do not count.
+WEFT_FN void tear_weigh(TearCloth c, uint vertex)
+{
+    uint begin = tear_ring(c, vertex), end = tear_ring(c, vertex + 1u);
+    for (uint i = begin; i < end; ++i)
+        if (tear_face_area(c, tear_triangle(c, tear_corner(c, i))) > real(0))
+            tear_set_mass(c, tear_face(c, tear_corner(c, i)), real(0));
+    for (uint i = begin; i < end; ++i) {
+        uint particle = tear_face(c, tear_corner(c, i));
+        real area = tear_face_area(c, tear_triangle(c, tear_corner(c, i)));
+        if (area > real(0)) tear_set_mass(c, particle, tear_mass(c, particle) + tear_density(c) * area / real(3));
+    }
+}
+
+// Gives each further fan at the vertex a copy of the particle. Then sets the masses of the particles there.
+WEFT_FN void tear_part(TearCloth c, uint vertex, TearOpening opened)
+{
+    if (tear_group(c, vertex, opened) == 0u) return;
+    uint begin = tear_ring(c, vertex), end = tear_ring(c, vertex + 1u);
+    for (uint i = begin + 1u; i < end; ++i) {
+        // Fans keep their numbers, so a fan that has a copy by now is found by its particle.
+        if (tear_fan(c, i) != i || !tear_is_taken(c, begin, i)) continue;
+        uint copy = tear_add_copy(c, tear_face(c, tear_corner(c, i)));
+        if (copy == WEFT_TEAR_NONE) continue;   // no room: the fans stay joined by the particle
+        for (uint j = i; j < end; ++j)
+            if (tear_fan(c, j) == i) tear_set_face(c, tear_corner(c, j), copy);
+    }
+    tear_weigh(c, vertex);
+}
+
+WEFT_FN uint tear_far_vertex(TearCloth c, uint link) { return tear_vertex(c, tear_twin(c, link)); }
+
+// Parts the triangles at the vertex of the links along their edges, and those at the far ends where an edge that was open
+// before now parts them. Constraints follow by tear_update_row(). Returns false and changes nothing if there is no room.
+WEFT_FN bool tear_open(TearCloth c, TearOpening opening)
+{
+    uint vertex = tear_vertex(c, opening.first);
+    uint links = opening.second == WEFT_TEAR_NONE ? 1u : 2u;
+    // At the far ends there are at most as many more fans as links.
+    if (tear_group(c, vertex, opening) + links > tear_room(c)) return false;
+    tear_part(c, vertex, opening);
+    TearOpening none;
+    none.first = WEFT_TEAR_NONE;
+    none.second = WEFT_TEAR_NONE;
+    none.first_strayed = real(0);
+    none.second_strayed = real(0);
+    tear_set_strayed(c, tear_far_vertex(c, opening.first), opening.first_strayed);
+    tear_part(c, tear_far_vertex(c, opening.first), none);
+    if (opening.second == WEFT_TEAR_NONE) return true;
+    tear_set_strayed(c, tear_far_vertex(c, opening.second), opening.second_strayed);
+    tear_part(c, tear_far_vertex(c, opening.second), none);
+    return true;
+}
+
+// A stretch constraint follows its first triangle. While its edge is open, its second half follows the other one.
+WEFT_FN void tear_update_stretch(TearCloth c, uint row)
+{
+    if (!tear_has_row(c, WEFT_TEAR_STRETCH, row)) return;
+    uint a = tear_face(c, tear_row_corner(c, WEFT_TEAR_STRETCH, row, 0u)),
+         b = tear_face(c, tear_row_corner(c, WEFT_TEAR_STRETCH, row, 1u));
+    if (tear_row_particle(c, WEFT_TEAR_STRETCH, row, 0u) != a || tear_row_particle(c, WEFT_TEAR_STRETCH, row, 1u) != b) {
+        tear_set_row_particle(c, WEFT_TEAR_STRETCH, row, 0u, a);
+        tear_set_row_particle(c, WEFT_TEAR_STRETCH, row, 1u, b);
+        tear_cut_line(c, row);
+    }
+    if (tear_second_corner(c, row, 0u) == WEFT_TEAR_NONE) return;
+    uint other_a = tear_face(c, tear_second_corner(c, row, 0u)), other_b = tear_face(c, tear_second_corner(c, row, 1u));
+    if (other_a == a && other_b == b) return;
+    uint second = tear_halves(c) + row;
+    tear_part_stiffness(c, row);
+    tear_set_row_particle(c, WEFT_TEAR_STRETCH, second, 0u, other_a);
+    tear_set_row_particle(c, WEFT_TEAR_STRETCH, second, 1u, other_b);
+    tear_cut_line(c, second);
+}
+
+// Other constraints end if they cross an open edge.
+WEFT_FN void tear_update_row(TearCloth c, uint kind, uint row)
+{
+    if (kind == WEFT_TEAR_STRETCH) {
+        tear_update_stretch(c, row);
+        return;
+    }
+    if (!tear_has_row(c, kind, row)) return;
+    for (uint i = tear_tie_begin(c, kind, row); i < tear_tie_begin(c, kind, row + 1u); ++i) {
+        if (tear_face(c, tear_tie(c, kind, i, 0u)) == tear_face(c, tear_tie(c, kind, i, 1u))) continue;
+        tear_end_row(c, kind, row);
+        return;
+    }
+    for (uint slot = 0u; slot < tear_arity(c, kind); ++slot)
+        tear_set_row_particle(c, kind, row, slot, tear_face(c, tear_row_corner(c, kind, row, slot)));
+}
