@@ -165,7 +165,7 @@ class Compiler {
             case PassKind::move_particles:
             case PassKind::hold_particles:
             case PassKind::settle_particles:
-            case PassKind::watch_tears:  // this backend refuses cloth that tears
+            case PassKind::watch_tears:
             case PassKind::tear:
                 break;  // for all cloths only
             case PassKind::targets:

@@ -76,7 +76,8 @@ std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32
 
 /// Whether a pass is recorded once for all cloths of a frame.
 inline bool is_for_all(const Pass& pass) {
-    return pass.source == RowSource::dynamic || is_cloth_contact(pass.kind) || is_particle_contact(pass.kind);
+    return pass.source == RowSource::dynamic || is_cloth_contact(pass.kind) || is_particle_contact(pass.kind) ||
+           pass.kind == PassKind::watch_tears || pass.kind == PassKind::tear;
 }
 
 /// Workgroups that a command fills.

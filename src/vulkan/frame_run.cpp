@@ -110,7 +110,17 @@ Result<void> FrameRun::compile_members(const Lists& lists) {
 Result<void> FrameRun::make_lists(const Lists& lists) {
     if (auto made = make_adhesion(lists); !made) return made;
     if (auto made = make_cloth_contact(lists); !made) return made;
-    return make_particle_contact(lists);
+    if (auto made = make_particle_contact(lists); !made) return made;
+    return make_tearing();
+}
+
+Result<void> FrameRun::make_tearing() {
+    std::vector<const ClothState*> cloths;
+    for (const Member& member : members_) cloths.push_back(&member.cloth->state());
+    auto made = Tearing::create(device_, programs_, cloths, name());
+    if (!made) return made.errors();
+    tearing_ = std::move(*made);
+    return {};
 }
 
 Result<void> FrameRun::make_cloth_contact(const Lists& lists) {
@@ -154,6 +164,7 @@ Result<void> FrameRun::record_for_all(gpu::Commands& commands, const Pass& pass,
     // A replay of one cloth alone leaves contact out, whose results are always finite for finite positions.
     if (member != none) return {};
     if (is_particle_contact(pass.kind)) return particle_contact_->record(commands, pass, substep);
+    if (!is_cloth_contact(pass.kind)) return tearing_->record(commands, pass);
     return cloth_contact_->record(commands, pass, substep);
 }
 
@@ -205,7 +216,8 @@ Result<void> FrameRun::end_recording() {
         if (auto recorded = cloth_contact_->record_end(*commands_); !recorded) return recorded;
     }
     if (particle_contact_) particle_contact_->record_end(*commands_);
-    if (adhesion_ || cloth_contact_ || particle_contact_) commands_->host_barrier();
+    if (tearing_) tearing_->record_end(*commands_);
+    if (adhesion_ || cloth_contact_ || particle_contact_ || tearing_) commands_->host_barrier();
     return commands_->end();
 }
 

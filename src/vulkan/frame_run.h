@@ -10,6 +10,7 @@
 #include "vulkan/frame_input.h"
 #include "vulkan/lists/adhesion_list.h"
 #include "vulkan/particle_contact/particle_contact.h"
+#include "vulkan/tear/tearing.h"
 
 #include <array>
 #include <memory>
@@ -79,6 +80,7 @@ class FrameRun {
     /// Likewise for contact between cloths.
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
     const ParticleContact* particle_contact() const { return particle_contact_.get(); }
+    const Tearing* tearing() const { return tearing_.get(); }
     /// Whether a cloth had too few slots for its lists of near colliders in the last finished frame. Then the state is
     /// undefined until roll_back_and_grow().
     bool near_list_was_full() const;
@@ -114,6 +116,7 @@ class FrameRun {
     Result<void> make_adhesion(const Lists& lists);
     Result<void> make_cloth_contact(const Lists& lists);
     Result<void> make_particle_contact(const Lists& lists);
+    Result<void> make_tearing();
     Result<void> record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
                                 std::uint32_t member = none) const;
     Result<void> prepare_contact_forces();
@@ -142,6 +145,7 @@ class FrameRun {
     std::unique_ptr<AdhesionList> adhesion_;             ///< null if nothing sticks
     std::unique_ptr<ClothContact> cloth_contact_;        ///< null if no cloth collides exactly
     std::unique_ptr<ParticleContact> particle_contact_;  ///< null if no cloth collides by particles
+    std::unique_ptr<Tearing> tearing_;                   ///< null if no cloth tears
     CommandLists lists_;
     Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;

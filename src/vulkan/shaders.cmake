@@ -142,6 +142,11 @@ foreach(pass track move settle)
     weft_shader(spheres_${pass} particle_contact/particles.comp WEFT_PASS=run_${pass})
 endforeach()
 
+foreach(pass watch load)
+    weft_shader(tear_${pass} tear/particles.comp WEFT_PASS=run_${pass})
+endforeach()
+weft_shader(tear_open tear/open.comp)
+
 # One table of all, for shaders.cpp.
 weft_embed_shaders(${shader_output} vulkan_shaders ${shader_names})
 set_source_files_properties(${folder}/shaders.cpp PROPERTIES OBJECT_DEPENDS "${vulkan_shaders_depends}")

@@ -51,8 +51,6 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
-        if (model->tear_law)
-            return Error{"cloth '" + model->name + "'", "tears, which the Vulkan backend cannot do; use the CPU"};
         auto cloth = make_cloth(std::move(model), base);
         if (!cloth) return cloth.errors();
         const auto free = std::ranges::find_if(cloths_, [](const auto& one) { return one == nullptr; });
@@ -121,6 +119,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         for (std::uint32_t p = 0; p < model->particle_count; ++p)
             snapshot.position[p].w = snapshot.position[p].w > 0 ? 1 / model->mass[p] : 0;
+        for (std::uint32_t p = model->particle_count; p < model->first_anchor(); ++p) snapshot.position[p].w = 0;
         for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
             array->resize(model->point_count());
         // The new cloth overwrites the particles of the old one. After a failure, the old one is restored.
@@ -249,6 +248,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     // Cloths of one model share its buffers.
     Result<std::shared_ptr<ModelBuffers>> buffers_of(std::shared_ptr<const ClothModel> model) {
+        if (model->tear_law) return ModelBuffers::create(*device_, model);  // it changes while the cloth tears
         if (auto there = models_[model.get()].lock()) return there;
         std::erase_if(models_, [](const auto& one) { return one.second.expired(); });
         auto made = ModelBuffers::create(*device_, model);
@@ -288,7 +288,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
         const bool single_cloth = island.cloths.size() == 1 && !island.parts.front().links && !has_lists(step) &&
                                   !cloth(island.cloths.front().cloth).model().along_curve &&
-                                  !has_face_contact(*step.plan);
+                                  !cloth(island.cloths.front().cloth).model().tear_law && !has_face_contact(*step.plan);
         if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
         if (!device_->info().is_gpu()) return Execution::streamed;
         return single_cloth && vulkan::fits_fused(*device_, cloth(island.cloths.front().cloth).model())
@@ -332,6 +332,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (const ClothStep* one : group.steps) {
             one->frame->reports = report_none;
             one->frame->detail.clear();
+            one->frame->openings.clear();
         }
         auto run = find_run(step, group);
         if (!run) return fail(group, run.error());
@@ -391,6 +392,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             if (const auto* particles = group.run->particle_contact();
                 particles && particles->wanted() > particles->capacity())
                 particle_pairs_ = grown_list_capacity(particles->wanted());
+            undo_tears(group);
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
             auto run = find_run(*step_, group);
@@ -426,7 +428,30 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             frame.reports = group.run->report(i);
             if (ClothContactLog* contact_forces = group.steps[i]->contact_forces)
                 frame.reports |= group.run->read_contact_forces(i, *contact_forces);
-            if (frame.reports & report_non_finite) name_culprit(group, i);
+            if (frame.reports & report_non_finite) {
+                name_culprit(group, i);
+            } else if (const auto* tearing = group.run->tearing()) {
+                frame.openings = tearing->openings(i);
+            }
+        }
+        const auto not_finite = [](const ClothStep* step) { return step->frame->reports & report_non_finite; };
+        if (std::ranges::any_of(group.steps, not_finite)) undo_tears(group, true);
+    }
+
+    // The device has restored the particles of a frame, but not what openings have changed. `only_not_finite`: of
+    // cloths with that report.
+    void undo_tears(Group& group, bool only_not_finite = false) {
+        if (!group.run->tearing()) return;
+        std::vector<std::size_t> torn;
+        for (std::size_t i = 0; i < group.members.size(); ++i) {
+            const bool meant = !only_not_finite || (group.steps[i]->frame->reports & report_non_finite);
+            if (meant && !group.run->tearing()->openings(i).empty()) torn.push_back(i);
+        }
+        for (const std::size_t i : torn) {
+            const ClothHandle handle = group.steps[i]->cloth;
+            if (auto done = set_topology(handle, group.members[i].cloth->state().buffers().model(), {}); !done)
+                fail(group, done.error());
+            group.members[i].cloth = &cloth(handle);
         }
     }
 

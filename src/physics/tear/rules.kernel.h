@@ -3,6 +3,8 @@
 // It is included where TearCloth and the functions that read and write its numbers are defined: solver/model/tear_cloth.h
 // for C++, vulkan/shaders/tear/tear_cloth.glsl for GLSL. TearTable and TearLaw explain the numbers. Triangles and corners
 // are numbered as in ClothModel::faces: corner = slot * stride + triangle.
+//
+// Functions that several invocations of a workgroup run have no returns within loops: lavapipe loses invocations there.
 
 #define WEFT_TEAR_NONE 0xffffffffu
 
@@ -39,12 +41,6 @@ WEFT_FN bool tear_is_end(TearCloth c, uint particle)
     }
     return open && angle > real(WEFT_TEAR_END_ANGLE);
 }
-
-struct TearLoad {
-    real load;   // tension over the limit, or strain over its limit
-    real x, y;   // direction of the tension, in the axes of the vertex
-    bool end;    // a cut ends here
-};
 
 // 1 / limit of the tension `at`, m/N. `area` is that of the particle's triangles.
 WEFT_FN real tear_inverse_limit(TearCloth c, uint particle, TearLoad at, real area)
@@ -112,33 +108,49 @@ WEFT_FN bool tear_is_hot(TearCloth c, uint t, real part)
     return (stress.mean + radius) * strength > part || strain * tear_inverse_stretch(c) > part;
 }
 
-// Whether the load of another particle keeps this one closed.
+// Whether the load of another particle keeps this one closed. A rip does not start beside the end of another one.
 WEFT_FN bool tear_yields(TearCloth c, uint particle, TearLoad at, uint other)
 {
-    if (other == particle || !tear_is_watched(c, other)) return false;
-    TearLoad there = tear_kept_load(c, other);
-    if (there.end != at.end) return there.end;   // a rip does not start beside the end of another one
-    return there.load > at.load || (there.load == at.load && other < particle);
+    bool yields = false;
+    if (other != particle && tear_is_watched(c, other)) {
+        TearLoad there = tear_kept_load(c, other);
+        if (there.end == at.end) {
+            yields = there.load > at.load || (there.load == at.load && other < particle);
+        } else {
+            yields = there.end;
+        }
+    }
+    return yields;
+}
+
+// Whether the particle yields to one that shares a triangle with `near`.
+WEFT_FN bool tear_yields_around(TearCloth c, uint particle, TearLoad at, uint near)
+{
+    uint vertex = tear_vertex_of(c, near);
+    bool yields = false;
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u) && !yields; ++i) {
+        uint t = tear_triangle(c, tear_corner(c, i));
+        if (tear_face(c, tear_corner(c, i)) == near)
+            yields = tear_yields(c, particle, at, tear_corner_of(c, t, 0u)) ||
+                     tear_yields(c, particle, at, tear_corner_of(c, t, 1u)) ||
+                     tear_yields(c, particle, at, tear_corner_of(c, t, 2u));
+    }
+    return yields;
 }
 
 // Whether no particle within two edges has a larger load.
 WEFT_FN bool tear_is_largest(TearCloth c, uint particle, TearLoad at)
 {
     uint vertex = tear_vertex_of(c, particle);
-    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u); ++i) {
-        if (tear_face(c, tear_corner(c, i)) != particle) continue;
+    bool largest = true;
+    for (uint i = tear_ring(c, vertex); i < tear_ring(c, vertex + 1u) && largest; ++i) {
         uint t = tear_triangle(c, tear_corner(c, i));
-        for (uint k = 0u; k < 3u; ++k) {
-            uint near = tear_corner_of(c, t, k), there = tear_vertex_of(c, near);
-            for (uint j = tear_ring(c, there); j < tear_ring(c, there + 1u); ++j) {
-                if (tear_face(c, tear_corner(c, j)) != near) continue;
-                uint u = tear_triangle(c, tear_corner(c, j));
-                for (uint l = 0u; l < 3u; ++l)
-                    if (tear_yields(c, particle, at, tear_corner_of(c, u, l))) return false;
-            }
-        }
+        if (tear_face(c, tear_corner(c, i)) == particle)
+            largest = !tear_yields_around(c, particle, at, tear_corner_of(c, t, 0u)) &&
+                      !tear_yields_around(c, particle, at, tear_corner_of(c, t, 1u)) &&
+                      !tear_yields_around(c, particle, at, tear_corner_of(c, t, 2u));
     }
-    return true;
+    return largest;
 }
 
 // An edge of the particle's fan, and how far from its line a rip is at the edge's other end.
@@ -316,7 +328,6 @@ WEFT_FN bool tear_open(TearCloth c, TearOpening opening)
 // A stretch constraint follows its first triangle. While its edge is open, its second half follows the other one.
 WEFT_FN void tear_update_stretch(TearCloth c, uint row)
 {
-    if (!tear_has_row(c, WEFT_TEAR_STRETCH, row)) return;
     uint a = tear_face(c, tear_row_corner(c, WEFT_TEAR_STRETCH, row, 0u)),
          b = tear_face(c, tear_row_corner(c, WEFT_TEAR_STRETCH, row, 1u));
     if (tear_row_particle(c, WEFT_TEAR_STRETCH, row, 0u) != a || tear_row_particle(c, WEFT_TEAR_STRETCH, row, 1u) != b) {
@@ -324,29 +335,39 @@ WEFT_FN void tear_update_stretch(TearCloth c, uint row)
         tear_set_row_particle(c, WEFT_TEAR_STRETCH, row, 1u, b);
         tear_cut_line(c, row);
     }
-    if (tear_second_corner(c, row, 0u) == WEFT_TEAR_NONE) return;
-    uint other_a = tear_face(c, tear_second_corner(c, row, 0u)), other_b = tear_face(c, tear_second_corner(c, row, 1u));
-    if (other_a == a && other_b == b) return;
-    uint second = tear_halves(c) + row;
-    tear_part_stiffness(c, row);
-    tear_set_row_particle(c, WEFT_TEAR_STRETCH, second, 0u, other_a);
-    tear_set_row_particle(c, WEFT_TEAR_STRETCH, second, 1u, other_b);
-    tear_cut_line(c, second);
+    if (tear_second_corner(c, row, 0u) != WEFT_TEAR_NONE) {
+        uint other_a = tear_face(c, tear_second_corner(c, row, 0u)), other_b = tear_face(c, tear_second_corner(c, row, 1u));
+        uint second = tear_halves(c) + row;
+        if (other_a != a || other_b != b) {
+            tear_part_stiffness(c, row);
+            tear_set_row_particle(c, WEFT_TEAR_STRETCH, second, 0u, other_a);
+            tear_set_row_particle(c, WEFT_TEAR_STRETCH, second, 1u, other_b);
+            tear_cut_line(c, second);
+        }
+    }
 }
 
 // Other constraints end if they cross an open edge.
+WEFT_FN void tear_update_other(TearCloth c, uint kind, uint row)
+{
+    bool open = false;
+    for (uint i = tear_tie_begin(c, kind, row); i < tear_tie_begin(c, kind, row + 1u); ++i)
+        if (tear_face(c, tear_tie(c, kind, i, 0u)) != tear_face(c, tear_tie(c, kind, i, 1u))) open = true;
+    if (open) {
+        tear_end_row(c, kind, row);
+    } else {
+        for (uint slot = 0u; slot < tear_arity(c, kind); ++slot)
+            tear_set_row_particle(c, kind, row, slot, tear_face(c, tear_row_corner(c, kind, row, slot)));
+    }
+}
+
 WEFT_FN void tear_update_row(TearCloth c, uint kind, uint row)
 {
-    if (kind == WEFT_TEAR_STRETCH) {
-        tear_update_stretch(c, row);
-        return;
+    if (tear_has_row(c, kind, row)) {
+        if (kind == WEFT_TEAR_STRETCH) {
+            tear_update_stretch(c, row);
+        } else {
+            tear_update_other(c, kind, row);
+        }
     }
-    if (!tear_has_row(c, kind, row)) return;
-    for (uint i = tear_tie_begin(c, kind, row); i < tear_tie_begin(c, kind, row + 1u); ++i) {
-        if (tear_face(c, tear_tie(c, kind, i, 0u)) == tear_face(c, tear_tie(c, kind, i, 1u))) continue;
-        tear_end_row(c, kind, row);
-        return;
-    }
-    for (uint slot = 0u; slot < tear_arity(c, kind); ++slot)
-        tear_set_row_particle(c, kind, row, slot, tear_face(c, tear_row_corner(c, kind, row, slot)));
 }

@@ -24,7 +24,7 @@ inline uint tear_kind(ConstraintKind kind) {
     return static_cast<uint>(std::ranges::find(tear_kinds, kind) - tear_kinds.begin());
 }
 
-struct TearLoad;  // in the rules
+#include "physics/tear/load.kernel.h"
 
 /// What the rules read and write. Openings alone need the first three members.
 struct TearAccess {
@@ -112,7 +112,9 @@ WEFT_FN vec3 tear_position(TearCloth c, uint particle) {
 WEFT_FN bool tear_is_watched(TearCloth c, uint particle) {
     return c.watched[particle] != 0;
 }
-WEFT_FN TearLoad tear_kept_load(TearCloth c, uint particle);
+WEFT_FN TearLoad tear_kept_load(TearCloth c, uint particle) {
+    return c.loads[particle];
+}
 WEFT_FN real tear_strayed(TearCloth c, uint vertex) {
     return c.arrays.strayed[vertex];
 }
@@ -223,9 +225,5 @@ WEFT_OUTLINED_FN void tear_part_stiffness(TearCloth c, uint row) {
 }
 
 #include "physics/tear/rules.kernel.h"
-
-WEFT_FN TearLoad tear_kept_load(TearCloth c, uint particle) {
-    return c.loads[particle];
-}
 
 }  // namespace weft::scalar

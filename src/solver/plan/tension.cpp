@@ -4,32 +4,35 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
+#include <cstdint>
 
 namespace weft {
 namespace {
 
 // Bins of strain, four per doubling; the first one holds all strains below `least`. They are found by exponent and
-// thresholds, because logarithms of math libraries round differently on different machines.
-constexpr int bins_per_doubling = 4;
-constexpr std::array<double, bins_per_doubling> bin_starts{1, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-constexpr double least = 1e-5, most = 100;  // the last bin begins at 9
-constexpr std::size_t bin_count = 80;
+// thresholds, because logarithms of math libraries round differently on different machines. All numbers are floats, as
+// on a GPU (vulkan/shaders/limits.glsl).
+constexpr std::uint32_t bins_per_doubling = 4;
+constexpr std::array<float, bins_per_doubling> bin_starts{1, 1.18920712f, 1.41421356f, 1.68179283f};
+constexpr float least = 1e-5f, most = 100;  // the last bin begins at 9
+constexpr std::uint32_t bin_count = 80;
+constexpr std::uint32_t mantissa_bits = 23;
 
-std::size_t bin_of(double strain) {
+std::uint32_t bin_of(float strain) {
     if (!(strain > least)) return 0;
     if (!(strain < most)) return bin_count - 1;
-    int exponent = 0;
-    const double mantissa = 2 * std::frexp(strain / least, &exponent);  // 1 to 2
-    std::size_t part = bins_per_doubling - 1;
+    const auto bits = std::bit_cast<std::uint32_t>(std::max(strain / least, 1.0f));
+    const auto mantissa = std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u);  // 1 to 2
+    std::uint32_t part = bins_per_doubling - 1;
     while (mantissa < bin_starts[part]) --part;
-    return std::min(1 + bins_per_doubling * static_cast<std::size_t>(exponent - 1) + part, bin_count - 1);
+    return std::min(1 + bins_per_doubling * ((bits >> mantissa_bits) - 127) + part, bin_count - 1);
 }
 
-double start_of(std::size_t bin) {
-    const int steps = static_cast<int>(bin) - 1;
-    return least *
-           std::ldexp(bin_starts[static_cast<std::size_t>(steps % bins_per_doubling)], steps / bins_per_doubling);
+float start_of(std::uint32_t bin) {
+    const std::uint32_t steps = bin - 1;
+    return least * bin_starts[steps % bins_per_doubling] *
+           std::bit_cast<float>((127 + steps / bins_per_doubling) << mantissa_bits);
 }
 
 }  // namespace
@@ -43,22 +46,23 @@ float tension_in(const ConstraintTable& stretch, std::span<const float> lambda, 
     // same bits in every order.
     std::array<std::uint32_t, bin_count> bins{};
     std::uint32_t count = 0;
-    const double scale = -1 / (substep_seconds * substep_seconds * StretchLaw(fabric.stretch).softest_spring());
+    const auto scale =
+        static_cast<float>(-1 / (substep_seconds * substep_seconds * StretchLaw(fabric.stretch).softest_spring()));
     for (std::uint32_t begin = 0; begin < stretch.stride; begin += 4 * lane_padding) {
         for (std::uint32_t row = begin; row < begin + lane_padding; ++row) {
             if (!stretch.is_real(row)) continue;
-            const double strain = scale * static_cast<double>(lambda[row]) / static_cast<double>(stretch.fields[row]);
+            const float strain = scale * lambda[row] / stretch.fields[row];
             ++count;
             ++bins[bin_of(strain)];
         }
     }
     std::uint32_t above = 0;
-    std::size_t bin = bins.size();
+    std::uint32_t bin = bin_count;
     while (bin > 1 && 20 * (above + bins[bin - 1]) <= count) above += bins[--bin];
     // The upper end of the bin.
-    const double strain = bin <= 1 ? 0 : start_of(bin);
+    const float strain = bin <= 1 ? 0 : start_of(bin);
     // At a large stretch, threads that turn toward the pull carry load too, and limits must not take it.
-    return static_cast<float>(strain * (1 + strain) * softest);
+    return strain * (1 + strain) * static_cast<float>(softest);
 }
 
 }  // namespace weft
