@@ -1,6 +1,6 @@
 #include "io/exports/export_plan.h"
 
-#include "io/exports/film_fixtures.test.h"
+#include "io/exports/torn_film.test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@ using test::export_film;
 using test::Instant;
 using test::make_cloth;
 using test::TestFolder;
+using test::TornFilm;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -72,6 +73,30 @@ TEST_F(Plan, EstimatesAreALittleMoreThanWhatIsWritten) {
             const auto estimated = static_cast<double>(planned->front().bytes);
             EXPECT_GE(estimated, written) << name << ", " << frames << " frames";
             EXPECT_LE(estimated, 1.25 * written) << name << ", " << frames << " frames";
+        }
+    }
+}
+
+TEST_F(Plan, EstimatesIncludeTheVerticesThatClothMayGet) {
+    const TornFilm film(false);
+    for (const std::string name : {"a.glb", "a.pc2", "a.obj", "a.ply", "%d.obj", "%d.ply"}) {
+        const auto made = make_exporter(folder_ / name);
+        ASSERT_TRUE(made.ok());
+        const auto start = film.at(0);
+        const auto whole = (*made)->estimate({"torn", 60, film.size()}, start->surfaces);
+        start->surfaces[0].spare_vertices = 5;
+        const auto torn = (*made)->estimate({"torn", 60, film.size()}, start->surfaces);
+        ASSERT_TRUE(whole.ok() && torn.ok());
+        ASSERT_TRUE(film.write(folder_ / name).ok());
+        std::uint64_t written = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+            written += std::filesystem::file_size(entry.path());
+            std::filesystem::remove(entry.path());
+        }
+        EXPECT_GT(torn->bytes, whole->bytes) << name;
+        EXPECT_GE(torn->bytes, written) << name;
+        if (name.ends_with(".ply")) {
+            EXPECT_LT(whole->bytes, written) << "exact for cloth that stays whole";
         }
     }
 }
