@@ -1,7 +1,7 @@
 // Constraints, triangles and particles that change while a cloth moves.
 
-#include "cut.h"
 #include "sheet.h"
+#include "solver/model/cut.test.h"
 #include "solver/world/backend_without_room.test.h"
 
 #include <cmath>
@@ -9,6 +9,8 @@
 
 namespace weft::physical {
 namespace {
+
+using test::cut;
 
 constexpr std::uint32_t side = 17;
 
