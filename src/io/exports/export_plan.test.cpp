@@ -119,7 +119,7 @@ TEST_F(Plan, ADiskWithoutRoomIsNamedWithBothNumbers) {
     // 69,200 vertices: a .pc2 takes 812 KiB per frame, its .obj about 15 MiB.
     EXPECT_EQ(problem({"a.ply"}, 1, ten_mib), "none");
     const std::string full = problem({"a.glb"}, 10, ten_mib);
-    EXPECT_THAT(full, AllOf(HasSubstr("a.glb: would take about 1"), HasSubstr("MiB, and only 10 MiB are free there")));
+    EXPECT_THAT(full, AllOf(HasSubstr("a.glb: would take up to 1"), HasSubstr("MiB, and only 10 MiB are free there")));
     EXPECT_EQ(problem({"a.glb"}, 10, unknown), "none");
     EXPECT_EQ(problem({"a.glb"}, 10, endless), "none");
 }
@@ -149,7 +149,7 @@ TEST_F(Plan, OnlyLargeExportsAreAnnounced) {
     EXPECT_FALSE(large_export_note({}));
     EXPECT_FALSE(large_export_note(std::array{small, half}));
     EXPECT_EQ(large_export_note(std::array{half, half}).value_or(""),
-              "the exports will take about 1.0 GiB: c.pc2 512 MiB, c.pc2 512 MiB");
+              "the exports will take up to 1.0 GiB: c.pc2 512 MiB, c.pc2 512 MiB");
 }
 
 TEST(FreeSpace, IsThatOfTheSystem) {
