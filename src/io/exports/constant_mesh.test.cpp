@@ -96,6 +96,66 @@ TEST(ConstantMesh, AVertexThatAllTrianglesLeaveFollowsThem) {
     EXPECT_EQ(meshes.surfaces()[0].positions[5], (Vec3{7, 8, 9}));
 }
 
+/// Appends a copy of the vertex and gives it to some of its triangles.
+template <class Leaves>
+void copy_vertex(TriangleMesh& mesh, std::uint32_t vertex, Leaves&& leaves) {
+    mesh.positions.push_back(Vec3(mesh.positions[vertex]));
+    mesh.uvs.push_back(Vec2(mesh.uvs[vertex]));
+    const auto copy = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (leaves(t)) std::ranges::replace(mesh.triangles[t], vertex, copy);
+}
+
+TEST(ConstantMesh, AVertexThatItsLastTrianglesLeaveFollowsThem) {
+    std::vector<Cloth> cloths = {make_cloth("c", 4, 0)};
+    ConstantMeshes meshes;
+    ASSERT_EQ(meshes.follow(Instant(cloths, 0, 0).frame()), "");
+    const auto follow = [&](std::uint64_t version) {
+        Instant instant(cloths, version, 1);
+        instant.surfaces[0].topology_version = version;
+        ASSERT_EQ(meshes.follow(instant.frame()), "");
+    };
+    copy_vertex(cloths[0].mesh, 5, [](std::size_t t) { return t < 4; });
+    follow(2);
+    EXPECT_EQ(meshes[0].vertex_count(), 17u);
+    const std::vector<Triangle> parted = copied(meshes[0].triangles());
+    copy_vertex(cloths[0].mesh, 5, [](std::size_t) { return true; });
+    follow(3);
+    EXPECT_EQ(meshes[0].vertex_count(), 17u);
+    EXPECT_EQ(copied(meshes[0].triangles()), parted);
+}
+
+TEST(ConstantMesh, NewVerticesHaveTheOrderOfTheSurface) {
+    std::vector<Cloth> cloths = {make_cloth("c", 4, 0)};
+    ConstantMeshes meshes;
+    ASSERT_EQ(meshes.follow(Instant(cloths, 0, 0).frame()), "");
+    for (const std::uint32_t vertex : {10u, 5u, 6u})
+        copy_vertex(cloths[0].mesh, vertex, [](std::size_t t) { return t % 2 == 0; });
+    Instant later(cloths, 1, 1);
+    later.surfaces[0].topology_version = 2;
+    ASSERT_EQ(meshes.follow(later.frame()), "");
+    EXPECT_EQ(copied(meshes[0].triangles()), cloths[0].mesh.triangles);
+    EXPECT_EQ(meshes[0].parent(16), 10u);
+}
+
+TEST(ConstantMesh, ARemovedTriangleStaysWhereItCollapsed) {
+    std::vector<Cloth> cloths = {make_cloth("c", 4, 0)};
+    cloths[0].mesh.triangles[0] = {0, 0, 0};  // before the first frame
+    ConstantMeshes meshes;
+    ASSERT_EQ(meshes.follow(Instant(cloths, 0, 0).frame()), "");
+    cloths[0].mesh.triangles[8] = {5, 5, 5};
+    Instant second(cloths, 1, 1);
+    second.surfaces[0].topology_version = 2;
+    ASSERT_EQ(meshes.follow(second.frame()), "");
+    const std::size_t count = meshes[0].vertex_count();
+    EXPECT_GT(count, 16u);
+    cloths[0].mesh.triangles[0] = cloths[0].mesh.triangles[8] = {6, 6, 6};
+    Instant third(cloths, 2, 2);
+    third.surfaces[0].topology_version = 3;
+    ASSERT_EQ(meshes.follow(third.frame()), "");
+    EXPECT_EQ(meshes[0].vertex_count(), count);
+}
+
 TEST(ConstantMesh, OfAnotherClothIsRefused) {
     const std::vector<Cloth> cloths = {make_cloth("a", 4, 0), make_cloth("b", 4, 1, true)};
     // The mesh of the frame after one in which cloth b is whole.
