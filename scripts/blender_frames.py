@@ -18,6 +18,7 @@ if 'bool' not in vars(numpy):
     numpy.bool = bool
 
 SAMPLES = 48
+WELD = 1e-5  # m; cloth that has not parted yet has coinciding vertices, at which it would be shaded like a seam
 FIT_FRAMES = 12  # number of frames, spread over the animation, that the camera must show
 
 
@@ -107,6 +108,9 @@ def main(arguments):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=path, import_shading='SMOOTH')
     scene = bpy.context.scene
+    for thing in scene.objects:
+        if thing.type == 'MESH':
+            thing.modifiers.new('weld', 'WELD').merge_threshold = WELD
     step = max(1, len(times) // FIT_FRAMES)
     add_camera(scene, corners_over(scene, times[::step] + [times[frame] for frame in frames]))
     add_light(scene)

@@ -1,5 +1,7 @@
 #include "collide/sheet_order.h"
 
+#include "base/copies.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -120,6 +122,22 @@ void SheetOrder::begin(std::vector<Track>& tracks, const SheetPose& sheet, const
     }
 }
 
+// A particle that has been appended has the past of its original.
+void SheetOrder::append_particles(std::size_t sheet, const SheetPose& next) {
+    const std::size_t count = next.positions.size();
+    if (count == poses_[sheet].positions.size()) return;
+    append_copies(poses_[sheet].positions, next.copied_from, count);
+    append_copies(first_[sheet], next.copied_from, count);
+    auto pair = pairs_.begin();
+    for (std::size_t a = 0; a < poses_.size(); ++a) {
+        for (std::size_t b = a + 1; b < poses_.size(); ++b, ++pair) {
+            if (a != sheet && b != sheet) continue;
+            std::vector<Track>& tracks = pair->tracks[a == sheet ? 0 : 1];
+            if (!tracks.empty()) append_copies(tracks, next.copied_from, count);
+        }
+    }
+}
+
 // Between two poses whose boxes, both poses together, do not overlap, nothing can have passed. So far sheets cost
 // nothing.
 void SheetOrder::add(std::vector<SheetPose> poses, double near) {
@@ -129,7 +147,7 @@ void SheetOrder::add(std::vector<SheetPose> poses, double near) {
     const std::size_t count = poses.size();
     std::vector<Bounds> bounds, swept;
     for (std::size_t i = 0; i < count; ++i) {
-        assert(poses[i].positions.size() == poses_[i].positions.size());
+        append_particles(i, poses[i]);
         bounds.push_back(bounds_of(poses[i].positions));
         swept.push_back(bounds_[i]);
         swept.back().include(bounds[i]);

@@ -49,6 +49,7 @@ class SheetSides {
 struct SheetPose {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
+    std::vector<std::uint32_t> copied_from = {};  ///< originals of the last particles, which were appended later
 };
 
 /// Follows sheets through a sequence of poses and finds pairs that changed places.
@@ -61,7 +62,8 @@ struct SheetPose {
 /// over it as ever were.
 class SheetOrder {
   public:
-    /// The first pose. Later ones must have as many sheets and particles.
+    /// The first pose. Later ones must have as many sheets. Particles may be appended, and triangles get other corners
+    /// that were copied from theirs.
     explicit SheetOrder(std::vector<SheetPose> start);
 
     /// The next poses. `near`, m: particles farther from the other sheet do not count. Poses with a position that is
@@ -87,6 +89,7 @@ class SheetOrder {
     struct Count {
         std::size_t over = 0, passed = 0;
     };
+    void append_particles(std::size_t sheet, const SheetPose& next);
     void begin(std::vector<Track>& tracks, const SheetPose& sheet, const SheetSides& other) const;
     Count follow(std::vector<Track>& tracks, std::size_t sheet, std::size_t other, const SheetSides& sides,
                  double near) const;

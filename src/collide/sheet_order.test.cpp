@@ -172,6 +172,45 @@ TEST(SheetOrder, a_ball_has_an_inside) {
     EXPECT_EQ(lost({at(0.2f), at(-0.2f)}), 0u);
 }
 
+// Each triangle gets particles of its own. Their originals go elsewhere.
+SheetPose torn(const SheetPose& sheet, const SheetPose& originals) {
+    SheetPose parts{originals.positions, sheet.triangles};
+    for (Triangle& triangle : parts.triangles) {
+        for (std::uint32_t& corner : triangle) {
+            parts.copied_from.push_back(corner);
+            parts.positions.push_back(sheet.positions[corner]);
+            corner = static_cast<std::uint32_t>(parts.positions.size() - 1);
+        }
+    }
+    return parts;
+}
+
+TEST(SheetOrder, a_sheet_that_tears_is_followed) {
+    // Askew, so that closest points are inside triangles: all particles of a torn sheet are on a rim. Both sheets
+    // slant, so that their boxes overlap.
+    const auto at = [](float height) {
+        const auto slanted = [](Vec3 p) { return turned_about_x(p, 0.3f); };
+        return two(slanted, [=](Vec3 p) { return slanted(p + Vec3{0.013f, height, 0.017f}); });
+    };
+    for (const bool both : {false, true}) {
+        // The originals stay where they were: above and below the other sheet.
+        const auto torn_at = [&](float height) {
+            std::vector<SheetPose> sheets = at(height);
+            sheets[1] = torn(sheets[1], at(0.02f)[1]);
+            if (both)
+                sheets[0] = torn(sheets[0], placed(lower, [](Vec3 p) {
+                                     return turned_about_x(p - Vec3{0, 0.02f, 0}, 0.3f);
+                                 }));
+            return sheets;
+        };
+        EXPECT_EQ(lost({at(0.02f), torn_at(0.01f), torn_at(0.02f)}), 0u);
+        EXPECT_EQ(lost({at(0.02f), torn_at(0.01f), torn_at(-0.01f)}), 1u);
+        EXPECT_EQ(lost({at(0.02f), torn_at(-0.01f)}), 1u) << "between the same two poses";
+        EXPECT_EQ(lost({at(0.02f), at(0.01f), torn_at(-0.01f)}), 1u) << "copies know where their originals were";
+        EXPECT_EQ(lost({at(0.02f), at(0.01f), torn_at(0.02f)}), 0u);
+    }
+}
+
 TEST(SheetOrder, degenerate_and_malformed_sheets_are_survived) {
     const SheetPose none, point{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}}, sheet = placed(lower, moved({}));
     EXPECT_EQ(lost({{}, {}}), 0u);

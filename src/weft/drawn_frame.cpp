@@ -36,7 +36,8 @@ void DrawnFrame::update(const Frame& frame, std::span<const SceneCloth> cloths) 
                         .colors = mesh.colors,
                         .rest_positions = mesh.rest_positions,
                         .topology_version = cloth.topology_version,
-                        .material = drawn_material(cloth, find_cloth(cloths, cloth.model->name, i))};
+                        .material = drawn_material(cloth, find_cloth(cloths, cloth.model->name, i)),
+                        .spare_vertices = cloth.model->mesh_is_of_particles() ? cloth.model->reserve : 0};
     }
 }
 

@@ -1,7 +1,7 @@
 // Constraints, triangles and particles that change while a cloth moves.
 
-#include "cut.h"
 #include "sheet.h"
+#include "solver/model/cut.test.h"
 #include "solver/world/backend_without_room.test.h"
 
 #include <cmath>
@@ -9,6 +9,8 @@
 
 namespace weft::physical {
 namespace {
+
+using test::cut;
 
 constexpr std::uint32_t side = 17;
 
@@ -90,6 +92,7 @@ TEST(Edits, cut_a_sheet_in_two) {
         EXPECT_NEAR(halves(world).mass, mass, 1e-6 * mass);
         EXPECT_GT(cloth_of(world).topology_version, first_topology_version);
         EXPECT_EQ(cloth_of(world).positions.size(), side * side + side);
+        EXPECT_TRUE(std::ranges::equal(world.model(id)->copied_from, cut_in_two(*model).appended));
         EXPECT_EQ(cloth_of(world).render_mesh().positions.size(), side * side + side);
         EXPECT_EQ(cloth_of(world).render_mesh().triangles.size(), model->triangle_count);
         run(world, 1.5);

@@ -3,8 +3,11 @@
 #include "measure.h"
 #include "scenes.h"
 
+#include "mesh/procedural.h"
+#include "solver/model/cut.test.h"
 #include "vulkan/interop.h"
 #include "vulkan/vulkan_backend.h"
+#include "weft/backends.h"
 #include "weft/drawing_device.h"
 
 #include <fstream>
@@ -62,6 +65,76 @@ TEST_F(VulkanPicturesOfSurfaces, in_one_pass_and_in_two_are_the_same) {
     const PictureDistance distance = distance_of(drawn({}), drawn({}, true));
     EXPECT_LT(distance.worst, 0.5);
     EXPECT_LT(distance.mean, 0.01);
+}
+
+std::shared_ptr<const ClothModel> sheet_to_part() {
+    constexpr std::uint32_t side = 17;
+    TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
+    ClothModelDesc desc{.name = "sheet", .reserve = {32, 128}};
+    for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
+        Vec3& at = mesh.positions[p];
+        if (at.z < -0.49f && std::abs(at.x) > 0.49f) desc.pins.particles.push_back(p);
+        at = {at.x, -at.z, 0};
+    }
+    auto topology = build_topology(mesh, {.reorder = false});
+    desc.mesh = std::move(mesh);
+    auto built = build_cloth_model(std::move(desc), std::move(*topology));
+    EXPECT_TRUE(built.ok());
+    return *built;
+}
+
+// A view that has drawn the whole cloth draws the parts as a new view does.
+TEST(VulkanPictures, of_cloth_that_parts_are_those_of_a_new_view) {
+    const std::vector<std::vector<std::string>> overlays = {
+        {}, {"wireframe", "normals", "pins", "constraints"}, {"strain"}, {"bending"}, {"tension"}};
+    for (const std::string backend : {"cpu", "vulkan"}) {
+        Options options;
+        options.backend = backend;
+        auto made = make_backend(options);
+        ASSERT_TRUE(made.ok()) << made.error().message();
+        WorldSettings settings;
+        settings.solver.substeps = 10;
+        World world(std::move(*made), settings);
+        const ClothId id = world.add(sheet_to_part());
+        const SceneDesc scene;
+        const Camera camera{.position = {0, 0, 3}, .target = {}, .fov = 40};
+        auto device = drawing_device(world, "");
+        ASSERT_TRUE(device.ok());
+        const ViewSources sources{.surface = surfaces_on_device(world), .read_picture = {}, .read_light = {}};
+        const auto new_view = [&](std::size_t i) {
+            auto view = SceneView::create(*device, scene, world, {.width = 160, .height = 160, .overlays = overlays[i]},
+                                          sources);
+            EXPECT_TRUE(view.ok()) << view.error().message();
+            return std::move(*view);
+        };
+        const auto picture = [&](SceneView& view) {
+            auto image = view.picture(scene, world, camera);
+            EXPECT_TRUE(image.ok()) << image.error().message();
+            return image ? std::move(*image) : Image8{};
+        };
+        std::vector<SceneView> views;
+        std::vector<Image8> whole;
+        world.step(1.0 / 60);
+        for (std::size_t i = 0; i < overlays.size(); ++i) {
+            views.push_back(new_view(i));
+            whole.push_back(picture(views[i]));
+        }
+        const ClothEdit edit = test::cut(
+            *world.model(id), [](std::uint32_t p) { return p % 17 == 8; }, [](std::uint32_t p) { return p % 17 > 8; });
+        ASSERT_TRUE(world.edit(id, edit).ok());
+        const std::uint32_t corner = world.model(id)->triangles()[300][0];
+        ASSERT_TRUE(world.edit(id, {.triangles = {{300, {corner, corner, corner}, 0}}}).ok());
+        for (const int frames : {0, 1, 20}) {
+            for (int i = 0; i < frames; ++i) world.step(1.0 / 60);
+            for (std::size_t i = 0; i < overlays.size(); ++i) {
+                SceneView fresh = new_view(i);
+                const Image8 now = picture(views[i]);
+                EXPECT_EQ(now.rgba, picture(fresh).rgba) << backend << ", overlays " << i << ", " << frames;
+                EXPECT_NE(now.rgba, whole[i].rgba);
+            }
+        }
+        EXPECT_EQ(world.frame().reports, report_none);
+    }
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ RunStatistics::RunStatistics(const SceneWorld& session, std::uint64_t frames, Co
       order_(sheet_poses(session.world().frame())) {
     const double last_second = std::min(static_cast<double>(frames), 1 / frame_seconds_);
     snapshot_frame_ = frames - static_cast<std::uint64_t>(last_second + 0.5);
-    if (snapshot_frame_ == 0) collect_positions(session.world().frame(), snapshot_);
+    if (snapshot_frame_ == 0) snapshot_ = positions_of(session.world().frame());
     step_ms_.reserve(frames);
     if (measure_penetration_ == MeasurePenetration::every)
         passages_.add(session.world().frame(), session.world().colliders());
@@ -181,16 +181,14 @@ void RunStatistics::add(const World& world) {
         add_tension(world.frame());
     }
     if (frame.index == snapshot_frame_) {
-        collect_positions(world.frame(), snapshot_);
+        snapshot_ = positions_of(world.frame());
         snapshot_time_ = frame.time;
     }
 }
 
 double RunStatistics::mean_speed(const Frame& frame) const {
-    std::vector<Vec3> now;
-    collect_positions(frame, now);
     const double elapsed = frame.time - snapshot_time_;
-    return elapsed > 0 ? mean_displacement(snapshot_, now) / elapsed : 0;
+    return elapsed > 0 ? mean_displacement(snapshot_, frame) / elapsed : 0;
 }
 
 // Between the start and the last frame, a sheet may have gone around another one. So only those that lie on each other

@@ -58,7 +58,7 @@ class RunStatistics {
 
     double frame_seconds_;
     std::uint64_t snapshot_frame_;
-    std::vector<Vec3> snapshot_;  ///< positions one second before the end
+    Positions snapshot_;  ///< one second before the end
     double snapshot_time_ = 0;
     std::vector<double> step_ms_;
     std::array<double, stage_count> stage_ms_{};

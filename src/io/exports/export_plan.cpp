@@ -48,7 +48,7 @@ void find_full_disks(std::span<const ExportEstimate> estimates, FreeSpaceOf free
     }
     for (const auto& [file_system, demand] : demands) {
         if (demand.needed <= demand.free) continue;
-        errors.push_back({demand.files, "would take about " + bytes_text(demand.needed) + ", and only " +
+        errors.push_back({demand.files, "would take up to " + bytes_text(demand.needed) + ", and only " +
                                             bytes_text(demand.free) + " are free there"});
     }
 }
@@ -91,7 +91,7 @@ std::optional<std::string> large_export_note(std::span<const ExportEstimate> est
         parts += (parts.empty() ? "" : ", ") + estimate.files.front().string() + " " + bytes_text(estimate.bytes);
     }
     if (total < large_export_bytes) return std::nullopt;
-    return "the exports will take about " + bytes_text(total) + ": " + parts;
+    return "the exports will take up to " + bytes_text(total) + ": " + parts;
 }
 
 std::string bytes_text(std::uint64_t bytes) {

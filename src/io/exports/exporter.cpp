@@ -1,5 +1,6 @@
 #include "io/exports/exporter.h"
 
+#include "io/exports/constant_mesh.h"
 #include "io/exports/export_format.h"
 #include "io/files/file_pattern.h"
 
@@ -15,7 +16,8 @@ namespace fs = std::filesystem;
 
 #define WEFT_STILL(name, ending, what)                                     \
     Result<void> write_##name(const ExportFrame& frame, AtomicFile& file); \
-    std::uint64_t size_##name(std::span<const ExportSurface> surfaces);
+    std::uint64_t size_##name(std::span<const ExportSurface> surfaces);    \
+    Result<StillVertices> read_##name(const fs::path& path);
 #define WEFT_FILM(name, ending, what) std::unique_ptr<Exporter> make_##name(const fs::path& path);
 #include "io/exports/exports.def"
 #undef WEFT_STILL
@@ -26,6 +28,7 @@ namespace {
 struct Writers {
     StillWriter still = nullptr;
     StillSize still_size = nullptr;
+    StillReader still_reader = nullptr;
     FilmMaker film = nullptr;
 };
 
@@ -38,7 +41,7 @@ constexpr std::array formats = {
 };
 
 constexpr std::array<Writers, formats.size()> writers = {{
-#define WEFT_STILL(name, ending, what) {.still = write_##name, .still_size = size_##name},
+#define WEFT_STILL(name, ending, what) {.still = write_##name, .still_size = size_##name, .still_reader = read_##name},
 #define WEFT_FILM(name, ending, what) {.film = make_##name},
 #include "io/exports/exports.def"
 #undef WEFT_STILL
@@ -113,11 +116,13 @@ class LastFrameExporter : public Exporter {
     std::vector<Surface> surfaces_;
 };
 
+/// Writes each frame at once. What parts later is not known then, so finish() appends the vertices to earlier files.
 class SequenceExporter : public Exporter {
   public:
     SequenceExporter(const Writers& format, const fs::path& path, FilePattern pattern)
         : writer_(format.still),
           size_(format.still_size),
+          reader_(format.still_reader),
           path_(path),
           folder_(folder_of(path)),
           pattern_(std::move(pattern)) {}
@@ -129,16 +134,80 @@ class SequenceExporter : public Exporter {
     Result<void> begin(const ExportInfo&) override { return check_writable(folder_ / pattern_.name(0)); }
 
     Result<void> write(const ExportFrame& frame) override {
-        return write_still(writer_, frame, folder_ / pattern_.name(frame.index));
+        const fs::path path = file_of(frame.index);
+        if (Result<void> checked = check_frame(frame, path.string()); !checked) return checked;
+        if (const bool is_other_cloth = !meshes_.follow(frame).empty(); is_other_cloth) {
+            if (Result<void> finished = finish(); !finished) return finished;
+            meshes_ = {};
+            (void)meshes_.follow(frame);
+        }
+        Written written{frame.index, frame.time, {}};
+        for (const ExportSurface& surface : meshes_.surfaces()) written.counts.push_back(surface.positions.size());
+        written_.push_back(std::move(written));
+        return write_still(writer_, {frame.index, frame.time, meshes_.surfaces()}, path);
     }
 
-    Result<void> finish() override { return {}; }
+    Result<void> finish() override {
+        for (const Written& written : written_) {
+            bool is_complete = true;
+            for (std::size_t i = 0; i < meshes_.size(); ++i)
+                is_complete = is_complete && written.counts[i] == meshes_[i].vertex_count();
+            if (is_complete) continue;
+            if (Result<void> done = widen(written); !done) return done;
+        }
+        written_.clear();
+        return {};
+    }
 
   private:
+    struct Written {
+        std::uint64_t index = 0;
+        double time = 0;
+        std::vector<std::size_t> counts;  ///< vertices by cloth
+    };
+
+    fs::path file_of(std::uint64_t index) const { return folder_ / pattern_.name(index); }
+
+    /// Writes a file again with the vertices and triangles of the last frame.
+    Result<void> widen(const Written& written) const {
+        const fs::path path = file_of(written.index);
+        Result<StillVertices> vertices = reader_(path);
+        if (!vertices) return vertices.errors();
+        std::size_t expected = 0;
+        for (const std::size_t count : written.counts) expected += count;
+        if (vertices->positions.size() != expected || vertices->normals.size() != expected)
+            return Error{path.string(), "was changed by another program before the run was complete"};
+
+        std::vector<StillVertices> wide(meshes_.size());
+        std::vector<ExportSurface> surfaces;
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < wide.size(); ++i) {
+            const auto part = [&](const std::vector<Vec3>& all) {
+                const auto from = all.begin() + static_cast<std::ptrdiff_t>(begin);
+                std::vector<Vec3> values(from, from + static_cast<std::ptrdiff_t>(written.counts[i]));
+                meshes_[i].widen(values);
+                return values;
+            };
+            wide[i] = {part(vertices->positions), part(vertices->normals)};
+            begin += written.counts[i];
+            surfaces.push_back({.name = meshes_[i].name(),
+                                .positions = wide[i].positions,
+                                .normals = wide[i].normals,
+                                .triangles = meshes_[i].triangles(),
+                                .uvs = meshes_[i].uvs(),
+                                .colors = meshes_[i].colors(),
+                                .rest_positions = {}});
+        }
+        return write_still(writer_, {written.index, written.time, surfaces}, path);
+    }
+
     StillWriter writer_;
     StillSize size_;
+    StillReader reader_;
     fs::path path_, folder_;
     FilePattern pattern_;
+    ConstantMeshes meshes_;
+    std::vector<Written> written_;
 };
 
 /// The endings of the formats that can be written as sequences.

@@ -30,8 +30,9 @@ inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh,
             .rest_positions = mesh.positions};
 }
 
-/// All cloths in one frame. Every frame of a run has the same cloths in the same order. Formats that hold a whole
-/// animation in one file need a constant topology: they fail on a frame whose topology versions differ from the first.
+/// All cloths in one frame. Every frame of a run has the same cloths in the same order. Cloth may part and triangles
+/// may be removed: all frames of an animation still have the same vertices and triangles (constant_mesh.h). Other
+/// changes of the triangles are an error of the formats that hold a whole animation in one file.
 struct ExportFrame {
     std::uint64_t index = 0;
     double time = 0;  ///< s
@@ -48,12 +49,13 @@ struct ExportInfo {
 /// The files that an export will write, and their size.
 struct ExportEstimate {
     std::vector<std::filesystem::path> files;  ///< for a sequence: the name with its `%d`
-    std::uint64_t bytes = 0;                   ///< of all files together; rather too many than too few
+    std::uint64_t bytes = 0;  ///< of all files together; an upper bound, with all vertices that cloth may still get
 };
 
 /// Call begin(), then write() once per frame, then finish(). A file gets its final name only in finish(), the files of
-/// a sequence as soon as their frame is complete. An exporter destroyed before finish() leaves nothing behind, except
-/// the complete files of a sequence. After an error an exporter can only be destroyed.
+/// a sequence as soon as their frame is complete. If cloth has parted, finish() writes the earlier files of a sequence
+/// again, with the vertices and triangles of the last frame. An exporter destroyed before finish() leaves nothing
+/// behind, except the complete files of a sequence. After an error an exporter can only be destroyed.
 class Exporter {
   public:
     virtual ~Exporter() = default;

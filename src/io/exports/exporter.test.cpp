@@ -1,7 +1,8 @@
 #include "io/exports/exporter.h"
 
 #include "io/exports/export_format.h"
-#include "io/exports/film_fixtures.test.h"
+#include "io/exports/torn_film.test.h"
+#include "io/meshes/mesh_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,17 +10,24 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstring>
 #include <limits>
+#include <sstream>
 
 namespace weft {
+Result<StillVertices> read_obj(const std::filesystem::path& path);
+Result<StillVertices> read_ply(const std::filesystem::path& path);
+
 namespace {
 
 using test::Cloth;
+using test::expect_shows;
 using test::export_film;
 using test::Instant;
 using test::make_cloth;
 using test::read_text;
 using test::TestFolder;
+using test::TornFilm;
 using test::write_text;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -119,6 +127,131 @@ TEST(Exporter, AStillHasTheTrianglesOfTheLastFrame) {
     const std::string text = read_text(folder / "a.obj");
     EXPECT_EQ(std::ranges::count(text, 'f'), static_cast<std::ptrdiff_t>(cloths[0].mesh.triangles.size() - 3));
     EXPECT_EQ(text.find("f 1/1/1 1/1/1"), std::string::npos);
+}
+
+/// What is in a sequence: the numbers of a mesh that a .obj or .ply holds.
+struct SequenceFile {
+    std::vector<Vec3> positions, normals;
+    std::vector<Triangle> triangles;
+};
+SequenceFile read_file(const std::filesystem::path& path) {
+    SequenceFile file;
+    const auto vertices = path.extension() == ".ply" ? read_ply(path) : read_obj(path);
+    EXPECT_TRUE(vertices.ok()) << path;
+    if (!vertices) return file;
+    file.positions = vertices->positions, file.normals = vertices->normals;
+    const std::string text = read_text(path);
+    if (path.extension() == ".ply") {
+        constexpr std::size_t record = 13;
+        const std::size_t faces = std::stoul(text.substr(text.find("element face ") + 13));
+        for (std::size_t f = 0; f < faces; ++f) {
+            const char* at = text.data() + text.size() - (faces - f) * record;
+            EXPECT_EQ(*at, 3);
+            std::memcpy(file.triangles.emplace_back().data(), at + 1, sizeof(Triangle));
+        }
+        return file;
+    }
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("f ")) continue;
+        std::istringstream in(line.substr(2));
+        Triangle& triangle = file.triangles.emplace_back();
+        for (std::uint32_t& vertex : triangle) {
+            std::string corner;
+            in >> corner;
+            vertex = static_cast<std::uint32_t>(std::stoul(corner) - 1);
+        }
+    }
+    return file;
+}
+
+TEST(Exporter, ASequenceOfAClothThatPartsHasOneListOfTriangles) {
+    for (const bool removes : {false, true}) {
+        for (const std::string ending : {".obj", ".ply"}) {
+            const TestFolder folder;
+            const TornFilm film(removes);
+            ASSERT_TRUE(film.write(folder / ("%d" + ending)).ok());
+            EXPECT_EQ(folder.names().size(), film.size());
+            std::vector<Triangle> triangles;
+            for (std::size_t f = 0; f < film.size(); ++f) {
+                const std::filesystem::path path = folder / (std::to_string(f) + ending);
+                const SequenceFile file = read_file(path);
+                if (f == 0) triangles = file.triangles;
+                EXPECT_EQ(file.triangles, triangles);
+                EXPECT_EQ(file.positions.size(), film.vertices() + 9);
+                const auto instant = film.at(f);
+                // Both cloths as one surface.
+                std::vector<Vec3> positions = instant->positions(0), normals = instant->normals(0);
+                std::vector<Triangle> surface = film.torn(f).triangles;
+                const auto first = static_cast<std::uint32_t>(positions.size());
+                for (const Triangle& t : film.cloths(f)[1].mesh.triangles)
+                    surface.push_back({t[0] + first, t[1] + first, t[2] + first});
+                for (const Vec3& p : instant->positions(1)) positions.push_back(p);
+                for (const Vec3& n : instant->normals(1)) normals.push_back(n);
+                expect_shows(triangles, file.positions, surface, positions, f);
+                expect_shows(triangles, file.normals, surface, normals, f);
+                EXPECT_TRUE(load_mesh(path).ok()) << path;
+            }
+        }
+    }
+}
+
+TEST(Exporter, ASequenceWritesOnlyThoseFilesAgainThatLackVertices) {
+    const TestFolder folder;
+    const TornFilm film;
+    const auto made = make_exporter(folder / "%d.ply");
+    ASSERT_TRUE(made.ok() && (*made)->begin({"s", 60, film.size()}).ok());
+    for (std::size_t f = 0; f < film.size(); ++f) ASSERT_TRUE((*made)->write(film.at(f)->frame()).ok());
+    // A file that is written again is another file.
+    std::vector<std::filesystem::path> links;
+    for (std::size_t f = 0; f < film.size(); ++f) {
+        links.push_back(folder / ("link" + std::to_string(f)));
+        std::filesystem::create_hard_link(folder / (std::to_string(f) + ".ply"), links.back());
+    }
+    ASSERT_TRUE((*made)->finish().ok());
+    for (std::size_t f = 0; f < film.size(); ++f)
+        EXPECT_EQ(std::filesystem::equivalent(links[f], folder / (std::to_string(f) + ".ply")), f >= 4) << f;
+}
+
+TEST(Exporter, ASequenceWhoseFilesChangeDuringTheRunIsAnError) {
+    const TornFilm film;
+    for (const std::string ending : {".obj", ".ply"}) {
+        const auto finished_after = [&](auto&& spoil) {
+            const TestFolder folder;
+            const auto made = make_exporter(folder / ("%d" + ending));
+            EXPECT_TRUE(made.ok() && (*made)->begin({"s", 60, film.size()}).ok());
+            for (std::size_t f = 0; f < film.size(); ++f) EXPECT_TRUE((*made)->write(film.at(f)->frame()).ok());
+            spoil(folder / ("1" + ending));
+            const Result<void> finished = (*made)->finish();
+            return finished ? std::string("none") : finished.error().message();
+        };
+        EXPECT_EQ(finished_after([](const auto&) {}), "none");
+        EXPECT_THAT(finished_after([](const auto& path) { std::filesystem::remove(path); }), HasSubstr("1" + ending));
+        EXPECT_THAT(finished_after([](const auto& path) { write_text(path, "v 1 2\n"); }), HasSubstr("1" + ending));
+        EXPECT_THAT(finished_after([&](const auto& path) { (void)export_film(path, {make_cloth("other", 3, 0)}, 1); }),
+                    HasSubstr("was changed by another program"));
+        EXPECT_THAT(finished_after([](const auto& path) {
+                        std::filesystem::resize_file(path, std::filesystem::file_size(path) / 4);
+                    }),
+                    HasSubstr("1" + ending));
+    }
+}
+
+// Such a run cannot have one list of triangles: it has one until the cloth is replaced, and one after that.
+TEST(Exporter, ASequenceGoesOnWithAnotherCloth) {
+    const TestFolder folder;
+    const TornFilm film;
+    const std::vector<Cloth> others = {make_cloth("other", 5, 0)};
+    const auto made = make_exporter(folder / "%d.ply");
+    ASSERT_TRUE(made.ok() && (*made)->begin({"s", 60, film.size() + 2}).ok());
+    for (std::size_t f = 0; f < film.size(); ++f) ASSERT_TRUE((*made)->write(film.at(f)->frame()).ok());
+    for (const std::uint64_t f : {6u, 7u}) ASSERT_TRUE((*made)->write(Instant(others, f, 1).frame()).ok());
+    ASSERT_TRUE((*made)->finish().ok());
+    for (std::size_t f = 0; f < 8; ++f) {
+        const SequenceFile file = read_file(folder / (std::to_string(f) + ".ply"));
+        EXPECT_EQ(file.positions.size(), f < film.size() ? film.vertices() + 9 : 25u);
+        EXPECT_EQ(file.triangles == others[0].mesh.triangles, f >= film.size());
+    }
 }
 
 TEST(Exporter, DestroyedEarlyLeavesNothing) {

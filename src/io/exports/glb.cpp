@@ -2,10 +2,13 @@
 // animation of the weights plays them. Section numbers refer to the glTF 2.0 specification (Khronos, 2021).
 //
 // During the run the binary data goes to an unnamed temporary file: memory holds only one frame, and a full disk is
-// reported at the frame that fills it. tinygltf writes the JSON; this file writes the container, because tinygltf's own
-// writer would hold the whole animation in memory twice.
+// reported at the frame that fills it. If cloth has parted, vertices that earlier frames lack are appended when the
+// data are copied from there to the .glb. tinygltf writes the JSON; this file writes the container, because tinygltf's
+// own writer would hold the whole animation in memory twice.
+#include "io/exports/constant_mesh.h"
 #include "io/exports/export_format.h"
 #include "io/exports/glb_material.h"
+#include "io/exports/glb_views.h"
 #include "solver/state/frame.h"
 
 #include <tiny_gltf.h>
@@ -45,41 +48,39 @@ constexpr double json_bytes_per_target = 700;
 
 struct FirstFrame {
     std::vector<Vec3> positions, normals;
-    std::size_t triangles = 0;
-    std::uint64_t topology_version = 0;
 };
-
-// The highest value of either type restarts a primitive and is not allowed as an index (3.7.2.1).
-bool has_short_indices(std::size_t vertices) {
-    return vertices <= std::numeric_limits<std::uint16_t>::max();
-}
 
 /// Estimated bytes of an animation, rather too many than too few.
 struct FilmSize {
-    double base = 0;    ///< everything but the morph targets and their weights
+    double pictures = 0;
+    double base = 0;    ///< everything but the pictures, the morph targets and their weights
     double target = 0;  ///< per frame
 
-    double of(double frames) const { return base + (frames - 1) * target + frames * frames * sizeof(float); }
+    double of(double frames) const { return pictures + base + (frames - 1) * target + frames * frames * sizeof(float); }
+
+    void set_meshes(std::span<const ExportSurface> surfaces, std::size_t (*vertices_of)(const ExportSurface&));
 };
 
-FilmSize film_size(std::span<const ExportSurface> surfaces, const std::filesystem::path& folder) {
-    FilmSize size;
-    size.base += static_cast<double>(GltfMaterials::most_picture_bytes(surfaces, folder));
+std::size_t present_vertices(const ExportSurface& surface) {
+    return surface.positions.size();
+}
+
+void FilmSize::set_meshes(std::span<const ExportSurface> surfaces, std::size_t (*vertices_of)(const ExportSurface&)) {
+    base = target = 0;
     for (const ExportSurface& surface : surfaces) {
-        const auto vertices = static_cast<double>(surface.positions.size());
+        const auto vertices = static_cast<double>(vertices_of(surface));
         const bool tangents = surface.material != nullptr &&
                               (surface.material->weave != Weave::smooth || !surface.material->normal_map.empty());
         const double vertex = 2 * sizeof(Vec3) +
                               (surface.uvs.empty() ? 0 : sizeof(Vec2) + (tangents ? sizeof(Vec4) : 0)) +
                               (surface.colors.empty() ? 0 : sizeof(Vec4));
-        const double index = has_short_indices(surface.positions.size()) ? 2 : 4;
+        const double index = index_type(vertices_of(surface)) == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2 : 4;
         // The name is in the JSON, where a character may take six bytes; the rest of the JSON of a cloth is a few
         // lines.
-        size.base += vertices * vertex + static_cast<double>(surface.triangles.size()) * 3 * index + 4096 +
-                     6 * static_cast<double>(surface.name.size());
-        size.target += vertices * 2 * sizeof(Vec3) + json_bytes_per_target;
+        base += vertices * vertex + static_cast<double>(surface.triangles.size()) * 3 * index + 4096 +
+                6 * static_cast<double>(surface.name.size());
+        target += vertices * 2 * sizeof(Vec3) + json_bytes_per_target;
     }
-    return size;
 }
 
 int as_int(std::size_t value) {
@@ -126,11 +127,12 @@ class GlbExporter : public Exporter {
     Result<void> add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive);
     Result<void> add_target(std::size_t cloth, const ExportSurface& surface);
     Result<void> add_animation();
-    Result<void> write_container(std::string json);
+    template <class WriteBinary>
+    Result<void> write_container(const std::string& json, std::uint64_t binary_bytes, WriteBinary&& write_binary);
 
     Result<void> check_order(const ExportFrame& frame) const;
     Result<void> check_size(const FilmSize& size, std::uint64_t frames) const;
-    Result<std::string> json_text() const;
+    Result<std::string> json_text(std::uint64_t binary_bytes) const;
     Error error(std::string what) const { return {path_.string(), std::move(what)}; }
 
     /// Opens a view at the end of the binary data, and an accessor for the whole view. The caller appends the values.
@@ -147,15 +149,20 @@ class GlbExporter : public Exporter {
     BufferedFile spool_;
     GltfMaterials materials_{model_, [this](std::span<const std::byte> bytes) { return add_picture(bytes); }};
     std::vector<float> times_;
-    std::vector<FirstFrame> first_;
+    ConstantMeshes meshes_;
+    std::vector<FirstFrame> first_;  ///< by cloth
     FilmSize size_;
     std::vector<Vec3> deltas_;
 };
 
 Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
-    const FilmSize size = film_size(surfaces, info.folder);
+    FilmSize size{.pictures = static_cast<double>(GltfMaterials::most_picture_bytes(surfaces, info.folder))};
+    size.set_meshes(surfaces, present_vertices);
     if (Result<void> checked = check_size(size, info.frame_count); !checked) return checked.errors();
-    return ExportEstimate{{path_}, static_cast<std::uint64_t>(size.of(static_cast<double>(info.frame_count)))};
+    // With all vertices that may be added, the limit may be passed. Whether it will be is only known then.
+    size.set_meshes(surfaces, most_vertices);
+    const double bytes = std::min(size.of(static_cast<double>(info.frame_count)), byte_limit);
+    return ExportEstimate{{path_}, static_cast<std::uint64_t>(bytes)};
 }
 
 Result<void> GlbExporter::begin(const ExportInfo& info) {
@@ -171,19 +178,23 @@ Result<void> GlbExporter::begin(const ExportInfo& info) {
 Result<void> GlbExporter::write(const ExportFrame& frame) {
     if (Result<void> checked = check_frame(frame, path_.string()); !checked) return checked;
     if (Result<void> checked = check_order(frame); !checked) return checked;
+    if (std::string problem = meshes_.follow(frame); !problem.empty()) return error(std::move(problem));
+    const ExportFrame shown{frame.index, frame.time, meshes_.surfaces()};
     if (times_.empty()) {
-        if (Result<void> added = add_first_frame(frame); !added) return added;
+        if (Result<void> added = add_first_frame(shown); !added) return added;
     } else {
-        if (Result<void> checked = check_size(size_, times_.size() + 1); !checked) return checked;
+        if (meshes_.have_grown()) size_.set_meshes(shown.surfaces, present_vertices);
+        const std::uint64_t frames = std::max<std::uint64_t>(times_.size() + 1, info_.frame_count);
+        if (Result<void> checked = check_size(size_, frames); !checked) return checked;
         for (std::size_t i = 0; i < first_.size(); ++i) {
-            if (Result<void> added = add_target(i, frame.surfaces[i]); !added) return added;
+            if (Result<void> added = add_target(i, shown.surfaces[i]); !added) return added;
         }
     }
     times_.push_back(static_cast<float>(frame.time));
     return {};
 }
 
-/// Key times must increase (3.11), and the vertices must be those of the first frame, which the morph targets move.
+/// Key times must increase (3.11).
 Result<void> GlbExporter::check_order(const ExportFrame& frame) const {
     const std::string which = "frame " + std::to_string(frame.index) + ": ";
     const auto time = static_cast<float>(frame.time);
@@ -191,17 +202,6 @@ Result<void> GlbExporter::check_order(const ExportFrame& frame) const {
         return error(which + "its time must be a finite number of seconds, at least 0");
     if (times_.empty()) return {};
     if (!(time > times_.back())) return error(which + "its time must be later than that of the frame before");
-    if (frame.surfaces.size() != first_.size()) return error(which + "it does not have the cloths of the first frame");
-    for (std::size_t i = 0; i < first_.size(); ++i) {
-        const ExportSurface& surface = frame.surfaces[i];
-        if (surface.positions.size() == first_[i].positions.size() && surface.triangles.size() == first_[i].triangles &&
-            surface.topology_version == first_[i].topology_version) {
-            continue;
-        }
-        return error(which + "cloth \"" + std::string(surface.name) +
-                     "\" has other vertices or triangles than in the first frame, which a .glb cannot animate; " +
-                     "write a sequence instead");
-    }
     return {};
 }
 
@@ -226,10 +226,9 @@ Result<void> GlbExporter::add_first_frame(const ExportFrame& frame) {
         first.positions.assign(surface.positions.begin(), surface.positions.end());
         first.normals.reserve(surface.normals.size());
         for (const Vec3& normal : surface.normals) first.normals.push_back(unit_normal(normal));
-        first.triangles = surface.triangles.size();
-        first.topology_version = surface.topology_version;
     }
-    size_ = film_size(frame.surfaces, info_.folder);
+    size_.pictures = static_cast<double>(GltfMaterials::most_picture_bytes(frame.surfaces, info_.folder));
+    size_.set_meshes(frame.surfaces, present_vertices);
     if (Result<void> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
         return checked;
     }
@@ -307,22 +306,17 @@ Result<void> GlbExporter::add_material(const ExportSurface& surface, tinygltf::P
 }
 
 Result<void> GlbExporter::add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive) {
-    const std::span<const std::uint32_t> indices(surface.triangles.front().data(), surface.triangles.size() * 3);
-    const bool is_short = has_short_indices(surface.positions.size());
-    open_accessor(is_short ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                  TINYGLTF_TYPE_SCALAR, indices.size(), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    const std::size_t vertices = surface.positions.size();
+    open_accessor(index_type(vertices), TINYGLTF_TYPE_SCALAR, surface.triangles.size() * 3,
+                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     primitive.indices = newest_accessor();
-    if (!is_short) return append(std::as_bytes(indices));
-
-    std::vector<std::uint16_t> narrow;
-    narrow.reserve(indices.size() + 1);
-    for (const std::uint32_t index : indices) narrow.push_back(static_cast<std::uint16_t>(index));
-    if (narrow.size() % 2 != 0) narrow.push_back(0);  // the next view must be aligned to four bytes (3.6.2.4)
-    return append(std::as_bytes(std::span(narrow)));
+    return append(index_bytes(surface.triangles, vertices));
 }
 
 Result<void> GlbExporter::add_target(std::size_t cloth, const ExportSurface& surface) {
-    const FirstFrame& first = first_[cloth];
+    FirstFrame& first = first_[cloth];
+    meshes_[cloth].widen(first.positions);
+    meshes_[cloth].widen(first.normals);
     const std::size_t count = first.positions.size();
     deltas_.resize(count);
     for (std::size_t i = 0; i < count; ++i) deltas_[i] = surface.positions[i] - first.positions[i];
@@ -373,12 +367,18 @@ Result<void> GlbExporter::add_animation() {
 Result<void> GlbExporter::finish() {
     if (times_.empty()) return error("there is no frame to write");
     if (Result<void> r = add_animation(); !r) return r;
-    Result<std::string> json = json_text();
+    if (!meshes_.have_grown()) {
+        const Result<std::string> json = json_text(spool_.size());
+        if (!json) return json.errors();
+        return write_container(*json, spool_.size(), [&](BufferedFile& to) { return spool_.move_to(to); });
+    }
+    const WideViews views(model_, meshes_, spool_.size());
+    const Result<std::string> json = json_text(views.bytes());
     if (!json) return json.errors();
-    return write_container(*std::move(json));
+    return write_container(*json, views.bytes(), [&](BufferedFile& to) { return views.write(spool_, to); });
 }
 
-Result<std::string> GlbExporter::json_text() const {
+Result<std::string> GlbExporter::json_text(std::uint64_t binary_bytes) const {
     std::ostringstream stream;
     try {
         // tinygltf throws if a name is not UTF-8.
@@ -391,13 +391,15 @@ Result<std::string> GlbExporter::json_text() const {
     std::string json = std::move(stream).str();
     json.erase(json.find_last_of('}') + 1);
     // tinygltf takes the length of a buffer from its bytes in memory, which are in the temporary file here.
-    json.insert(1, "\"buffers\":[{\"byteLength\":" + std::to_string(spool_.size()) + "}],");
+    json.insert(1, "\"buffers\":[{\"byteLength\":" + std::to_string(binary_bytes) + "}],");
     json.append((4 - json.size() % 4) % 4, ' ');
     return json;
 }
 
-Result<void> GlbExporter::write_container(std::string json) {
-    const std::uint64_t total = header_bytes + 2 * chunk_header_bytes + json.size() + spool_.size();
+template <class WriteBinary>
+Result<void> GlbExporter::write_container(const std::string& json, std::uint64_t binary_bytes,
+                                          WriteBinary&& write_binary) {
+    const std::uint64_t total = header_bytes + 2 * chunk_header_bytes + json.size() + binary_bytes;
     if (static_cast<double>(total) > byte_limit) {
         return error("would take more than 4 GiB, the limit of a .glb; write fewer frames or a sequence");
     }
@@ -410,8 +412,8 @@ Result<void> GlbExporter::write_container(std::string json) {
     };
     if (Result<void> r = put({glb_magic, glb_version, total, json.size(), json_chunk}); !r) return r;
     if (Result<void> r = file->write(json); !r) return r;
-    if (Result<void> r = put({spool_.size(), binary_chunk}); !r) return r;
-    if (Result<void> r = spool_.move_to(file->content()); !r) return r;
+    if (Result<void> r = put({binary_bytes, binary_chunk}); !r) return r;
+    if (Result<void> r = write_binary(file->content()); !r) return r;
     return file->commit();
 }
 

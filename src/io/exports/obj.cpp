@@ -1,14 +1,18 @@
 // Wavefront OBJ. Numbers are the shortest text that reads back as the same float.
 #include "io/exports/export_format.h"
+#include "io/files/whole_file.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace weft {
 Result<void> write_obj(const ExportFrame& frame, AtomicFile& file);
 std::uint64_t size_obj(std::span<const ExportSurface> surfaces);
+Result<StillVertices> read_obj(const std::filesystem::path& path);
 
 namespace {
 
@@ -77,18 +81,29 @@ Result<void> write_triangles(const ExportSurface& surface, FirstIndex first, Ato
     return {};
 }
 
+/// Reads the three numbers of a line after its keyword.
+bool read_vector(std::string_view line, Vec3& vector) {
+    for (float* number : {&vector.x, &vector.y, &vector.z}) {
+        line.remove_prefix(std::min(line.find(' '), line.size()));
+        if (line.empty()) return false;
+        line.remove_prefix(1);
+        if (std::from_chars(line.data(), line.data() + line.size(), *number).ec != std::errc()) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::uint64_t size_obj(std::span<const ExportSurface> surfaces) {
     // A coordinate of a moving cloth takes all digits of a float, as in " -0.12345678".
     constexpr std::uint64_t number = 12, keyword = 3;
     std::uint64_t vertices = 0, bytes = 0;
-    for (const ExportSurface& surface : surfaces) vertices += surface.positions.size();
+    for (const ExportSurface& surface : surfaces) vertices += most_vertices(surface);
     const std::uint64_t index = 1 + std::to_string(vertices).size();  // with the space or the slash before it
     for (const ExportSurface& surface : surfaces) {
         bytes += keyword + surface.name.size();
-        bytes += surface.positions.size() * 2 * (keyword + 3 * number);
-        bytes += surface.uvs.size() * (keyword + 2 * number);
+        bytes += most_vertices(surface) * 2 * (keyword + 3 * number);
+        bytes += (surface.uvs.empty() ? 0 : most_vertices(surface)) * (keyword + 2 * number);
         bytes += surface.triangles.size() * (keyword + 3 * 3 * index);
     }
     return bytes;
@@ -104,6 +119,21 @@ Result<void> write_obj(const ExportFrame& frame, AtomicFile& file) {
         first.uv += surface.uvs.size();
     }
     return {};
+}
+
+Result<StillVertices> read_obj(const std::filesystem::path& path) {
+    const Result<std::string> text = read_whole_file(path);
+    if (!text) return text.errors();
+    StillVertices vertices;
+    for (std::string_view rest = *text; !rest.empty();) {
+        const std::string_view line = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+        const bool is_normal = line.starts_with("vn ");
+        if (!is_normal && !line.starts_with("v ")) continue;
+        Vec3& vector = (is_normal ? vertices.normals : vertices.positions).emplace_back();
+        if (!read_vector(line, vector)) return Error{path.string(), "has a line without three numbers"};
+    }
+    return vertices;
 }
 
 }  // namespace weft

@@ -6,6 +6,10 @@
 // All cloths form one mesh, one after another, because the format has a single list of points. Readers match it to the
 // mesh only by the number and order of vertices, and readers of .obj drop vertices that no face uses: both files leave
 // them out. Both files have the coordinates of the scene.
+//
+// During the run the samples go to an unnamed temporary file. If cloth has parted, vertices that earlier samples lack
+// are appended when they are copied from there to the .pc2.
+#include "io/exports/constant_mesh.h"
 #include "io/exports/export_format.h"
 
 #include <algorithm>
@@ -37,12 +41,7 @@ static_assert(sizeof(Header) == 32);
 
 constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
 
-/// Whether a triangle has three different corners. Readers of .obj skip other faces.
-bool is_face(const Triangle& t) {
-    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-}
-
-/// The vertices that faces use, ascending.
+/// The vertices that faces use, ascending. Readers of .obj skip triangles that are no faces.
 std::vector<std::uint32_t> used_vertices(const ExportSurface& surface) {
     const std::size_t vertex_count = surface.positions.size();
     std::vector<bool> used(vertex_count);
@@ -57,32 +56,28 @@ std::vector<std::uint32_t> used_vertices(const ExportSurface& surface) {
     return vertices;
 }
 
-/// The numbers of vertices and triangles, and the topology version.
-std::array<std::uint64_t, 3> shape_of(const ExportSurface& surface) {
-    return {surface.positions.size(), surface.triangles.size(), surface.topology_version};
-}
+/// What of a cloth is in both files.
+struct KeptCloth {
+    std::vector<std::uint32_t> vertices;   ///< of the constant mesh, ascending; the appended ones are all used
+    std::vector<Vec3> positions, normals;  ///< of all vertices, in the first frame
 
-/// All cloths as one mesh, without what readers drop.
-struct RestMesh {
-    TriangleMesh mesh;
-    std::vector<std::vector<std::uint32_t>> kept;     ///< per cloth: its vertices that are in `mesh`, ascending
-    std::vector<std::array<std::uint64_t, 3>> shape;  ///< per cloth
-
-    void add(const ExportSurface& surface, bool with_uvs);
+    /// Appends the vertices that have been added to the mesh.
+    void follow(const ConstantMesh& mesh);
+    /// Appends the values that an earlier sample lacks, one per kept vertex.
+    void widen(const ConstantMesh& mesh, std::vector<Vec3>& values) const;
 };
 
-void RestMesh::add(const ExportSurface& surface, bool with_uvs) {
-    const std::vector<std::uint32_t>& vertices = kept.emplace_back(used_vertices(surface));
-    shape.push_back(shape_of(surface));
-    std::vector<std::uint32_t> renumbered(surface.positions.size(), none);
-    for (const std::uint32_t v : vertices) {
-        renumbered[v] = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.push_back(surface.positions[v]);
-        mesh.normals.push_back(surface.normals[v]);
-        if (with_uvs) mesh.uvs.push_back(surface.uvs.empty() ? Vec2{} : surface.uvs[v]);
-    }
-    for (const Triangle& t : surface.triangles) {
-        if (is_face(t)) mesh.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
+void KeptCloth::follow(const ConstantMesh& mesh) {
+    for (std::size_t v = positions.size(); v < mesh.vertex_count(); ++v)
+        vertices.push_back(static_cast<std::uint32_t>(v));
+    mesh.widen(positions);
+    mesh.widen(normals);
+}
+
+void KeptCloth::widen(const ConstantMesh& mesh, std::vector<Vec3>& values) const {
+    for (std::size_t i = values.size(); i < vertices.size(); ++i) {
+        const auto parent = std::ranges::lower_bound(vertices, mesh.parent(vertices[i]));
+        values.push_back(values[static_cast<std::size_t>(parent - vertices.begin())]);
     }
 }
 
@@ -98,16 +93,17 @@ class Pc2Exporter : public Exporter {
 
   private:
     Result<void> check_counts(std::uint64_t points, std::uint64_t samples) const;
-    Result<void> check_shape(const ExportFrame& frame) const;
-    void keep_rest_mesh(const ExportFrame& frame);
-    Result<void> write_rest_mesh(AtomicFile& file) const;
+    void keep(const ExportFrame& frame);
+    TriangleMesh rest_mesh() const;
+    Result<void> write_samples(BufferedFile& to);
     Error error(std::string what) const { return {path_.string(), std::move(what)}; }
 
     std::filesystem::path path_, rest_path_;
     std::string name_;
-    RestMesh rest_;
+    ConstantMeshes meshes_;
+    std::vector<KeptCloth> kept_;  ///< by cloth
     BufferedFile spool_;
-    std::uint64_t samples_ = 0;
+    std::vector<std::vector<std::size_t>> samples_;  ///< vertices by cloth
     std::vector<Vec3> sample_;
 };
 
@@ -119,7 +115,7 @@ Result<void> Pc2Exporter::check_counts(std::uint64_t points, std::uint64_t sampl
 
 Result<ExportEstimate> Pc2Exporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
     std::uint64_t points = 0;
-    for (const ExportSurface& surface : surfaces) points += surface.positions.size();
+    for (const ExportSurface& surface : surfaces) points += most_vertices(surface);
     if (Result<void> checked = check_counts(points, info.frame_count); !checked) return checked.errors();
     return ExportEstimate{{path_, rest_path_},
                           sizeof(Header) + info.frame_count * points * sizeof(Vec3) + size_obj(surfaces)};
@@ -136,60 +132,83 @@ Result<void> Pc2Exporter::begin(const ExportInfo& info) {
     return {};
 }
 
-Result<void> Pc2Exporter::check_shape(const ExportFrame& frame) const {
-    const std::string which = "frame " + std::to_string(frame.index) + ": ";
-    if (frame.surfaces.size() != rest_.shape.size()) {
-        return error(which + "it does not have the cloths of the first frame");
+void Pc2Exporter::keep(const ExportFrame& frame) {
+    if (kept_.empty()) {
+        if (name_.empty()) name_ = frame.surfaces.front().name;
+        for (const ExportSurface& surface : frame.surfaces) {
+            kept_.push_back({.vertices = used_vertices(surface),
+                             .positions = {surface.positions.begin(), surface.positions.end()},
+                             .normals = {surface.normals.begin(), surface.normals.end()}});
+        }
     }
-    for (std::size_t i = 0; i < rest_.shape.size(); ++i) {
-        const ExportSurface& surface = frame.surfaces[i];
-        if (rest_.shape[i] == shape_of(surface)) continue;
-        return error(which + "cloth \"" + std::string(surface.name) +
-                     "\" has other vertices or triangles than in the first frame, which a .pc2 cannot hold; " +
-                     "write a sequence instead");
-    }
-    return {};
-}
-
-void Pc2Exporter::keep_rest_mesh(const ExportFrame& frame) {
-    const bool with_uvs =
-        std::ranges::any_of(frame.surfaces, [](const ExportSurface& surface) { return !surface.uvs.empty(); });
-    for (const ExportSurface& surface : frame.surfaces) rest_.add(surface, with_uvs);
-    if (name_.empty()) name_ = frame.surfaces.front().name;
+    for (std::size_t i = 0; i < kept_.size(); ++i) kept_[i].follow(meshes_[i]);
 }
 
 Result<void> Pc2Exporter::write(const ExportFrame& frame) {
     if (Result<void> checked = check_frame(frame, path_.string()); !checked) return checked;
-    if (samples_ == 0) keep_rest_mesh(frame);
-    if (Result<void> checked = check_shape(frame); !checked) return checked;
-    if (Result<void> checked = check_counts(rest_.mesh.positions.size(), samples_ + 1); !checked) return checked;
-    if (rest_.mesh.triangles.empty()) return error("no triangle has three different corners");
+    if (std::string problem = meshes_.follow(frame); !problem.empty()) return error(std::move(problem));
+    keep(frame);
     sample_.clear();
-    for (std::size_t i = 0; i < frame.surfaces.size(); ++i) {
-        for (const std::uint32_t v : rest_.kept[i]) sample_.push_back(frame.surfaces[i].positions[v]);
+    std::vector<std::size_t>& counts = samples_.emplace_back();
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+        counts.push_back(kept_[i].vertices.size());
+        for (const std::uint32_t v : kept_[i].vertices) sample_.push_back(meshes_.surfaces()[i].positions[v]);
     }
-    ++samples_;
+    if (sample_.empty()) return error("no triangle has three different corners");
+    if (Result<void> checked = check_counts(sample_.size(), samples_.size()); !checked) return checked;
     return spool_.write(std::as_bytes(std::span(sample_)));
 }
 
-Result<void> Pc2Exporter::write_rest_mesh(AtomicFile& file) const {
-    const ExportSurface surface = surface_of(name_, rest_.mesh, rest_.mesh.positions, rest_.mesh.normals);
-    return write_obj({0, 0, std::span(&surface, 1)}, file);
+/// All cloths as one mesh, without what readers drop.
+TriangleMesh Pc2Exporter::rest_mesh() const {
+    TriangleMesh rest;
+    bool with_uvs = false;
+    for (std::size_t i = 0; i < kept_.size(); ++i) with_uvs = with_uvs || !meshes_[i].uvs().empty();
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+        const KeptCloth& kept = kept_[i];
+        const ConstantMesh& mesh = meshes_[i];
+        std::vector<std::uint32_t> renumbered(mesh.vertex_count(), none);
+        for (const std::uint32_t v : kept.vertices) {
+            renumbered[v] = static_cast<std::uint32_t>(rest.positions.size());
+            rest.positions.push_back(kept.positions[v]);
+            rest.normals.push_back(kept.normals[v]);
+            if (with_uvs) rest.uvs.push_back(mesh.uvs().empty() ? Vec2{} : mesh.uvs()[v]);
+        }
+        for (const Triangle& t : mesh.triangles())
+            if (is_face(t)) rest.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
+    }
+    return rest;
+}
+
+Result<void> Pc2Exporter::write_samples(BufferedFile& to) {
+    if (!meshes_.have_grown()) return spool_.move_to(to);
+    std::vector<Vec3> values;
+    for (const std::vector<std::size_t>& counts : samples_) {
+        for (std::size_t i = 0; i < kept_.size(); ++i) {
+            values.resize(counts[i]);
+            if (Result<void> r = spool_.take(std::as_writable_bytes(std::span(values))); !r) return r;
+            kept_[i].widen(meshes_[i], values);
+            if (Result<void> r = to.write(std::as_bytes(std::span(values))); !r) return r;
+        }
+    }
+    return {};
 }
 
 Result<void> Pc2Exporter::finish() {
-    if (samples_ == 0) return error("there is no frame to write");
+    if (samples_.empty()) return error("there is no frame to write");
+    const TriangleMesh mesh = rest_mesh();
     Result<AtomicFile> cache = AtomicFile::create(path_);
     if (!cache) return cache.errors();
-    const Header header{.points = static_cast<std::int32_t>(rest_.mesh.positions.size()),
-                        .samples = static_cast<std::int32_t>(samples_)};
+    const Header header{.points = static_cast<std::int32_t>(mesh.positions.size()),
+                        .samples = static_cast<std::int32_t>(samples_.size())};
     if (Result<void> r = cache->write(std::as_bytes(std::span(&header, 1))); !r) return r;
-    if (Result<void> r = spool_.move_to(cache->content()); !r) return r;
+    if (Result<void> r = write_samples(cache->content()); !r) return r;
     if (Result<void> r = cache->prepare(); !r) return r;
 
     Result<AtomicFile> rest = AtomicFile::create(rest_path_);
     if (!rest) return rest.errors();
-    if (Result<void> r = write_rest_mesh(*rest); !r) return r;
+    const ExportSurface surface = surface_of(name_, mesh, mesh.positions, mesh.normals);
+    if (Result<void> r = write_obj({0, 0, std::span(&surface, 1)}, *rest); !r) return r;
     if (Result<void> r = rest->prepare(); !r) return r;
 
     if (Result<void> r = rest->commit(); !r) return r;

@@ -1,4 +1,4 @@
-#include "io/exports/film_fixtures.test.h"
+#include "io/exports/torn_film.test.h"
 #include "io/meshes/mesh_file.h"
 
 #include <gmock/gmock.h>
@@ -10,11 +10,13 @@ namespace weft {
 namespace {
 
 using test::Cloth;
+using test::expect_shows;
 using test::export_film;
 using test::Instant;
 using test::make_cloth;
 using test::read_text;
 using test::TestFolder;
+using test::TornFilm;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -129,9 +131,78 @@ TEST(Pc2Export, AFrameOfAnotherShapeIsRefused) {
     };
     EXPECT_EQ(second_frame(cloths), "none");
     EXPECT_THAT(second_frame({cloths[0]}), HasSubstr("film.pc2: frame 1: it does not have the cloths"));
-    EXPECT_THAT(second_frame({cloths[0], make_cloth("b", 4, 1)}), HasSubstr("cloth \"b\" has other vertices"));
-    EXPECT_THAT(second_frame(cloths, 2), HasSubstr("cloth \"b\" has other vertices or triangles"));
+    EXPECT_THAT(second_frame({cloths[0], make_cloth("b", 4, 1)}),
+                HasSubstr("cloth \"b\" has 18 triangles instead of 8"));
+    EXPECT_EQ(second_frame(cloths, 2), "none") << "the same triangles";
     EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(Pc2Export, AClothThatPartsHasOneMesh) {
+    for (const bool removes : {false, true}) {
+        const TestFolder folder;
+        const TornFilm film(removes);
+        ASSERT_TRUE(film.write(folder / "film.pc2").ok());
+        const Cache cache(read_text(folder / "film.pc2"));
+        const Result<TriangleMesh> rest = load_mesh(folder / "film.obj");
+        ASSERT_TRUE(rest.ok());
+        const std::size_t points = film.vertices() + 9;
+        EXPECT_EQ(cache.points, static_cast<std::int32_t>(points));
+        EXPECT_EQ(cache.samples, static_cast<std::int32_t>(film.size()));
+        ASSERT_EQ(cache.positions.size(), film.size() * points);
+        ASSERT_EQ(rest->positions.size(), points);
+        for (std::size_t f = 0; f < film.size(); ++f) {
+            const auto sample = cache.positions.begin() + static_cast<std::ptrdiff_t>(f * points);
+            std::vector<Vec3> shown(sample, sample + static_cast<std::ptrdiff_t>(points));
+            // Both cloths as one surface.
+            const auto instant = film.at(f);
+            std::vector<Vec3> positions = instant->positions(0);
+            std::vector<Triangle> triangles = film.torn(f).triangles;
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            for (const Triangle& t : film.cloths(f)[1].mesh.triangles)
+                triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+            positions.insert(positions.end(), instant->positions(1).begin(), instant->positions(1).end());
+            expect_shows(rest->triangles, shown, triangles, positions, f);
+            if (f > 0) continue;
+            expect_shows(rest->triangles, rest->positions, triangles, positions, f);
+            for (std::size_t t = 0; t < film.torn(0).triangles.size(); ++t)
+                for (std::size_t k = 0; k < 3; ++k)
+                    EXPECT_EQ(rest->uvs[rest->triangles[t][k]], film.torn(0).uvs[film.torn(0).triangles[t][k]]);
+        }
+    }
+}
+
+// Both are in neither file, and what parts beside them has the right parent.
+TEST(Pc2Export, AClothThatPartsBesideUnusedVerticesHasOneMesh) {
+    const TestFolder folder;
+    Cloth cloth = make_cloth("c", 3, 0);
+    TriangleMesh& mesh = cloth.mesh;
+    mesh.uvs.clear();
+    mesh.positions.insert(mesh.positions.begin() + 1, Vec3{8, 8, 8});
+    for (Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle) vertex += vertex >= 1;
+    }
+    mesh.triangles.push_back({0, 0, 0});  // removed before the run
+    Cloth torn = cloth;
+    const std::uint32_t corner = torn.mesh.triangles[0][1];
+    torn.mesh.positions.push_back(Vec3(torn.mesh.positions[corner]));
+    torn.mesh.triangles[0][1] = 10;
+    const auto exporter = make_exporter(folder / "film.pc2");
+    ASSERT_TRUE(exporter.ok() && (*exporter)->begin({"s", 60, 2}).ok());
+    const std::vector<Cloth> before = {cloth}, after = {torn};
+    const Instant first(before, 0, 0);
+    Instant second(after, 1, 1);
+    second.surfaces[0].topology_version = 2;
+    second.positions(0)[10] = {5, 6, 7};
+    ASSERT_TRUE((*exporter)->write(first.frame()).ok());
+    ASSERT_TRUE((*exporter)->write(second.frame()).ok() && (*exporter)->finish().ok());
+    const Cache cache(read_text(folder / "film.pc2"));
+    ASSERT_EQ(cache.points, 10);
+    EXPECT_EQ(cache.positions[9], first.surfaces[0].positions[corner]);
+    EXPECT_EQ(cache.positions[19], (Vec3{5, 6, 7}));
+    const Result<TriangleMesh> rest = load_mesh(folder / "film.obj");
+    ASSERT_TRUE(rest.ok());
+    EXPECT_EQ(rest->triangles.size(), 8u);
+    EXPECT_EQ(rest->triangles[0][1], 9u);
 }
 
 TEST(Pc2Export, ARestMeshThatCannotBeWrittenIsKnownBeforeTheRun) {

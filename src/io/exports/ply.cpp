@@ -1,16 +1,22 @@
 // Binary little-endian PLY: all cloths as one mesh, because the format has only one.
 #include "io/exports/export_format.h"
+#include "io/files/whole_file.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace weft {
 Result<void> write_ply(const ExportFrame& frame, AtomicFile& file);
 std::uint64_t size_ply(std::span<const ExportSurface> surfaces);
+Result<StillVertices> read_ply(const std::filesystem::path& path);
 
 namespace {
 
@@ -30,6 +36,11 @@ Contents contents_of(std::span<const ExportSurface> surfaces) {
         contents.colors |= !surface.colors.empty();
     }
     return contents;
+}
+
+/// Of one vertex.
+std::uint64_t record_bytes(const Contents& contents) {
+    return 2 * sizeof(Vec3) + (contents.uvs ? sizeof(Vec2) : 0) + (contents.colors ? 4 : 0);
 }
 
 std::string header(const Contents& contents) {
@@ -86,10 +97,10 @@ Result<void> write_triangles(const ExportSurface& surface, std::uint32_t first_v
 }  // namespace
 
 std::uint64_t size_ply(std::span<const ExportSurface> surfaces) {
-    const Contents contents = contents_of(surfaces);
-    const std::uint64_t vertex = 2 * sizeof(Vec3) + (contents.uvs ? sizeof(Vec2) : 0) + (contents.colors ? 4 : 0);
+    Contents contents = contents_of(surfaces);
+    for (const ExportSurface& surface : surfaces) contents.vertices += surface.spare_vertices;
     const std::uint64_t triangle = 1 + sizeof(Triangle);
-    return header(contents).size() + contents.vertices * vertex + contents.triangles * triangle;
+    return header(contents).size() + contents.vertices * record_bytes(contents) + contents.triangles * triangle;
 }
 
 Result<void> write_ply(const ExportFrame& frame, AtomicFile& file) {
@@ -107,6 +118,31 @@ Result<void> write_ply(const ExportFrame& frame, AtomicFile& file) {
         first_vertex += static_cast<std::uint32_t>(surface.positions.size());
     }
     return {};
+}
+
+Result<StillVertices> read_ply(const std::filesystem::path& path) {
+    const Result<std::string> text = read_whole_file(path);
+    if (!text) return text.errors();
+    constexpr std::string_view count_line = "element vertex ", last_line = "end_header\n";
+    const std::size_t count_at = text->find(count_line), end = text->find(last_line);
+    Contents contents;
+    if (count_at < end && end != text->npos) {
+        const char* digits = text->data() + count_at + count_line.size();
+        std::from_chars(digits, text->data() + end, contents.vertices);
+        contents.uvs = text->find("property float s\n") < end;
+        contents.colors = text->find("property uchar red\n") < end;
+    }
+    const std::size_t record = record_bytes(contents), first = end + last_line.size();
+    if (contents.vertices == 0 || (text->size() - first) / record < contents.vertices)
+        return Error{path.string(), "is not a complete .ply of weft"};
+    StillVertices vertices;
+    for (std::size_t i = 0; i < contents.vertices; ++i) {
+        std::array<Vec3, 2> values;
+        std::memcpy(&values, text->data() + first + i * record, sizeof values);
+        vertices.positions.push_back(values[0]);
+        vertices.normals.push_back(values[1]);
+    }
+    return vertices;
 }
 
 }  // namespace weft

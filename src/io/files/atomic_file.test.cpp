@@ -172,5 +172,40 @@ TEST(BufferedFile, NamelessIsNeverSeenAndMovesWhole) {
     EXPECT_EQ(read_text(folder / "copy"), content);
 }
 
+TEST(BufferedFile, TakesFromTheFrontAndFreesWhatItTook) {
+    const TestFolder folder;
+    Result<BufferedFile> opened = BufferedFile::open_nameless(folder.path(), "film.glb");
+    ASSERT_TRUE(opened.ok());
+    BufferedFile file = *std::move(opened);
+    std::string content;
+    for (int i = 0; content.size() < (std::size_t{9} << 20); ++i) content += std::to_string(i);
+    ASSERT_TRUE(file.write(std::as_bytes(std::span(content))).ok() && file.flush().ok());
+    const auto blocks = [&] {
+        struct stat status {};
+        EXPECT_EQ(::fstat(file.descriptor(), &status), 0);
+        return status.st_blocks;
+    };
+    const auto all = blocks();
+    // Pieces that end within a block.
+    std::string piece(700001, ' '), taken;
+    for (int i = 0; i < 9; ++i) {
+        ASSERT_TRUE(file.take(std::as_writable_bytes(std::span(piece))).ok());
+        taken += piece;
+    }
+    EXPECT_EQ(taken, content.substr(0, taken.size()));
+    const bool has_holes = ::fallocate(file.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0, 4096) == 0;
+    if (has_holes) {
+        EXPECT_LT(blocks(), all / 2);
+    }
+
+    BufferedFile moved = std::move(file);
+    Result<AtomicFile> rest = AtomicFile::create(folder / "rest");
+    ASSERT_TRUE(rest.ok() && moved.move_to(rest->content()).ok() && rest->commit().ok());
+    EXPECT_EQ(read_text(folder / "rest"), content.substr(taken.size()));
+    const Result<void> past_the_end = moved.take(std::as_writable_bytes(std::span(piece)));
+    ASSERT_FALSE(past_the_end.ok());
+    EXPECT_THAT(past_the_end.error().message(), HasSubstr("film.glb: cannot be read back"));
+}
+
 }  // namespace
 }  // namespace weft

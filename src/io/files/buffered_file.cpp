@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -25,13 +26,17 @@ BufferedFile::BufferedFile(BufferedFile&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       name_(std::move(other.name_)),
       buffer_(std::move(other.buffer_)),
-      size_(std::exchange(other.size_, 0)) {}
+      size_(std::exchange(other.size_, 0)),
+      taken_(std::exchange(other.taken_, 0)),
+      freed_(std::exchange(other.freed_, 0)) {}
 
 BufferedFile& BufferedFile::operator=(BufferedFile&& other) noexcept {
     std::swap(descriptor_, other.descriptor_);
     std::swap(name_, other.name_);
     std::swap(buffer_, other.buffer_);
     std::swap(size_, other.size_);
+    std::swap(taken_, other.taken_);
+    std::swap(freed_, other.freed_);
     return *this;
 }
 
@@ -89,22 +94,35 @@ Result<void> BufferedFile::sync_and_close() {
     return {};
 }
 
+Result<void> BufferedFile::take(std::span<std::byte> bytes) {
+    if (Result<void> flushed = flush(); !flushed) return flushed;
+    while (!bytes.empty()) {
+        const ssize_t count = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(taken_));
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return failure("read back", errno);
+        if (count == 0) return failure("read back", EIO);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+        taken_ += static_cast<std::uint64_t>(count);
+    }
+    if (taken_ - freed_ < buffer_size) return {};
+    // May fail on file systems without holes: then the space is freed when the file is closed. Only whole blocks are
+    // freed, so the last one, which may be taken in part, is left to the next call.
+    (void)::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(freed_),
+                      static_cast<off_t>(taken_ - freed_));
+    freed_ = taken_ - taken_ % buffer_size;
+    return {};
+}
+
 Result<void> BufferedFile::move_to(BufferedFile& target) {
     if (Result<void> flushed = flush(); !flushed) return flushed;
     struct stat status {};
     if (::fstat(descriptor_, &status) != 0) return failure("read back", errno);
     const auto size = static_cast<std::uint64_t>(status.st_size);
     std::vector<std::byte> block(buffer_size);
-    for (std::uint64_t offset = 0; offset < size;) {
-        const ssize_t count = ::pread(descriptor_, block.data(), block.size(), static_cast<off_t>(offset));
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return failure("read back", errno);
-        if (count == 0) return failure("read back", EIO);
-        const auto length = static_cast<std::size_t>(count);
-        if (Result<void> written = target.write(std::span(block).first(length)); !written) return written;
-        // May fail on file systems without holes: then the space is freed when the file is closed.
-        (void)::fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset), count);
-        offset += length;
+    while (taken_ < size) {
+        const auto next = std::span(block).first(std::min<std::size_t>(block.size(), size - taken_));
+        if (Result<void> taken = take(next); !taken) return taken;
+        if (Result<void> written = target.write(next); !written) return written;
     }
     return {};
 }

@@ -31,8 +31,10 @@ class BufferedFile {
     Result<void> sync_and_close();
     /// For another process that writes to the file instead, before anything is written here.
     int descriptor() const { return descriptor_; }
-    /// Appends the content to `target`, and frees each block here once it is copied: where the file system supports
-    /// this, both files together take little more space than one. The file cannot be used afterwards.
+    /// Reads the next bytes from the front, and frees their blocks where the file system supports this: then the bytes
+    /// that are written elsewhere take little more space. Nothing can be written here afterwards.
+    Result<void> take(std::span<std::byte> bytes);
+    /// Takes the whole content and appends it to `target`.
     Result<void> move_to(BufferedFile& target);
 
     /// Bytes written so far, including those in the buffer.
@@ -46,6 +48,7 @@ class BufferedFile {
     std::string name_;
     std::vector<std::byte> buffer_;
     std::uint64_t size_ = 0;
+    std::uint64_t taken_ = 0, freed_ = 0;  ///< bytes from the front
 };
 
 /// The system's text for an errno, such as "No space left on device".

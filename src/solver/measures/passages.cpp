@@ -1,5 +1,6 @@
 #include "solver/measures/passages.h"
 
+#include "base/copies.h"
 #include "collide/bvh.h"
 
 #include <algorithm>
@@ -114,14 +115,22 @@ std::optional<double> time_of_sweep(Vec3 point, const Vec3 (&start)[3], const Ve
 
 bool PassageWatch::same_as_before(const Frame& frame, std::span<const Collider> colliders) const {
     if (before_.size() != frame.cloths.size() || watched_.size() != colliders.size()) return false;
-    for (std::size_t c = 0; c < before_.size(); ++c)
-        if (before_[c].size() != frame.cloths[c].positions.size()) return false;
+    for (std::size_t c = 0; c < before_.size(); ++c) {
+        const std::size_t count = frame.cloths[c].positions.size(),
+                          appended = frame.cloths[c].model->copied_from.size();
+        if (before_[c].size() > count || before_[c].size() < count - appended) return false;
+    }
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const Collider &old = watched_[i].shape, &now = colliders[i];
         if (old.name != now.name || old.shape != now.shape || old.numbers != now.numbers || old.data != now.data)
             return false;
     }
     return true;
+}
+
+void PassageWatch::append_particles(const Frame& frame) {
+    for (std::size_t c = 0; c < before_.size(); ++c)
+        append_copies(before_[c], frame.cloths[c].model->copied_from, frame.cloths[c].positions.size());
 }
 
 void PassageWatch::remember(const Frame& frame, std::span<const Collider> colliders) {
@@ -135,6 +144,7 @@ void PassageWatch::remember(const Frame& frame, std::span<const Collider> collid
 
 void PassageWatch::add(const Frame& frame, std::span<const Collider> colliders) {
     if (same_as_before(frame, colliders)) {
+        append_particles(frame);
         compare(frame, colliders);
     } else {
         watched_.clear();

@@ -36,7 +36,8 @@ struct Passages {
 
 class PassageWatch {
   public:
-    /// Compares with the frame before. Starts anew if the number of colliders, or of the cloths' particles, changed.
+    /// Compares with the frame before; there, particles that have been appended since were where their originals were.
+    /// Starts anew if colliders were exchanged, or cloths by others with fewer particles.
     void add(const Frame& frame, std::span<const Collider> colliders);
     const Passages& passages() const { return passages_; }
 
@@ -48,6 +49,7 @@ class PassageWatch {
         Pose before;
     };
     bool same_as_before(const Frame& frame, std::span<const Collider> colliders) const;
+    void append_particles(const Frame& frame);
     void remember(const Frame& frame, std::span<const Collider> colliders);
     void compare(const Frame& frame, std::span<const Collider> colliders);
 

@@ -4,6 +4,8 @@
 #include "collide/distance_field.h"
 #include "mesh/procedural.h"
 #include "solver/measures/passages.h"
+#include "solver/measures/statistics.h"
+#include "solver/model/cloth_edit.h"
 
 #include <gtest/gtest.h>
 
@@ -18,14 +20,25 @@ struct Sheet {
     std::shared_ptr<const ClothModel> model;
     std::vector<Vec4> positions;
 
-    explicit Sheet(TriangleMesh mesh) {
-        ClothModelDesc desc{.name = "sheet", .mesh = std::move(mesh)};
+    explicit Sheet(TriangleMesh mesh, ClothReserve reserve = {}) {
+        ClothModelDesc desc{.name = "sheet", .mesh = std::move(mesh), .reserve = reserve};
         auto topology = build_topology(desc.mesh, {.reorder = false});
         EXPECT_TRUE(topology.ok());
         auto made = build_cloth_model(std::move(desc), std::move(*topology));
         EXPECT_TRUE(made.ok());
         model = *made;
         positions.assign(model->start.begin(), model->start.begin() + model->particle_count);
+    }
+    /// The triangle gets particles of its own.
+    void part_triangle(std::uint32_t triangle) {
+        const auto [a, b, c] = model->triangles()[triangle];
+        const std::uint32_t first = model->particle_count;
+        auto edited = with_edit(
+            *model,
+            {.appended = {a, b, c}, .triangles = {{.triangle = triangle, .corners = {first, first + 1, first + 2}}}});
+        ASSERT_TRUE(edited.ok()) << edited.error().message();
+        model = *edited;
+        for (const std::uint32_t p : {a, b, c}) positions.push_back(Vec4(positions[p]));
     }
     void shift(Vec3 by) {
         for (Vec4& p : positions) p = {p.x + by.x, p.y + by.y, p.z + by.z, p.w};
@@ -216,6 +229,44 @@ TEST(PassageWatch, follows_a_collider_that_turns) {
     watch.add(sheet.frame(2), colliders);
     EXPECT_EQ(watch.passages().count, 1u);
     EXPECT_GT(watch.passages().points, 5u);
+}
+
+TEST(PassageWatch, finds_what_passes_while_the_cloth_parts) {
+    Sheet sheet(grid(5), {.particles = 3});
+    std::vector<Collider> ball{placed({.shape = SphereDesc{0.05f}}, {})};
+    // Below the middle of a triangle.
+    const Triangle corners = sheet.model->triangles()[7];
+    Vec3 middle{};
+    for (const std::uint32_t p : corners) middle += sheet.positions[p].xyz() / 3;
+    ball[0].pose.position = middle - Vec3{0, 0.3f, 0};
+    PassageWatch watch;
+    watch.add(sheet.frame(0), ball);
+    sheet.part_triangle(7);
+    EXPECT_EQ(sheet.model->copied_from.size(), 3u);
+    ball[0].pose.position = middle + Vec3{0, 0.3f, 0};
+    watch.add(sheet.frame(1), ball);
+    EXPECT_EQ(watch.passages().count, 1u);
+    ball[0].pose.position = middle - Vec3{0, 0.3f, 0};
+    watch.add(sheet.frame(2), ball);
+    EXPECT_EQ(watch.passages().count, 2u);
+    watch.add(Sheet(grid(5)).frame(3), ball);
+    EXPECT_EQ(watch.passages().count, 2u) << "another cloth";
+}
+
+TEST(Displacement, of_an_appended_particle_starts_at_its_original) {
+    Sheet parts(grid(5), {.particles = 3}), whole(grid(3));
+    const auto frame = [&] {
+        Frame both = parts.frame();
+        both.cloths.push_back(whole.frame().cloths[0]);
+        return both;
+    };
+    const Positions before = positions_of(frame());
+    EXPECT_EQ(mean_displacement(before, frame()), 0);
+    parts.shift({0, 0.5f, 0}), whole.shift({0, 0.5f, 0});
+    EXPECT_NEAR(mean_displacement(before, frame()), 0.5, 1e-6);
+    parts.part_triangle(7);
+    EXPECT_EQ(frame().cloths[0].positions.size(), 28u);
+    EXPECT_NEAR(mean_displacement(before, frame()), 0.5, 1e-6);
 }
 
 TEST(PassageWatch, survives_degenerate_input) {

@@ -1,5 +1,6 @@
 #include "solver/measures/statistics.h"
 
+#include "base/copies.h"
 #include "collide/crossings.h"
 
 #include <algorithm>
@@ -66,6 +67,7 @@ std::vector<SheetPose> sheet_poses(const Frame& frame) {
         SheetPose& sheet = sheets.emplace_back();
         for (const Vec4& p : cloth.positions) sheet.positions.push_back(p.xyz());
         sheet.triangles.assign(cloth.triangles.begin(), cloth.triangles.end());
+        sheet.copied_from.assign(cloth.model->copied_from.begin(), cloth.model->copied_from.end());
     }
     return sheets;
 }
@@ -87,6 +89,27 @@ double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to) {
     Tally mean;
     for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) mean.add(distance(from[i], to[i]));
     return mean.result().mean;
+}
+
+double mean_displacement(const Positions& from, const Frame& to) {
+    std::vector<Vec3> before, now, of_cloth;
+    for (std::size_t i = 0; i < to.cloths.size(); ++i) {
+        const ClothFrame& cloth = to.cloths[i];
+        of_cloth = from[i];
+        append_copies(of_cloth, cloth.model->copied_from, cloth.positions.size());
+        before.insert(before.end(), of_cloth.begin(), of_cloth.end());
+    }
+    collect_positions(to, now);
+    return mean_displacement(before, now);
+}
+
+Positions positions_of(const Frame& frame) {
+    Positions positions;
+    for (const ClothFrame& cloth : frame.cloths) {
+        std::vector<Vec3>& of_cloth = positions.emplace_back();
+        for (const Vec4& p : cloth.positions) of_cloth.push_back(p.xyz());
+    }
+    return positions;
 }
 
 void collect_positions(const Frame& frame, std::vector<Vec3>& out) {

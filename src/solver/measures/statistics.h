@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace weft {
 
@@ -38,6 +39,14 @@ double stack_distance(const Frame& frame);
 
 /// Mean distance between corresponding positions, m.
 double mean_displacement(std::span<const Vec3> from, std::span<const Vec3> to);
+
+/// The positions of the particles in a frame, by cloth.
+using Positions = std::vector<std::vector<Vec3>>;
+Positions positions_of(const Frame& frame);
+
+/// Mean distance of all particles from their positions in an earlier frame, m. A particle that was appended since then
+/// was where its original was.
+double mean_displacement(const Positions& from, const Frame& to);
 
 /// The positions of all particles of all cloths, one after another.
 void collect_positions(const Frame& frame, std::vector<Vec3>& out);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-namespace weft::physical {
+namespace weft::test {
 
 /// `is_right(particle)` says on which side of the cut a particle lies, `is_cut(particle)` whether it lies on the cut.
 template <class IsCut, class IsRight>
@@ -63,4 +63,4 @@ ClothEdit cut(const ClothModel& model, IsCut&& is_cut, IsRight&& is_right) {
     return edit;
 }
 
-}  // namespace weft::physical
+}  // namespace weft::test
