@@ -125,7 +125,7 @@ TEST_F(Glsl, tension_compiles) {
     EXPECT_EQ(compile("    TearSide side = TearSide(n[0], n[1], n[2], n[3], n[4]);\n"
                       "    PlaneStress s = triangle_stress(x[i].xyz, x[i + 1].xyz, x[i + 2].xyz, side, side, side);\n"
                       "    Tension t = principal_tension(turn_stress(s, n[5], n[6]));\n"
-                      "    float limit = inverse_cut_limit(side_stiffness(side, t.x, t.y), n[7], n[8]);\n"
+                      "    float limit = inverse_cut_limit(side_stiffness(side, n[5], n[6], t.x, t.y), n[7], n[8]);\n"
                       "    x[i] = vec4(t.most, t.least, inverse_strength(t.x, t.y, n[9], n[10]), limit);\n"),
               "");
 }

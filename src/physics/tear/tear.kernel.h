@@ -154,9 +154,9 @@ WEFT_FN real side_stiffness(TearSide side, real c2, real s2, real x, real y)
 // there is no limit.
 WEFT_FN real inverse_strength(real x, real y, real warp, real weft) { return x * x * warp + y * y * weft; }
 
-// The factor c of the limit at the end of a cut, squared: the mean of K/sqrt(2 pi r) over the first edge is
-// sqrt(2/pi) K/sqrt(length).
-#define WEFT_CUT_END_FACTOR_SQUARED 0.63661977236758134
+// The factor c of the limit at the end of a cut, squared. It is calibrated: a rubber strip with a long cut then rips when
+// the rip frees its energy (tear.md).
+#define WEFT_CUT_END_FACTOR_SQUARED 0.32
 
 // 1 / limit at the end of a cut, m/N: limit = c sqrt(energy stiffness / edge). `stiffness` is in N/m, `edge` in m.
 WEFT_FN real inverse_cut_limit(real stiffness, real edge, real energy)
