@@ -92,9 +92,16 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     const bool same_masses = other->mass.shares(model->mass);
     const bool same_levels = other->hierarchy.shares(model->hierarchy);
     const bool same_faces = other->faces.shares(model->faces);
+    // After a frame in which the cloth has torn, its arrays are those of the new model already.
+    const bool torn = tearing && !tearing->openings().empty() && other->tear_law == model->tear_law &&
+                      other->copied_from.size() == tearing->arrays().copied_from.size();
     model = std::move(other);
     find_halves();
-    begin_tearing();
+    if (torn) {
+        tearing->set_model(*model);
+    } else {
+        begin_tearing();
+    }
     gather = nullptr;
     if (!same_masses) weigh();
     if (!same_levels) levels.clear();

@@ -449,8 +449,13 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         }
         for (const std::size_t i : torn) {
             const ClothHandle handle = group.steps[i]->cloth;
-            if (auto done = set_topology(handle, group.members[i].cloth->state().buffers().model(), {}); !done)
-                fail(group, done.error());
+            // A repeated frame keeps its limits, which follow from the lambda of the frame before.
+            const auto limits = vulkan::download(*device_, cloth(handle).state().arena(), cloth(handle).state().limits);
+            auto done = limits ? set_topology(handle, cloth(handle).state().buffers().model(), {})
+                               : Result<void>(limits.errors());
+            const vulkan::ClothState& state = cloth(handle).state();
+            if (done) done = vulkan::upload(*device_, state.arena(), state.limits, *limits);
+            if (!done) fail(group, done.error());
             group.members[i].cloth = &cloth(handle);
         }
     }

@@ -61,6 +61,7 @@ void World::take_openings() const {
         cloth.model = std::move(*model);
         frame_.cloths[i].model = cloth.model.get();
         torn_.push_back(cloths_.id_of(i));
+        unread_ = true;
     }
 }
 
