@@ -359,7 +359,12 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     check_values(scene_keys, &scene, "", problems);
     check_solver(scene.solver, "/solver", problems);
     if (scene.air) check_air(*scene.air, "/air", problems);
-    for (std::size_t i = 0; i < scene.cloths.size(); ++i) check_cloth(scene.cloths[i], at("/cloths", i), problems);
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+        check_cloth(scene.cloths[i], at("/cloths", i), problems);
+        // Jacobi sums corrections by lists of constraints per particle, which openings do not change.
+        if (scene.cloths[i].tearing == Tearing::split && scene.solver.projection == Projection::jacobi)
+            problems.add(at(at("/cloths", i), "tearing"), "\"split\" cannot be used with the projection \"jacobi\"");
+    }
     for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
         check_collider(scene.colliders[i], at("/colliders", i), problems);
         check_material(scene.colliders[i].material, at(at("/colliders", i), "material"), problems);
