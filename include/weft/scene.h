@@ -222,7 +222,7 @@ struct PathCut {
     std::vector<Vec3> points = {};  ///< m, at least two
     friend bool operator==(const PathCut&, const PathCut&) = default;
 };
-/// The plane normal·x = offset. The cut follows edges of the mesh, at most 2/3 of an edge away from the plane.
+/// The plane normal·x = offset. The cut follows edges of the mesh, at most 0.53 edges away from the plane.
 struct PlaneCut {
     Vec3 normal{1, 0, 0};  ///< any length but 0
     float offset = 0;      ///< m

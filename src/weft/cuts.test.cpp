@@ -69,7 +69,7 @@ TEST(SceneCuts, open_before_the_first_frame_at_their_time) {
     first.time = 0;
     SceneWorld world = open_cut_world(curtain_with({from_the_left, first}));
     EXPECT_EQ(copies_in(world), cut_side) << "a cut at time 0 shows in the first frame";
-    const std::size_t all = cut_side + 19;
+    const std::size_t all = cut_side + 17;
     for (int frame = 0; frame < 15; ++frame) {
         // Frame 12 begins at 0.2 s.
         EXPECT_EQ(copies_in(world), frame <= 12 ? cut_side : all) << frame;

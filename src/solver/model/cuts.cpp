@@ -3,6 +3,7 @@
 #include "solver/model/tear_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -76,13 +77,13 @@ struct Step {
 // built with, between its vertices.
 enum class Edges { closed, built };
 
-// Cheapest path of edges (Dijkstra 1959). An edge costs its length, and much more the farther it is from the stroke.
+// Cheapest path of edges (Dijkstra 1959). An edge costs its length, and much more the farther it is from the straight
+// line between the ends of the path. They are particles, so a stroke along a row of the mesh gives a straight path.
 class StrokePath {
   public:
-    StrokePath(const ClothModel& model, std::span<const Vec4> positions, std::span<const Vec3> stroke, Edges edges)
+    StrokePath(const ClothModel& model, std::span<const Vec4> positions, Edges edges)
         : model_(model),
           positions_(positions),
-          stroke_(stroke),
           edges_(edges),
           count_(edges == Edges::built ? model.tears->vertex_count() : model.particle_count),
           links_(group_links()) {}
@@ -99,6 +100,7 @@ class StrokePath {
     // Adds the links of a path; nothing if there is none.
     void find(std::uint32_t from, std::uint32_t to, Collector& out) {
         if (from == to) return;
+        ends_ = {positions_[from].xyz(), positions_[to].xyz()};
         std::vector<double> cost(count_, std::numeric_limits<double>::infinity());
         std::vector<std::uint32_t> by(count_, none), before(count_, none);
         std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
@@ -143,13 +145,14 @@ class StrokePath {
     }
     double price(std::uint32_t a, std::uint32_t b) const {
         const Vec3 x = positions_[a].xyz(), y = positions_[b].xyz();
-        const double off = distance_to(stroke_, (x + y) * 0.5f) / static_cast<double>(model_.mean_edge);
+        const double off =
+            distance_to_segment((x + y) * 0.5f, ends_[0], ends_[1]) / static_cast<double>(model_.mean_edge);
         return static_cast<double>(length(y - x)) * (1 + 16 * off * off);
     }
 
     const ClothModel& model_;
     std::span<const Vec4> positions_;
-    std::span<const Vec3> stroke_;
+    std::array<Vec3, 2> ends_;
     Edges edges_;
     std::uint32_t count_;  // of the places that edges connect
     Groups<std::uint32_t> links_;
@@ -158,7 +161,7 @@ class StrokePath {
 std::vector<Opening> along_stroke(const ClothModel& model, std::span<const Vec4> positions,
                                   std::span<const Vec3> stroke, Edges edges) {
     if (stroke.empty()) return {};
-    StrokePath path(model, positions, stroke, edges);
+    StrokePath path(model, positions, edges);
     Collector collector(model);
     std::uint32_t from = path.nearest(stroke[0]);
     for (const Vec3& point : stroke.subspan(1)) {
@@ -187,9 +190,14 @@ std::vector<Opening> openings_along_plane(const ClothModel& model, std::span<con
                                           Vec3 normal) {
     std::vector<std::uint32_t> side(model.triangle_count);
     for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        // The middle of its extent along the normal, not its center: a plane along rows of the mesh then gives a straight
+        // cut and no zigzag. A little off the middle, so that a plane halfway between two rows is no tie.
+        constexpr float middle = 0.47f;
         const auto [a, b, c] = model.triangles()[t];
-        const Vec3 sum = positions[a].xyz() + positions[b].xyz() + positions[c].xyz();
-        side[t] = dot(sum * (1.0f / 3) - point, normal) > 0;
+        const float heights[] = {dot(positions[a].xyz() - point, normal), dot(positions[b].xyz() - point, normal),
+                                 dot(positions[c].xyz() - point, normal)};
+        const auto [low, high] = std::ranges::minmax(heights);
+        side[t] = low + middle * (high - low) > 0;
     }
     return openings_between(model, side);
 }
