@@ -98,7 +98,7 @@ class SceneWorld {
     }
     const Frame& step() { return step(frame_seconds()); }
 
-    /// Warnings of building cloths, one line each.
+    /// Warnings, one line each: of building cloths, and of cuts that were due and for which there was no room.
     const std::vector<std::string>& notes() const { return notes_; }
     /// Ids of the stitches, in the order of the document.
     std::span<const StitchId> stitches() const { return stitch_ids_; }

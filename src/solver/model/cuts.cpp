@@ -190,8 +190,8 @@ std::vector<Opening> openings_along_plane(const ClothModel& model, std::span<con
                                           Vec3 normal) {
     std::vector<std::uint32_t> side(model.triangle_count);
     for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
-        // The middle of its extent along the normal, not its center: a plane along rows of the mesh then gives a straight
-        // cut and no zigzag. A little off the middle, so that a plane halfway between two rows is no tie.
+        // The middle of its extent along the normal, not its center: a plane along rows of the mesh then gives a
+        // straight cut and no zigzag. A little off the middle, so that a plane halfway between two rows is no tie.
         constexpr float middle = 0.47f;
         const auto [a, b, c] = model.triangles()[t];
         const float heights[] = {dot(positions[a].xyz() - point, normal), dot(positions[b].xyz() - point, normal),
