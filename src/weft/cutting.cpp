@@ -68,17 +68,19 @@ Result<std::vector<PlannedCut>> plan_cuts(const SceneCloth& cloth, const ClothMo
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cloth.cuts[i].time; });
     Rehearsal rehearsal(model);
-    Errors errors;
+    std::vector<Errors> problems(cloth.cuts.size());
     for (const std::size_t i : order) {
         const std::string place = at(at(pointer, "cuts"), i);
         auto openings = find_cut(cloth.cuts[i], model, {}, place);
         const auto opened = openings ? rehearsal.open(*openings, place) : openings.errors();
         if (!opened) {
-            errors.insert(errors.end(), opened.errors().begin(), opened.errors().end());
+            problems[i] = opened.errors();
             continue;
         }
         planned.push_back({.time = cloth.cuts[i].time, .openings = std::move(*openings)});
     }
+    Errors errors;
+    for (const Errors& of_cut : problems) errors.insert(errors.end(), of_cut.begin(), of_cut.end());
     if (!errors.empty()) return errors;
     return planned;
 }
