@@ -63,6 +63,8 @@ TEST_F(Cli, stats_have_every_figure) {
     for (const char* key : {"self_contacts", "searches", "limited", "tangled"}) EXPECT_EQ(s[key], 0) << key;
     for (const char* key : {"triangles", "edges", "worst"}) EXPECT_TRUE(s["intersections"].contains(key)) << key;
     EXPECT_EQ(s["torn_edges"], 0);
+    EXPECT_EQ(s["pieces"], 1);
+    EXPECT_EQ(s["smallest_piece"]["part"], 1);
     EXPECT_EQ(s["reports"], Json::array());
     EXPECT_EQ(s["state_hash"].get<std::string>().size(), 16u);
     EXPECT_EQ(s["finite"], true);

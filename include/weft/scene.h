@@ -217,6 +217,29 @@ struct PinDesc {
     friend bool operator==(const PinDesc&, const PinDesc&) = default;
 };
 
+/// A polyline on the cloth. The cut follows edges of the mesh, between the particles nearest to its points.
+struct PathCut {
+    std::vector<Vec3> points = {};  ///< m, at least two
+    friend bool operator==(const PathCut&, const PathCut&) = default;
+};
+/// The plane normal·x = offset. The cut follows edges of the mesh, at most 0.53 edges away from the plane.
+struct PlaneCut {
+    Vec3 normal{1, 0, 0};  ///< any length but 0
+    float offset = 0;      ///< m
+    friend bool operator==(const PlaneCut&, const PlaneCut&) = default;
+};
+
+/// A cut through a cloth. In ClothDesc it lies on the cloth as it is at the start, in world space, m.
+struct CutDesc {
+    float time = 0;  ///< s, 0…1e6, simulated time: made before the first frame that begins then or later
+    std::variant<PathCut, PlaneCut> along = {};
+    friend bool operator==(const CutDesc&, const CutDesc&) = default;
+};
+
+/// Where a cut lies that Simulation::cut() makes: on the cloth as it is now, or as it was at the start. Both are in
+/// world space.
+enum class CutPositions { current, start };
+
 /// A value of a fabric or a solver option: one or several numbers, a flag, or text.
 class ParameterValue {
   public:
@@ -262,6 +285,7 @@ struct ClothDesc {
     Vec3 velocity = {};  ///< m/s, each component within ±1e4: of all particles that are not pinned, at the start
     FabricDesc fabric = {};
     std::vector<PinDesc> pins = {};
+    std::vector<CutDesc> cuts = {};  ///< need `tearing`
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
     SelfCollision self_collision = SelfCollision::off;

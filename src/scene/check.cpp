@@ -284,6 +284,29 @@ void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const st
     for (std::size_t i = 0; i < pins.size(); ++i) check_pin(pins[i], made, at(pointer, i), problems);
 }
 
+void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problems) {
+    check_values(cut_keys, &cut, pointer, problems);
+    if (const auto* plane = std::get_if<PlaneCut>(&cut.along)) {
+        const std::string place = at(pointer, "plane");
+        check_values(cut_plane_keys, plane, place, problems);
+        const PlaneDesc same{plane->normal, plane->offset};
+        if (const ShapeProblem problem = shape_problem(same); !problem.what.empty())
+            problems.add(at(place, problem.key), std::string(problem.what));
+        return;
+    }
+    const std::string place = at(pointer, "points");
+    const auto& points = std::get<PathCut>(cut.along).points;
+    if (points.size() < 2 && !problems.concern(place))
+        problems.add(place, "must hold at least two points, got " + std::to_string(points.size()));
+    constexpr Parameter coordinate = {.min = -far_away, .max = far_away, .unit = "m"};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const float numbers[] = {points[i].x, points[i].y, points[i].z};
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const std::string problem = range_problem(coordinate, double{numbers[k]}); !problem.empty())
+                problems.add(at(at(place, i), k), problem);
+    }
+}
+
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
                        const std::string& pointer, Problems& problems) {
     for (std::size_t i = 0; i < pins.size(); ++i)
@@ -303,6 +326,9 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
     // If a mesh has errors, its number of particles is unknown.
     const bool sound = !problems.concern(at(pointer, "mesh"));
     check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
+    for (std::size_t i = 0; i < cloth.cuts.size(); ++i) check_cut(cloth.cuts[i], at(at(pointer, "cuts"), i), problems);
+    if (!cloth.cuts.empty() && cloth.tearing == Tearing::off)
+        problems.add(at(pointer, "cuts"), "needs \"tearing\": \"cuts\" or \"split\" in this cloth");
     check_material(cloth.material, at(pointer, "material"), problems);
 }
 

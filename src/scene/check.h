@@ -38,6 +38,7 @@ void check_solver(const SolverDesc& solver, const std::string& pointer, Problems
 void check_air(const AirDesc& air, const std::string& pointer, Problems& problems);
 void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& problems);
 void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const std::string& pointer, Problems& problems);
+void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problems);
 /// Colliders that pins name must be among `names`.
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
                        const std::string& pointer, Problems& problems);

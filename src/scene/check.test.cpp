@@ -67,6 +67,27 @@ TEST(CheckScene, HoldsEveryTableToItsRange) {
                 ElementsAre("/colliders/1/sphere/radius: must be > 0 m, got -0.5"));
 }
 
+TEST(CheckScene, KnowsCutsThatCannotBe) {
+    const auto with = [](CutDesc cut) {
+        return problems_after([&](SceneDesc& s) { s.cloths[0].tearing = Tearing::cuts, s.cloths[0].cuts = {cut}; });
+    };
+    const PathCut path{{{0, 0, 0}, {0, 1, 0}}};
+    EXPECT_THAT(with({.time = 3, .along = path}), ElementsAre());
+    EXPECT_THAT(with({.time = nan, .along = path}),
+                ElementsAre("/cloths/0/cuts/0/time: must be a finite number, got nan"));
+    EXPECT_THAT(with({.time = -1, .along = path}), ElementsAre("/cloths/0/cuts/0/time: must be ≥ 0 s, got -1"));
+    EXPECT_THAT(with({.along = PathCut{{{0, 0, 0}}}}),
+                ElementsAre("/cloths/0/cuts/0/points: must hold at least two points, got 1"));
+    EXPECT_THAT(with({.along = PathCut{{{0, 0, 0}, {0, nan, 2e6f}}}}),
+                ElementsAre("/cloths/0/cuts/0/points/1/1: must be a finite number, got nan",
+                            "/cloths/0/cuts/0/points/1/2: must be ≤ 1000000 m, got 2000000"));
+    EXPECT_THAT(with({.along = PlaneCut{{0, 1e-20f, 0}, infinity}}),
+                ElementsAre("/cloths/0/cuts/0/plane/offset: must be a finite number, got infinity",
+                            "/cloths/0/cuts/0/plane/normal: must not be zero"));
+    EXPECT_THAT(problems_after([&](SceneDesc& s) { s.cloths[1].cuts = {{.along = path}}; }),
+                ElementsAre("/cloths/1/cuts: needs \"tearing\": \"cuts\" or \"split\" in this cloth"));
+}
+
 TEST(CheckScene, HoldsFabricsToTheirRange) {
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].fabric.body.density = -1; }),
                 ElementsAre("/cloths/0/fabric/density: must be > 0 kg/m², got -1"));

@@ -47,6 +47,7 @@ struct SceneCloth {
     Fabric fabric = {};
     std::string fabric_name = "cotton";  ///< of the preset that the fabric is based on
     std::vector<PinDesc> pins = {};
+    std::vector<CutDesc> cuts = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< relative to the geodesic distance
     SelfCollision self_collision = SelfCollision::off;

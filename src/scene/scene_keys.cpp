@@ -31,6 +31,8 @@ const ColliderDesc collider;
 #undef WEFT_SHAPE
 const PinDesc pin;
 const OffsetKey offset_key;
+const CutDesc cut;
+const PlaneCut cut_plane;
 const PoseKey pose_key;
 const Camera camera;
 const MaterialHead material_head;
@@ -79,6 +81,8 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/pins/*", pin_motion_keys, &pin},
         {"/cloths/*/pins/*/motion/*", offset_key_keys, &offset_key},
         {"/cloths/*/pins/*/box", box_keys, nullptr},
+        {"/cloths/*/cuts/*", cut_keys, &cut},
+        {"/cloths/*/cuts/*/plane", cut_plane_keys, &cut_plane},
         {"/cloths/*/material", material_keys, &material_head},
         {"/cloths/*/material", material_parameters, nullptr},
         // Its material has the same keys as a cloth's material.

@@ -190,6 +190,8 @@ inline constexpr Parameter cloth_keys[] = {
     {.key = "layer", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, layer), .max = 1000,
      .what = "where cloths of two layers cross, untangling moves the higher one to the front of the lower one"},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose positions are given"},
+    {.key = "cuts", .kind = ParameterKind::list,
+     .what = "where the cloth is opened, and when; needs `tearing` `cuts` or `split`"},
     {.key = "material", .kind = ParameterKind::object,
      .what = "a material's name, or its values; for images and exports"},
 };
@@ -275,6 +277,21 @@ inline constexpr Parameter color_pin_keys[] = {
      .above_hint = color_hint, .what = "all particles whose vertex color (linear RGB) is near this one"},
     {.key = "threshold", .offset = offsetof(ColorPins, threshold), .min = 0, .max = 1,
      .what = "largest difference from `color`, per channel; with `color`"},
+};
+
+inline constexpr Parameter cut_keys[] = {
+    {.key = "time", .offset = offsetof(CutDesc, time), .min = 0, .max = 1e6, .unit = "s",
+     .what = "the cloth is cut before the first frame that begins at this time or later"},
+    {.key = "points", .kind = ParameterKind::list,
+     .what = "a polyline on the cloth at the start, in world space after the transform, at least two points in m"},
+    {.key = "plane", .kind = ParameterKind::object, .what = "a plane through the cloth at the start; in place of `points`"},
+};
+
+inline constexpr Parameter cut_plane_keys[] = {
+    {.key = "normal", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(PlaneCut, normal),
+     .min = -far_away, .max = far_away, .what = "normal of the plane in world space; any length but 0"},
+    {.key = "offset", .offset = offsetof(PlaneCut, offset), .min = -far_away, .max = far_away, .unit = "m",
+     .what = "distance of the plane from the origin, along the normal"},
 };
 
 inline constexpr Parameter box_keys[] = {

@@ -125,7 +125,8 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
 
     BuiltCloth built;
     built.source.topology = options;
-    built.source.numbers = {topology->particle_count, topology->welded_to_particle, topology->vertex_to_particle};
+    built.source.numbers = {topology->particle_count, topology->welded_to_particle, topology->vertex_to_particle,
+                            topology->particle_count + reserve.particles};
     auto pinned = select_pins(cloth.pins,
                               {.mesh = loaded->mesh,
                                .numbers = built.source.numbers,
@@ -149,6 +150,9 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes);
+    auto cuts = plan_cuts(cloth, **model, pointer);
+    if (!cuts) return cuts.errors();
+    built.source.cuts = std::move(*cuts);
     built.model = std::move(*model);
     return built;
 }
@@ -166,10 +170,12 @@ Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource
                                const std::vector<PinDesc>& pins) {
     const Frame& frame = world.frame();
     const auto cloth = std::ranges::find(frame.cloths, id, &ClothFrame::id);
+    const auto& copied_from = world.model(id)->copied_from;
     return select_pins(pins,
                        {.mesh = simulated_mesh(*world.model(id), source),
                         .numbers = source.numbers,
                         .positions = cloth->positions,
+                        .copied_from = {copied_from.data(), copied_from.size()},
                         .time = frame.time},
                        world, "/pins");
 }

@@ -3,6 +3,7 @@
 
 #include "scene/scene_desc.h"
 #include "solver/world/world.h"
+#include "weft/cutting.h"
 #include "weft/placement.h"
 
 #include <weft/result.h>
@@ -27,6 +28,7 @@ struct ClothSource {
     TopologyOptions topology = {};
     ParticleNumbers numbers = {};
     ClothPins pins = {};
+    std::vector<PlannedCut> cuts = {};
 };
 
 struct BuiltCloth {

@@ -22,7 +22,11 @@ Mat3 upright(UpAxis up) {
 class PinSelector {
   public:
     explicit PinSelector(const PinnedCloth& cloth)
-        : mesh_(cloth.mesh), numbers_(cloth.numbers), rest_(cloth.rest_positions), positions_(cloth.positions) {}
+        : mesh_(cloth.mesh),
+          numbers_(cloth.numbers),
+          rest_(cloth.rest_positions),
+          positions_(cloth.positions),
+          copied_from_(cloth.copied_from) {}
 
     Vec3 place(std::uint32_t p) const { return positions_.empty() ? rest_[p] : positions_[p].xyz(); }
 
@@ -43,12 +47,14 @@ class PinSelector {
                 chosen.push_back(particle[vertex]);
             }
         }
+        add_copies();
         return errors;
     }
 
     Errors select(const BoxPins& pins, const std::string& where) {
         const std::size_t before = chosen.size();
-        for (std::uint32_t p = 0; p < numbers_.particle_count; ++p) {
+        const auto count = numbers_.particle_count + static_cast<std::uint32_t>(copied_from_.size());
+        for (std::uint32_t p = 0; p < count; ++p) {
             if (pins.box.contains(place(p))) chosen.push_back(p);
         }
         if (chosen.size() == before) return {{where + "/box", "no vertex lies in it"}};
@@ -65,16 +71,28 @@ class PinSelector {
             if (matches && numbers_.of_vertex[v] != none) chosen.push_back(numbers_.of_vertex[v]);
         }
         if (chosen.size() == before) return {{where + "/color", "no vertex has such a color"}};
+        add_copies();
         return {};
     }
 
     std::vector<std::uint32_t> chosen;
 
   private:
+    void add_copies() {
+        std::vector<bool> selected(numbers_.particle_count + copied_from_.size());
+        for (const std::uint32_t p : chosen) selected[p] = true;
+        for (std::size_t i = 0; i < copied_from_.size(); ++i) {
+            if (!selected[copied_from_[i]]) continue;
+            selected[numbers_.particle_count + i] = true;
+            chosen.push_back(numbers_.particle_count + static_cast<std::uint32_t>(i));
+        }
+    }
+
     const TriangleMesh& mesh_;
     const ParticleNumbers& numbers_;
     std::span<const Vec3> rest_;
     std::span<const Vec4> positions_;
+    std::span<const std::uint32_t> copied_from_;
 };
 
 }  // namespace
@@ -135,7 +153,7 @@ Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& 
         const Vec3 place = places.place(particle);
         std::uint32_t point = particle;
         if (held_by.compliance > 0) {
-            point = cloth.numbers.particle_count + static_cast<std::uint32_t>(pinned.pins.attachments.size());
+            point = cloth.numbers.first_anchor + static_cast<std::uint32_t>(pinned.pins.attachments.size());
             pinned.pins.attachments.push_back({particle, held_by.compliance, place});
         } else {
             pinned.pins.particles.push_back(particle);

@@ -29,6 +29,7 @@ struct ParticleNumbers {
     std::uint32_t particle_count = 0;
     std::vector<std::uint32_t> of_welded;  ///< by welded vertex, as pins and stitches number them
     std::vector<std::uint32_t> of_vertex;  ///< by vertex of the simulated mesh
+    std::uint32_t first_anchor = 0;        ///< of the cloth's model
 };
 
 /// The cloth whose pins are selected.
@@ -37,12 +38,15 @@ struct PinnedCloth {
     const ParticleNumbers& numbers;
     std::span<const Vec3> rest_positions = {};  ///< m, per particle; used if `positions` is empty
     std::span<const Vec4> positions;            ///< m, per particle: current positions; empty: at rest
-    double time = 0;                            ///< s
+    /// Per copy of a particle, made by cuts and tears: the particle that was copied. Copies follow all other particles.
+    std::span<const std::uint32_t> copied_from = {};
+    double time = 0;  ///< s
 };
 
-/// Selects the particles of the pins. If several pins select a particle, the last one counts. Fails if a pin selects
-/// none. `where` of an error is a JSON pointer that starts with `pointer`, the place of the pins. Names of colliders
-/// must have been checked.
+/// Selects the particles of the pins. Vertices and colors select the copies of a particle too; a box selects each by
+/// its own position. If several pins select a particle, the last one counts. Fails if a pin selects none. `where` of an
+/// error is a JSON pointer that starts with `pointer`, the place of the pins. Names of colliders must have been
+/// checked.
 Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& cloth, const World& world,
                            const std::string& pointer);
 

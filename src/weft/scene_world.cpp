@@ -4,6 +4,7 @@
 #include "scene/check.h"
 #include "scene/scene_keys.h"
 #include "scene/set_value.h"
+#include "solver/model/cuts.h"
 #include "weft/stitching.h"
 
 #include <algorithm>
@@ -53,6 +54,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .fabric = cloth.fabric,
             .fabric_name = cloth.fabric_name,
             .pins = cloth.pins,
+            .cuts = cloth.cuts,
             .tethers = cloth.tethers,
             .tether_slack = cloth.tether_slack,
             .self_collision = cloth.self_collision,
@@ -66,7 +68,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
 /// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
     return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform &&
-           a.velocity == b.velocity && a.tearing == b.tearing;
+           a.velocity == b.velocity && a.tearing == b.tearing && a.cuts == b.cuts;
 }
 bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
     return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&
@@ -83,6 +85,7 @@ struct SceneWorld::Change {
     ClothId id;
     std::shared_ptr<const ClothModel> model;
     KinematicTargets targets;
+    std::vector<std::uint32_t> pinned;
 };
 
 SceneWorld::SceneWorld() = default;
@@ -120,7 +123,47 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
         if (!added) errors = added.errors();
     }
     if (!errors.empty()) return errors;
+    made.make_cuts();  // those of time 0, so that the first frame shows them
     return made;
+}
+
+void SceneWorld::make_cuts() {
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+        if (!sources_[i].cuts.empty()) make_cuts(i);
+}
+
+// Looks at the edges and not at a list of what was done, so that it is right after any change and in a restored world.
+void SceneWorld::make_cuts(std::size_t place) {
+    const ClothId id = world_->cloth_id(place);
+    const auto now = static_cast<float>(world_->time());  // rounded like the times of cuts: 0.2f is later than 0.2
+    std::vector<PlannedCut>& cuts = sources_[place].cuts;
+    ClothEdit edit;
+    for (const PlannedCut& cut : cuts) {
+        if (cut.time > now) break;
+        if (cut.failed) continue;
+        const auto closed = closed_ones(*world_->model(id), cut.openings);
+        edit.openings.insert(edit.openings.end(), closed.begin(), closed.end());
+    }
+    if (edit.openings.empty()) return;
+    const auto done = world_->edit(id, edit);
+    if (done) return;
+    for (PlannedCut& cut : cuts) cut.failed = cut.failed || cut.time <= now;
+    for (const Error& error : done.errors()) notes_.push_back("cut not made: " + error.message());
+}
+
+Result<void> SceneWorld::cut(ClothId id, const CutDesc& cut, CutPositions positions) {
+    const std::size_t place = place_of(id);
+    if (scene_.cloths[place].tearing == Tearing::off)
+        return Error{"cloth '" + scene_.cloths[place].name + "'",
+                     "cannot be cut: its \"tearing\" is \"off\"; it must be \"cuts\" or \"split\""};
+    const Frame& frame = world_->frame();
+    const std::shared_ptr<const ClothModel> model = world_->model(id);
+    std::span<const Vec4> now;
+    if (positions == CutPositions::current) now = frame.cloths[place].positions;
+    auto openings = find_cut(cut, *model, now, "cut");
+    if (!openings) return openings.errors();
+    if (auto opens = check_opens(*model, *openings, "cut"); !opens) return opens;
+    return world_->edit(id, {.openings = std::move(*openings)});
 }
 
 std::size_t SceneWorld::place_of(ClothId id) const {
@@ -206,12 +249,16 @@ Result<void> SceneWorld::set_models(std::span<Change> changes) {
     std::vector<Change> before;
     std::vector<ClothId> pending;
     for (Change& change : changes) {
-        Change now{change.id, world_->model(change.id), world_->kinematic_targets(change.id)};
+        Change now{change.id, world_->unedited_model(change.id), world_->kinematic_targets(change.id),
+                   world_->pinned(change.id)};
         if (world_->is_rebuilding(change.id)) pending.push_back(change.id);
-        if (auto set = world_->set_model(change.id, std::move(change.model), std::move(change.targets)); !set) {
+        if (auto set = world_->set_model(change.id, std::move(change.model), std::move(change.targets),
+                                         std::move(change.pinned));
+            !set) {
             // The old models fitted before, so there is room for each of them.
             for (Change& earlier : before)
-                (void)world_->set_model(earlier.id, std::move(earlier.model), std::move(earlier.targets));
+                (void)world_->set_model(earlier.id, std::move(earlier.model), std::move(earlier.targets),
+                                        std::move(earlier.pinned));
             for (const ClothId id : pending) rebuild_later(place_of(id));
             return set;
         }
@@ -221,11 +268,12 @@ Result<void> SceneWorld::set_models(std::span<Change> changes) {
 }
 
 // `cloth` has no meshes (without_meshes()).
-Result<void> SceneWorld::change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, KinematicTargets targets) {
+Result<void> SceneWorld::change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, KinematicTargets targets,
+                                      std::vector<std::uint32_t> pinned) {
     const std::size_t place = place_of(id);
     auto model = rebuild_cloth(*world_->model(id), sources_[place], cloth, pins, world_->settings().layout());
     if (!model) return model.errors();
-    Change change{id, std::move(*model), std::move(targets)};
+    Change change{id, std::move(*model), std::move(targets), std::move(pinned)};
     if (auto set = set_models(std::span(&change, 1)); !set) return set;
     SceneCloth& document = scene_.cloths[place];
     cloth.mesh = std::move(document.mesh);
@@ -244,7 +292,7 @@ Result<void> SceneWorld::set_fabric(ClothId id, const Fabric& fabric, const std:
     if (!changed) return changed.errors();
     if (*changed) return {};
     // Use the current targets of the world: colliders that moved pins may have been removed.
-    return change_cloth(id, std::move(cloth), sources_[place].pins, world_->kinematic_targets(id));
+    return change_cloth(id, std::move(cloth), sources_[place].pins, world_->kinematic_targets(id), world_->pinned(id));
 }
 
 Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cloth) {
@@ -276,7 +324,9 @@ Result<void> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     }
     SceneCloth cloth = without_meshes(scene_.cloths[place]);
     cloth.pins = std::move(pins);
-    return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->targets));
+    std::vector<std::uint32_t> particles = pinned->pins.particles;
+    return change_cloth(id, std::move(cloth), std::move(pinned->pins), std::move(pinned->targets),
+                        std::move(particles));
 }
 
 // Changes the pins without a new model. Returns false and changes nothing if the model has no room for the springs.
@@ -303,7 +353,7 @@ void SceneWorld::rebuild_later(std::size_t place) {
     const ClothId id = world_->cloth_id(place);
     const auto now = world_->model(id);
     const ClothSource& all = sources_[place];
-    world_->rebuild_later(id, [now, source = ClothSource{all.simulated, all.topology, {}, all.pins},
+    world_->rebuild_later(id, [now, source = ClothSource{all.simulated, all.topology, {}, all.pins, {}},
                                cloth = without_meshes(scene_.cloths[place]), layout = world_->settings().layout()] {
         return rebuild_cloth(*now, source, cloth, source.pins, layout);
     });
@@ -350,7 +400,7 @@ Result<void> SceneWorld::set_solver(const SolverDesc& solver) {
             const ClothId id = world_->cloth_id(i);
             auto model = rebuild_cloth(*world_->model(id), sources_[i], scene_.cloths[i], sources_[i].pins, layout);
             if (!model) return model.errors();
-            changes.push_back({id, std::move(*model), world_->kinematic_targets(id)});
+            changes.push_back({id, std::move(*model), world_->kinematic_targets(id), world_->pinned(id)});
         }
         if (auto set = set_models(changes); !set) return set;
     }
@@ -440,6 +490,7 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         if (*there == wanted) continue;
         const ClothId id = world_->cloth_id(place);
         Pinned pinned{sources_[place].pins, world_->kinematic_targets(id)};
+        std::vector<std::uint32_t> particles = world_->pinned(id);
         if (there->pins == wanted.pins && collides_alike(*there, wanted)) {
             auto changed = change_material(place, wanted);
             if (!changed) return changed.errors();
@@ -448,8 +499,10 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
             auto selected = select_pins_now(*world_, id, sources_[place], wanted.pins);
             if (!selected) return selected.errors();
             pinned = std::move(*selected);
+            particles = pinned.pins.particles;
         }
-        auto changed = change_cloth(id, without_meshes(wanted), std::move(pinned.pins), std::move(pinned.targets));
+        auto changed = change_cloth(id, without_meshes(wanted), std::move(pinned.pins), std::move(pinned.targets),
+                                    std::move(particles));
         if (!changed) return placed_at("/cloths/" + std::to_string(i), changed.errors());
     }
     return {};

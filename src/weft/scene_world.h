@@ -22,7 +22,9 @@ namespace weft {
 
 /// scene() is the document: the scene with all changes so far. Each function changes both the document and the world,
 /// or, if it fails, neither. Only the world contains what moves: positions, velocities and poses of moving colliders. A
-/// new world that is built from the document therefore begins at the start.
+/// new world that is built from the document therefore begins at the start. Cuts are part of the document, and which
+/// edges are open is part of the world's state: before each frame all cuts that are due are made where edges are
+/// closed.
 ///
 /// Cloths and colliders have the same order in document and world, and all have names. Ids must name existing objects.
 /// Values must have been checked (check.h); only change_to() checks them itself.
@@ -59,6 +61,8 @@ class SceneWorld {
     /// Particles are pinned at their current positions; boxes select by current positions. Changes only the particles
     /// concerned if neither old nor new pins have a compliance. Coarse levels and tethers follow some frames later.
     Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
+    /// Cuts the cloth now. Positions are those of `positions`. Not part of the document; part of the saved state.
+    Result<void> cut(ClothId id, const CutDesc& cut, CutPositions positions);
     /// Moves the collider during the next frame; it then stays there. Ends its motion by keys.
     void move(ColliderId id, Vec3 position, Vec3 rotation_degrees);
     void set_friction(ColliderId id, std::array<float, 2> friction);
@@ -82,12 +86,19 @@ class SceneWorld {
     World& world() { return *world_; }
     const World& world() const { return *world_; }
     double frame_seconds() const { return 1.0 / static_cast<double>(scene_.frame_rate); }
-    void advance() { world_->advance(frame_seconds()); }
-    void advance(double dt) { world_->advance(dt); }
-    const Frame& step() { return world_->step(frame_seconds()); }
-    const Frame& step(double dt) { return world_->step(dt); }
+    /// Makes the cuts that are due, then advances the world.
+    void advance(double dt) {
+        make_cuts();
+        world_->advance(dt);
+    }
+    void advance() { advance(frame_seconds()); }
+    const Frame& step(double dt) {
+        advance(dt);
+        return world_->frame();
+    }
+    const Frame& step() { return step(frame_seconds()); }
 
-    /// Warnings of building cloths, one line each.
+    /// Warnings, one line each: of building cloths, and of cuts that were due and for which there was no room.
     const std::vector<std::string>& notes() const { return notes_; }
     /// Ids of the stitches, in the order of the document.
     std::span<const StitchId> stitches() const { return stitch_ids_; }
@@ -96,9 +107,12 @@ class SceneWorld {
     struct Change;
 
     SceneWorld();
+    void make_cuts();
+    void make_cuts(std::size_t place);
     std::size_t place_of(ClothId id) const;
     std::size_t place_of(ColliderId id) const;
-    Result<void> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, KinematicTargets targets);
+    Result<void> change_cloth(ClothId id, SceneCloth cloth, ClothPins pins, KinematicTargets targets,
+                              std::vector<std::uint32_t> pinned);
     Result<void> set_models(std::span<Change> changes);
     /// Returns false and changes nothing if the fabric needs a rebuilt model.
     Result<bool> change_material(std::size_t place, const SceneCloth& cloth);

@@ -27,6 +27,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .fabric = fabric,
             .fabric_name = desc.fabric.preset,
             .pins = desc.pins,
+            .cuts = desc.cuts,
             .tethers = desc.tethers,
             .tether_slack = desc.tether_slack,
             .self_collision = desc.self_collision,
@@ -250,6 +251,17 @@ Result<void> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     });
     if (!sound) return sound;
     auto done = impl_->scene.set_pins(id, std::move(pins));
+    impl_->changed();
+    return done;
+}
+
+Result<void> Simulation::cut(ClothId id, const CutDesc& cut, CutPositions positions) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    CutDesc now = cut;
+    now.time = 0;
+    const auto sound = checked([&](Problems& problems) { check_cut(now, "", problems); });
+    if (!sound) return sound;
+    auto done = impl_->scene.cut(id, now, positions);
     impl_->changed();
     return done;
 }

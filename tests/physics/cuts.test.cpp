@@ -2,6 +2,7 @@
 
 #include "solver/model/cuts.h"
 #include "sheet.h"
+#include "solver/measures/pieces.h"
 
 #include <cmath>
 
@@ -160,6 +161,34 @@ TEST(Cuts, keep_both_sides_of_the_cut_short) {
     const ClothMeasures measures = world.measure();
     EXPECT_LT(measures.strain.stretch.mean, 0.002);
     EXPECT_LT(measures.strain.stretch.max, 0.02);
+}
+
+TEST(Cuts, are_counted_by_edges_and_pieces) {
+    World world = make_world({.solver = solver_with(true)});
+    const ClothId id = world.add(make_curtain(17, {}));
+    const auto pieces = [&] { return find_pieces(world.frame()); };
+    EXPECT_EQ(pieces().torn_edges, 0u);
+    EXPECT_EQ(pieces().count, 1u);
+    EXPECT_EQ(pieces().smallest.part, 1);
+    // A slit parts nothing.
+    const std::vector<Vec3> slit{{-0.25f, 0.25f, 0}, {-0.25f, -0.25f, 0}};
+    const auto& positions = world.frame().cloths[0].positions;
+    ASSERT_TRUE(world.edit(id, {.openings = openings_along_stroke(*world.model(id), positions, slit)}).ok());
+    EXPECT_EQ(pieces().torn_edges, 8u);
+    EXPECT_EQ(pieces().count, 1u);
+    ASSERT_TRUE(world
+                    .edit(id, {.openings = openings_along_plane(*world.model(id), world.frame().cloths[0].positions,
+                                                                {0.25f, 0, 0}, {1, 0, 0})})
+                    .ok());
+    EXPECT_EQ(pieces().torn_edges, 8u + 16u);
+    EXPECT_EQ(pieces().count, 2u);
+    EXPECT_EQ(pieces().smallest.triangles, 4u * 16 * 2);
+    EXPECT_NEAR(pieces().smallest.part, 0.25, 1e-6);
+    EXPECT_EQ(pieces().smallest.cloth, 0u);
+    // Another cloth without a tear table, smaller but whole.
+    world.add(make_half(17, 3, {}));
+    EXPECT_EQ(pieces().count, 3u);
+    EXPECT_NEAR(pieces().smallest.part, 0.25, 1e-6);
 }
 
 #ifdef WEFT_VULKAN

@@ -17,6 +17,7 @@ int frames_of(PictureContent content) {
         case PictureContent::laid:
             return 36;
         case PictureContent::hung:
+        case PictureContent::slit:
             return 24;
         case PictureContent::tips:
             return 8;
@@ -29,6 +30,7 @@ int frames_of(PictureContent content) {
 }
 
 PictureContent content_of(const Overlay& overlay) {
+    if (overlay.name == "rims") return PictureContent::slit;
     if (overlay.name == "distance_fields") return PictureContent::star;
     return overlay.needs == OverlayNeeds::contact_marks ? PictureContent::thrown : PictureContent::hung;
 }
@@ -121,12 +123,15 @@ std::string scene_text(const PictureScene& scene) {
                              material + R"(
         "colliders": [{ "name": "ball", "sphere": { "radius": 0.25 }, "transform": { "position": [0, 0.3, 0] } },
                       { "name": "ground", "plane": {} }],)";
+    const std::string slit = scene.content == PictureContent::slit ? R"(, "tearing": "cuts",
+                     "cuts": [{ "points": [[0.1, 0.1, 0.27], [0, 0.6, 0.18]] }])"
+                                                                   : "";
     const std::string hung = R"(
         "air": { "wind": [{ "velocity": [1.5, 0, -2] }] },
         "cloths": [{ "name": "cloth", "mesh": { "grid": { "size": [0.8, 0.8], "resolution": [17, 17] } },
                      "transform": { "position": [0, 0.5, 0.2], "rotation": [80, 0, 0] }, "fabric": "cotton",
                      "pins": [{ "vertices": [0, 16] }])" +
-                             material + R"(
+                             slit + material + R"(
         "colliders": [{ "name": "ball", "sphere": { "radius": 0.25 }, "transform": { "position": [0, 0.3, 0] } },
                       { "name": "ground", "plane": {} }],)";
     const std::string thrown = R"(
@@ -164,6 +169,7 @@ std::string scene_text(const PictureScene& scene) {
         case PictureContent::laid:
             break;
         case PictureContent::hung:
+        case PictureContent::slit:
             return whole(hung, from_far);
         case PictureContent::thrown:
             return whole(thrown, from_above);

@@ -18,6 +18,7 @@ namespace weft {
 enum class PictureContent {
     laid,    ///< a cloth on a ball
     hung,    ///< hangs by two corners; wind blows it against a ball
+    slit,    ///< the same with a slit
     thrown,  ///< two sheets that cross are thrown onto the ground
     tips,    ///< a coarse sheet on a star of a mesh, a corner of a box, and a small ball
     star,    ///< the same star from near, with a plate that its field lacks; the sheet is above

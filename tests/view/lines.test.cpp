@@ -2,6 +2,7 @@
 
 #include "shown.h"
 
+#include "solver/model/cuts.h"
 #include "solver/world/air.h"
 #include "view/nice_numbers.h"
 #include "view/touches.h"
@@ -37,6 +38,23 @@ TEST(WireframeOverlay, has_every_edge_once_on_either_side) {
         EXPECT_GT(std::abs(line.from.y), 0) << "off the surface";
     }
     EXPECT_EQ(edges.size(), 208u);
+}
+
+TEST(RimsOverlay, has_both_sides_of_each_open_edge) {
+    TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::uniform);
+    ClothModelDesc desc{.name = "sheet", .reserve = {.particles = 20, .openings = true}};
+    auto topology = build_topology(mesh, {.reorder = false});
+    desc.mesh = std::move(mesh);
+    World world = make_world({});
+    const ClothId id = world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+    EXPECT_TRUE(Shown(world).draw("rims").lines.empty());
+    const auto& model = world.model(id);
+    ASSERT_TRUE(world.edit(id, {.openings = openings_along_plane(*model, model->start, {}, {1, 0, 0})}).ok());
+    Shown shown(world);
+    const OverlayOutput output = shown.draw("rims");
+    EXPECT_EQ(output.lines.size(), 8u * 2 * 2) << "edges, sides of the cut, sides of the surface";
+    for (const render::Line& line : output.lines) EXPECT_NEAR(line.from.x, 0, 0.01f);
+    EXPECT_EQ(output.legends[0].entries[0].text, "open edges: 8");
 }
 
 TEST(WireframeOverlay, is_that_of_the_mesh_that_is_drawn) {
@@ -429,7 +447,7 @@ TEST(Overlays, of_nothing_are_nothing) {
 }
 
 TEST(Overlays, are_found_by_name) {
-    ASSERT_EQ(overlays().size(), 11u);
+    ASSERT_EQ(overlays().size(), 12u);
     for (const Overlay& overlay : overlays()) EXPECT_EQ(*find_overlay(overlay.name), &overlay);
     EXPECT_EQ((*find_overlay("contacts"))->needs, OverlayNeeds::contact_forces);
     EXPECT_EQ((*find_overlay("cloth_contacts"))->needs, OverlayNeeds::contact_marks);

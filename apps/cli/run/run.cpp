@@ -121,6 +121,7 @@ int run(const RunOptions& options) {
     }
     if (const Errors errors = overwritten(options, *session, *estimates); !errors.empty()) return wrong(errors);
     for (const std::string& note : session->notes()) print_warning(note);
+    const std::size_t noted = session->notes().size();
     if (const auto note = large_export_note(*estimates)) print_warning(*note);
 
     // Without --stats, a run measures its last frame only.
@@ -130,6 +131,7 @@ int run(const RunOptions& options) {
         print_errors(done.errors());
         return exit_failed;
     }
+    for (std::size_t i = noted; i < session->notes().size(); ++i) print_warning(session->notes()[i]);
     if (options.quiet && options.stats.empty()) return exit_done;
     const auto stats = statistics.gather(*session, options.scene);
     if (!options.stats.empty()) {

@@ -4,6 +4,7 @@
 #include "scene/check.h"
 #include "scene/nearest_name.h"
 #include "scene/scene_keys.h"
+#include "solver/measures/pieces.h"
 
 #include <nlohmann/json.hpp>
 
@@ -280,7 +281,14 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
                               {"edges", crossings.edges},
                               {"worst", std::max(worst_crossings_, crossings.triangles)},
                               {"order_lost", order_lost(frame)}};
-    stats["torn_edges"] = 0;  // cloth cannot tear yet
+    const Pieces pieces = find_pieces(frame);
+    stats["torn_edges"] = pieces.torn_edges;
+    stats["pieces"] = pieces.count;
+    stats["smallest_piece"] = nullptr;
+    if (pieces.count > 0)
+        stats["smallest_piece"] = {{"cloth", frame.cloths[pieces.smallest.cloth].model->name},
+                                   {"triangles", pieces.smallest.triangles},
+                                   {"part", pieces.smallest.part}};
     stats["reports"] = report_names(reports_);
     stats["state_hash"] = world.state_hash();
     stats["finite"] = measures.finite;
@@ -325,6 +333,12 @@ void print_summary(const Json& s) {
             std::printf(", at most %.3g of the strength, in cloth '%s'", load["max"].get<double>(),
                         load["cloth"].get<std::string>().c_str());
         std::printf("\n");
+    }
+    if (const auto torn = s["torn_edges"].get<unsigned long long>(); torn > 0) {
+        const Json& smallest = s["smallest_piece"];
+        std::printf("  torn          %llu edges, %llu pieces, the smallest of %llu triangles (%.3g %% of '%s')\n", torn,
+                    s["pieces"].get<unsigned long long>(), smallest["triangles"].get<unsigned long long>(),
+                    100 * smallest["part"].get<double>(), smallest["cloth"].get<std::string>().c_str());
     }
     std::printf("  penetration   max %.3g mm", 1000 * number("penetration", "max"));
     if (const Json& worst = s["penetration"]["worst"]; !worst["collider"].is_null())

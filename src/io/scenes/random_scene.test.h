@@ -196,6 +196,18 @@ class RandomScene {
             for (const FabricTable& table : fabric_tables())
                 fill(table.parameters, reinterpret_cast<std::byte*>(&cloth.fabric) + table.offset);
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.pins.emplace_back(), of_a_file);
+        if (cloth.tearing == Tearing::off) return;
+        for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back());
+    }
+
+    void draw(CutDesc& cut) {
+        fill(cut_keys, &cut);
+        if (maybe()) {
+            fill(cut_plane_keys, &cut.along.emplace<PlaneCut>());
+            std::get<PlaneCut>(cut.along).normal.z = 0.3f;
+        } else {
+            cut.along = PathCut{{{-0.5f, -0.0f, 0.1f}, {0.25f, 1e-20f, 3}}};
+        }
     }
 
     void draw(PinDesc& pin, bool of_a_file) {

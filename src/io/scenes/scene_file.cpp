@@ -148,6 +148,14 @@ void read_pin(ObjectReader& pin, PinDesc& result) {
     pin.objects("motion", [&](ObjectReader& key) { key.values(offset_key_keys, &result.motion.emplace_back()); });
 }
 
+void read_cut(ObjectReader& o, CutDesc& cut) {
+    o.values(cut_keys, &cut);
+    const std::string_view kind = o.one_of({"points", "plane"});
+    if (kind == "points") cut.along = PathCut{o.points("points")};
+    if (kind == "plane")
+        o.object("plane", [&](ObjectReader& plane) { plane.values(cut_plane_keys, &cut.along.emplace<PlaneCut>()); });
+}
+
 void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.values(cloth_keys, &cloth);
     o.object("mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.mesh); });
@@ -155,6 +163,7 @@ void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
     read_fabric(o, cloth);
     o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
+    o.objects("cuts", [&](ObjectReader& cut) { read_cut(cut, cloth.cuts.emplace_back()); });
     read_material(o, default_material(cloth), cloth.material);
 }
 

@@ -30,6 +30,7 @@ const Kinds kinds[] = {
     {"/cloths/*/mesh", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/render_mesh", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/pins/*", {"vertices", "box", "color"}},
+    {"/cloths/*/cuts/*", {"points", "plane"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
     {"/stitches/*/a", {"vertices", "points"}},
     {"/stitches/*/b", {"vertices", "points"}},
@@ -188,12 +189,13 @@ Json type_json(const Parameter& p, const std::string& place) {
             return object_or_word(place_below(place, key));
         case ParameterKind::list: {
             const std::string below = place_below(place, key + "/*");
-            if (place + key == "/colliders/*/convex/points") {
+            const bool on_cloth = place + key == "/cloths/*/cuts/*/points";
+            if (on_cloth || place + key == "/colliders/*/convex/points") {
                 const Json number = {
                     {"type", "number"}, {"minimum", limit_json(-far_away)}, {"maximum", limit_json(far_away)}};
                 return {{"type", "array"},
                         {"items", {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}}},
-                        {"minItems", 4}};
+                        {"minItems", on_cloth ? 2 : 4}};
             }
             // Only lists of vertices have no keys of their own.
             Json items = {{"type", "integer"}, {"minimum", 0}};

@@ -144,6 +144,9 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
             with_cloth(R"("mesh": { "grid": { "resolution": [2, 4096] } }, "transform": { "rotation": [1e9, 0, 0] })"),
             with_cloth(R"("pins": [ { "box": { "min": [-1, -1, -1], "max": [1, 1, 1] } } ])"),
             with_cloth(R"("velocity": [0, -15, 0], "self_collision": "exact")"),
+            with_cloth(R"("tearing": "cuts", "cuts": [ { "points": [ [0, 0, 0], [1, 0, 0] ] }, { "plane": {} } ])"),
+            with_cloth(
+                R"("tearing": "split", "cuts": [ { "time": 2, "plane": { "normal": [0, 0, -2], "offset": 1 } } ])"),
             with_cloth(R"("self_collision": "fast")"),
             with_cloth(R"("self_collision": true)"),
             with_cloth(R"("self_collision": false)"),
@@ -209,6 +212,14 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_cloth(R"("self_collision": 1)"),
              with_cloth(R"("self_collision": "on")"),
              with_cloth(R"("tethers": true)"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ {} ])"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ { "plane": {}, "points": [ [0, 0, 0], [1, 0, 0] ] } ])"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ { "points": [ [0, 0, 0] ] } ])"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ { "points": [ [0, 0, 0], [1, 0] ] } ])"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ { "points": [ [0, 0, 0], [1, 0, 2e6] ] } ])"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ { "time": -1, "plane": {} } ])"),
+             with_cloth(R"("tearing": "cuts", "cuts": [ { "plane": { "offset": "a" } } ])"),
+             with_cloth(R"("tearing": "rip")"),
              with_collider(""),
              with_collider(R"("plane": {}, "sphere": {})"),
              with_collider(R"("sphere": { "radius": 0 })"),
@@ -306,6 +317,7 @@ std::set<std::string> names_offered(const std::string& place) {
 TEST(SceneSchema, KnowsTheKindsThatTheReaderKnows) {
     EXPECT_EQ(names_offered("/cloths/*/mesh"), names_wanted(with_cloth(R"("mesh": {})")));
     EXPECT_EQ(names_offered("/cloths/*/pins/*"), names_wanted(with_cloth(R"("pins": [ {} ])")));
+    EXPECT_EQ(names_offered("/cloths/*/cuts/*"), names_wanted(with_cloth(R"("tearing": "cuts", "cuts": [ {} ])")));
     EXPECT_EQ(names_offered("/colliders/*"), names_wanted(with_collider("")));
 }
 

@@ -50,12 +50,14 @@ class SceneWriter {
     Child material(const std::optional<SceneMaterial>& material, const MaterialPreset& otherwise,
                    const std::string& place);
     JsonNode pin(const PinDesc& pin, const std::string& place);
+    JsonNode cut(const CutDesc& cut, const std::string& place);
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
     template <class Key>
     Child motion(const std::vector<Key>& keys, std::span<const Parameter> table, const Key& like,
                  const std::string& place);
+    JsonNode points(const std::vector<Vec3>& points, const std::string& place);
     template <class Shape>
-    Child points(const Shape& shape, const std::string& place);
+    Child points_of(const Shape& shape, const std::string& place);
     JsonNode collider(const SceneCollider& collider, std::size_t index, const std::string& place);
     JsonNode stitches(const StitchDesc& stitches, std::size_t index, const std::string& place);
     JsonNode light(const Lighting& light, const std::string& place);
@@ -249,6 +251,15 @@ JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
     return node;
 }
 
+JsonNode SceneWriter::cut(const CutDesc& desc, const std::string& place) {
+    return object(cut_keys, desc, CutDesc(), place, [&](std::string_view key, const std::string& where) -> Child {
+        const auto* path = std::get_if<PathCut>(&desc.along);
+        if (key == "points") return path ? Child(points(path->points, where)) : Child();
+        assert(key == "plane");
+        return path ? Child() : object(cut_plane_keys, std::get<PlaneCut>(desc.along), PlaneCut(), where);
+    });
+}
+
 JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std::string& place) {
     SceneCloth defaults;
     defaults.name = "cloth " + std::to_string(index);
@@ -258,6 +269,9 @@ JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std
         if (key == "transform") return unless_empty(object(transform_keys, desc.transform, defaults.transform, where));
         if (key == "fabric") return fabric(desc, where);
         if (key == "material") return material(desc.material, default_material(desc), where);
+        if (key == "cuts")
+            return unless_empty(
+                list(desc.cuts, where, [&](const CutDesc& one, const std::string& below) { return cut(one, below); }));
         assert(key == "pins");
         return unless_empty(
             list(desc.pins, where, [&](const PinDesc& one, const std::string& below) { return pin(one, below); }));
@@ -275,16 +289,19 @@ Child SceneWriter::motion(const std::vector<Key>& keys, std::span<const Paramete
     return node;
 }
 
+JsonNode SceneWriter::points(const std::vector<Vec3>& points, const std::string& place) {
+    return list(points, place, [](Vec3 p, const std::string&) {
+        JsonNode point = JsonNode::list();
+        for (const float x : {p.x, p.y, p.z}) point.add(JsonNode::number(x));
+        return point;
+    });
+}
+
 // The points of a hull, if the shape is one without a file.
 template <class Shape>
-Child SceneWriter::points(const Shape& shape, const std::string& place) {
+Child SceneWriter::points_of(const Shape& shape, const std::string& place) {
     if constexpr (std::is_same_v<Shape, ConvexDesc>) {
-        if (shape.file.empty())
-            return unless_empty(list(shape.mesh.positions, place, [](Vec3 p, const std::string&) {
-                JsonNode point = JsonNode::list();
-                for (const float x : {p.x, p.y, p.z}) point.add(JsonNode::number(x));
-                return point;
-            }));
+        if (shape.file.empty()) return unless_empty(points(shape.mesh.positions, place));
     }
     return {};
 }
@@ -297,7 +314,7 @@ JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, con
             problems_.add(place, "has a mesh in memory, for which a scene file must name a file");
     });
     const auto lists_of = [&](const auto& shape) -> Children {
-        return [&](std::string_view, const std::string& below) { return points(shape, below); };
+        return [&](std::string_view, const std::string& below) { return points_of(shape, below); };
     };
     ColliderDesc defaults;
     defaults.name = "collider " + std::to_string(index);

@@ -63,4 +63,8 @@ struct ClothEdit {
 /// up. Changes of particles and triangles also fail unless each vertex of the render mesh is one particle.
 Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit);
 
+/// The same for openings alone, with exactly these particles pinned, copies included.
+Result<std::shared_ptr<const ClothModel>> with_openings(const ClothModel& from, const std::vector<Opening>& openings,
+                                                        const std::vector<std::uint32_t>& pinned);
+
 }  // namespace weft

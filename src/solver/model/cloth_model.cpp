@@ -26,6 +26,7 @@ Result<void> place_particles(ClothModel& model, const Topology& topology, const 
         start[p] = {x.x, x.y, x.z, 1 / model.mass[p]};
     }
     for (std::uint32_t p : pinned) {
+        if (p >= model.particle_count && p < model.first_anchor()) continue;  // a copy, pinned by World::set_model()
         if (p >= model.particle_count) {
             return Error{"pinned particle " + std::to_string(p),
                          "there are only " + std::to_string(model.particle_count)};
@@ -41,7 +42,7 @@ Result<void> place_anchors(const ClothModel& model, const std::vector<Attachment
     for (std::uint32_t i = 0; i < attachments.size(); ++i) {
         const auto& [particle, compliance, place] = attachments[i];
         const std::string where = "attachment " + std::to_string(i);
-        if (particle >= model.particle_count)
+        if (particle >= model.first_anchor())  // copies of particles come with openings
             return Error{where, "there are only " + std::to_string(model.particle_count) + " particles, got number " +
                                     std::to_string(particle)};
         if (!(compliance > 0 && std::isfinite(compliance)))
@@ -216,7 +217,8 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     rest.attachments = pins.attachments;
     rest.first_anchor = model.first_anchor();
     rest.pinned.assign(model.particle_count, 0);
-    for (std::uint32_t p : pins.particles) rest.pinned[p] = 1;
+    for (std::uint32_t p : pins.particles)
+        if (p < model.particle_count) rest.pinned[p] = 1;
     model.extent = extent_of(topology);
     rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.extent);
     clock.spent_on(BuildPart::rest);
@@ -320,6 +322,9 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
         model->set_mesh(from.mesh());
     }
     model->vertex_to_particle = from.vertex_to_particle;
+    if (!from.copied_from.empty())  // without its copies
+        model->vertex_to_particle = std::vector<std::uint32_t>(
+            from.vertex_to_particle.begin(), from.vertex_to_particle.begin() + std::ptrdiff_t(mesh.positions.size()));
     if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout, from.reserved); !done)
         return done.errors();
     return std::shared_ptr<const ClothModel>(std::move(model));

@@ -3,6 +3,7 @@
 #include "solver/model/tear_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -72,16 +73,25 @@ struct Step {
     }
 };
 
-// Cheapest path of edges (Dijkstra 1959). An edge costs its length, and much more the farther it is from the stroke.
+// Which edges a path can follow: `closed`: those between particles that are closed; `built`: all that the cloth was
+// built with, between its vertices.
+enum class Edges { closed, built };
+
+// Cheapest path of edges (Dijkstra 1959). An edge costs its length, and much more the farther it is from the straight
+// line between the ends of the path. They are particles, so a stroke along a row of the mesh gives a straight path.
 class StrokePath {
   public:
-    StrokePath(const ClothModel& model, std::span<const Vec4> positions, std::span<const Vec3> stroke)
-        : model_(model), positions_(positions), stroke_(stroke), links_(group_links(model)) {}
+    StrokePath(const ClothModel& model, std::span<const Vec4> positions, Edges edges)
+        : model_(model),
+          positions_(positions),
+          edges_(edges),
+          count_(edges == Edges::built ? model.tears->vertex_count() : model.particle_count),
+          links_(group_links()) {}
 
     std::uint32_t nearest(Vec3 place) const {
         std::uint32_t best = none;
         float least = std::numeric_limits<float>::infinity();
-        for (std::uint32_t p = 0; p < model_.particle_count; ++p) {
+        for (std::uint32_t p = 0; p < count_; ++p) {
             const float d = length(positions_[p].xyz() - place);
             if (d < least) least = d, best = p;
         }
@@ -90,8 +100,9 @@ class StrokePath {
     // Adds the links of a path; nothing if there is none.
     void find(std::uint32_t from, std::uint32_t to, Collector& out) {
         if (from == to) return;
-        std::vector<double> cost(model_.particle_count, std::numeric_limits<double>::infinity());
-        std::vector<std::uint32_t> by(model_.particle_count, none), before(model_.particle_count, none);
+        ends_ = {positions_[from].xyz(), positions_[to].xyz()};
+        std::vector<double> cost(count_, std::numeric_limits<double>::infinity());
+        std::vector<std::uint32_t> by(count_, none), before(count_, none);
         std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
         cost[from] = 0;
         open.push({0, from});
@@ -115,26 +126,51 @@ class StrokePath {
     }
 
   private:
-    static Groups<std::uint32_t> group_links(const ClothModel& model) {
-        const auto& entries = model.tears->entries;
-        const Collector closed(model);
-        return group_items<std::uint32_t>(model.particle_count, [&](auto put) {
-            for (std::uint32_t i = 0; i < entries.size(); ++i)
-                if (closed.is_closed(entries[i])) put(model.faces[entries[i].corner], i);
+    Groups<std::uint32_t> group_links() const {
+        const auto& entries = model_.tears->entries;
+        const Collector closed(model_);
+        return group_items<std::uint32_t>(count_, [&](auto put) {
+            for (std::uint32_t i = 0; i < entries.size(); ++i) {
+                if (edges_ == Edges::built) {
+                    if (entries[i].next != none) put(entries[i].vertex, i);
+                } else if (closed.is_closed(entries[i])) {
+                    put(model_.faces[entries[i].corner], i);
+                }
+            }
         });
     }
-    std::uint32_t far_end(std::uint32_t link) const { return model_.faces[model_.tears->entries[link].far]; }
+    std::uint32_t far_end(std::uint32_t link) const {
+        const TearTable::Entry& entry = model_.tears->entries[link];
+        return edges_ == Edges::built ? model_.tears->entries[entry.twin].vertex : model_.faces[entry.far];
+    }
     double price(std::uint32_t a, std::uint32_t b) const {
         const Vec3 x = positions_[a].xyz(), y = positions_[b].xyz();
-        const double off = distance_to(stroke_, (x + y) * 0.5f) / static_cast<double>(model_.mean_edge);
+        const double off =
+            distance_to_segment((x + y) * 0.5f, ends_[0], ends_[1]) / static_cast<double>(model_.mean_edge);
         return static_cast<double>(length(y - x)) * (1 + 16 * off * off);
     }
 
     const ClothModel& model_;
     std::span<const Vec4> positions_;
-    std::span<const Vec3> stroke_;
+    std::array<Vec3, 2> ends_;
+    Edges edges_;
+    std::uint32_t count_;  // of the places that edges connect
     Groups<std::uint32_t> links_;
 };
+
+std::vector<Opening> along_stroke(const ClothModel& model, std::span<const Vec4> positions,
+                                  std::span<const Vec3> stroke, Edges edges) {
+    if (stroke.empty()) return {};
+    StrokePath path(model, positions, edges);
+    Collector collector(model);
+    std::uint32_t from = path.nearest(stroke[0]);
+    for (const Vec3& point : stroke.subspan(1)) {
+        const std::uint32_t to = path.nearest(point);
+        path.find(from, to, collector);
+        from = to;
+    }
+    return collector.take();
+}
 
 }  // namespace
 
@@ -154,25 +190,51 @@ std::vector<Opening> openings_along_plane(const ClothModel& model, std::span<con
                                           Vec3 normal) {
     std::vector<std::uint32_t> side(model.triangle_count);
     for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        // The middle of its extent along the normal, not its center: a plane along rows of the mesh then gives a
+        // straight cut and no zigzag. A little off the middle, so that a plane halfway between two rows is no tie.
+        constexpr float middle = 0.47f;
         const auto [a, b, c] = model.triangles()[t];
-        const Vec3 sum = positions[a].xyz() + positions[b].xyz() + positions[c].xyz();
-        side[t] = dot(sum * (1.0f / 3) - point, normal) > 0;
+        const float heights[] = {dot(positions[a].xyz() - point, normal), dot(positions[b].xyz() - point, normal),
+                                 dot(positions[c].xyz() - point, normal)};
+        const auto [low, high] = std::ranges::minmax(heights);
+        side[t] = low + middle * (high - low) > 0;
     }
     return openings_between(model, side);
 }
 
 std::vector<Opening> openings_along_stroke(const ClothModel& model, std::span<const Vec4> positions,
                                            std::span<const Vec3> stroke) {
-    if (stroke.empty()) return {};
-    StrokePath path(model, positions, stroke);
-    Collector collector(model);
-    std::uint32_t from = path.nearest(stroke[0]);
-    for (const Vec3& point : stroke.subspan(1)) {
-        const std::uint32_t to = path.nearest(point);
-        path.find(from, to, collector);
-        from = to;
+    return along_stroke(model, positions, stroke, Edges::closed);
+}
+
+std::vector<Opening> openings_along_stroke_at_rest(const ClothModel& model, std::span<const Vec3> stroke) {
+    return along_stroke(model, {model.start.data(), model.particle_count}, stroke, Edges::built);
+}
+
+std::vector<Opening> closed_ones(const ClothModel& model, std::span<const Opening> openings) {
+    const Collector collector(model);
+    std::vector<Opening> closed;
+    for (const Opening& opening : openings)
+        for (const std::uint32_t link : opening.links)
+            if (link != none && collector.is_closed(model.tears->entries[link])) {
+                closed.push_back(opening);
+                break;
+            }
+    return closed;
+}
+
+double farthest_from(std::span<const Vec3> stroke, const ClothModel& model, std::span<const Vec4> positions,
+                     std::span<const Opening> openings) {
+    double farthest = 0;
+    for (const Opening& opening : openings) {
+        for (const std::uint32_t link : opening.links) {
+            if (link == none) continue;
+            const TearTable::Entry& entry = model.tears->entries[link];
+            const Vec3 a = positions[model.faces[entry.corner]].xyz(), b = positions[model.faces[entry.far]].xyz();
+            farthest = std::max(farthest, distance_to(stroke, (a + b) * 0.5f));
+        }
     }
-    return collector.take();
+    return farthest;
 }
 
 }  // namespace weft

@@ -289,5 +289,43 @@ TEST(Openings, along_a_stroke_end_where_it_ends) {
     EXPECT_TRUE(openings_along_stroke(*model, model->start, std::vector<Vec3>{{0, 0, 0}, {0, 0, 0.001f}}).empty());
 }
 
+TEST(Openings, along_a_stroke_at_rest_take_the_same_path_in_opened_cloth) {
+    for (const Kind& kind : kinds) {
+        const auto model = make_tearable(kind);
+        const std::vector<Vec3> stroke{{-0.6f, 0, 0.02f}, {0, 0, 0.1f}, {0.26f, 0, -0.1f}};
+        const auto openings = openings_along_stroke_at_rest(*model, stroke);
+        EXPECT_EQ(openings, openings_along_stroke(*model, model->start, stroke)) << "nothing is open yet";
+        EXPECT_LT(farthest_from(stroke, *model, model->start, openings), 0.75f * model->longest_edge);
+        // Another cut crosses it: what is left of the path is the rest of the same path.
+        const auto crossed =
+            *with_edit(*model, {.openings = openings_along_plane(*model, model->start, {-0.2f, 0, 0}, {1, 0, 0.1f})});
+        const auto left = openings_along_stroke_at_rest(*crossed, stroke);
+        EXPECT_FALSE(left.empty());
+        for (const Opening& opening : left)
+            for (const std::uint32_t link : opening.links)
+                EXPECT_TRUE(link == none || std::ranges::any_of(openings, [&](const Opening& one) {
+                                return one.links[0] == link || one.links[1] == link;
+                            }));
+        const auto opened = *with_edit(*crossed, {.openings = left});
+        EXPECT_TRUE(openings_along_stroke_at_rest(*opened, stroke).empty());
+        EXPECT_TRUE(closed_ones(*opened, openings).empty());
+        EXPECT_EQ(closed_ones(*model, openings), openings);
+    }
+}
+
+// A plane halfway between two columns of a grid does not zigzag along the diagonals.
+TEST(Openings, along_a_plane_are_straight_where_the_mesh_has_rows) {
+    for (const float offset : {0.01f, 0.03f, 0.0625f, 0.09f, 0.12f}) {
+        for (const Kind& kind : {kinds[0], kinds[1]}) {
+            const auto model = make_tearable(kind);
+            const auto opened =
+                *with_edit(*model, {.openings = openings_along_plane(*model, model->start, {offset, 0, 0}, {1, 0, 0})});
+            ASSERT_EQ(opened->copied_from.size(), 9u) << offset;
+            const float x = model->rest_position(opened->copied_from[0]).x;
+            for (const std::uint32_t p : opened->copied_from) EXPECT_EQ(model->rest_position(p).x, x);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace weft

@@ -47,7 +47,8 @@ struct OpenTable {
 
 class Editor {
   public:
-    explicit Editor(const ClothModel& from) : model_(std::make_shared<ClothModel>(from)) {}
+    explicit Editor(const ClothModel& from, const std::vector<std::uint32_t>* pinned = nullptr)
+        : model_(std::make_shared<ClothModel>(from)), pinned_(pinned) {}
 
     Result<std::shared_ptr<const ClothModel>> run(const ClothEdit& edit) {
         const bool has_openings = !edit.openings.empty(), other = !edit.appended.empty() || !edit.triangles.empty();
@@ -65,6 +66,7 @@ class Editor {
             if (auto done = open(edit.openings); !done) return done.errors();
         }
         if (reshaped) {
+            if (pinned_) pin(*pinned_);
             if (auto done = reshape(); !done) return done.errors();
             if (other) {
                 model_->hierarchy = {};
@@ -157,6 +159,15 @@ class Editor {
         model_->particle_count += static_cast<std::uint32_t>(sources.size());
         model_->reserve -= static_cast<std::uint32_t>(sources.size());
         return {};
+    }
+
+    // Only whether inverse masses are 0; reshape() computes them.
+    void pin(const std::vector<std::uint32_t>& pinned) {
+        AlignedVector<Vec4> start(model_->start.begin(), model_->start.end());
+        for (std::uint32_t p = 0; p < model_->particle_count; ++p) start[p].w = 1;
+        for (const std::uint32_t p : pinned)
+            if (p < model_->particle_count) start[p].w = 0;
+        model_->start = std::move(start);
     }
 
     Result<void> set_triangles(const std::vector<TriangleEdit>& edits) {
@@ -372,12 +383,18 @@ class Editor {
     }
 
     std::shared_ptr<ClothModel> model_;
+    const std::vector<std::uint32_t>* pinned_;  // null: unchanged
 };
 
 }  // namespace
 
 Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit) {
     return Editor(from).run(edit);
+}
+
+Result<std::shared_ptr<const ClothModel>> with_openings(const ClothModel& from, const std::vector<Opening>& openings,
+                                                        const std::vector<std::uint32_t>& pinned) {
+    return Editor(from, &pinned).run({.openings = openings});
 }
 
 }  // namespace weft

@@ -79,8 +79,18 @@ void World::remove(ClothId id) {
     replan();
 }
 
-Result<void> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model) {
-    assert(model->first_anchor() == cloth.model->first_anchor());
+Result<void> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model,
+                                   std::optional<std::vector<std::uint32_t>> pinned) {
+    assert(model->first_anchor() == cloth.model->first_anchor() && model->copied_from.empty());
+    std::shared_ptr<const ClothModel> unedited;
+    std::vector<ClothEdit> edits;
+    if (!cloth.edits.empty() && model->tears && has_only_openings(cloth)) {
+        unedited = model;
+        edits.push_back(all_openings(cloth));
+        auto opened = with_openings(*model, edits.front().openings, pinned ? *pinned : pinned_in(*model));
+        if (!opened) return opened.errors();
+        model = std::move(*opened);
+    }
     const std::uint32_t before = cloth.model->capacity(), after = model->capacity();
     const std::uint32_t base = after == before ? cloth.base : space_.take(after);
     if (auto set = backend_->set_model(cloth.handle, model, base); !set) {
@@ -90,18 +100,19 @@ Result<void> World::exchange_model(Cloth& cloth, std::shared_ptr<const ClothMode
     if (base != cloth.base) space_.give_back(cloth.base, before);
     cloth.base = base;
     cloth.model = std::move(model);
-    cloth.unedited = nullptr;
-    cloth.edits.clear();
+    cloth.unedited = std::move(unedited);
+    cloth.edits = std::move(edits);
     cloth.pinned = pinned_in(*cloth.model);
     return {};
 }
 
-Result<void> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets) {
+Result<void> World::set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets,
+                              std::optional<std::vector<std::uint32_t>> pinned) {
     assert(contains(id));
     complete_and_resolve();
     pending_.drop(id);
     Cloth& cloth = cloths_[cloths_.find(id)];
-    if (auto set = exchange_model(cloth, std::move(model)); !set) return set;
+    if (auto set = exchange_model(cloth, std::move(model), std::move(pinned)); !set) return set;
     cloth.targets = std::move(targets);
     list_cloths();
     replan();
@@ -131,7 +142,7 @@ Result<void> World::set_material(ClothId id, std::shared_ptr<const ClothModel> m
 
 void World::rebuild_later(ClothId id, BuildModel build) {
     assert(contains(id));
-    if (!cloths_[cloths_.find(id)].edits.empty()) return;
+    if (!has_only_openings(cloths_[cloths_.find(id)])) return;
     const std::uint64_t due = frame_.index + frames_to_build(model(id)->particle_count);
     pending_.add(id, due, std::move(build));
 }
@@ -139,7 +150,9 @@ void World::rebuild_later(ClothId id, BuildModel build) {
 // If the model cannot be built or the device has not enough memory, the cloth keeps its model and continues.
 void World::use_model(const PendingModels::Ready& ready) {
     complete_and_resolve();
-    if (!ready.model || !exchange_model(cloths_[cloths_.find(ready.cloth)], *ready.model)) return;
+    if (!ready.model) return;
+    Cloth& cloth = cloths_[cloths_.find(ready.cloth)];
+    if (!has_only_openings(cloth) || !exchange_model(cloth, *ready.model, cloth.pinned)) return;
     list_cloths();
     replan();
 }
@@ -411,10 +424,7 @@ void World::place_motions(Cloth& cloth, double dt) const {
 void World::advance(double dt) {
     assert(dt > 0 && std::isfinite(dt));
     complete();
-    if (!torn_.empty()) {
-        for (const ClothId id : torn_) pending_.drop(id);
-        replan();
-    }
+    if (!torn_.empty()) replan();
     while (const auto ready = pending_.take_due(frame_.index + 1)) use_model(*ready);
     if (settings_.background) pending_.start_next();
     begin_surfaces();

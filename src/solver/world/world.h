@@ -46,8 +46,11 @@ class World {
     ClothId add(std::shared_ptr<const ClothModel> model, KinematicTargets targets = {});
     void remove(ClothId id);
     /// Sets another model of the same particles, with another material or other pins. Positions and velocities are
-    /// kept.
-    Result<void> set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets);
+    /// kept. `pinned`: the pinned particles, in any order; nullopt: those of the model. If all edits of the cloth are
+    /// openings, the new model gets them too, and `pinned` can name copies; other edits are dropped. `model` must not
+    /// have edits.
+    Result<void> set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets,
+                           std::optional<std::vector<std::uint32_t>> pinned = {});
     /// Sets a model made by with_fabric(): the same constraints with other parameters. Pins are kept. Drops a model
     /// that rebuild_later() has pending.
     Result<void> set_material(ClothId id, std::shared_ptr<const ClothModel> model);
@@ -62,16 +65,23 @@ class World {
     /// Builds another model of the same particles and pins, and uses it frames_to_build() frames from now: the same
     /// frame on every run. Until then the cloth keeps its model. Another call for the same cloth, set_model() and
     /// removing the cloth drop the pending model. If building fails, the cloth keeps its model. Does nothing for a
-    /// cloth with edits, because the new model would not have them.
+    /// cloth with edits other than openings, because the new model would not have them.
     void rebuild_later(ClothId id, BuildModel build);
     /// Changes single constraints, triangles and particles, or opens edges, within the reserve of the model
     /// (with_edit). Positions and velocities are kept. Copies that openings make are pinned like their originals. Edits
-    /// belong to the saved state until set_model().
+    /// belong to the saved state.
     Result<void> edit(ClothId id, const ClothEdit& edit);
     /// Whether a model is pending for the cloth.
     bool is_rebuilding(ClothId id) const { return pending_.contains(id); }
     bool contains(ClothId id) const { return cloths_.contains(id); }
     const std::shared_ptr<const ClothModel>& model(ClothId id) const { return cloths_[cloths_.find(id)].model; }
+    /// The model before the edits.
+    const std::shared_ptr<const ClothModel>& unedited_model(ClothId id) const {
+        const Cloth& cloth = cloths_[cloths_.find(id)];
+        return cloth.unedited ? cloth.unedited : cloth.model;
+    }
+    /// The pinned particles, ascending.
+    const std::vector<std::uint32_t>& pinned(ClothId id) const { return cloths_[cloths_.find(id)].pinned; }
     const KinematicTargets& kinematic_targets(ClothId id) const { return cloths_[cloths_.find(id)].targets; }
 
     /// Ties points on cloth together; their cloths become one island. The stitches are removed with any of these
@@ -189,8 +199,11 @@ class World {
     Result<void> set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits, std::shared_ptr<const ClothModel> model);
     static Result<std::shared_ptr<const ClothModel>> with_fabric_unedited(const Cloth& cloth, const ClothModel& model);
     std::vector<ParticleWeight> pin_copies(Cloth& cloth, const ClothModel& model, std::size_t plain_copies) const;
+    static bool has_only_openings(const Cloth& cloth);
+    static ClothEdit all_openings(const Cloth& cloth);
     static void hash_edits(const Cloth& cloth, StateHash& hash);
-    Result<void> exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model);
+    Result<void> exchange_model(Cloth& cloth, std::shared_ptr<const ClothModel> model,
+                                std::optional<std::vector<std::uint32_t>> pinned);
     SavedTargets save_targets(const KinematicTargets& targets) const;
     KinematicTargets restore_targets(const SavedTargets& saved) const;
     Result<void> restore_cloths(const Snapshot& snapshot, std::span<const std::shared_ptr<const ClothModel>> models);

@@ -19,7 +19,22 @@ std::span<const std::uint32_t> copies_since(const ClothModel& before, const Clot
     return {after.copied_from.data() + known, after.copied_from.size() - known};
 }
 
+bool is_only_openings(const ClothEdit& edit) {
+    return edit.appended.empty() && edit.triangles.empty() && edit.added.empty() && edit.rows.empty();
+}
+
 }  // namespace
+
+bool World::has_only_openings(const Cloth& cloth) {
+    return std::ranges::all_of(cloth.edits, is_only_openings);
+}
+
+ClothEdit World::all_openings(const Cloth& cloth) {
+    ClothEdit all;
+    for (const ClothEdit& edit : cloth.edits)
+        all.openings.insert(all.openings.end(), edit.openings.begin(), edit.openings.end());
+    return all;
+}
 
 // Pins copies of pinned particles, and moves them like these; the first `plain_copies` copies are free. Returns the
 // inverse masses of all copies. `model` is the next one of the cloth.
@@ -53,9 +68,7 @@ void World::take_openings() const {
         if (!model || !backend_->set_topology(cloth.handle, *model, {})) continue;
         (void)pin_copies(cloth, **model, 0);
         if (!cloth.unedited) cloth.unedited = cloth.model;
-        const bool goes_on =
-            !cloth.edits.empty() && cloth.edits.back() == ClothEdit{.openings = cloth.edits.back().openings};
-        if (!goes_on) cloth.edits.emplace_back();
+        if (cloth.edits.empty() || !is_only_openings(cloth.edits.back())) cloth.edits.emplace_back();
         auto& all = cloth.edits.back().openings;
         all.insert(all.end(), openings.begin(), openings.end());
         cloth.model = std::move(*model);
@@ -84,7 +97,7 @@ Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     cloth.model = std::move(*model);
     cloth.pinned = std::move(changed.pinned);
     cloth.targets = std::move(changed.targets);
-    pending_.drop(id);
+    if (!is_only_openings(edit)) pending_.drop(id);
     list_cloths();
     replan();
     return {};

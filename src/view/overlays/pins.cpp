@@ -37,7 +37,7 @@ void pins(const OverlayInput& input, OverlayOutput& output) {
         for (std::uint32_t row = 0; row < springs.stride; ++row) {
             if (!springs.is_real(row)) continue;
             const std::uint32_t particle = springs.particles[row], anchor = springs.particles[springs.stride + row];
-            const Vec3 at = cloth.positions[particle].xyz(), place = anchors[anchor - model.particle_count];
+            const Vec3 at = cloth.positions[particle].xyz(), place = anchors[anchor - model.first_anchor()];
             add_point(output.points, at, color(anchor), size);
             add_point(output.points, place, color(anchor), size / 2);
             add_line(output.lines_on_top, at, place, color(anchor), pixels(input, 1.5f));
