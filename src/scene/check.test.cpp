@@ -43,6 +43,18 @@ TEST(CheckScene, PassesWhatIsFine) {
     EXPECT_THAT(problems_after([](SceneDesc&) {}), ElementsAre());
 }
 
+TEST(CheckScene, DoesNotSplitClothThatJacobiProjects) {
+    const auto with = [](Tearing tearing) {
+        return problems_after([&](SceneDesc& s) {
+            s.solver.projection = Projection::jacobi;
+            s.cloths[0].tearing = tearing;
+        });
+    };
+    EXPECT_THAT(with(Tearing::split),
+                ElementsAre("/cloths/0/tearing: \"split\" cannot be used with the projection \"jacobi\""));
+    EXPECT_THAT(with(Tearing::cuts), ElementsAre());
+}
+
 TEST(CheckScene, NeedsACloth) {
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths.clear(); }),
                 ElementsAre("/cloths: must hold at least one cloth"));

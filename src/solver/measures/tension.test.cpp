@@ -293,7 +293,7 @@ TEST(TensionMeasure, has_another_limit_at_the_end_of_a_cut) {
     const Continuum sheet(300, 300, 100);
     const double stiffness = sheet.k2 + sheet.ks, tension = 0.02 * stiffness;
     EXPECT_NEAR(pulled.load[slit.tip],
-                tension / std::sqrt(2 / std::numbers::pi * 2 * stiffness / table.cut_end[slit.tip]),
+                tension / std::sqrt(WEFT_CUT_END_FACTOR_SQUARED * 2 * stiffness / table.cut_end[slit.tip]),
                 0.02 * pulled.load[slit.tip]);
     EXPECT_NEAR(pulled.load[slit.tip + 1], tension / 50, 1e-3);
 
