@@ -63,6 +63,7 @@ TEST_F(Cli, stats_have_every_figure) {
     for (const char* key : {"self_contacts", "searches", "limited", "tangled"}) EXPECT_EQ(s[key], 0) << key;
     for (const char* key : {"triangles", "edges", "worst"}) EXPECT_TRUE(s["intersections"].contains(key)) << key;
     EXPECT_EQ(s["torn_edges"], 0);
+    EXPECT_TRUE(s["unsolved"].is_null()) << "no cloth tears";
     EXPECT_EQ(s["pieces"], 1);
     EXPECT_EQ(s["smallest_piece"]["part"], 1);
     EXPECT_EQ(s["reports"], Json::array());
@@ -93,6 +94,24 @@ TEST_F(Cli, no_frames_export_and_measure_the_start) {
     EXPECT_EQ(s["state_hash"].get<std::string>().size(), 16u);
     EXPECT_EQ(stats("--seconds 0")["state_hash"], s["state_hash"]);
     expect_usage_error("run sheet.json --frames 0 --contact-forces", "--contact-forces: gives the forces in the last");
+}
+
+TEST_F(Cli, names_the_substeps_that_cloth_which_tears_needs) {
+    const auto run_with = [&](int substeps) {
+        write("torn.json", R"({ "weft": 1, "solver": { "substeps": )" + std::to_string(substeps) +
+                               R"( }, "cloths": [{ "tearing": "split", "transform": { "rotation": [90, 0, 0] },
+                                  "mesh": { "grid": { "size": [1, 1], "resolution": [33, 33], "diagonal": "uniform" } },
+                                  "pins": [{ "vertices": [0, 32] }] }] })");
+        const Outcome outcome = weft("run torn.json --frames 30 --stats s.json");
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const Json s = Json::parse(read_file(folder_ / "s.json"));
+        EXPECT_EQ(outcome.out.find("substeps leave 10 %") != std::string::npos, s["unsolved"]["part"] > 0.1);
+        return s["unsolved"];
+    };
+    const Json few = run_with(3), many = run_with(100);
+    EXPECT_GT(few["part"], 0.1);
+    EXPECT_GT(few["substeps"], 3);
+    EXPECT_LT(many["part"], few["part"]);
 }
 
 TEST_F(Cli, contact_forces_are_the_force_on_each_collider) {

@@ -135,6 +135,7 @@ void Tearing::run(const ClothModel& model, const Particles& now, std::span<float
     for (const std::uint32_t p : watched_)
         if (loads_[p].load >= 1 && scalar::tear_is_largest(access, p, loads_[p])) chosen_.push_back(p);
     std::ranges::sort(chosen_);
+    if (chosen_.size() > WEFT_TEAR_MOST_OPENINGS) chosen_.resize(WEFT_TEAR_MOST_OPENINGS);
     for (const std::uint32_t p : chosen_) {
         const scalar::TearOpening opening = scalar::tear_opening(access, p, loads_[p]);
         if (opening.first != none) open(access, opening, now, weights);

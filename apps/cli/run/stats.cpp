@@ -96,6 +96,17 @@ Json tension_json(const TensionSummary& last, const WorstTension& tension, const
     return json;
 }
 
+// Which part of the stretch the solver has not solved, and how many substeps would leave a tenth: the excess falls as
+// 1/n^1.7 with n substeps (physics/tear/tear.md). Null if no cloth tears by itself.
+Json unsolved_json(const World& world, const Frame& frame, const ClothMeasures& measures) {
+    constexpr double wanted_part = 0.1, falls_as = 1.7;
+    const auto tears = [](const ClothFrame& cloth) { return cloth.model->tear_law != nullptr; };
+    if (std::ranges::none_of(frame.cloths, tears) || !(measures.strain.stretch.mean > 0)) return nullptr;
+    const double part = measures.residual.mean / measures.strain.stretch.mean;
+    const double more = std::pow(std::max(part / wanted_part, 1.0), 1 / falls_as);
+    return {{"part", part}, {"substeps", std::ceil(world.settings().solver.substeps * more)}};
+}
+
 // The value that 99 % of the edges along warp and weft do not exceed. JSON shows a NaN as null.
 double stretch_percentile(const Frame& frame, bool finite) {
     if (!finite) return std::nan("");
@@ -255,6 +266,7 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["shear"] = mean_max(measures.strain.shear);
     stats["residual"] = {{"mean", measures.residual.mean}, {"max", measures.residual.max}};
     stats["tension"] = tension_json(tension, worst_tension, worst_load, frame);
+    stats["unsolved"] = unsolved_json(world, frame, measures);
     stats["kinetic_energy"] = measures.kinetic_energy;
     stats["mean_speed"] = mean_speed_of_end;
     stats["max_speed"] = measures.max_speed;
@@ -334,6 +346,10 @@ void print_summary(const Json& s) {
                         load["cloth"].get<std::string>().c_str());
         std::printf("\n");
     }
+    if (const Json& unsolved = s["unsolved"]; !unsolved.is_null() && unsolved["part"].get<double>() > 0.1)
+        std::printf(
+            "  warning       %.0f %% of the stretch is unsolved and counts as load; about %.0f substeps leave 10 %%\n",
+            100 * unsolved["part"].get<double>(), unsolved["substeps"].get<double>());
     if (const auto torn = s["torn_edges"].get<unsigned long long>(); torn > 0) {
         const Json& smallest = s["smallest_piece"];
         std::printf("  torn          %llu edges, %llu pieces, the smallest of %llu triangles (%.3g %% of '%s')\n", torn,

@@ -11,6 +11,8 @@
 // A cut ends at a particle of the rim with more cloth around it at rest, rad: three quarters of a turn, and room for
 // rounding.
 #define WEFT_TEAR_END_ANGLE 4.71338898
+// Openings of a cloth in a substep. More of them wait for the next substep.
+#define WEFT_TEAR_MOST_OPENINGS 64u
 // A rip goes on along an edge that leads forward by at least this part of its length.
 #define WEFT_TEAR_FORWARD 0.35
 

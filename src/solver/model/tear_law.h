@@ -24,8 +24,8 @@ struct TearLaw {
     AlignedVector<float> sides;
     AlignedVector<float> area;  ///< m², per triangle; 0 if it has no stress
     struct Entry {
-        std::array<float, 2> turn{1,
-                                  0};  ///< cosine and sine of twice the angle from the vertex's axes to the triangle's
+        /// Cosine and sine of twice the angle from the vertex's axes to the triangle's.
+        std::array<float, 2> turn{1, 0};
         float angle = 0;               ///< rad: of the triangle at the vertex
         float length = 0;              ///< m: of the link's edge
         std::array<float, 2> along{};  ///< direction of the link's edge from the vertex, in the vertex's axes
@@ -35,12 +35,10 @@ struct TearLaw {
     float tear_energy = 0;                    ///< J/m; 0: `inverse_strength` holds at the ends of cuts too
     float inverse_stretch = 0;                ///< 1 over the largest strain of an edge; 0: no limit
 
-    /// Whether the load of a triangle with this tension and strain may be above `part` at one of its corners, unless a
-    /// cut ends there.
+    /// m/N: of the weaker direction.
     float largest_inverse_strength() const {
         return inverse_strength[0] > inverse_strength[1] ? inverse_strength[0] : inverse_strength[1];
     }
-    bool has_limit() const { return inverse_stretch > 0 || largest_inverse_strength() > 0 || tear_energy > 0; }
 };
 
 /// For the model's fabric. The model must have a tear table.

@@ -36,7 +36,7 @@ void open_all()
 {
     TearCloth c = TearCloth(0u);
     first_opening = tear_head.openings;
-    for (uint i = 0u; i < chosen_count; ++i) {
+    for (uint i = 0u; i < min(chosen_count, WEFT_TEAR_MOST_OPENINGS); ++i) {
         uint p = tear_data.list.at[i];
         TearOpening o = tear_opening(c, p, tear_kept_load(c, p));
         if (o.first == WEFT_TEAR_NONE || !tear_open(c, o)) continue;
