@@ -64,8 +64,12 @@ void World::take_openings() const {
         const std::vector<Opening>& openings = frame_.cloths[i].openings;
         if (openings.empty()) continue;
         auto model = with_edit(*cloth.model, {.openings = openings});
-        assert(model.ok());
-        if (!model || !backend_->set_topology(cloth.handle, *model, {})) continue;
+        auto set = model ? backend_->set_topology(cloth.handle, *model, {}) : Result<void>(model.errors());
+        if (!set) {  // for example too little memory on the device
+            frame_.cloths[i].reports |= report_device_failed;
+            frame_.cloths[i].detail = set.error().message();
+            continue;
+        }
         (void)pin_copies(cloth, **model, 0);
         if (!cloth.unedited) cloth.unedited = cloth.model;
         if (cloth.edits.empty() || !is_only_openings(cloth.edits.back())) cloth.edits.emplace_back();
