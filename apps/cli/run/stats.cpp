@@ -102,7 +102,7 @@ Json unsolved_json(const World& world, const Frame& frame, const ClothMeasures& 
     constexpr double wanted_part = 0.1, falls_as = 1.7;
     const auto tears = [](const ClothFrame& cloth) { return cloth.model->tear_law != nullptr; };
     if (std::ranges::none_of(frame.cloths, tears) || !(measures.strain.stretch.mean > 0)) return nullptr;
-    const double part = measures.residual.mean / measures.strain.stretch.mean;
+    const double part = std::min(measures.residual.mean / measures.strain.stretch.mean, 1.0);
     const double more = std::pow(std::max(part / wanted_part, 1.0), 1 / falls_as);
     return {{"part", part}, {"substeps", std::ceil(world.settings().solver.substeps * more)}};
 }
