@@ -63,7 +63,7 @@ TEST_F(Cli, stats_have_every_figure) {
     for (const char* key : {"self_contacts", "searches", "limited", "tangled"}) EXPECT_EQ(s[key], 0) << key;
     for (const char* key : {"triangles", "edges", "worst"}) EXPECT_TRUE(s["intersections"].contains(key)) << key;
     EXPECT_EQ(s["torn_edges"], 0);
-    EXPECT_TRUE(s["unsolved"].is_null()) << "no cloth tears";
+    EXPECT_TRUE(s["unsolved"].is_null() && s["tear_room"].is_null()) << "no cloth tears";
     EXPECT_EQ(s["pieces"], 1);
     EXPECT_EQ(s["smallest_piece"]["part"], 1);
     EXPECT_EQ(s["reports"], Json::array());
@@ -106,6 +106,8 @@ TEST_F(Cli, names_the_substeps_that_cloth_which_tears_needs) {
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         const Json s = Json::parse(read_file(folder_ / "s.json"));
         EXPECT_EQ(outcome.out.find("substeps leave 10 %") != std::string::npos, s["unsolved"]["part"] > 0.1);
+        EXPECT_LE(s["tear_room"], 33 * 33 / 8 + 256);
+        EXPECT_GT(s["tear_room"], 256);
         return s["unsolved"];
     };
     const Json few = run_with(3), many = run_with(100);

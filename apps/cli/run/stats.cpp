@@ -107,6 +107,15 @@ Json unsolved_json(const World& world, const Frame& frame, const ClothMeasures& 
     return {{"part", part}, {"substeps", std::ceil(world.settings().solver.substeps * more)}};
 }
 
+// Particles that the cloth with the least room can still gain by tearing and cuts; null if no cloth can part.
+Json tear_room(const Frame& frame) {
+    Json least = nullptr;
+    for (const ClothFrame& cloth : frame.cloths)
+        if (cloth.model->tears && (least.is_null() || cloth.model->reserve < least.get<std::uint32_t>()))
+            least = cloth.model->reserve;
+    return least;
+}
+
 // The value that 99 % of the edges along warp and weft do not exceed. JSON shows a NaN as null.
 double stretch_percentile(const Frame& frame, bool finite) {
     if (!finite) return std::nan("");
@@ -266,6 +275,7 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["shear"] = mean_max(measures.strain.shear);
     stats["residual"] = {{"mean", measures.residual.mean}, {"max", measures.residual.max}};
     stats["tension"] = tension_json(tension, worst_tension, worst_load, frame);
+    stats["tear_room"] = tear_room(frame);
     stats["unsolved"] = unsolved_json(world, frame, measures);
     stats["kinetic_energy"] = measures.kinetic_energy;
     stats["mean_speed"] = mean_speed_of_end;
@@ -350,6 +360,9 @@ void print_summary(const Json& s) {
         std::printf(
             "  warning       %.0f %% of the stretch is unsolved and counts as load; about %.0f substeps leave 10 %%\n",
             100 * unsolved["part"].get<double>(), unsolved["substeps"].get<double>());
+    // An opening inside the cloth can need three particles.
+    if (const Json& room = s["tear_room"]; !room.is_null() && room.get<std::uint32_t>() < 3)
+        std::printf("  warning       a cloth has no room for more particles, so it tears no further\n");
     if (const auto torn = s["torn_edges"].get<unsigned long long>(); torn > 0) {
         const Json& smallest = s["smallest_piece"];
         std::printf("  torn          %llu edges, %llu pieces, the smallest of %llu triangles (%.3g %% of '%s')\n", torn,
