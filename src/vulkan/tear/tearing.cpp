@@ -188,8 +188,9 @@ std::vector<Opening> Tearing::openings(std::size_t member) const {
         const std::byte* const bytes = torn->back.as<std::byte>().data();
         TearHead head;
         std::memcpy(&head, bytes, sizeof head);
-        openings.resize(head.openings);
         static_assert(sizeof(Opening) == sizeof(TearOpeningIn));
+        if (head.openings == 0) return openings;
+        openings.resize(head.openings);
         std::memcpy(openings.data(), bytes + torn->head.bytes, openings.size() * sizeof(Opening));
     }
     return openings;
