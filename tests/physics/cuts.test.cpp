@@ -15,16 +15,7 @@ std::shared_ptr<const ClothModel> make_curtain(std::uint32_t side, const ClothLa
     TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
     ClothModelDesc desc{
         .name = "curtain", .fabric = fabric, .layout = layout, .reserve = {.particles = 4 * side, .openings = true}};
-    for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
-        Vec3& x = mesh.positions[p];
-        if (x.z < -0.499f) desc.pins.particles.push_back(p);
-        x = {x.x, -x.z, 0};
-    }
-    auto topology = build_topology(mesh, {.reorder = false});
-    desc.mesh = std::move(mesh);
-    auto built = build_cloth_model(std::move(desc), std::move(*topology));
-    EXPECT_TRUE(built.ok());
-    return *built;
+    return make_upright(std::move(desc), std::move(mesh), [](Vec3 x) { return x.z < -0.499f; });
 }
 
 // Half of it, as a cloth of its own: `side` × (side + 1) / 2 particles.
@@ -33,16 +24,8 @@ std::shared_ptr<const ClothModel> make_half(std::uint32_t side, float center, co
     // The diagonals of the right half continue those of the left one.
     TriangleMesh mesh = make_grid({0.5f, 1}, {(side + 1) / 2, side}, GridDiagonal::alternating);
     ClothModelDesc desc{.name = "half", .fabric = fabric, .layout = layout};
-    for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
-        Vec3& x = mesh.positions[p];
-        if (x.z < -0.499f) desc.pins.particles.push_back(p);
-        x = {x.x + center, -x.z, 0};
-    }
-    auto topology = build_topology(mesh, {.reorder = false});
-    desc.mesh = std::move(mesh);
-    auto built = build_cloth_model(std::move(desc), std::move(*topology));
-    EXPECT_TRUE(built.ok());
-    return *built;
+    return make_upright(
+        std::move(desc), std::move(mesh), [](Vec3 x) { return x.z < -0.499f; }, center);
 }
 
 SolverDesc solver_with(bool lines) {

@@ -18,16 +18,7 @@ constexpr std::uint32_t side = 17;
 std::shared_ptr<const ClothModel> make_cuttable(const ClothLayout& layout, ClothReserve reserve = {32, 128}) {
     TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
     ClothModelDesc desc{.name = "sheet", .layout = layout, .reserve = reserve};
-    for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
-        Vec3& x = mesh.positions[p];
-        if (x.z < -0.49f && std::abs(x.x) > 0.49f) desc.pins.particles.push_back(p);
-        x = {x.x, -x.z, 0};
-    }
-    auto topology = build_topology(mesh, {.reorder = false});
-    desc.mesh = std::move(mesh);
-    auto built = build_cloth_model(std::move(desc), std::move(*topology));
-    EXPECT_TRUE(built.ok());
-    return *built;
+    return make_upright(std::move(desc), std::move(mesh), [](Vec3 x) { return x.z < -0.49f && std::abs(x.x) > 0.49f; });
 }
 
 ClothEdit cut_in_two(const ClothModel& model) {

@@ -62,6 +62,22 @@ inline std::shared_ptr<const ClothModel> make_sheet(const SheetDesc& desc) {
     return *built;
 }
 
+/// A grid turned upright into the plane z = 0, moved by `center` along x. `pinned`: called with positions in the flat
+/// grid.
+inline std::shared_ptr<const ClothModel> make_upright(ClothModelDesc desc, TriangleMesh grid,
+                                                      const std::function<bool(Vec3)>& pinned, float center = 0) {
+    for (std::uint32_t p = 0; p < grid.positions.size(); ++p) {
+        Vec3& x = grid.positions[p];
+        if (pinned(x)) desc.pins.particles.push_back(p);
+        x = {x.x + center, -x.z, 0};
+    }
+    auto topology = build_topology(grid, {.reorder = false});
+    desc.mesh = std::move(grid);
+    auto built = build_cloth_model(std::move(desc), std::move(*topology));
+    EXPECT_TRUE(built.ok());
+    return *built;
+}
+
 /// A square meter that hangs by two corners, not quite upright.
 inline SheetDesc hung_by_corners(std::uint32_t side, const ClothLayout& layout) {
     return {.resolution = {side, side}, .rotation_degrees = {84.3f, 0, 0}, .layout = layout, .pinned = [](Vec3 p) {
