@@ -52,9 +52,10 @@ enum class Tethers { automatic, on, off };
 enum class SelfCollision { off, fast, exact };
 
 /// Whether a cloth can part. `cuts`: where Simulation::cut() and cuts of the scene open it. `split`: also by itself,
-/// along edges of its mesh, where its load exceeds the fabric's limits. Needs a mesh in which each vertex is one
-/// particle, and in which no edge has three triangles or more.
-enum class Tearing { off, cuts, split };
+/// along edges of its mesh, where its load exceeds the fabric's limits. `erode`: where an edge exceeds the fabric's
+/// `tear_ratio`, a triangle at it is removed. Needs a mesh in which each vertex is one particle, and in which no edge
+/// has three triangles or more.
+enum class Tearing { off, cuts, split, erode };
 
 /// `smooth`: neighboring triangles get the same gust. `scattered`: each triangle has its own phase and frequency.
 enum class GustPhase { smooth, scattered };
@@ -236,6 +237,29 @@ struct CutDesc {
     friend bool operator==(const CutDesc&, const CutDesc&) = default;
 };
 
+/// Edges with a strength of their own, chosen like those of a cut: a seam, a perforation. They open where the tension
+/// across them exceeds it. No rip runs along edges that are stronger than the fabric.
+struct SeamDesc {
+    float strength = 0;     ///< N/m, above 0, up to 1e9: tension across the seam that it carries
+    float tear_energy = 0;  ///< J/m, 0…1e9: sets the limit at the end of the open part; 0: `strength` holds there too
+    std::variant<PathCut, PlaneCut> along = {};  ///< on the cloth as it is at the start, in world space, m
+    friend bool operator==(const SeamDesc&, const SeamDesc&) = default;
+};
+
+enum class ColorChannel { red, green, blue, alpha };
+/// Selects all particles; the factor is multiplied by this channel of the vertex color (linear).
+struct PaintedChannel {
+    ColorChannel channel = ColorChannel::red;
+    friend bool operator==(const PaintedChannel&, const PaintedChannel&) = default;
+};
+/// Particles that are weaker or stronger than the fabric. If several descriptions select a particle, the last one
+/// counts.
+struct ResistanceDesc {
+    float factor = 1;  ///< 0.001…1e6: on all limits of the fabric. A product with a channel is at least 0.001
+    std::variant<VertexPins, BoxPins, ColorPins, PaintedChannel> select = {};
+    friend bool operator==(const ResistanceDesc&, const ResistanceDesc&) = default;
+};
+
 /// Where a cut lies that Simulation::cut() makes: on the cloth as it is now, or as it was at the start. Both are in
 /// world space.
 enum class CutPositions { current, start };
@@ -285,7 +309,9 @@ struct ClothDesc {
     Vec3 velocity = {};  ///< m/s, each component within ±1e4: of all particles that are not pinned, at the start
     FabricDesc fabric = {};
     std::vector<PinDesc> pins = {};
-    std::vector<CutDesc> cuts = {};  ///< need `tearing`
+    std::vector<CutDesc> cuts = {};               ///< need `tearing`
+    std::vector<SeamDesc> seams = {};             ///< need Tearing::split
+    std::vector<ResistanceDesc> resistance = {};  ///< needs Tearing::split or Tearing::erode
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
     SelfCollision self_collision = SelfCollision::off;

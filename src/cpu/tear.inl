@@ -10,7 +10,7 @@ WEFT_FN TearSide load_side(const TearView& view, std::size_t side, std::size_t t
 }
 
 inline void watch_tears_pass(const TearView& view, float part, Range range) {
-    const real strength(view.inverse_strength), stretch(view.inverse_stretch), limit(part);
+    const real limit(part);
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         vec3 x[3];
         real unused;
@@ -20,6 +20,7 @@ inline void watch_tears_pass(const TearView& view, float part, Range range) {
         real strain(0.0f);
         for (std::size_t k = 0; k < 3; ++k) strain = max(strain, side_strain(x[k], x[(k + 1) % 3], sides[k]));
         const real radius = sqrt(stress.difference * stress.difference + stress.mixed * stress.mixed);
+        const real strength = load(view.limits + i), stretch = load(view.limits + view.stride + i);
         const mask watched = (stress.mean + radius) * strength > limit || strain * stretch > limit;
         std::uint16_t& hot = view.hot[i / lane_padding];
         if (i % lane_padding == 0) hot = 0;

@@ -48,8 +48,7 @@ void Tearing::watch(const Passes& passes, const ClothModel& model, const float* 
                         .faces = arrays_.faces.data(),
                         .stride = model.face_stride,
                         .sides = law.sides.data(),
-                        .inverse_strength = law.largest_inverse_strength(),
-                        .inverse_stretch = law.inverse_stretch,
+                        .limits = law.watch.data(),
                         .hot = hot_.data()},
                        watched_part_of_load, triangles);
 }
@@ -111,9 +110,10 @@ void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& 
         weights_before_.push_back({copy, weights[copy]});
         weights[copy] = weights[from];
     }
-    open_vertex(access, scalar::tear_vertex(access, opening.first), now, weights);
-    open_vertex(access, scalar::tear_far_vertex(access, opening.first), now, weights);
-    if (opening.second != none) open_vertex(access, scalar::tear_far_vertex(access, opening.second), now, weights);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = scalar::tear_opened_vertex(access, opening, k);
+        if (vertex != none) open_vertex(access, vertex, now, weights);
+    }
 }
 
 void Tearing::run(const ClothModel& model, const Particles& now, std::span<float> weights, std::uint32_t substep) {

@@ -132,19 +132,30 @@ void check_keys(const std::vector<Key>& keys, std::span<const Parameter> table, 
 }
 
 // `made` is empty for meshes from files or from the program: their particles are not known here.
+void check_selection(const VertexPins& vertices, const std::optional<MadeMesh>& made, const std::string& pointer,
+                     Problems& problems) {
+    if (vertices.vertices.empty()) problems.add(at(pointer, "vertices"), "must name at least one vertex");
+    if (made) check_vertex_pins(vertices, made->vertices, at(pointer, "vertices"), problems);
+}
+
+void check_selection(const BoxPins& box, const std::optional<MadeMesh>&, const std::string& pointer,
+                     Problems& problems) {
+    check_box(box.box, at(pointer, "box"), problems);
+}
+
+std::string needs_colors(const MadeMesh& made) {
+    return "needs a mesh with vertex colors, which a " + std::string(made.key) + " has not";
+}
+
+void check_selection(const ColorPins& color, const std::optional<MadeMesh>& made, const std::string& pointer,
+                     Problems& problems) {
+    check_values(color_pin_keys, &color, pointer, problems);
+    if (made) problems.add(at(pointer, "color"), needs_colors(*made));
+}
+
 void check_pin(const PinDesc& pin, const std::optional<MadeMesh>& made, const std::string& pointer,
                Problems& problems) {
-    if (const auto* vertices = std::get_if<VertexPins>(&pin.select)) {
-        if (vertices->vertices.empty()) problems.add(at(pointer, "vertices"), "must name at least one vertex");
-        if (made) check_vertex_pins(*vertices, made->vertices, at(pointer, "vertices"), problems);
-    } else if (const auto* box = std::get_if<BoxPins>(&pin.select)) {
-        check_box(box->box, at(pointer, "box"), problems);
-    } else if (const auto* color = std::get_if<ColorPins>(&pin.select)) {
-        check_values(color_pin_keys, color, pointer, problems);
-        if (made)
-            problems.add(at(pointer, "color"),
-                         "needs a mesh with vertex colors, which a " + std::string(made->key) + " has not");
-    }
+    std::visit([&](const auto& select) { check_selection(select, made, pointer, problems); }, pin.select);
     check_values(pin_motion_keys, &pin, pointer, problems);
     check_keys(pin.motion, offset_key_keys, at(pointer, "motion"), problems);
     if (!pin.attach.empty() && !pin.motion.empty())
@@ -284,9 +295,10 @@ void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const st
     for (std::size_t i = 0; i < pins.size(); ++i) check_pin(pins[i], made, at(pointer, i), problems);
 }
 
-void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problems) {
-    check_values(cut_keys, &cut, pointer, problems);
-    if (const auto* plane = std::get_if<PlaneCut>(&cut.along)) {
+namespace {
+
+void check_path(const std::variant<PathCut, PlaneCut>& along, const std::string& pointer, Problems& problems) {
+    if (const auto* plane = std::get_if<PlaneCut>(&along)) {
         const std::string place = at(pointer, "plane");
         check_values(cut_plane_keys, plane, place, problems);
         const PlaneDesc same{plane->normal, plane->offset};
@@ -295,7 +307,7 @@ void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problem
         return;
     }
     const std::string place = at(pointer, "points");
-    const auto& points = std::get<PathCut>(cut.along).points;
+    const auto& points = std::get<PathCut>(along).points;
     if (points.size() < 2 && !problems.concern(place))
         problems.add(place, "must hold at least two points, got " + std::to_string(points.size()));
     constexpr Parameter coordinate = {.min = -far_away, .max = far_away, .unit = "m"};
@@ -305,6 +317,47 @@ void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problem
             if (const std::string problem = range_problem(coordinate, double{numbers[k]}); !problem.empty())
                 problems.add(at(at(place, i), k), problem);
     }
+}
+
+void check_resistance(const ResistanceDesc& resistance, const std::optional<MadeMesh>& made, const std::string& pointer,
+                      Problems& problems) {
+    check_values(resistance_factor_keys, &resistance, pointer, problems);
+    if (const auto* channel = std::get_if<PaintedChannel>(&resistance.select)) {
+        check_values(painted_channel_keys, channel, pointer, problems);
+        if (made) problems.add(at(pointer, "channel"), needs_colors(*made));
+    } else if (const auto* vertices = std::get_if<VertexPins>(&resistance.select)) {
+        check_selection(*vertices, made, pointer, problems);
+    } else if (const auto* box = std::get_if<BoxPins>(&resistance.select)) {
+        check_selection(*box, made, pointer, problems);
+    } else {
+        check_selection(std::get<ColorPins>(resistance.select), made, pointer, problems);
+    }
+}
+
+void check_tearing(const SceneCloth& cloth, const std::optional<MadeMesh>& made, const std::string& pointer,
+                   Problems& problems) {
+    const auto needs = [&](bool has, std::string_view key, bool able, const char* what) {
+        if (has && !able) problems.add(at(pointer, key), "needs \"tearing\": " + std::string(what) + " in this cloth");
+    };
+    const bool split = cloth.tearing == Tearing::split, erode = cloth.tearing == Tearing::erode;
+    for (std::size_t i = 0; i < cloth.cuts.size(); ++i) check_cut(cloth.cuts[i], at(at(pointer, "cuts"), i), problems);
+    needs(!cloth.cuts.empty(), "cuts", cloth.tearing != Tearing::off, "\"cuts\", \"split\" or \"erode\"");
+    for (std::size_t i = 0; i < cloth.seams.size(); ++i) {
+        const std::string place = at(at(pointer, "seams"), i);
+        check_values(seam_keys, &cloth.seams[i], place, problems);
+        check_path(cloth.seams[i].along, place, problems);
+    }
+    needs(!cloth.seams.empty(), "seams", split, "\"split\"");
+    for (std::size_t i = 0; i < cloth.resistance.size(); ++i)
+        check_resistance(cloth.resistance[i], made, at(at(pointer, "resistance"), i), problems);
+    needs(!cloth.resistance.empty(), "resistance", split || erode, "\"split\" or \"erode\"");
+}
+
+}  // namespace
+
+void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problems) {
+    check_values(cut_keys, &cut, pointer, problems);
+    check_path(cut.along, pointer, problems);
 }
 
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
@@ -326,9 +379,7 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
     // If a mesh has errors, its number of particles is unknown.
     const bool sound = !problems.concern(at(pointer, "mesh"));
     check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
-    for (std::size_t i = 0; i < cloth.cuts.size(); ++i) check_cut(cloth.cuts[i], at(at(pointer, "cuts"), i), problems);
-    if (!cloth.cuts.empty() && cloth.tearing == Tearing::off)
-        problems.add(at(pointer, "cuts"), "needs \"tearing\": \"cuts\" or \"split\" in this cloth");
+    check_tearing(cloth, sound ? made_mesh(cloth.mesh) : std::nullopt, pointer, problems);
     check_material(cloth.material, at(pointer, "material"), problems);
 }
 

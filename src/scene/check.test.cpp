@@ -97,7 +97,41 @@ TEST(CheckScene, KnowsCutsThatCannotBe) {
                 ElementsAre("/cloths/0/cuts/0/plane/offset: must be a finite number, got infinity",
                             "/cloths/0/cuts/0/plane/normal: must not be zero"));
     EXPECT_THAT(problems_after([&](SceneDesc& s) { s.cloths[1].cuts = {{.along = path}}; }),
-                ElementsAre("/cloths/1/cuts: needs \"tearing\": \"cuts\" or \"split\" in this cloth"));
+                ElementsAre("/cloths/1/cuts: needs \"tearing\": \"cuts\", \"split\" or \"erode\" in this cloth"));
+}
+
+TEST(CheckScene, KnowsSeamsAndResistanceThatCannotBe) {
+    const auto with = [](SeamDesc seam, Tearing tearing = Tearing::split) {
+        return problems_after([&](SceneDesc& s) { s.cloths[0].tearing = tearing, s.cloths[0].seams = {seam}; });
+    };
+    const PathCut path{{{0, 0, 0}, {0, 1, 0}}};
+    EXPECT_THAT(with({.strength = 5, .tear_energy = 0, .along = path}), ElementsAre());
+    EXPECT_THAT(with({.strength = 0, .tear_energy = -1, .along = path}),
+                ElementsAre("/cloths/0/seams/0/strength: must be > 0 N/m, got 0",
+                            "/cloths/0/seams/0/tear_energy: must be ≥ 0 J/m, got -1"));
+    EXPECT_THAT(with({.strength = nan, .along = PlaneCut{{0, 0, 0}, 0}}),
+                ElementsAre("/cloths/0/seams/0/strength: must be a finite number, got nan",
+                            "/cloths/0/seams/0/plane/normal: must not be zero"));
+    for (const Tearing tearing : {Tearing::off, Tearing::cuts, Tearing::erode})
+        EXPECT_THAT(with({.strength = 5, .along = path}, tearing),
+                    ElementsAre("/cloths/0/seams: needs \"tearing\": \"split\" in this cloth"));
+
+    const auto painted = [](ResistanceDesc resistance, Tearing tearing = Tearing::split) {
+        return problems_after(
+            [&](SceneDesc& s) { s.cloths[0].tearing = tearing, s.cloths[0].resistance = {resistance}; });
+    };
+    const BoxPins box{{{-1, -1, -1}, {1, 1, 1}}};
+    EXPECT_THAT(painted({.factor = 0.5f, .select = box}), ElementsAre());
+    EXPECT_THAT(painted({.factor = 0.5f, .select = box}, Tearing::erode), ElementsAre());
+    EXPECT_THAT(painted({.factor = 0, .select = box}),
+                ElementsAre("/cloths/0/resistance/0/factor: must be ≥ 0.001, got 0"));
+    EXPECT_THAT(painted({.factor = nan, .select = PaintedChannel{}}),
+                ElementsAre("/cloths/0/resistance/0/factor: must be a finite number, got nan",
+                            "/cloths/0/resistance/0/channel: needs a mesh with vertex colors, which a grid has not"));
+    EXPECT_THAT(painted({.select = VertexPins{}}),
+                ElementsAre("/cloths/0/resistance/0/vertices: must name at least one vertex"));
+    EXPECT_THAT(painted({.select = box}, Tearing::cuts),
+                ElementsAre("/cloths/0/resistance: needs \"tearing\": \"split\" or \"erode\" in this cloth"));
 }
 
 TEST(CheckScene, HoldsFabricsToTheirRange) {

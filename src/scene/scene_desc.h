@@ -48,6 +48,8 @@ struct SceneCloth {
     std::string fabric_name = "cotton";  ///< of the preset that the fabric is based on
     std::vector<PinDesc> pins = {};
     std::vector<CutDesc> cuts = {};
+    std::vector<SeamDesc> seams = {};
+    std::vector<ResistanceDesc> resistance = {};
     Tethers tethers = Tethers::automatic;
     float tether_slack = 0;  ///< relative to the geodesic distance
     SelfCollision self_collision = SelfCollision::off;

@@ -32,6 +32,9 @@ const ColliderDesc collider;
 const PinDesc pin;
 const OffsetKey offset_key;
 const CutDesc cut;
+const SeamDesc seam;
+const ResistanceDesc resistance;
+const PaintedChannel painted_channel;
 const PlaneCut cut_plane;
 const PoseKey pose_key;
 const Camera camera;
@@ -83,6 +86,13 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/pins/*/box", box_keys, nullptr},
         {"/cloths/*/cuts/*", cut_keys, &cut},
         {"/cloths/*/cuts/*/plane", cut_plane_keys, &cut_plane},
+        {"/cloths/*/seams/*", seam_keys, &seam},
+        {"/cloths/*/seams/*/plane", cut_plane_keys, &cut_plane},
+        {"/cloths/*/resistance/*", resistance_keys, nullptr},
+        {"/cloths/*/resistance/*", color_pin_keys, &color_pins},
+        {"/cloths/*/resistance/*", painted_channel_keys, &painted_channel},
+        {"/cloths/*/resistance/*", resistance_factor_keys, &resistance},
+        {"/cloths/*/resistance/*/box", box_keys, nullptr},
         {"/cloths/*/material", material_keys, &material_head},
         {"/cloths/*/material", material_parameters, nullptr},
         // Its material has the same keys as a cloth's material.

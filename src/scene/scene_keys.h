@@ -181,8 +181,9 @@ inline constexpr Parameter cloth_keys[] = {
      .what = "contact with itself and with the other cloths that have it; `true`: `exact`; `false`: `off`",
      .choices = "off|fast|exact", .flag_too = true},
     {.key = "tearing", .kind = ParameterKind::choice, .offset = offsetof(SceneCloth, tearing),
-     .what = "whether it can part: never, where it is cut, or also by itself where its load exceeds the fabric's limits",
-     .choices = "off|cuts|split"},
+     .what = "whether it can part: never; where it is cut; also by itself where its load exceeds the fabric's limits; "
+             "or where it is cut, and by losing triangles whose edges exceed `tear_ratio`",
+     .choices = "off|cuts|split|erode"},
     {.key = "collision_group", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, collision_group),
      .max = 31, .what = "group of the cloth, for `collision_mask`"},
     {.key = "collision_mask", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, collision_mask),
@@ -191,7 +192,11 @@ inline constexpr Parameter cloth_keys[] = {
      .what = "where cloths of two layers cross, untangling moves the higher one to the front of the lower one"},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose positions are given"},
     {.key = "cuts", .kind = ParameterKind::list,
-     .what = "where the cloth is opened, and when; needs `tearing` `cuts` or `split`"},
+     .what = "where the cloth is opened, and when; needs `tearing` `cuts`, `split` or `erode`"},
+    {.key = "seams", .kind = ParameterKind::list,
+     .what = "edges with a strength of their own; needs `tearing` `split`"},
+    {.key = "resistance", .kind = ParameterKind::list,
+     .what = "particles that are weaker or stronger than the fabric; needs `tearing` `split` or `erode`"},
     {.key = "material", .kind = ParameterKind::object,
      .what = "a material's name, or its values; for images and exports"},
 };
@@ -285,6 +290,34 @@ inline constexpr Parameter cut_keys[] = {
     {.key = "points", .kind = ParameterKind::list,
      .what = "a polyline on the cloth at the start, in world space after the transform, at least two points in m"},
     {.key = "plane", .kind = ParameterKind::object, .what = "a plane through the cloth at the start; in place of `points`"},
+};
+
+inline constexpr Parameter seam_keys[] = {
+    {.key = "strength", .offset = offsetof(SeamDesc, strength), .min = 0, .max = 1e9, .min_excluded = true, .unit = "N/m",
+     .what = "tension across the seam that it carries", .required = true},
+    {.key = "tear_energy", .offset = offsetof(SeamDesc, tear_energy), .min = 0, .max = 1e9, .unit = "J/m",
+     .what = "energy per length of seam; sets the limit at the end of the open part; 0: `strength` holds there too"},
+    {.key = "points", .kind = ParameterKind::list,
+     .what = "a polyline on the cloth at the start, in world space after the transform, at least two points in m"},
+    {.key = "plane", .kind = ParameterKind::object, .what = "a plane through the cloth at the start; in place of `points`"},
+};
+
+inline constexpr Parameter resistance_keys[] = {
+    {.key = "vertices", .kind = ParameterKind::list,
+     .what = "numbers of welded vertices, in order of first appearance in the mesh"},
+    {.key = "box", .kind = ParameterKind::object, .what = "all particles within this box in world space, after the "
+                                                          "transform"},
+};
+
+inline constexpr Parameter resistance_factor_keys[] = {
+    {.key = "factor", .offset = offsetof(ResistanceDesc, factor), .min = 0.001, .max = 1e6,
+     .what = "factor on `strength`, on the limit at the ends of cuts and on the strain of `tear_ratio`"},
+};
+
+inline constexpr Parameter painted_channel_keys[] = {
+    {.key = "channel", .kind = ParameterKind::choice, .offset = offsetof(PaintedChannel, channel),
+     .what = "all particles; `factor` is multiplied by this channel of the vertex color (linear), and at least 0.001",
+     .choices = "red|green|blue|alpha"},
 };
 
 inline constexpr Parameter cut_plane_keys[] = {

@@ -3,6 +3,7 @@
 #include "mesh/procedural.h"
 #include "mesh/topology.h"
 #include "scene/problems.h"
+#include "solver/model/tear_law.h"
 
 #include <algorithm>
 #include <optional>
@@ -74,7 +75,11 @@ ClothCollision collision_of(const SceneCloth& cloth) {
 // Room for an eighth of the particles to be doubled, and for some in small cloths.
 ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
     if (cloth.tearing == Tearing::off) return {};
-    return {.particles = particles / 8 + 256, .openings = true, .tears = cloth.tearing == Tearing::split};
+    const bool erodes = cloth.tearing == Tearing::erode;
+    return {.particles = particles / 8 + 256,
+            .openings = true,
+            .tears = erodes || cloth.tearing == Tearing::split,
+            .erodes = erodes};
 }
 
 // Openings change the triangles of particles, so the drawn mesh must have the same ones.
@@ -150,6 +155,13 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes);
+    auto paint = paint_strength(cloth, **model,
+                                {.mesh = simulated_mesh(**model, built.source),
+                                 .numbers = built.source.numbers,
+                                 .positions = {(*model)->start.data(), (*model)->particle_count}},
+                                pointer);
+    if (!paint) return paint.errors();
+    if (*paint) *model = with_tear_paint(**model, std::move(*paint));
     auto cuts = plan_cuts(cloth, **model, pointer);
     if (!cuts) return cuts.errors();
     built.source.cuts = std::move(*cuts);

@@ -1,6 +1,9 @@
 // Cuts of scenes and of programs.
 
+#include "mesh/procedural.h"
 #include "scene/fabric.h"
+#include "solver/model/tear_law.h"
+#include "solver/model/tear_table.h"
 #include "weft/scene_world.h"
 
 #include <weft/weft.h>
@@ -254,6 +257,85 @@ TEST(SceneCuts, belong_to_the_document) {
     next = world.scene();
     next.cloths[0].tearing = Tearing::off;
     EXPECT_THAT(world.change_to(next).errors()[0].message(), HasSubstr("/cloths/0/cuts: needs \"tearing\""));
+}
+
+SceneDesc tearing_sheet(std::vector<SeamDesc> seams, std::vector<ResistanceDesc> resistance) {
+    SceneDesc scene = curtain_with({});
+    scene.cloths[0].tearing = Tearing::split;
+    scene.cloths[0].seams = std::move(seams);
+    scene.cloths[0].resistance = std::move(resistance);
+    return scene;
+}
+
+TEST(SceneSeams, have_the_edges_that_a_cut_would_open) {
+    const SceneWorld world =
+        open_cut_world(tearing_sheet({{.strength = 50, .along = PlaneCut{{1, 0, 0}, 0.001f}}}, {}));
+    const ClothModel& model = only_model(world);
+    ASSERT_TRUE(model.tear_law);
+    ASSERT_EQ(model.tear_law->seams.size(), model.tears->entries.size());
+    std::uint32_t links = 0;
+    for (std::size_t i = 0; i < model.tears->entries.size(); ++i) {
+        const auto& [inverse, energy, x, y] = model.tear_law->seams[i];
+        if (inverse == 0) continue;
+        ++links;
+        EXPECT_EQ(inverse, 1.0f / 50);
+        EXPECT_NEAR(model.rest_position(model.tears->entries[i].vertex).x, 0, 0.51f / (cut_side - 1));
+        EXPECT_NEAR(x * x + y * y, 1, 1e-5f);
+    }
+    EXPECT_EQ(links, 2 * (cut_side - 1)) << "each edge in the rings of both its ends";
+}
+
+TEST(SceneSeams, that_cannot_be_made_are_errors_with_their_place) {
+    const auto with = [](SeamDesc seam) { return problem_of(tearing_sheet({std::move(seam)}, {})); };
+    EXPECT_THAT(with({.strength = 1, .along = PlaneCut{{1, 0, 0}, 3}}),
+                HasSubstr("/cloths/0/seams/0: meets no closed"));
+    EXPECT_THAT(with({.strength = 1, .along = PathCut{{{-0.3f, 0, 0.2f}, {-0.2f, 0, 0.2f}}}}),
+                HasSubstr("/cloths/0/seams/0: leaves the cloth"));
+    const auto painted = [](ResistanceDesc resistance) {
+        return problem_of(tearing_sheet({}, {std::move(resistance)}));
+    };
+    EXPECT_THAT(painted({.select = BoxPins{{{7, 7, 7}, {8, 8, 8}}}}),
+                HasSubstr("/cloths/0/resistance/0/box: no vertex"));
+    EXPECT_THAT(painted({.select = VertexPins{{5000}}}), HasSubstr("/cloths/0/resistance/0/vertices/0"));
+}
+
+// The last description of a particle counts. A channel multiplies the factor by the color.
+TEST(SceneResistance, follows_boxes_and_colors) {
+    SceneDesc scene = tearing_sheet({}, {{.factor = 2, .select = PaintedChannel{ColorChannel::green}},
+                                         {.factor = 0.25f, .select = BoxPins{{{-1, -1, -1}, {-0.4f, 1, 1}}}}});
+    TriangleMesh mesh = make_grid({1, 1}, {cut_side, cut_side}, GridDiagonal::alternating);
+    for (const Vec3& x : mesh.positions) mesh.colors.push_back({0.3f, x.x + 0.5f, 0, 1});
+    scene.cloths[0].mesh = mesh;
+    const SceneWorld world = open_cut_world(scene);
+    const ClothModel& model = only_model(world);
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) {
+        const float x = model.rest_position(p).x;
+        const float expected = x <= -0.4f ? 0.25f : std::max(0.001f, 2 * (x + 0.5f));
+        EXPECT_NEAR(model.tear_law->inverse_resistance[p], 1 / expected, 1e-4f / expected);
+    }
+    for (Vec4& color : mesh.colors) color.y = NAN;
+    scene.cloths[0].mesh = mesh;
+    EXPECT_THAT(problem_of(scene), HasSubstr("/cloths/0/resistance/0/channel: the color of vertex 0 is not a finite"));
+    mesh.colors.clear();
+    scene.cloths[0].mesh = mesh;
+    EXPECT_THAT(problem_of(scene), HasSubstr("/cloths/0/resistance/0/channel: the mesh has no vertex colors"));
+}
+
+// A change of strengths is a change of the cloth, but other pins keep them.
+TEST(SceneSeams, stay_when_the_model_is_built_again) {
+    SceneWorld world = open_cut_world(tearing_sheet({{.strength = 50, .along = PlaneCut{{1, 0, 0}, 0.001f}}},
+                                                    {{.factor = 3, .select = BoxPins{{{-1, -1, -1}, {1, 1, 1}}}}}));
+    SceneDesc next = world.scene();
+    next.cloths[0].pins = {{.select = VertexPins{{0}}}};
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[40], 1.0f / 3);
+    EXPECT_FALSE(only_model(world).tear_law->seams.empty());
+    next.cloths[0].fabric = find_fabric("denim")->fabric;
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[40], 1.0f / 3);
+    next.cloths[0].resistance[0].factor = 4;
+    ASSERT_TRUE(world.change_to(next).ok());
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[40], 1.0f / 4);
 }
 
 ClothDesc hung(Tearing tearing) {

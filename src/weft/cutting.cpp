@@ -3,9 +3,13 @@
 #include "scene/problems.h"
 #include "solver/model/cuts.h"
 #include "solver/model/opened_cloth.h"
+#include "solver/model/tear_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <type_traits>
+#include <variant>
 
 namespace weft {
 namespace {
@@ -54,6 +58,104 @@ Result<std::vector<Opening>> find_cut(const CutDesc& cut, const ClothModel& mode
                                 " m away, the longest edge is " + number_text(model.longest_edge) +
                                 " m; its points must follow the cloth"};
     return openings;
+}
+
+namespace {
+
+// Perpendicular to the plane, or to the part of the polyline that is nearest to the edge, in the plane of the cloth.
+Vec3 across_seam(const std::variant<PathCut, PlaneCut>& along, const ClothModel& model, std::uint32_t link) {
+    if (const auto* plane = std::get_if<PlaneCut>(&along)) return plane->normal;
+    const TearTable& table = *model.tears;
+    const TearTable::Entry& entry = table.entries[link];
+    const auto place = [&](std::uint32_t corner) { return model.rest_position(table.vertices[corner]); };
+    const Vec3 middle = (place(entry.corner) + place(entry.far)) * 0.5f;
+    Vec3 normal{};
+    for (std::uint32_t i = table.ring_begin[entry.vertex]; i < table.ring_begin[entry.vertex + 1]; ++i) {
+        const std::uint32_t t = table.entries[i].corner % model.face_stride;
+        const Vec3 a = place(t), b = place(model.face_stride + t), c = place(2 * model.face_stride + t);
+        normal = normal + cross(b - a, c - a);
+    }
+    return cross(normal, nearest_direction(std::get<PathCut>(along).points, middle));
+}
+
+void add_seam(const SeamDesc& seam, const ClothModel& model, TearPaint& paint, Errors& errors,
+              const std::string& place) {
+    const auto links = find_cut({.time = 0, .along = seam.along}, model, {}, place);
+    if (!links) {
+        errors.insert(errors.end(), links.errors().begin(), links.errors().end());
+        return;
+    }
+    for (const Opening& opening : *links)
+        for (const std::uint32_t link : opening.links)
+            if (link != none)
+                paint.seams.push_back({link, seam.strength, seam.tear_energy, across_seam(seam.along, model, link)});
+}
+
+float channel_of(Vec4 color, ColorChannel channel) {
+    switch (channel) {
+        case ColorChannel::red:
+            return color.x;
+        case ColorChannel::green:
+            return color.y;
+        case ColorChannel::blue:
+            return color.z;
+        case ColorChannel::alpha:
+            return color.w;
+    }
+    return 1;
+}
+
+// The factor of each particle is the mean of its vertices.
+Result<void> paint_channel(const ResistanceDesc& desc, const PinnedCloth& cloth, TearPaint& paint,
+                           const std::string& place) {
+    const auto& colors = cloth.mesh.colors;
+    if (colors.empty()) return Error{place + "/channel", "the mesh has no vertex colors"};
+    std::vector<float> sum(paint.resistance.size()), count(paint.resistance.size());
+    for (std::size_t v = 0; v < colors.size(); ++v) {
+        const std::uint32_t p = cloth.numbers.of_vertex[v];
+        const float value = channel_of(colors[v], std::get<PaintedChannel>(desc.select).channel);
+        if (p == none) continue;
+        if (!std::isfinite(value))
+            return Error{place + "/channel", "the color of vertex " + std::to_string(v) + " is not a finite number"};
+        sum[p] += value, ++count[p];
+    }
+    constexpr float least = 0.001f;
+    for (std::size_t p = 0; p < sum.size(); ++p)
+        if (count[p] > 0) paint.resistance[p] = std::max(least, desc.factor * sum[p] / count[p]);
+    return {};
+}
+
+Result<void> paint_resistance(const ResistanceDesc& desc, const PinnedCloth& cloth, TearPaint& paint,
+                              const std::string& place) {
+    if (std::holds_alternative<PaintedChannel>(desc.select)) return paint_channel(desc, cloth, paint, place);
+    std::variant<VertexPins, BoxPins, ColorPins> select;
+    std::visit(
+        [&](const auto& one) {
+            if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(one)>, PaintedChannel>) select = one;
+        },
+        desc.select);
+    const auto chosen = select_particles(select, cloth, place);
+    if (!chosen) return chosen.errors();
+    for (const std::uint32_t p : *chosen) paint.resistance[p] = desc.factor;
+    return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const TearPaint>> paint_strength(const SceneCloth& cloth, const ClothModel& model,
+                                                        const PinnedCloth& particles, const std::string& pointer) {
+    if (cloth.seams.empty() && cloth.resistance.empty()) return std::shared_ptr<const TearPaint>();
+    auto paint = std::make_shared<TearPaint>();
+    Errors errors;
+    for (std::size_t i = 0; i < cloth.seams.size(); ++i)
+        add_seam(cloth.seams[i], model, *paint, errors, at(at(pointer, "seams"), i));
+    if (!cloth.resistance.empty()) paint->resistance.assign(model.tears->vertex_count(), 1.0f);
+    for (std::size_t i = 0; i < cloth.resistance.size(); ++i) {
+        const auto done = paint_resistance(cloth.resistance[i], particles, *paint, at(at(pointer, "resistance"), i));
+        if (!done) errors.insert(errors.end(), done.errors().begin(), done.errors().end());
+    }
+    if (!errors.empty()) return errors;
+    return std::shared_ptr<const TearPaint>(std::move(paint));
 }
 
 Result<void> check_opens(const ClothModel& model, std::span<const Opening> openings, const std::string& place) {

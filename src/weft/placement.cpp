@@ -125,6 +125,15 @@ ColliderId find_collider(const World& world, std::string_view name) {
     return found == all.end() ? ColliderId{} : world.collider_id(static_cast<std::size_t>(found - all.begin()));
 }
 
+Result<std::vector<std::uint32_t>> select_particles(const std::variant<VertexPins, BoxPins, ColorPins>& select,
+                                                    const PinnedCloth& cloth, const std::string& pointer) {
+    PinSelector selector(cloth);
+    if (Errors errors = std::visit([&](const auto& one) { return selector.select(one, pointer); }, select);
+        !errors.empty())
+        return errors;
+    return std::move(selector.chosen);
+}
+
 Result<Pinned> select_pins(const std::vector<PinDesc>& pins, const PinnedCloth& cloth, const World& world,
                            const std::string& pointer) {
     Pinned pinned;

@@ -43,6 +43,10 @@ struct PinnedCloth {
     double time = 0;  ///< s
 };
 
+/// Selects particles of a cloth at rest. Fails if there are none.
+Result<std::vector<std::uint32_t>> select_particles(const std::variant<VertexPins, BoxPins, ColorPins>& select,
+                                                    const PinnedCloth& cloth, const std::string& pointer);
+
 /// Selects the particles of the pins. Vertices and colors select the copies of a particle too; a box selects each by
 /// its own position. If several pins select a particle, the last one counts. Fails if a pin selects none. `where` of an
 /// error is a JSON pointer that starts with `pointer`, the place of the pins. Names of colliders must have been

@@ -55,6 +55,8 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .fabric_name = cloth.fabric_name,
             .pins = cloth.pins,
             .cuts = cloth.cuts,
+            .seams = cloth.seams,
+            .resistance = cloth.resistance,
             .tethers = cloth.tethers,
             .tether_slack = cloth.tether_slack,
             .self_collision = cloth.self_collision,
@@ -68,7 +70,8 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
 /// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
     return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform &&
-           a.velocity == b.velocity && a.tearing == b.tearing && a.cuts == b.cuts;
+           a.velocity == b.velocity && a.tearing == b.tearing && a.cuts == b.cuts && a.seams == b.seams &&
+           a.resistance == b.resistance;
 }
 bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
     return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&
@@ -155,7 +158,7 @@ Result<void> SceneWorld::cut(ClothId id, const CutDesc& cut, CutPositions positi
     const std::size_t place = place_of(id);
     if (scene_.cloths[place].tearing == Tearing::off)
         return Error{"cloth '" + scene_.cloths[place].name + "'",
-                     "cannot be cut: its \"tearing\" is \"off\"; it must be \"cuts\" or \"split\""};
+                     "cannot be cut: its \"tearing\" is \"off\"; it must be \"cuts\", \"split\" or \"erode\""};
     const Frame& frame = world_->frame();
     const std::shared_ptr<const ClothModel> model = world_->model(id);
     std::span<const Vec4> now;

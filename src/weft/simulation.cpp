@@ -28,6 +28,8 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .fabric_name = desc.fabric.preset,
             .pins = desc.pins,
             .cuts = desc.cuts,
+            .seams = desc.seams,
+            .resistance = desc.resistance,
             .tethers = desc.tethers,
             .tether_slack = desc.tether_slack,
             .self_collision = desc.self_collision,

@@ -3,8 +3,11 @@
 #include "physics/stretch/stretch_law.h"
 #include "sheet.h"
 
+#include "solver/measures/pieces.h"
 #include "solver/measures/tension.h"
 #include "solver/model/cuts.h"
+#include "solver/model/tear_law.h"
+#include "solver/model/tear_paint.h"
 
 #include <cmath>
 #include <numbers>
@@ -20,6 +23,7 @@ struct StripDesc {
     std::function<bool(Vec3)> pinned = {};
     bool lines = true;
     SelfCollision self_collision = SelfCollision::off;
+    bool erodes = false;
 };
 
 // A strip in the plane z = 0, its upper edge at y = size[1] / 2.
@@ -35,7 +39,7 @@ std::shared_ptr<const ClothModel> make_strip(const StripDesc& desc) {
                          .fabric = desc.fabric,
                          .collision = {desc.self_collision},
                          .layout = {.lines = desc.lines, .hierarchy = desc.lines},
-                         .reserve = {.particles = 600, .openings = true, .tears = true}};
+                         .reserve = {.particles = 600, .openings = true, .tears = true, .erodes = desc.erodes}};
     for (std::uint32_t p = 0; p < mesh.positions.size(); ++p) {
         Vec3& x = mesh.positions[p];
         const bool inner_x = std::abs(x.x) < 0.499f * desc.size[0], inner_z = std::abs(x.z) < 0.499f * desc.size[1];
@@ -247,31 +251,57 @@ TEST(Tearing, runs_straight_across_the_pull_whatever_the_direction_of_the_mesh) 
 }
 
 // A sheet that hangs by its upper row, under 250 times its weight.
-std::shared_ptr<const ClothModel> make_heavy_sheet(float jitter = 0, SelfCollision self_collision = {}) {
+std::shared_ptr<const ClothModel> make_heavy_sheet(float jitter = 0, SelfCollision self_collision = {},
+                                                   bool erodes = false) {
     const std::uint32_t side = self_collision == SelfCollision::off ? 17 : 9;
+    Fabric fabric = rubber();
+    if (erodes) fabric.tear.tear_ratio = 1.4f;
     return make_strip({.size = {0.5f, 0.5f},
                        .resolution = {side, side},
                        .jitter = jitter,
-                       .fabric = rubber(),
+                       .fabric = fabric,
                        .pinned = [](Vec3 x) { return x.y > 0.249f; },
-                       .self_collision = self_collision});
+                       .self_collision = self_collision,
+                       .erodes = erodes});
 }
 WorldSettings heavy() {
     return {.gravity = {100, -5000, 60},
             .solver = {.substeps = 10, .projection = Projection::lines, .hierarchy = true}};
 }
 
-TEST(Tearing, goes_on_with_the_same_bits_after_a_restore_and_in_every_number_of_threads) {
-    const auto model = make_heavy_sheet();
+TearPaint seam_along(const ClothModel& model, Vec3 normal, float strength, float energy) {
+    TearPaint paint;
+    for (const Opening& opening : openings_along_plane(model, model.start, {0, 0.001f, 0}, normal))
+        for (const std::uint32_t link : opening.links)
+            if (link != none) paint.seams.push_back({link, strength, energy, normal});
+    return paint;
+}
+
+// With a weak seam across it, a strong one along it, and particles of different resistance.
+std::shared_ptr<const ClothModel> painted_sheet(const ClothModel& whole) {
+    TearPaint paint = seam_along(whole, {0, 1, 0}, 150, 60);
+    for (TearPaint::Link strong : seam_along(whole, {1, 0, 0}, 1e6f, 0).seams) paint.seams.push_back(strong);
+    for (std::uint32_t p = 0; p < whole.particle_count; ++p)
+        paint.resistance.push_back(0.5f + 0.25f * static_cast<float>(p % 7));
+    return with_tear_paint(whole, std::make_shared<const TearPaint>(std::move(paint)));
+}
+
+class TearingState : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(TearingState, goes_on_with_the_same_bits_after_a_restore_and_in_every_number_of_threads) {
+    const bool erodes = GetParam() == std::string_view("eroding"), painted = GetParam() == std::string_view("painted");
+    auto model = make_heavy_sheet(0, {}, erodes);
+    if (painted) model = painted_sheet(*model);
+    const auto opened = [](const World& world) { return open_edges(*world.frame().cloths[0].model).size(); };
     std::string hash;
     for (const unsigned workers : {0u, 1u, 3u}) {
         World world = make_world(heavy(), CpuOptions{.workers = workers});
         world.add(model);
-        while (world.frame().cloths[0].model->copied_from.size() < 4) world.step(1.0 / 60);
+        while (!painted && opened(world) < 4) world.step(1.0 / 60);  // the painted one parts within one frame
         const Snapshot middle = world.save();
-        const std::size_t copies = world.frame().cloths[0].model->copied_from.size();
+        const std::size_t before = opened(world);
         run(world, 0.1);
-        EXPECT_GT(world.frame().cloths[0].model->copied_from.size(), copies) << "it was tearing";
+        EXPECT_GT(opened(world), before) << "it was tearing";
         if (hash.empty()) hash = world.state_hash();
         EXPECT_EQ(world.state_hash(), hash) << workers << " workers";
         World other = make_world(heavy(), CpuOptions{.workers = workers});
@@ -284,6 +314,8 @@ TEST(Tearing, goes_on_with_the_same_bits_after_a_restore_and_in_every_number_of_
         EXPECT_EQ(world.state_hash(), hash);
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(, TearingState, ::testing::Values("splitting", "eroding", "painted"));
 
 TEST(Tearing, changes_no_bit_where_nothing_tears) {
     const auto hash_with = [](bool tears) {
@@ -323,18 +355,123 @@ TEST(Tearing, of_everything_at_once_stays_finite_and_keeps_the_mass) {
     }
 }
 
+// A strip of 0.25 × 1 m pulled apart along y until it parts. Returns the mean tension of the frame before, N/m, and the
+// rest positions of the particles that were copied.
+struct Parted {
+    double tension = 0, strain = 0;
+    std::vector<Vec3> copied;
+    std::uint32_t pieces = 0;
+    std::shared_ptr<const ClothModel> model;
+};
+
+Parted pull_until_it_parts(const std::shared_ptr<const ClothModel>& model, std::uint32_t substeps = 20) {
+    KinematicTargets targets;
+    for (const float way : {-1.0f, 1.0f}) targets.motions.push_back({.offsets = {{0, {}}, {10, {0, way * 0.5f, 0}}}});
+    for (std::uint32_t p = 0; p < model->particle_count; ++p) {
+        const Vec3 x = model->rest_position(p);
+        if (std::abs(x.y) > 0.4999f) targets.particles.push_back({p, x.y > 0 ? 1u : 0u, x});
+    }
+    World world = make_world({.gravity = {}, .solver = {.substeps = substeps, .projection = Projection::lines}});
+    world.add(model, targets);
+    Parted parted;
+    while (world.time() < 10) {
+        if (world.frame().cloths[0].model->copied_from.empty()) {
+            parted.tension = TensionMeter().measure(world.frame()).mean.value();
+            parted.strain = 0.1 * world.time();
+        }
+        world.step(1.0 / 60);
+        parted.pieces = pieces_of(*world.frame().cloths[0].model);
+        if (parted.pieces > 1) break;
+    }
+    parted.model = std::make_shared<const ClothModel>(*world.frame().cloths[0].model);
+    for (const std::uint32_t p : parted.model->copied_from) parted.copied.push_back(parted.model->rest_position(p));
+    return parted;
+}
+
+StripDesc strip_to_pull() {
+    Fabric fabric = rubber();
+    fabric.tear = {.strength = {300, 300}, .tear_energy = 40, .tear_ratio = 0};
+    return {.resolution = {9, 33}, .fabric = fabric, .pinned = [](Vec3 x) { return std::abs(x.y) > 0.4999f; }};
+}
+
+// The tension across a seam at 45° is half of that along the strip.
+TEST(Tearing, opens_a_seam_where_the_tension_across_it_is_its_strength) {
+    const auto whole = make_strip(strip_to_pull());
+    const float strength = 0.3f * whole->fabric.tear.strength[1];
+    for (const bool slanted : {false, true}) {
+        const Vec3 normal = slanted ? Vec3{std::sqrt(0.5f), std::sqrt(0.5f), 0} : Vec3{0, 1, 0};
+        const auto model =
+            with_tear_paint(*whole, std::make_shared<const TearPaint>(seam_along(*whole, normal, strength, 0)));
+        const Parted parted = pull_until_it_parts(model);
+        EXPECT_EQ(parted.pieces, 2u);
+        for (const Vec3 x : parted.copied) EXPECT_LT(std::abs(dot(x, normal)), 0.75f / 32) << "along the seam";
+        const double expected = double{strength} * (slanted ? 2 : 1);
+        EXPECT_NEAR(parted.tension, expected, (slanted ? 0.25 : 0.1) * expected) << slanted;
+    }
+}
+
+// The band of painted particles is narrow, so the strip parts there and nowhere else.
+TEST(Tearing, begins_where_the_cloth_is_painted_weak) {
+    const auto whole = make_strip(strip_to_pull());
+    TearPaint paint{.seams = {}, .resistance = std::vector<float>(whole->particle_count, 1.0f)};
+    for (std::uint32_t p = 0; p < whole->particle_count; ++p)
+        if (std::abs(whole->rest_position(p).y - 0.2f) < 0.04f) paint.resistance[p] = 0.4f;
+    const auto model = with_tear_paint(*whole, std::make_shared<const TearPaint>(std::move(paint)));
+    const Parted parted = pull_until_it_parts(model);
+    EXPECT_GE(parted.pieces, 2u);
+    const double expected = 0.4 * double{whole->fabric.tear.strength[1]};
+    EXPECT_NEAR(parted.tension, expected, 0.15 * expected);
+    ASSERT_FALSE(parted.copied.empty());
+    EXPECT_NEAR(double{parted.copied[0].y}, 0.2, 0.04);
+}
+
+TEST(Tearing, runs_along_no_seam_that_is_stronger_than_the_cloth) {
+    const auto whole = make_strip(strip_to_pull());
+    TearPaint paint = seam_along(*whole, {0, 1, 0}, 100 * whole->fabric.tear.strength[1], 0);
+    const std::vector<TearPaint::Link> seam = paint.seams;
+    paint.resistance.assign(whole->particle_count, 1.0f);
+    for (std::uint32_t p = 0; p < whole->particle_count; ++p)
+        if (std::abs(whole->rest_position(p).y) < 0.001f) paint.resistance[p] = 0.4f;  // so that it begins at the seam
+    const auto model = with_tear_paint(*whole, std::make_shared<const TearPaint>(std::move(paint)));
+    const Parted parted = pull_until_it_parts(model);
+    EXPECT_GE(parted.pieces, 2u);
+    const auto& entries = model->tears->entries;
+    for (const TearPaint::Link& link : seam) {
+        const TearTable::Entry& entry = entries[link.link];
+        EXPECT_EQ(parted.model->faces[entry.corner], parted.model->faces[entries[entry.next].corner]);
+        EXPECT_EQ(parted.model->faces[entry.far], parted.model->faces[entry.next_far]);
+    }
+}
+
+// Removed triangles leave no edge longer than the ratio for more than some frames, and no mass but theirs is lost.
+TEST(Tearing, by_erosion_removes_the_triangles_that_are_too_long) {
+    for (const float jitter : {0.0f, 0.25f}) {
+        StripDesc desc = strip_to_pull();
+        desc.jitter = jitter;
+        desc.fabric.tear.tear_ratio = 1.2f;
+        desc.erodes = true;
+        const auto model = make_strip(desc);
+        const Parted parted = pull_until_it_parts(model);
+        EXPECT_GE(parted.pieces, 2u);
+        EXPECT_NEAR(parted.strain, 0.2, 0.06);
+    }
+}
+
 #ifdef WEFT_VULKAN
 struct BothBackends {
     float jitter = 0;
     bool wind = false;
     SelfCollision self_collision = SelfCollision::off;
+    bool erodes = false, painted = false;
 };
 
 TEST(Tearing, is_the_same_on_both_backends) {
     for (const BothBackends& both :
          {BothBackends{}, BothBackends{.jitter = 0.25f, .wind = true},
-          BothBackends{.self_collision = SelfCollision::exact}, BothBackends{.self_collision = SelfCollision::fast}}) {
-        const auto model = make_heavy_sheet(both.jitter, both.self_collision);
+          BothBackends{.self_collision = SelfCollision::exact}, BothBackends{.self_collision = SelfCollision::fast},
+          BothBackends{.erodes = true}, BothBackends{.jitter = 0.25f, .erodes = true}, BothBackends{.painted = true}}) {
+        auto model = make_heavy_sheet(both.jitter, both.self_collision, both.erodes);
+        if (both.painted) model = painted_sheet(*model);
         WorldSettings settings = heavy();
         if (both.wind) settings.air = AirDesc{.wind = {WindDesc{}}};
         settings.list_capacity = 4;  // so that frames with tears are repeated
@@ -342,7 +479,7 @@ TEST(Tearing, is_the_same_on_both_backends) {
         const auto hash_of = [&](World world) {
             world.add(model);
             for (int i = 0; i < 10; ++i) repeats += world.step(1.0 / 60).lists.repeats;
-            EXPECT_GT(world.frame().cloths[0].model->copied_from.size(), 4u);
+            EXPECT_GT(open_edges(*world.frame().cloths[0].model).size(), 4u);
             return world.state_hash();
         };
         World device(checked_vulkan_backend({}), settings);

@@ -200,13 +200,27 @@ class RandomScene {
                 fill(table.parameters, reinterpret_cast<std::byte*>(&cloth.fabric) + table.offset);
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.pins.emplace_back(), of_a_file);
         if (cloth.tearing == Tearing::off) return;
-        for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back());
+        for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back(), cut_keys);
+        if (cloth.tearing == Tearing::split)
+            for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.seams.emplace_back(), seam_keys);
+        if (cloth.tearing == Tearing::cuts) return;
+        for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.resistance.emplace_back(), of_a_file);
     }
 
-    void draw(CutDesc& cut) {
-        fill(cut_keys, &cut);
+    void draw(ResistanceDesc& resistance, bool of_a_file) {
+        fill(resistance_factor_keys, &resistance);
+        const std::uint32_t kind = below(of_a_file ? 4 : 2);
+        if (kind == 0) resistance.select = VertexPins{{below(4), below(4)}};
+        if (kind == 1) resistance.select = BoxPins{{{-1e3f, -0.0f, -2.5f}, {1, 0.1f, 1e20f}}};
+        if (kind == 2) fill(color_pin_keys, &resistance.select.emplace<ColorPins>());
+        if (kind == 3) fill(painted_channel_keys, &resistance.select.emplace<PaintedChannel>());
+    }
+
+    template <class Path>
+    void draw(Path& cut, std::span<const Parameter> keys) {
+        fill(keys, &cut);
         if (maybe()) {
-            fill(cut_plane_keys, &cut.along.emplace<PlaneCut>());
+            fill(cut_plane_keys, &cut.along.template emplace<PlaneCut>());
             std::get<PlaneCut>(cut.along).normal.z = 0.3f;
         } else {
             cut.along = PathCut{{{-0.5f, -0.0f, 0.1f}, {0.25f, 1e-20f, 3}}};

@@ -131,29 +131,51 @@ void read_fabric(ObjectReader& o, SceneCloth& cloth) {
         o.problems().add(place, "must be the name of a fabric or an object, got " + json_text(*found));
 }
 
+// Vertices, a box or a color.
+template <class Select>
+void read_selection(ObjectReader& o, std::string_view kind, const ColorPins& by_color, Select& select) {
+    if (kind == "vertices") select = VertexPins{o.indices("vertices")};
+    if (kind == "box") {
+        BoxPins in_box;
+        o.object("box", [&](ObjectReader& box) { box.values(box_keys, &in_box.box); });
+        select = in_box;
+    }
+    if (kind == "color") select = by_color;
+}
+
 void read_pin(ObjectReader& pin, PinDesc& result) {
     ColorPins by_color;
     pin.know(pin_keys);
     pin.values(color_pin_keys, &by_color);
     pin.values(pin_motion_keys, &result);
     const std::string_view kind = pin.one_of({"vertices", "box", "color"});
-    if (kind == "vertices") result.select = VertexPins{pin.indices("vertices")};
-    if (kind == "box") {
-        BoxPins in_box;
-        pin.object("box", [&](ObjectReader& o) { o.values(box_keys, &in_box.box); });
-        result.select = in_box;
-    }
-    if (kind == "color") result.select = by_color;
+    read_selection(pin, kind, by_color, result.select);
     if (!kind.empty()) pin.only_with("color", color_pin_keys);
     pin.objects("motion", [&](ObjectReader& key) { key.values(offset_key_keys, &result.motion.emplace_back()); });
 }
 
-void read_cut(ObjectReader& o, CutDesc& cut) {
-    o.values(cut_keys, &cut);
+// `desc`: a cut or a seam.
+template <class Desc>
+void read_path(ObjectReader& o, std::span<const Parameter> keys, Desc& desc) {
+    o.values(keys, &desc);
     const std::string_view kind = o.one_of({"points", "plane"});
-    if (kind == "points") cut.along = PathCut{o.points("points")};
+    if (kind == "points") desc.along = PathCut{o.points("points")};
     if (kind == "plane")
-        o.object("plane", [&](ObjectReader& plane) { plane.values(cut_plane_keys, &cut.along.emplace<PlaneCut>()); });
+        o.object("plane",
+                 [&](ObjectReader& plane) { plane.values(cut_plane_keys, &desc.along.template emplace<PlaneCut>()); });
+}
+
+void read_resistance(ObjectReader& o, ResistanceDesc& result) {
+    ColorPins by_color;
+    PaintedChannel painted;
+    o.know(resistance_keys);
+    o.values(color_pin_keys, &by_color);
+    o.values(painted_channel_keys, &painted);
+    o.values(resistance_factor_keys, &result);
+    const std::string_view kind = o.one_of({"vertices", "box", "color", "channel"});
+    read_selection(o, kind, by_color, result.select);
+    if (kind == "channel") result.select = painted;
+    if (!kind.empty()) o.only_with("color", color_pin_keys);
 }
 
 void read_cloth(ObjectReader& o, SceneCloth& cloth) {
@@ -163,7 +185,9 @@ void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
     read_fabric(o, cloth);
     o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
-    o.objects("cuts", [&](ObjectReader& cut) { read_cut(cut, cloth.cuts.emplace_back()); });
+    o.objects("cuts", [&](ObjectReader& cut) { read_path(cut, cut_keys, cloth.cuts.emplace_back()); });
+    o.objects("seams", [&](ObjectReader& seam) { read_path(seam, seam_keys, cloth.seams.emplace_back()); });
+    o.objects("resistance", [&](ObjectReader& one) { read_resistance(one, cloth.resistance.emplace_back()); });
     read_material(o, default_material(cloth), cloth.material);
 }
 

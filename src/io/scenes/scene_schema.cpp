@@ -31,6 +31,8 @@ const Kinds kinds[] = {
     {"/cloths/*/render_mesh", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/pins/*", {"vertices", "box", "color"}},
     {"/cloths/*/cuts/*", {"points", "plane"}},
+    {"/cloths/*/seams/*", {"points", "plane"}},
+    {"/cloths/*/resistance/*", {"vertices", "box", "color", "channel"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
     {"/stitches/*/a", {"vertices", "points"}},
     {"/stitches/*/b", {"vertices", "points"}},
@@ -189,7 +191,7 @@ Json type_json(const Parameter& p, const std::string& place) {
             return object_or_word(place_below(place, key));
         case ParameterKind::list: {
             const std::string below = place_below(place, key + "/*");
-            const bool on_cloth = place + key == "/cloths/*/cuts/*/points";
+            const bool on_cloth = place + key == "/cloths/*/cuts/*/points" || place + key == "/cloths/*/seams/*/points";
             if (on_cloth || place + key == "/colliders/*/convex/points") {
                 const Json number = {
                     {"type", "number"}, {"minimum", limit_json(-far_away)}, {"maximum", limit_json(far_away)}};

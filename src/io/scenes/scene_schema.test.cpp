@@ -147,6 +147,12 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
             with_cloth(R"("tearing": "cuts", "cuts": [ { "points": [ [0, 0, 0], [1, 0, 0] ] }, { "plane": {} } ])"),
             with_cloth(
                 R"("tearing": "split", "cuts": [ { "time": 2, "plane": { "normal": [0, 0, -2], "offset": 1 } } ])"),
+            with_cloth(R"("tearing": "split", "seams": [ { "strength": 5, "points": [ [0, 0, 0], [1, 0, 0] ] } ])"),
+            with_cloth(R"("tearing": "split", "seams": [ { "strength": 5, "tear_energy": 1, "plane": {} } ])"),
+            with_cloth(R"("tearing": "erode", "resistance": [ { "vertices": [0, 1], "factor": 0.5 } ])"),
+            with_cloth(
+                R"("mesh": { "file": "a.obj" }, "tearing": "split", "resistance": [ { "channel": "red", "factor": 2 },
+                   { "color": [1, 0, 0], "threshold": 0.1, "factor": 2 } ])"),
             with_cloth(R"("self_collision": "fast")"),
             with_cloth(R"("self_collision": true)"),
             with_cloth(R"("self_collision": false)"),
@@ -219,6 +225,12 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_cloth(R"("tearing": "cuts", "cuts": [ { "points": [ [0, 0, 0], [1, 0, 2e6] ] } ])"),
              with_cloth(R"("tearing": "cuts", "cuts": [ { "time": -1, "plane": {} } ])"),
              with_cloth(R"("tearing": "cuts", "cuts": [ { "plane": { "offset": "a" } } ])"),
+             with_cloth(R"("tearing": "split", "seams": [ { "plane": {} } ])"),
+             with_cloth(R"("tearing": "split", "seams": [ { "strength": 0, "plane": {} } ])"),
+             with_cloth(R"("tearing": "split", "seams": [ { "strength": 5, "points": [ [0, 0, 0] ] } ])"),
+             with_cloth(R"("tearing": "split", "resistance": [ { "factor": 2 } ])"),
+             with_cloth(R"("tearing": "split", "resistance": [ { "factor": 0, "vertices": [0] } ])"),
+             with_cloth(R"("tearing": "split", "resistance": [ { "channel": "hue" } ])"),
              with_cloth(R"("tearing": "rip")"),
              with_collider(""),
              with_collider(R"("plane": {}, "sphere": {})"),
@@ -318,6 +330,10 @@ TEST(SceneSchema, KnowsTheKindsThatTheReaderKnows) {
     EXPECT_EQ(names_offered("/cloths/*/mesh"), names_wanted(with_cloth(R"("mesh": {})")));
     EXPECT_EQ(names_offered("/cloths/*/pins/*"), names_wanted(with_cloth(R"("pins": [ {} ])")));
     EXPECT_EQ(names_offered("/cloths/*/cuts/*"), names_wanted(with_cloth(R"("tearing": "cuts", "cuts": [ {} ])")));
+    EXPECT_EQ(names_offered("/cloths/*/seams/*"),
+              names_wanted(with_cloth(R"("tearing": "split", "seams": [ { "strength": 1 } ])")));
+    EXPECT_EQ(names_offered("/cloths/*/resistance/*"),
+              names_wanted(with_cloth(R"("tearing": "split", "resistance": [ {} ])")));
     EXPECT_EQ(names_offered("/colliders/*"), names_wanted(with_collider("")));
 }
 

@@ -50,7 +50,11 @@ class SceneWriter {
     Child material(const std::optional<SceneMaterial>& material, const MaterialPreset& otherwise,
                    const std::string& place);
     JsonNode pin(const PinDesc& pin, const std::string& place);
-    JsonNode cut(const CutDesc& cut, const std::string& place);
+    template <class Select>
+    void selection(JsonNode& node, const Select& select, const std::string& place);
+    template <class Desc>
+    JsonNode path(std::span<const Parameter> keys, const Desc& desc, const std::string& place);
+    JsonNode resistance(const ResistanceDesc& desc, const std::string& place);
     JsonNode cloth(const SceneCloth& cloth, std::size_t index, const std::string& place);
     template <class Key>
     Child motion(const std::vector<Key>& keys, std::span<const Parameter> table, const Key& like,
@@ -229,19 +233,25 @@ Child SceneWriter::material(const std::optional<SceneMaterial>& desc, const Mate
     return preset && as_named ? text(desc->preset, place) : node;
 }
 
-JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
-    JsonNode node = JsonNode::object();
-    if (const auto* vertices = std::get_if<VertexPins>(&desc.select)) {
+// Vertices, a box or a color.
+template <class Select>
+void SceneWriter::selection(JsonNode& node, const Select& select, const std::string& place) {
+    if (const auto* vertices = std::get_if<VertexPins>(&select)) {
         node.add("vertices", list(vertices->vertices, at(place, "vertices"),
                                   [](std::uint32_t vertex, const std::string&) { return JsonNode::number(vertex); }));
-    } else if (const auto* box = std::get_if<BoxPins>(&desc.select)) {
+    } else if (const auto* box = std::get_if<BoxPins>(&select)) {
         node.add("box", object(box_keys, box->box, Bounds(), at(place, "box")));
-    } else if (const auto* color = std::get_if<ColorPins>(&desc.select)) {
-        // The color is written even if it is the default, because it marks the pin as one by color.
+    } else if (const auto* color = std::get_if<ColorPins>(&select)) {
+        // The color is written even if it is the default, because it marks the selection as one by color.
         node.add("color", value(color_pin_keys[0], color, at(place, "color")));
         const ColorPins none_said;
         values(node, std::span(color_pin_keys).subspan(1), color, &none_said, place);
     }
+}
+
+JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
+    JsonNode node = JsonNode::object();
+    selection(node, desc.select, place);
     const PinDesc defaults;
     values(node, pin_motion_keys, &desc, &defaults, place, [&](std::string_view, const std::string& where) {
         return unless_empty(list(desc.motion, where, [&](const OffsetKey& key, const std::string& below) {
@@ -251,13 +261,25 @@ JsonNode SceneWriter::pin(const PinDesc& desc, const std::string& place) {
     return node;
 }
 
-JsonNode SceneWriter::cut(const CutDesc& desc, const std::string& place) {
-    return object(cut_keys, desc, CutDesc(), place, [&](std::string_view key, const std::string& where) -> Child {
+// A cut or a seam.
+template <class Desc>
+JsonNode SceneWriter::path(std::span<const Parameter> keys, const Desc& desc, const std::string& place) {
+    return object(keys, desc, Desc(), place, [&](std::string_view key, const std::string& where) -> Child {
         const auto* path = std::get_if<PathCut>(&desc.along);
         if (key == "points") return path ? Child(points(path->points, where)) : Child();
         assert(key == "plane");
         return path ? Child() : object(cut_plane_keys, std::get<PlaneCut>(desc.along), PlaneCut(), where);
     });
+}
+
+JsonNode SceneWriter::resistance(const ResistanceDesc& desc, const std::string& place) {
+    JsonNode node = JsonNode::object();
+    selection(node, desc.select, place);
+    if (const auto* painted = std::get_if<PaintedChannel>(&desc.select))
+        node.add("channel", value(painted_channel_keys[0], painted, at(place, "channel")));
+    const ResistanceDesc defaults;
+    values(node, resistance_factor_keys, &desc, &defaults, place);
+    return node;
 }
 
 JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std::string& place) {
@@ -270,8 +292,17 @@ JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std
         if (key == "fabric") return fabric(desc, where);
         if (key == "material") return material(desc.material, default_material(desc), where);
         if (key == "cuts")
-            return unless_empty(
-                list(desc.cuts, where, [&](const CutDesc& one, const std::string& below) { return cut(one, below); }));
+            return unless_empty(list(desc.cuts, where, [&](const CutDesc& one, const std::string& below) {
+                return path(cut_keys, one, below);
+            }));
+        if (key == "seams")
+            return unless_empty(list(desc.seams, where, [&](const SeamDesc& one, const std::string& below) {
+                return path(seam_keys, one, below);
+            }));
+        if (key == "resistance")
+            return unless_empty(list(desc.resistance, where, [&](const ResistanceDesc& one, const std::string& below) {
+                return resistance(one, below);
+            }));
         assert(key == "pins");
         return unless_empty(
             list(desc.pins, where, [&](const PinDesc& one, const std::string& below) { return pin(one, below); }));

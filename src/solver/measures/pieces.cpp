@@ -46,7 +46,8 @@ std::vector<OpenEdge> open_edges(const ClothModel& model) {
         if (entry.next == none || entry.twin < i) continue;  // each edge once
         const OpenEdge sides{EdgeEnds{faces[entry.corner], faces[entry.far]},
                              EdgeEnds{faces[entries[entry.next].corner], faces[entry.next_far]}};
-        if (sides[0] != sides[1]) open.push_back(sides);
+        const bool removed = sides[0][0] == sides[0][1] && sides[1][0] == sides[1][1];
+        if (sides[0] != sides[1] && !removed) open.push_back(sides);
     }
     return open;
 }

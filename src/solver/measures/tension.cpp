@@ -59,6 +59,45 @@ std::vector<double> stiffness_at_cut_ends(const StressTable& table, std::span<co
     return stiffness;
 }
 
+// 1 / limit of each seam's edges, m/N. Several edges of seams at the end of a cut take one round each.
+std::vector<double> inverse_limits_of_seams(const StressTable& table) {
+    std::vector<double> inverse;
+    for (const StressTable::Seam& seam : table.seams) inverse.push_back(seam.inverse_strength);
+    std::vector<std::uint32_t> left;
+    for (std::uint32_t i = 0; i < table.seams.size(); ++i)
+        if (table.cut_end[table.seams[i].particle] > 0 && table.seams[i].tear_energy > 0) left.push_back(i);
+    while (!left.empty()) {
+        std::vector<reference::Tension> across(table.area.size());
+        std::vector<std::uint32_t> now, later;
+        for (const std::uint32_t i : left) {
+            reference::Tension& direction = across[table.seams[i].particle];
+            const bool taken = direction.x != 0 || direction.y != 0;
+            (taken ? later : now).push_back(i);
+            if (!taken) direction.x = table.seams[i].x, direction.y = table.seams[i].y;
+        }
+        const std::vector<double> stiffness = stiffness_at_cut_ends(table, across);
+        for (const std::uint32_t i : now) {
+            const std::uint32_t p = table.seams[i].particle;
+            inverse[i] = reference::inverse_cut_limit(stiffness[p], table.cut_end[p], table.seams[i].tear_energy);
+        }
+        left = std::move(later);
+    }
+    return inverse;
+}
+
+// The load across seams, where it exceeds that of the fabric.
+void add_seams(const StressTable& table, std::span<const reference::PlaneStress> sums, std::vector<double>& load) {
+    if (table.seams.empty()) return;
+    const std::vector<double> inverse = inverse_limits_of_seams(table);
+    for (std::size_t i = 0; i < table.seams.size(); ++i) {
+        const auto& [p, x, y, strength, energy] = table.seams[i];
+        if (!(table.area[p] > 0)) continue;
+        const auto stress = reference::add_stress(reference::no_stress(), sums[p], 1 / table.area[p]);
+        const double across = stress.mean + stress.difference * (x * x - y * y) + stress.mixed * 2 * x * y;
+        load[p] = larger(load[p], larger(0, across) * inverse[i]);
+    }
+}
+
 void keep_larger(std::optional<TensionSummary::Place>& most, std::span<const double> values, std::uint32_t cloth) {
     for (std::uint32_t p = 0; p < values.size(); ++p) {
         const bool first_nan = std::isnan(values[p]) && !(most && std::isnan(most->value));
@@ -70,21 +109,19 @@ void keep_larger(std::optional<TensionSummary::Place>& most, std::span<const dou
 
 bool has_limit(const StressTable& table) {
     const bool of_tension = table.inverse_strength[0] > 0 || table.inverse_strength[1] > 0 || table.tear_energy > 0;
-    return table.tear_ratio > 0 || (of_tension && !table.inextensible);
+    return table.tear_ratio > 0 || ((of_tension || !table.seams.empty()) && !table.inextensible);
 }
 
-ClothTension measure_tension(const StressTable& table, std::span<const Vec4> positions) {
-    const std::size_t count = table.area.size();
-    ClothTension result{std::vector<double>(count), {}};
-    Averages sums = gather(table, positions);
-    result.load = std::move(sums.ratio);
-    if (table.inextensible) return result;
+namespace {
 
+// Tension of each particle, and its part of the load.
+void add_tensions(const StressTable& table, std::span<const reference::PlaneStress> sums, ClothTension& result) {
+    const std::size_t count = table.area.size();
     std::vector<reference::Tension> tensions(count);
     for (std::size_t p = 0; p < count; ++p) {
         if (!(table.area[p] > 0)) continue;
-        tensions[p] = reference::principal_tension(
-            reference::add_stress(reference::no_stress(), sums.stress[p], 1 / table.area[p]));
+        tensions[p] =
+            reference::principal_tension(reference::add_stress(reference::no_stress(), sums[p], 1 / table.area[p]));
         result.tension[p] = larger(0, tensions[p].most);
     }
     const std::vector<double> stiffness = stiffness_at_cut_ends(table, tensions);
@@ -96,6 +133,19 @@ ClothTension measure_tension(const StressTable& table, std::span<const Vec4> pos
                 : reference::inverse_strength(t.x, t.y, table.inverse_strength[0], table.inverse_strength[1]);
         result.load[p] = larger(result.load[p], result.tension[p] * inverse);
     }
+}
+
+}  // namespace
+
+ClothTension measure_tension(const StressTable& table, std::span<const Vec4> positions) {
+    ClothTension result{std::vector<double>(table.area.size()), {}};
+    Averages sums = gather(table, positions);
+    result.load = std::move(sums.ratio);
+    if (!table.inextensible) {
+        add_tensions(table, sums.stress, result);
+        add_seams(table, sums.stress, result.load);
+    }
+    for (std::size_t p = 0; p < table.inverse_resistance.size(); ++p) result.load[p] *= table.inverse_resistance[p];
     return result;
 }
 

@@ -34,6 +34,9 @@ struct RowEdit {
     friend bool operator==(const RowEdit&, const RowEdit&) = default;
 };
 
+/// As the second link of an opening: the triangle of the first link is removed. Only for cloth that erodes.
+inline constexpr std::uint32_t drops_triangle = 0xfffffffe;
+
 /// Edges at one vertex of the mesh to open: links of the cloth's tear table (tear_table.h), in the ring of that vertex.
 struct Opening {
     std::array<std::uint32_t, 2> links = {none, none};

@@ -316,6 +316,7 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     model->start_velocity = from.start_velocity;
     model->collision = collision;
     model->binding = from.binding;
+    model->tear_paint = from.tear_paint;
     if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
         model->set_mesh_of_particles(mesh.uvs, mesh.colors);
     } else {

@@ -62,10 +62,12 @@ struct ClothReserve {
     std::uint32_t constraints = 0;  ///< per kind of constraint that the cloth has
     bool openings = false;          ///< its edges can be opened: it has a tear table, and room for second halves
     bool tears = false;             ///< it tears by itself where its load exceeds the fabric's limits; implies openings
+    bool erodes = false;            ///< where it tears, triangles are removed; implies tears
 };
 
 struct TearTable;
 struct TearLaw;
+struct TearPaint;
 
 struct ClothModelDesc {
     std::string name = {};
@@ -128,8 +130,9 @@ struct ClothModel {
     /// Particles along a curve through the cloth; null if it has no contact of particles with cloth.
     std::shared_ptr<const std::vector<std::uint32_t>> along_curve;
     std::uint64_t topology_version = first_topology_version;
-    std::shared_ptr<const TearTable> tears;   ///< null unless its edges can be opened
-    std::shared_ptr<const TearLaw> tear_law;  ///< null unless it tears by itself
+    std::shared_ptr<const TearTable> tears;       ///< null unless its edges can be opened
+    std::shared_ptr<const TearLaw> tear_law;      ///< null unless it tears by itself
+    std::shared_ptr<const TearPaint> tear_paint;  ///< null: it is as strong as its fabric everywhere
     /// Per appended particle, the first of which follows those that the cloth was built with: the particle it is a copy
     /// of.
     SharedArray<std::uint32_t> copied_from;

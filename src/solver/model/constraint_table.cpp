@@ -2,6 +2,8 @@
 
 #include "physics/change_rows.h"
 
+#include <algorithm>
+
 namespace weft {
 namespace {
 
@@ -72,6 +74,12 @@ void add_spare_rows(ConstraintTable& table, std::uint32_t count) {
     widen(table, before + padded(count));
     table.first_spare = before;
     table.spare_rows = count;
+}
+
+std::optional<std::size_t> ConstraintTable::line_block(std::uint32_t row) const {
+    const auto after = std::ranges::upper_bound(blocks, row, {}, &LineBlock::begin);
+    if (after == blocks.begin() || row >= (after - 1)->end()) return std::nullopt;
+    return static_cast<std::size_t>(after - 1 - blocks.begin());
 }
 
 Coloring color_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,

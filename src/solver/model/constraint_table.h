@@ -7,6 +7,7 @@
 #include "physics/constraint.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace weft {
@@ -73,6 +74,8 @@ struct ConstraintTable {
         return !blocks.empty() && !geometry.empty() && geometry[geometry.size() - stride + row] < 0;
     }
     bool is_dummy(std::uint32_t particle) const { return particle - first_dummy < dummy_count; }
+    /// The block of lines that has the row; none if the row is not on a line.
+    std::optional<std::size_t> line_block(std::uint32_t row) const;
     /// Number of Lagrange multipliers, indexed [multiplier · stride + row].
     std::size_t lambda_count() const { return std::size_t{constraint_info(kind).lambdas} * stride; }
     std::uint32_t overflow() const { return !batches.empty() && batches.back().serial ? batches.back().rows : 0; }

@@ -211,6 +211,15 @@ std::vector<Opening> openings_along_stroke_at_rest(const ClothModel& model, std:
     return along_stroke(model, {model.start.data(), model.particle_count}, stroke, Edges::built);
 }
 
+Vec3 nearest_direction(std::span<const Vec3> stroke, Vec3 place) {
+    std::size_t best = 1;
+    for (std::size_t i = 2; i < stroke.size(); ++i)
+        if (distance_to_segment(place, stroke[i - 1], stroke[i]) <
+            distance_to_segment(place, stroke[best - 1], stroke[best]))
+            best = i;
+    return stroke[best] - stroke[best - 1];
+}
+
 std::vector<Opening> closed_ones(const ClothModel& model, std::span<const Opening> openings) {
     const Collector collector(model);
     std::vector<Opening> closed;

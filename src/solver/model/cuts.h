@@ -28,6 +28,9 @@ std::vector<Opening> openings_along_stroke(const ClothModel& model, std::span<co
 /// The same on the cloth as it was built, whatever is open now: the path depends on the mesh alone.
 std::vector<Opening> openings_along_stroke_at_rest(const ClothModel& model, std::span<const Vec3> stroke);
 
+/// The direction of the part of a polyline that is nearest to a place. `stroke` has at least two points.
+Vec3 nearest_direction(std::span<const Vec3> stroke, Vec3 place);
+
 /// The openings that have a closed edge.
 std::vector<Opening> closed_ones(const ClothModel& model, std::span<const Opening> openings);
 /// m: how far the middles of the edges are from the stroke at most. `positions`: of the particles.

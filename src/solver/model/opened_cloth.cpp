@@ -5,7 +5,7 @@
 namespace weft {
 
 void weigh_opened(const ClothModel& model, std::span<float> mass) {
-    if (!model.tears || model.copied_from.empty()) return;
+    if (!model.tears || (model.copied_from.empty() && !model.reserved.erodes)) return;
     OpenedArrays arrays;
     arrays.faces.assign(model.faces.begin(), model.faces.end());
     arrays.mass.assign(mass.begin(), mass.end());
@@ -15,6 +15,11 @@ void weigh_opened(const ClothModel& model, std::span<float> mass) {
     for (std::uint32_t from : model.copied_from) {
         while (from >= vertices) from = model.copied_from[from - vertices];
         scalar::tear_weigh(access, from);
+    }
+    for (std::uint32_t t = 0; model.reserved.erodes && t < model.triangle_count; ++t) {
+        const auto [a, b, c] = model.triangles()[t];
+        for (std::uint32_t k = 0; a == b && k < 3; ++k)
+            scalar::tear_weigh(access, model.tears->vertices[std::size_t{k} * model.face_stride + t]);
     }
     std::ranges::copy(arrays.mass, mass.begin());
 }
@@ -39,10 +44,24 @@ OpenedArrays::OpenedArrays(const ClothModel& model)
     halves_used.resize(stretch.second_halves / lane_padding);
     for (std::uint32_t row = 0; row < stretch.second_halves; ++row)
         if (!stretch.is_dummy(stretch.particles[stretch.second_halves + row])) halves_used[row / lane_padding] = 1;
+    if (model.reserved.erodes) find_settled(model);
     fan.resize(model.tears->entries.size());
     strayed.resize(model.tears->vertex_count());
     mass.resize(std::size_t{particle_count} + room);
     copied_from.reserve(copied_from.size() + room);
+}
+
+void OpenedArrays::find_settled(const ClothModel& model) {
+    const TearTable& table = *model.tears;
+    const auto& corners = table.rows[static_cast<std::size_t>(ConstraintKind::stretch)].corners;
+    const auto is_removed = [&](std::uint32_t corner) {
+        const auto [a, b, c] = model.triangles()[corner % model.face_stride];
+        return a == b;
+    };
+    settled.resize(table.half_stride);
+    for (std::uint32_t row = 0; row < table.half_stride; ++row)
+        settled[row] = corners[row] != none &&
+                       (is_removed(corners[row]) || (table.second[row] != none && is_removed(table.second[row])));
 }
 
 Opener::Opener(const ClothModel& model, OpenedArrays& arrays)
@@ -56,9 +75,10 @@ bool Opener::open(const Opening& opening) {
     }
     const scalar::TearAccess access{model_, arrays_, law_};
     if (!scalar::tear_open(access, links)) return false;
-    update_rows(scalar::tear_vertex(access, links.first));
-    update_rows(scalar::tear_far_vertex(access, links.first));
-    if (links.second != none) update_rows(scalar::tear_far_vertex(access, links.second));
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = scalar::tear_opened_vertex(access, links, k);
+        if (vertex != none) update_rows(vertex);
+    }
     return true;
 }
 

@@ -25,6 +25,8 @@ struct OpenedArrays {
     std::vector<LineBlock> blocks;  ///< of the stretch table
     /// Per lane_padding rows of the stretch table's second halves: whether any is in use.
     std::vector<std::uint8_t> halves_used;
+    /// Per stretch constraint of a cloth that erodes: whether it has the stiffness of the one triangle that is left.
+    std::vector<std::uint8_t> settled;
     AlignedVector<float> mass;               ///< kg, per particle
     std::vector<std::uint32_t> copied_from;  ///< per appended particle: the particle that was copied
     std::vector<float> strayed;              ///< m, per vertex: that of a rip which ends there (Opening)
@@ -36,6 +38,9 @@ struct OpenedArrays {
     OpenedArrays() = default;
     /// Copies the arrays of a model.
     explicit OpenedArrays(const ClothModel& model);
+
+  private:
+    void find_settled(const ClothModel& model);
 };
 
 /// Sets the masses of particles at vertices that have copies, in the way that Opener does.
@@ -48,10 +53,10 @@ class Opener {
     /// `model` must have a tear table, and must be the one from which `arrays` were copied or an earlier one.
     Opener(const ClothModel& model, OpenedArrays& arrays);
 
-    /// Parts the triangles at the vertex of the links along these edges. If they then form several fans, the first fan
-    /// keeps the particle, and each other fan gets a copy. The same is done at the far ends, where an edge that was
-    /// open before now parts them. Constraints follow their triangles; those that cross an open edge end. Returns false
-    /// and changes nothing if there is no room for the copies.
+    /// Removes the triangle of a link, or parts the triangles at the vertex of the links along these edges. If they
+    /// then form several fans, the first fan keeps the particle, and each other fan gets a copy. The same is done at
+    /// the far ends, where an edge that was open before now parts them. Constraints follow their triangles; those that
+    /// cross an open edge end. Returns false and changes nothing if there is no room for the copies.
     bool open(const Opening& opening);
 
   private:

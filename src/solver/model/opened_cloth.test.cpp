@@ -19,6 +19,7 @@ struct Kind {
     float jitter = 0;  // of vertices, in cells
     bool lines = true;
     BendModel bend = BendModel::dihedral;
+    bool erodes = false;
 };
 const Kind kinds[] = {{},
                       {.diagonal = GridDiagonal::uniform, .lines = false},
@@ -33,7 +34,10 @@ std::shared_ptr<const ClothModel> make_tearable(const Kind& kind, std::uint32_t 
     for (Vec3& x : mesh.positions) x = x + Vec3{moved(random), 0, moved(random)};
     mesh.uvs.clear();
     ClothModelDesc desc{
-        .name = "sheet", .layout = {.lines = kind.lines, .hierarchy = true}, .reserve = {reserve, 16, true}};
+        .name = "sheet",
+        .layout = {.lines = kind.lines, .hierarchy = true},
+        .reserve = {
+            .particles = reserve, .constraints = 16, .openings = true, .tears = kind.erodes, .erodes = kind.erodes}};
     desc.fabric.bend.model = kind.bend;
     auto topology = build_topology(mesh, {.reorder = false});
     desc.mesh = std::move(mesh);
@@ -59,6 +63,18 @@ std::vector<Opening> random_openings(const ClothModel& model, std::size_t count,
     return openings;
 }
 
+// Half of the openings of edges, in random order with removals of triangles.
+std::vector<Opening> random_removals(const ClothModel& model, std::size_t count, unsigned seed) {
+    std::vector<Opening> openings = random_openings(model, count / 2, seed);
+    std::mt19937 random(seed + 1);
+    while (openings.size() < count) {
+        const auto entry = static_cast<std::uint32_t>(random() % model.tears->entries.size());
+        openings.push_back({{entry, drops_triangle}});
+    }
+    std::ranges::shuffle(openings, random);
+    return openings;
+}
+
 using Ends = std::array<std::uint32_t, 2>;
 Ends sorted(std::uint32_t a, std::uint32_t b) {
     return {std::min(a, b), std::max(a, b)};
@@ -67,14 +83,15 @@ std::uint32_t particle_of(const ConstraintTable& table, std::uint32_t row, std::
     return table.particles[std::size_t{slot} * table.stride + row];
 }
 
-void expect_rows_of_edges(const ClothModel& model, const std::vector<Triangle>& triangles, const EdgeList& edges) {
+// `areas`: of the triangles.
+void expect_rows_of_edges(const ClothModel& model, const std::vector<float>& areas, const EdgeList& edges) {
     const ConstraintTable& table = model.table(ConstraintKind::stretch);
     std::map<Ends, float> strips;
     for (const Edge& edge : edges.edges) {
         const float squared = dot(model.rest_position(edge.b) - model.rest_position(edge.a),
                                   model.rest_position(edge.b) - model.rest_position(edge.a));
-        float area = model.face_area[edge.triangle0];
-        if (edge.triangle1 != none) area += model.face_area[edge.triangle1];
+        float area = areas[edge.triangle0];
+        if (edge.triangle1 != none) area += areas[edge.triangle1];
         strips[{edge.a, edge.b}] = area / squared;
     }
     std::uint32_t rows = 0;
@@ -87,7 +104,7 @@ void expect_rows_of_edges(const ClothModel& model, const std::vector<Triangle>& 
         strips.erase(strip);
     }
     EXPECT_EQ(rows, table.rows);
-    EXPECT_TRUE(strips.empty()) << strips.size() << " edges of " << triangles.size() << " triangles have no constraint";
+    EXPECT_TRUE(strips.empty()) << strips.size() << " edges of " << areas.size() << " triangles have no constraint";
 }
 
 void expect_rows_of_hinges(const ClothModel& model, const HingeList& hinges) {
@@ -152,11 +169,16 @@ void expect_one_fan_each(const ClothModel& model, const std::vector<Triangle>& t
 
 void expect_consistent(const ClothModel& model) {
     std::vector<Triangle> triangles;
-    for (std::uint32_t t = 0; t < model.triangle_count; ++t) triangles.push_back(model.triangles()[t]);
+    std::vector<float> areas;
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t) {
+        const Triangle triangle = model.triangles()[t];
+        EXPECT_EQ(triangle[0] == triangle[1], model.face_area[t] == 0);
+        if (triangle[0] != triangle[1]) triangles.push_back(triangle), areas.push_back(model.face_area[t]);
+    }
     const EdgeList edges = build_edges(triangles, model.particle_count);
     EXPECT_TRUE(edges.non_manifold.empty());
     expect_one_fan_each(model, triangles, edges);
-    expect_rows_of_edges(model, triangles, edges);
+    expect_rows_of_edges(model, areas, edges);
     if (model.fabric.bend.model == BendModel::plate) {
         expect_plates_on_triangles(model, edges, triangles);
     } else {
@@ -183,6 +205,46 @@ TEST(Openings, leave_the_constraints_of_the_opened_mesh) {
             if (HasFailure()) return;
         }
     }
+}
+
+// The mass of particles that have triangles.
+double mass_of_triangles(const ClothModel& model) {
+    std::vector<bool> has(model.particle_count);
+    for (std::uint32_t t = 0; t < model.triangle_count; ++t)
+        if (model.face_area[t] > 0)
+            for (const std::uint32_t p : model.triangles()[t]) has[p] = true;
+    double sum = 0;
+    for (std::uint32_t p = 0; p < model.particle_count; ++p) sum += has[p] ? double{model.mass[p]} : 0;
+    return sum;
+}
+
+TEST(Openings, that_remove_triangles_leave_the_constraints_of_the_others) {
+    for (Kind kind : kinds) {
+        kind.erodes = true;
+        const auto model = make_tearable(kind);
+        for (const std::size_t count : {1, 2, 3, 12, 60, 100}) {
+            const auto openings = random_removals(*model, count, unsigned(count));
+            const auto opened = with_edit(*model, {.openings = openings});
+            ASSERT_TRUE(opened.ok()) << opened.errors()[0].message();
+            expect_consistent(**opened);
+            const double expected = sum_of((*opened)->face_area) * double{model->fabric.body.density};
+            EXPECT_NEAR(mass_of_triangles(**opened), expected, 1e-6 * sum_of(model->mass));
+            auto one_by_one = model;
+            for (const Opening& opening : openings) one_by_one = *with_edit(*one_by_one, {.openings = {opening}});
+            EXPECT_EQ(one_by_one->faces, (*opened)->faces);
+            EXPECT_EQ(one_by_one->table(ConstraintKind::stretch).fields,
+                      (*opened)->table(ConstraintKind::stretch).fields);
+            expect_consistent(*one_by_one);
+            if (HasFailure()) return;
+        }
+    }
+}
+
+TEST(Openings, that_remove_triangles_need_a_cloth_that_erodes) {
+    const auto opened = with_edit(*make_tearable({}), {.openings = {{{0, drops_triangle}}}});
+    ASSERT_FALSE(opened.ok());
+    EXPECT_EQ(opened.errors()[0].message(), "opening 0: removes a triangle, but the cloth does not erode");
+    EXPECT_FALSE(with_edit(*make_tearable({.erodes = true}), {.openings = {{{1u << 30, drops_triangle}}}}).ok());
 }
 
 TEST(Openings, one_by_one_give_the_same_model) {

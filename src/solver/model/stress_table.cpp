@@ -2,6 +2,8 @@
 
 #include "mesh/edges.h"
 #include "physics/stretch/stretch_law.h"
+#include "solver/model/tear_paint.h"
+#include "solver/model/tear_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +149,46 @@ void wind_alike(std::vector<Triangle>& triangles, const std::vector<Edge>& edges
         if (turn[t]) std::swap(triangles[t][1], triangles[t][2]);
 }
 
+// Takes over what is painted. `triangles`: the current ones.
+void add_paint(StressTable& table, const ClothModel& model, const TriangleView& triangles) {
+    const TearTable& tears = *model.tears;
+    const TearPaint& paint = *model.tear_paint;
+    const auto particle_at = [&](std::uint32_t corner) {
+        return triangles[corner % model.face_stride][corner / model.face_stride];
+    };
+    if (!paint.resistance.empty()) {
+        table.inverse_resistance.assign(model.particle_count, 1.0);
+        for (const TearTable::Entry& entry : tears.entries)
+            table.inverse_resistance[particle_at(entry.corner)] = 1 / double{paint.resistance[entry.vertex]};
+    }
+    std::vector<const TearPaint::Link*> last(tears.entries.size());
+    for (const TearPaint::Link& link : paint.seams) last[link.link] = &link;
+    for (const TearPaint::Link* link : last) {
+        if (!link) continue;
+        const TearTable::Entry& entry = tears.entries[link->link];
+        const std::uint32_t p = particle_at(entry.corner), far = particle_at(entry.far);
+        const bool closed = p == particle_at(tears.entries[entry.next].corner) && far == particle_at(entry.next_far);
+        if (!closed || p == far) continue;
+        const vec3 along =
+            reference::to_double(model.rest_position(far)) - reference::to_double(model.rest_position(p));
+        const double x = dot(along, table.axes[p][0]), y = dot(along, table.axes[p][1]),
+                     size = std::sqrt(x * x + y * y);
+        if (size > 0)
+            table.seams.push_back({p, -y / size, x / size, 1 / double{link->strength}, double{link->tear_energy}});
+    }
+}
+
 }  // namespace
+
+std::array<double, 2> seam_normal(const TearPaint::Link& seam, const std::array<vec3, 2>& axes, vec3 edge) {
+    const vec3 across = reference::to_double(seam.across);
+    double x = dot(across, axes[0]), y = dot(across, axes[1]), size = std::sqrt(x * x + y * y);
+    if (!(size > 0)) {
+        x = -dot(edge, axes[1]), y = dot(edge, axes[0]), size = std::sqrt(x * x + y * y);
+        if (!(size > 0)) return {1, 0};
+    }
+    return {x / size, y / size};
+}
 
 StressTable make_stress_table(const ClothModel& model, const TriangleView& triangles) {
     const Fabric& fabric = model.fabric;
@@ -197,6 +238,7 @@ StressTable make_stress_table(const ClothModel& model, const TriangleView& trian
         turn_corners(table, around[p], unit(normals[p]), table.axes[p]);
         if (rim[p] && angles[p] > three_quarters) table.cut_end[p] = lengths[p] / sides[p];
     }
+    if (model.tear_paint) add_paint(table, model, triangles);
     return table;
 }
 

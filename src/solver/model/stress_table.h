@@ -3,6 +3,7 @@
 
 #include "physics/scalar.h"
 #include "solver/model/cloth_model.h"
+#include "solver/model/tear_paint.h"
 
 #include <array>
 #include <cstdint>
@@ -26,12 +27,24 @@ struct StressTable {
     /// in the plane of the cloth at rest.
     std::vector<std::array<reference::vec3, 2>> axes;
     std::vector<double> cut_end;  ///< m, per particle: mean length of its edges if a cut ends there, 0 elsewhere
-    bool inextensible = false;    ///< stress cannot be computed, and all stiffnesses are 0
+    /// A closed edge of a seam at a particle, as the rules of tearing see it (TearPaint).
+    struct Seam {
+        std::uint32_t particle = 0;
+        double x = 0, y = 0;                           ///< unit, in the particle's axes: across the edge
+        double inverse_strength = 0, tear_energy = 0;  ///< m/N and J/m
+    };
+    std::vector<Seam> seams;
+    std::vector<double> inverse_resistance;  ///< per particle: factor on the load; empty: 1
+    bool inextensible = false;               ///< stress cannot be computed, and all stiffnesses are 0
 
     std::array<double, 2> inverse_strength{};  ///< m/N, warp and weft; 0: no limit
     double tear_energy = 0;                    ///< J/m; 0: none
     double tear_ratio = 0;                     ///< 0: none
 };
+
+/// The direction across a seam in the axes of a particle, unit length. `edge`: from the particle along the link.
+std::array<double, 2> seam_normal(const TearPaint::Link& seam, const std::array<reference::vec3, 2>& axes,
+                                  reference::vec3 edge);
 
 /// A cut ends at a particle of the rim with more than 270° of cloth around it at rest. `triangles`: the current ones.
 /// Stiffnesses are those of the fabric: edits of single constraints (RowEdit) do not change them.

@@ -71,6 +71,12 @@ WEFT_FN uint tear_next_far(TearCloth c, uint i) {
 WEFT_FN uint tear_twin(TearCloth c, uint i) {
     return tear_entry(c, i).twin;
 }
+WEFT_FN uint tear_corner_vertex(TearCloth c, uint corner) {
+    return c.model.tears->vertices[corner];
+}
+WEFT_FN bool tear_erodes(TearCloth c) {
+    return c.model.reserved.erodes;
+}
 WEFT_FN uint tear_vertex_of(TearCloth c, uint particle) {
     return c.vertex[particle];
 }
@@ -103,6 +109,18 @@ WEFT_FN real tear_energy(TearCloth c) {
 }
 WEFT_FN real tear_inverse_stretch(TearCloth c) {
     return c.model.tear_law->inverse_stretch;
+}
+WEFT_FN real tear_inverse_resistance(TearCloth c, uint vertex) {
+    return c.model.tear_law->inverse_resistance[vertex];
+}
+WEFT_FN bool tear_has_seams(TearCloth c) {
+    return !c.model.tear_law->seams.empty();
+}
+WEFT_FN real tear_seam(TearCloth c, uint i, uint k) {
+    return c.model.tear_law->seams[i][k];
+}
+WEFT_FN real tear_watch_limit(TearCloth c, uint triangle, uint k) {
+    return c.model.tear_law->watch[std::size_t{k} * c.model.tear_law->stride + triangle];
 }
 
 WEFT_FN vec3 tear_position(TearCloth c, uint particle) {
@@ -201,9 +219,17 @@ WEFT_FN uint tear_second_corner(TearCloth c, uint row, uint slot) {
 }
 // Marks the block of lines that has the row: a line may end in it.
 WEFT_FN void tear_cut_line(TearCloth c, uint row) {
-    auto& blocks = c.arrays.blocks;
-    const auto after = std::ranges::upper_bound(blocks, row, {}, &LineBlock::begin);
-    if (after != blocks.begin() && row < (after - 1)->end()) (after - 1)->cut = true;
+    if (const auto block = tear_table(c, WEFT_TEAR_STRETCH).line_block(row)) c.arrays.blocks[*block].cut = true;
+}
+// Turns a row of stretch constraints into padding. On a line it keeps its particles, and a negative compliance
+// separates the constraints before and after it.
+WEFT_OUTLINED_FN void tear_end_stretch(TearCloth c, uint row) {
+    const ConstraintTable& table = tear_table(c, WEFT_TEAR_STRETCH);
+    if (!table.line_block(row)) return tear_end_row(c, WEFT_TEAR_STRETCH, row);
+    OpenedArrays::Rows& rows = tear_rows(c, WEFT_TEAR_STRETCH);
+    --rows.rows;
+    for (std::size_t at = table.stride + row; at < rows.fields.size(); at += table.stride) rows.fields[at] = -1;
+    for (std::size_t at = row; at < rows.geometry.size(); at += table.stride) rows.geometry[at] = no_area;
 }
 // Gives each half of an opened edge the stiffness of its own triangle, if the second half is not in use yet.
 WEFT_OUTLINED_FN void tear_part_stiffness(TearCloth c, uint row) {
@@ -222,6 +248,28 @@ WEFT_OUTLINED_FN void tear_part_stiffness(TearCloth c, uint row) {
         rows.fields[stride + at] = compliances.stretched, rows.fields[2 * stride + at] = compliances.compressed;
     };
     set(row, first_part), set(second, 1 - first_part);
+}
+
+// Whether the constraint has the stiffness of the one triangle at its edge that is left.
+WEFT_FN bool tear_is_settled(TearCloth c, uint row) {
+    return c.arrays.settled[row] != 0;
+}
+// Gives a constraint the stiffness of one of its two triangles. Its second half ends.
+WEFT_OUTLINED_FN void tear_settle(TearCloth c, uint row, bool first) {
+    OpenedArrays::Rows& rows = tear_rows(c, WEFT_TEAR_STRETCH);
+    const ConstraintTable& table = tear_table(c, WEFT_TEAR_STRETCH);
+    const std::size_t stride = table.stride, second = std::size_t{table.second_halves} + row;
+    const float first_part = c.model.tears->first_part[row], cos2 = rows.geometry[row];
+    float& strip = rows.geometry[stride + row];
+    if (table.is_dummy(rows.particles[second])) {
+        strip *= first ? first_part : 1 - first_part;
+    } else {
+        if (!first) strip = rows.geometry[stride + second];
+        tear_end_row(c, WEFT_TEAR_STRETCH, static_cast<uint>(second));
+    }
+    const StretchLaw::Compliances compliances = c.stretch.at(cos2, strip);
+    rows.fields[stride + row] = compliances.stretched, rows.fields[2 * stride + row] = compliances.compressed;
+    c.arrays.settled[row] = 1;
 }
 
 #include "physics/tear/rules.kernel.h"

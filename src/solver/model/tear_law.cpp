@@ -1,6 +1,7 @@
 #include "solver/model/tear_law.h"
 
 #include "solver/model/stress_table.h"
+#include "solver/model/tear_paint.h"
 #include "solver/model/tear_table.h"
 
 #include <algorithm>
@@ -13,13 +14,6 @@ namespace {
 // A strain limit below this would be within the rounding of positions.
 constexpr float least_strain = 1e-4f;
 
-// Corners of the triangles before any opening.
-std::vector<std::uint32_t> first_corners(const ClothModel& model) {
-    std::vector<std::uint32_t> faces(model.faces.begin(), model.faces.end());
-    for (const TearTable::Entry& entry : model.tears->entries) faces[entry.corner] = entry.vertex;
-    return faces;
-}
-
 float single(double x) {
     return static_cast<float>(x);
 }
@@ -28,7 +22,7 @@ class LawBuilder {
   public:
     explicit LawBuilder(const ClothModel& model)
         : model_(model),
-          faces_(first_corners(model)),
+          faces_(model.tears->vertices),
           stress_(make_stress_table(model, {faces_.data(), model.face_stride, model.triangle_count})) {
         law_.stride = model.face_stride;
         law_.sides.resize(std::size_t{15} * law_.stride);
@@ -49,6 +43,7 @@ class LawBuilder {
             if (entry.next != none) add_link(entry, law_.entries[i]);
         }
         set_limits();
+        paint();
         return std::move(law_);
     }
 
@@ -90,7 +85,7 @@ class LawBuilder {
         if (size > 0) entry.along = {single(x / size), single(y / size)};
     }
     void set_limits() {
-        if (!stress_.inextensible) {
+        if (!stress_.inextensible && !model_.reserved.erodes) {
             for (std::size_t i = 0; i < 2; ++i) law_.inverse_strength[i] = single(stress_.inverse_strength[i]);
             law_.tear_energy = single(stress_.tear_energy);
         }
@@ -98,8 +93,39 @@ class LawBuilder {
         if (ratio > 0) law_.inverse_stretch = 1 / std::max(ratio - 1, least_strain);
     }
 
+    std::array<double, 2> across(const TearPaint::Link& seam, const std::array<reference::vec3, 2>& axes) const {
+        const TearTable::Entry& entry = model_.tears->entries[seam.link];
+        return seam_normal(seam, axes, place_of(faces_[entry.far]) - place_of(entry.vertex));
+    }
+    void paint() {
+        const auto vertices = model_.tears->vertex_count();
+        law_.inverse_resistance.assign(vertices, 1.0f);
+        const float strength = std::max(law_.inverse_strength[0], law_.inverse_strength[1]);
+        std::vector<float> tension(vertices, strength);
+        if (model_.tear_paint) {
+            const TearPaint& paint = *model_.tear_paint;
+            for (std::size_t v = 0; v < paint.resistance.size(); ++v)
+                law_.inverse_resistance[v] = 1 / paint.resistance[v];
+            if (!paint.seams.empty() && !stress_.inextensible) law_.seams.resize(law_.entries.size());
+            for (const TearPaint::Link& seam : paint.seams) {
+                if (law_.seams.empty()) break;
+                const auto [x, y] = across(seam, stress_.axes[model_.tears->entries[seam.link].vertex]);
+                law_.seams[seam.link] = {1 / seam.strength, seam.tear_energy, single(x), single(y)};
+                float& most = tension[model_.tears->entries[seam.link].vertex];
+                most = std::max(most, 1 / seam.strength);
+            }
+        }
+        law_.watch.resize(std::size_t{2} * law_.stride);
+        for (const TearTable::Entry& entry : model_.tears->entries) {
+            const float inverse = law_.inverse_resistance[entry.vertex];
+            float* const at = law_.watch.data() + entry.corner % law_.stride;
+            at[0] = std::max(at[0], tension[entry.vertex] * inverse);
+            at[law_.stride] = std::max(at[law_.stride], law_.inverse_stretch * inverse);
+        }
+    }
+
     const ClothModel& model_;
-    std::vector<std::uint32_t> faces_;
+    const std::vector<std::uint32_t>& faces_;  // corners before any opening
     StressTable stress_;
     TearLaw law_;
 };
@@ -108,6 +134,13 @@ class LawBuilder {
 
 std::shared_ptr<const TearLaw> make_tear_law(const ClothModel& model) {
     return std::make_shared<const TearLaw>(LawBuilder(model).run());
+}
+
+std::shared_ptr<const ClothModel> with_tear_paint(const ClothModel& from, std::shared_ptr<const TearPaint> paint) {
+    auto model = std::make_shared<ClothModel>(from);
+    model->tear_paint = std::move(paint);
+    model->tear_law = make_tear_law(*model);
+    return model;
 }
 
 }  // namespace weft

@@ -11,6 +11,7 @@
 namespace weft {
 
 struct ClothModel;
+struct TearPaint;
 
 /// A triangle with this part of the largest load that its particles can have is looked at in every substep of a frame.
 inline constexpr float watched_part_of_load = 0.5f;
@@ -31,17 +32,21 @@ struct TearLaw {
         std::array<float, 2> along{};  ///< direction of the link's edge from the vertex, in the vertex's axes
     };
     std::vector<Entry> entries;
+    /// Per entry: 1 over the strength of the seam that the link's edge belongs to, m/N, its tear energy, J/m, and the
+    /// direction across it in the vertex's axes. 0 elsewhere. Empty if the cloth has no seams.
+    std::vector<std::array<float, 4>> seams;
+    std::vector<float> inverse_resistance;  ///< per vertex: factor on the load
+    /// [triangle], then [stride + triangle]: the largest 1/limit of tension at its corners, m/N, and that of strain.
+    AlignedVector<float> watch;
     std::array<float, 2> inverse_strength{};  ///< m/N, along warp and weft; 0: no limit
     float tear_energy = 0;                    ///< J/m; 0: `inverse_strength` holds at the ends of cuts too
     float inverse_stretch = 0;                ///< 1 over the largest strain of an edge; 0: no limit
-
-    /// m/N: of the weaker direction.
-    float largest_inverse_strength() const {
-        return inverse_strength[0] > inverse_strength[1] ? inverse_strength[0] : inverse_strength[1];
-    }
 };
 
-/// For the model's fabric. The model must have a tear table.
+/// For the model's fabric and its `tear_paint`. The model must have a tear table.
 std::shared_ptr<const TearLaw> make_tear_law(const ClothModel& model);
+
+/// The same model with other strengths at places.
+std::shared_ptr<const ClothModel> with_tear_paint(const ClothModel& from, std::shared_ptr<const TearPaint> paint);
 
 }  // namespace weft

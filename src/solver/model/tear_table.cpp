@@ -20,6 +20,8 @@ class TearTableBuilder {
 
     TearTable run() {
         make_rings();
+        table_.vertices.resize(std::size_t{3} * model_.face_stride);
+        for (const TearTable::Entry& entry : table_.entries) table_.vertices[entry.corner] = entry.vertex;
         make_twins();
         make_stretch();
         make_hinged(ConstraintKind::bend);

@@ -31,6 +31,7 @@ struct TearTable {
     };
     std::vector<std::uint32_t> ring_begin;  ///< per vertex, and one more: its first entry
     std::vector<Entry> entries;
+    std::vector<std::uint32_t> vertices;  ///< [corner]: the vertex there
 
     /// The constraints of a kind, as rows of the table.
     struct Rows {

@@ -97,8 +97,11 @@ class Editor {
         const auto& entries = model_->tears->entries;
         for (std::size_t i = 0; i < openings.size(); ++i) {
             const auto& links = openings[i].links;
+            if (links[1] == drops_triangle && !model_->reserved.erodes)
+                return Error{"opening " + std::to_string(i), "removes a triangle, but the cloth does not erode"};
             for (const std::uint32_t link : links) {
-                if (link == none) continue;
+                if (link == none || (link == drops_triangle && links[0] != none)) continue;
+                if (links[1] == drops_triangle ? link < entries.size() : false) continue;
                 if (link >= entries.size() || entries[link].next == none ||
                     entries[link].vertex != entries[links[0] == none ? link : links[0]].vertex)
                     return Error{"opening " + std::to_string(i), "must name edges inside the cloth at one vertex"};
@@ -110,9 +113,18 @@ class Editor {
         const std::vector<std::uint32_t> copies(arrays.copied_from.begin() + first_copy, arrays.copied_from.end());
         take_constraints(arrays);
         model_->faces = std::move(arrays.faces);
+        take_removals();
         model_->strayed = std::move(arrays.strayed);
         model_->make_tiles_if_needed();
-        return append(copies, true);  // a copy may be one of an earlier copy
+        if (auto done = append(copies, true); !done) return done;  // a copy may be one of an earlier copy
+        // Particles that have lost their last triangle keep the mass that they had with it.
+        model_->mass = AlignedVector<float>(arrays.mass.begin(), arrays.mass.begin() + model_->particle_count);
+        return {};
+    }
+
+    // Leaves the ends as they are if the triangle was removed.
+    static void set_ends(EdgeEnds& ends, const AlignedVector<std::uint32_t>& faces, const EdgeEnds& corners) {
+        if (faces[corners[0]] != faces[corners[1]]) ends = {faces[corners[0]], faces[corners[1]]};
     }
 
     // Takes all constraints over, and lists their second halves when there are some.
@@ -126,8 +138,7 @@ class Editor {
         }
         auto edges = std::make_shared<ClothEdges>(*model_->edges);
         for (std::size_t i = 0; i < edges->without_row.size(); ++i)
-            for (std::size_t end = 0; end < 2; ++end)
-                edges->without_row[i][end] = arrays.faces[model_->tears->without_row[i][end]];
+            set_ends(edges->without_row[i], arrays.faces, model_->tears->without_row[i]);
         ConstraintTable& stretch = model_->constraints[static_cast<std::uint32_t>(ConstraintKind::stretch)];
         for (std::size_t i = 0; i < arrays.blocks.size(); ++i) stretch.blocks[i] = arrays.blocks[i];
         if (std::ranges::none_of(stretch.batches, &Batch::halves)) {
@@ -135,6 +146,17 @@ class Editor {
             for (LineBlock& block : std::span(stretch.blocks).subspan(arrays.blocks.size())) block.cut = true;
         }
         model_->edges = std::move(edges);
+    }
+
+    // Triangles that openings have removed have no area.
+    void take_removals() {
+        if (!model_->reserved.erodes) return;
+        std::vector<float> area(model_->face_area.begin(), model_->face_area.end());
+        for (std::uint32_t t = 0; t < model_->triangle_count; ++t) {
+            const auto [a, b, c] = model_->triangles()[t];
+            if (a == b) area[t] = 0;
+        }
+        model_->face_area = std::move(area);
     }
 
     // `pinned`: copies of pinned particles are pinned too.
@@ -279,14 +301,9 @@ class Editor {
         return {};
     }
 
-    static bool lies_in_line(const ConstraintTable& table, std::uint32_t row) {
-        const auto after = std::ranges::upper_bound(table.blocks, row, {}, &LineBlock::begin);
-        return after != table.blocks.begin() && row < (after - 1)->end();
-    }
-
     Result<void> set_row(OpenTable& open, const RowEdit& row) const {
         if (auto sound = check_row(open, row); !sound) return sound;
-        const bool in_line = lies_in_line(open.table, row.row);
+        const bool in_line = open.table.line_block(row.row).has_value();
         for (std::uint32_t slot = 0; slot < open.table.arity; ++slot) {
             std::uint32_t& particle = open.particles[open.at(slot, row.row)];
             if (in_line && particle != row.particles[slot])

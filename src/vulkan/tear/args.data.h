@@ -65,6 +65,11 @@ struct TearData {
     Uints list;          // candidates, then the particles that open
     Uints fan;           // per entry
     TearKindRef kinds;
+    Uints vertices;      // TearTable::vertices
+    Floats watch;        // TearLaw::watch
+    Floats inverse_resistance;  // per vertex
+    Floats seams;        // TearLaw::seams, four per entry; null without seams
+    Uints settled;       // OpenedArrays::settled; null if the cloth does not erode
     Uints row_begin;     // per vertex, and one more
     Uints row_items;     // constraints at each vertex
     Uints second;        // TearTable::second
@@ -82,6 +87,8 @@ struct TearData {
     float inverse_stretch;
     float density;       // kg/m2
     float watched_part;
+    uint erodes;
+    uint has_seams;
     uint unused;
 };
 

@@ -1,6 +1,7 @@
 #include "vulkan/tear/tearing.h"
 
 #include "physics/stretch/stretch_law.h"
+#include "solver/model/opened_cloth.h"
 #include "solver/model/tear_cloth.h"
 #include "vulkan/primitives/recorder.h"
 #include "vulkan/tear/args.data.h"
@@ -18,6 +19,7 @@ static_assert(WEFT_TEAR_KINDS == scalar::tear_kinds.size());
 struct TearArrays {
     std::vector<std::uint32_t> entries, vertex, row_items;
     std::vector<float> numbers, half_fields, mass, strayed;
+    std::vector<std::uint32_t> settled;
     std::array<std::vector<std::uint32_t>, WEFT_TEAR_KINDS> corners;
 
     explicit TearArrays(const ClothModel& model) {
@@ -37,6 +39,8 @@ struct TearArrays {
         strayed.resize(vertices);
         for (const TearTable::RowRef& ref : table.rows_at.items)
             row_items.push_back(scalar::tear_kind(ref.kind) << WEFT_TEAR_ROW_BITS | ref.row);
+        const OpenedArrays opened(model);
+        settled.assign(opened.settled.begin(), opened.settled.end());
         for (std::uint32_t kind = 0; kind < WEFT_TEAR_KINDS; ++kind) add_kind(model, kind);
         add_halves(model);
     }
@@ -110,6 +114,10 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     put(data.strayed, arena.add_array(arrays.strayed)), put(data.watched, arena.reserve(all * word));
     put(data.loads, arena.reserve(all * sizeof(Vec4))), put(data.chosen, arena.reserve(all * word));
     put(data.list, arena.reserve(all * word)), put(data.fan, arena.reserve(table.entries.size() * word));
+    put(data.vertices, arena.add_array(table.vertices)), put(data.watch, arena.add_array(law.watch));
+    put(data.inverse_resistance, arena.add_array(law.inverse_resistance));
+    if (!law.seams.empty()) put(data.seams, arena.add_array(law.seams));
+    if (!arrays.settled.empty()) put(data.settled, arena.add_array(arrays.settled));
     put(data.row_begin, arena.add_array(table.rows_at.offsets));
     put(data.row_items, arena.add_array(arrays.row_items)), put(data.second, arena.add_array(table.second));
     put(data.half_fields, arena.add_array(arrays.half_fields));
@@ -145,6 +153,7 @@ Result<void> Tearing::add(const ClothState& cloth, std::size_t member, const std
     data.inverse_strength[0] = law.inverse_strength[0], data.inverse_strength[1] = law.inverse_strength[1];
     data.energy = law.tear_energy, data.inverse_stretch = law.inverse_stretch;
     data.density = model.fabric.body.density, data.watched_part = watched_part_of_load;
+    data.erodes = model.reserved.erodes, data.has_seams = !law.seams.empty();
     const Slot of_kinds = torn.data_arena.add_array(kinds);
     torn.data = torn.data_arena.reserve(sizeof data);
     if (auto built = torn.data_arena.build(device_, "addresses of tearing of " + name); !built) return built;

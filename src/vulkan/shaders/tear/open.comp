@@ -50,12 +50,12 @@ void open_all()
     tear_head.candidates = 0u;
 }
 
-// The vertex of an opening, then the far ends; none if there is no such end.
 uint vertex_of_opening(TearCloth c, uint opening, uint k)
 {
-    uint link = tear_data.log.at[4u * opening + (k == 2u ? 1u : 0u)];
-    if (link == WEFT_TEAR_NONE) return WEFT_TEAR_NONE;
-    return k == 0u ? tear_vertex(c, link) : tear_far_vertex(c, link);
+    TearOpening o = tear_no_opening();
+    o.first = tear_data.log.at[4u * opening];
+    o.second = tear_data.log.at[4u * opening + 1u];
+    return tear_opened_vertex(c, o, k);
 }
 
 // Particles at the vertex have other masses now, unless they are pinned. Those around them are watched from now on.

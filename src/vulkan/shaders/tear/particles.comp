@@ -31,7 +31,7 @@ void run_load(uint p)
     if (p >= tear_head.particles || !tear_is_watched(c, p)) return;
     TearLoad at = tear_load(c, p);
     if (!(tear_data.weights.at[p] > 0.0)) at.load = 0.0;   // a pinned particle stays whole; cloth tears beside it
-    tear_data.loads.at[p] = vec4(at.load, at.x, at.y, at.end ? 1.0 : 0.0);
+    tear_data.loads.at[p] = vec4(at.load, at.x, at.y, (at.end ? 1.0 : 0.0) + (at.seam ? 2.0 : 0.0));
     if (at.load >= 1.0) tear_data.list.at[atomicAdd(tear_head.candidates, 1u)] = p;
 }
 

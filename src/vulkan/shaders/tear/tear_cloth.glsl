@@ -29,6 +29,8 @@ uint tear_next(TearCloth c, uint i) { return tear_data.entries.at[6u * i + 2u]; 
 uint tear_far(TearCloth c, uint i) { return tear_data.entries.at[6u * i + 3u]; }
 uint tear_next_far(TearCloth c, uint i) { return tear_data.entries.at[6u * i + 4u]; }
 uint tear_twin(TearCloth c, uint i) { return tear_data.entries.at[6u * i + 5u]; }
+uint tear_corner_vertex(TearCloth c, uint corner) { return tear_data.vertices.at[corner]; }
+bool tear_erodes(TearCloth c) { return tear_data.erodes != 0u; }
 uint tear_vertex_of(TearCloth c, uint particle) { return tear_data.vertex.at[particle]; }
 
 float tear_side_number(uint triangle, uint i) { return tear_data.sides.at[i * tear_data.stride + triangle]; }
@@ -46,13 +48,17 @@ float tear_along(TearCloth c, uint i, uint k) { return tear_data.numbers.at[6u *
 float tear_inverse_strength(TearCloth c, uint k) { return tear_data.inverse_strength[k]; }
 float tear_energy(TearCloth c) { return tear_data.energy; }
 float tear_inverse_stretch(TearCloth c) { return tear_data.inverse_stretch; }
+float tear_inverse_resistance(TearCloth c, uint vertex) { return tear_data.inverse_resistance.at[vertex]; }
+bool tear_has_seams(TearCloth c) { return tear_data.has_seams != 0u; }
+float tear_seam(TearCloth c, uint i, uint k) { return tear_data.seams.at[4u * i + k]; }
+float tear_watch_limit(TearCloth c, uint triangle, uint k) { return tear_data.watch.at[k * tear_data.stride + triangle]; }
 
 vec3 tear_position(TearCloth c, uint particle) { return tear_data.position.at[particle].xyz; }
 bool tear_is_watched(TearCloth c, uint particle) { return tear_data.watched.at[particle] != 0u; }
 TearLoad tear_kept_load(TearCloth c, uint particle)
 {
     vec4 kept = tear_data.loads.at[particle];
-    return TearLoad(kept.x, kept.y, kept.z, kept.w != 0.0);
+    return TearLoad(kept.x, kept.y, kept.z, kept.w == 1.0 || kept.w == 3.0, kept.w >= 2.0);
 }
 float tear_strayed(TearCloth c, uint vertex) { return tear_data.strayed.at[vertex]; }
 void tear_set_strayed(TearCloth c, uint vertex, float strayed) { tear_data.strayed.at[vertex] = strayed; }
@@ -112,8 +118,8 @@ void tear_end_row(TearCloth c, uint kind, uint row)
 
 uint tear_halves(TearCloth c) { return tear_data.halves; }
 uint tear_second_corner(TearCloth c, uint row, uint slot) { return tear_data.second.at[slot * tear_data.halves + row]; }
-// Marks the block of lines that has the row: a line may end in it.
-void tear_cut_line(TearCloth c, uint row)
+// The block of lines that has the row; none if the row is not on a line.
+uint tear_line_block(TearCloth c, uint row)
 {
     uint low = 0u, high = tear_data.block_count;   // blocks below `low` begin at or before the row
     while (low < high) {
@@ -121,11 +127,28 @@ void tear_cut_line(TearCloth c, uint row)
         if (tear_data.blocks.at[2u * middle] <= row) low = middle + 1u;
         else high = middle;
     }
-    if (low > 0u) {
-        uint block = low - 1u, length = tear_data.blocks.at[2u * block + 1u] & ~WEFT_CUT_BLOCK;
-        if (row < tear_data.blocks.at[2u * block] + length * WEFT_LANE_PADDING)
-            atomicOr(tear_data.blocks.at[2u * block + 1u], WEFT_CUT_BLOCK);
+    if (low == 0u) return 0xffffffffu;
+    uint block = low - 1u, length = tear_data.blocks.at[2u * block + 1u] & ~WEFT_CUT_BLOCK;
+    return row < tear_data.blocks.at[2u * block] + length * WEFT_LANE_PADDING ? block : 0xffffffffu;
+}
+// Marks the block of lines that has the row: a line may end in it.
+void tear_cut_line(TearCloth c, uint row)
+{
+    uint block = tear_line_block(c, row);
+    if (block != 0xffffffffu) atomicOr(tear_data.blocks.at[2u * block + 1u], WEFT_CUT_BLOCK);
+}
+// Turns a row of stretch constraints into padding. On a line it keeps its particles, and a negative compliance separates
+// the constraints before and after it. Without corners it is not updated any more.
+void tear_end_stretch(TearCloth c, uint row)
+{
+    uint stride = tear_kind_at(WEFT_TEAR_STRETCH).stride;
+    if (tear_line_block(c, row) == 0xffffffffu) {
+        tear_end_row(c, WEFT_TEAR_STRETCH, row);
+    } else {
+        tear_kind_at(WEFT_TEAR_STRETCH).fields.at[stride + row] = -1.0;
+        tear_kind_at(WEFT_TEAR_STRETCH).fields.at[2u * stride + row] = -1.0;
     }
+    tear_kind_at(WEFT_TEAR_STRETCH).corners.at[row] = 0xffffffffu;
 }
 // Constraints whose edge was open at the start of the frame have these numbers already.
 void tear_part_stiffness(TearCloth c, uint row)
@@ -136,6 +159,20 @@ void tear_part_stiffness(TearCloth c, uint row)
         tear_kind_at(WEFT_TEAR_STRETCH).fields.at[(k + 1u) * stride + row] = tear_data.half_fields.at[4u * row + k];
         tear_kind_at(WEFT_TEAR_STRETCH).fields.at[(k + 1u) * stride + second] = tear_data.half_fields.at[4u * row + 2u + k];
     }
+}
+
+// Whether the constraint has the stiffness of the one triangle at its edge that is left.
+bool tear_is_settled(TearCloth c, uint row) { return tear_data.settled.at[row] != 0u; }
+// Gives a constraint the stiffness of one of its two triangles. Its second half ends.
+void tear_settle(TearCloth c, uint row, bool first)
+{
+    uint stride = tear_kind_at(WEFT_TEAR_STRETCH).stride, second = tear_data.halves + row;
+    if (tear_row_particle(c, WEFT_TEAR_STRETCH, second, 0u) < tear_kind_at(WEFT_TEAR_STRETCH).first_dummy)
+        tear_end_row(c, WEFT_TEAR_STRETCH, second);
+    for (uint k = 0u; k < 2u; ++k)
+        tear_kind_at(WEFT_TEAR_STRETCH).fields.at[(k + 1u) * stride + row] =
+            tear_data.half_fields.at[4u * row + (first ? 0u : 2u) + k];
+    tear_data.settled.at[row] = 1u;
 }
 
 #include "physics/tear/rules.kernel.h"
