@@ -4,10 +4,14 @@
 #include "io/exports/exporter.h"
 #include "io/meshes/mesh_file.h"
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
+#include "scene/fabric.h"
 #include "solver/model/cut.test.h"
+#include "solver/model/drawn_pieces.test.h"
 #include "solver/world/world.h"
 #include "weft/backends.h"
 #include "weft/drawn_frame.h"
+#include "weft/scene_world.h"
 
 #include "base/temporary_folder.test.h"
 
@@ -156,6 +160,89 @@ TEST_P(TornExports, ShowEachFrameOfAClothThatIsCut) {
     EXPECT_NE(film.shown[2].positions.size(), film.shown[3].positions.size());
     EXPECT_NE(film.shown[4].triangles, film.shown[5].triangles);
     film.expect_film(2 * cut_side * cut_side + cut_side + 2);
+}
+
+/// A sheet of rubber with the sides along x pinned. The right one moves away in a second.
+SceneDesc pulled_sheet(MeshDesc mesh, Tearing tearing) {
+    SceneDesc scene;
+    scene.solver.substeps = 10;
+    SceneCloth cloth;
+    cloth.name = "pulled";
+    cloth.mesh = std::move(mesh);
+    cloth.fabric = find_fabric("rubber")->fabric;
+    cloth.fabric_name = "rubber";
+    cloth.tearing = tearing;
+    cloth.pins = {{.select = BoxPins{{{-0.51f, -1, -1}, {-0.49f, 1, 1}}}},
+                  {.select = BoxPins{{{0.49f, -1, -1}, {0.51f, 1, 1}}}, .motion = {{0, {}}, {1, {8, 1, 0}}}}};
+    scene.cloths = {cloth};
+    return scene;
+}
+
+/// Four patches with seams of UVs along x = 0 and z = 0.
+TriangleMesh patched_square() {
+    return testing_meshes::with_seams(make_grid({1, 1}, {17, 17}, GridDiagonal::alternating),
+                                      [](Vec3 at) { return 2 * (at.x > 0) + (at.z > 0); });
+}
+
+SceneWorld open_torn_world(const SceneDesc& scene, const std::string& backend) {
+    auto world = SceneWorld::create(scene, {.backend = backend});
+    EXPECT_TRUE(world.ok()) << world.error().message();
+    return std::move(*world);
+}
+
+// Beside a seam and across another one.
+const CutDesc beside_the_seam{.along = PlaneCut{{1, 0, 0}, 0.0625f}};
+
+TEST_P(TornExports, ShowEachFrameOfAClothWithSeamsThatIsCut) {
+    SceneWorld world = open_torn_world(pulled_sheet(patched_square(), Tearing::cuts), GetParam());
+    const ClothId id = world.world().cloth_id(0);
+    const auto cloth = [&]() -> const ClothFrame& { return world.world().frame().cloths[0]; };
+    const std::size_t vertices = cloth().render_mesh().positions.size();
+    EXPECT_EQ(vertices, 18u * 18);
+    Snapshot whole, parted;
+    std::vector<Vec3> shown_then;
+    TornFilmFolder film;
+    film.write(world.world(), 10, [&](std::uint64_t frame) {
+        if (frame == 3) {
+            const double area = test::drawn_area(cloth());
+            whole = world.world().save();
+            ASSERT_TRUE(world.cut(id, beside_the_seam, CutPositions::start).ok());
+            EXPECT_EQ(test::drawn_area(cloth()), area) << "closed at first";
+            EXPECT_EQ(test::widest_gap(cloth()), 0);
+        }
+        world.step();
+        EXPECT_EQ(test::expect_no_triangle_spans_pieces(*cloth().model).size(), frame < 3 ? 1u : 2u);
+        if (frame == 6) {
+            parted = world.world().save();
+            shown_then = cloth().render_mesh().positions;
+        }
+    });
+    EXPECT_GT(test::widest_gap(cloth()), 0.05f);
+    film.expect_film(vertices + 18);
+    // A restored world shows the same mesh.
+    const TriangleMesh mesh = cloth().model->mesh();
+    ASSERT_TRUE(world.world().restore(whole).ok());
+    EXPECT_EQ(cloth().render_mesh().positions.size(), vertices);
+    SceneWorld other = open_torn_world(pulled_sheet(patched_square(), Tearing::cuts), GetParam());
+    for (SceneWorld* restored : {&world, &other}) {
+        ASSERT_TRUE(restored->world().restore(parted).ok());
+        const ClothFrame& now = restored->world().frame().cloths[0];
+        EXPECT_EQ(now.model->mesh(), mesh);
+        EXPECT_EQ(now.render_mesh().positions, shown_then);
+    }
+}
+
+TEST_P(TornExports, ShowEachFrameOfAClothWithSeamsThatTears) {
+    SceneWorld world = open_torn_world(pulled_sheet(patched_square(), Tearing::split), GetParam());
+    TornFilmFolder film;
+    film.write(world.world(), 25, [&](std::uint64_t) {
+        world.step();
+        test::expect_no_triangle_spans_pieces(*world.world().frame().cloths[0].model);
+    });
+    const ClothFrame& cloth = world.world().frame().cloths[0];
+    EXPECT_GE(test::expect_no_triangle_spans_pieces(*cloth.model).size(), 2u);
+    EXPECT_GT(cloth.render_mesh().positions.size(), 18u * 18);
+    film.expect_film(cloth.render_mesh().positions.size());
 }
 
 constexpr const char* backends_of_build[] = {"cpu",

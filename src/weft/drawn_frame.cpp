@@ -37,7 +37,7 @@ void DrawnFrame::update(const Frame& frame, std::span<const SceneCloth> cloths) 
                         .rest_positions = mesh.rest_positions,
                         .topology_version = cloth.topology_version,
                         .material = drawn_material(cloth, find_cloth(cloths, cloth.model->name, i)),
-                        .spare_vertices = cloth.model->mesh_is_of_particles() ? cloth.model->reserve : 0};
+                        .spare_vertices = cloth.model->spare_vertices()};
     }
 }
 
