@@ -52,8 +52,8 @@ enum class Tethers { automatic, on, off };
 enum class SelfCollision { off, fast, exact };
 
 /// Whether a cloth can part. `cuts`: where Simulation::cut() and cuts of the scene open it. `split`: also by itself,
-/// along edges of its mesh, where its load exceeds the fabric's limits. Needs a mesh in which each vertex is one
-/// particle, and in which no edge has three triangles or more.
+/// along edges of its mesh, where its load exceeds the fabric's limits. Needs a mesh in which no edge has three
+/// triangles or more.
 enum class Tearing { off, cuts, split };
 
 /// `smooth`: neighboring triangles get the same gust. `scattered`: each triangle has its own phase and frequency.

@@ -68,7 +68,7 @@ struct WorldDesc {
 /// The render mesh of one cloth. The views point into the simulation and are valid until its next step or change.
 struct Surface {
     std::string_view name;
-    std::span<const Vec3> positions;  ///< m, one per vertex of the mesh as loaded; then copies from cuts
+    std::span<const Vec3> positions;  ///< m, one per vertex of the mesh as loaded; then those of cuts
     std::span<const Vec3> normals;    ///< unit, one per vertex
     std::span<const Vec2> uvs;        ///< one per vertex; empty if the mesh has no UVs
     std::span<const std::array<std::uint32_t, 3>> triangles;  ///< three vertex indices each

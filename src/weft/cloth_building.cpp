@@ -77,12 +77,6 @@ ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
     return {.particles = particles / 8 + 256, .openings = true, .tears = cloth.tearing == Tearing::split};
 }
 
-Result<void> check_tearing(const SceneCloth& cloth) {
-    if (cloth.tearing != Tearing::off && cloth.render_mesh)
-        return Error{"/tearing", "cannot be used with a render mesh"};
-    return {};
-}
-
 }  // namespace
 
 Fabric fabric_of(const SceneCloth& cloth) {
@@ -113,7 +107,6 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
     clock.spent_on(BuildPart::topology);
     note_report(cloth.name, topology->report, notes);
-    if (auto can = check_tearing(cloth); !can) return within(pointer, can.errors());
     const ClothReserve reserve = reserve_of(cloth, topology->particle_count);
 
     BuiltCloth built;

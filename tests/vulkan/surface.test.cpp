@@ -240,6 +240,12 @@ TEST_F(VulkanSurfaces, of_cloth_with_seams_that_is_cut) {
         {.mesh = testing_meshes::with_seams(sheet(), [](Vec3 at) { return 2 * (at.x > 0.2f) + (at.z > 0); })});
 }
 
+TEST_F(VulkanSurfaces, of_a_render_mesh_that_is_cut) {
+    TriangleMesh fine = make_grid({1.1f, 0.9f}, {31, 17}, GridDiagonal::cross);
+    for (Vec3& p : fine.positions) p.y += 0.02f * std::sin(20 * p.x);
+    expect_surfaces_of_cpu_when_cut({.mesh = sheet(), .render_mesh = fine});
+}
+
 // Random positions, some of them with normals and tangents of zero.
 TEST_F(VulkanSurfaces, of_particles_that_are_anywhere) {
     TriangleMesh fine = make_grid({1, 1}, {20, 20}, GridDiagonal::uniform);

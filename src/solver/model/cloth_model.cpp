@@ -153,6 +153,13 @@ void part_as_drawn(ClothModel& model, TriangleMesh mesh, Topology& topology) {
     model.reset_mesh();
 }
 
+// A render mesh of its own is cut along the edges of simulated triangles, so that it can part there.
+void part_as_bound(ClothModel& model, TriangleMesh drawn, const Topology& topology) {
+    drawn.normals = normals_to_draw(drawn);
+    model.parting = std::make_shared<const PartingMesh>(clip_to_triangles(drawn, topology), topology);
+    model.reset_mesh();
+}
+
 // A simulated mesh was checked when its topology was built.
 Result<void> check_drawn(const TriangleMesh& mesh) {
     const std::size_t count = mesh.positions.size();
@@ -287,8 +294,12 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     BuildClock clock(model->build_times);
     if (desc.render_mesh) {
         if (auto sound = check_drawn(*desc.render_mesh); !sound) return sound.errors();
-        model->binding = bind_mesh(*desc.render_mesh, topology);
-        model->set_mesh(std::move(*desc.render_mesh));
+        if (desc.reserve.openings) {
+            part_as_bound(*model, std::move(*desc.render_mesh), topology);
+        } else {
+            model->binding = bind_mesh(*desc.render_mesh, topology);
+            model->set_mesh(std::move(*desc.render_mesh));
+        }
     } else if (is_simulated_as_drawn(desc.mesh, topology)) {
         model->vertex_to_particle = std::move(topology.vertex_to_particle);
         model->set_mesh_of_particles(std::move(desc.mesh.uvs), std::move(desc.mesh.colors));
@@ -381,6 +392,7 @@ void ClothModel::reset_mesh() {
     if (parting) {
         PartingMesh::Parted now = parting->parted(triangles());
         vertex_to_particle = std::move(now.vertex_to_particle);
+        binding = std::move(now.binding);
         return set_mesh(std::move(now.mesh));
     }
     set_mesh_of_particles(std::vector<Vec2>(drawn_->mesh.uvs), std::vector<Vec4>(drawn_->mesh.colors));
