@@ -53,8 +53,7 @@ enum class SelfCollision { off, fast, exact };
 
 /// Whether a cloth can part. `cuts`: where Simulation::cut() and cuts of the scene open it. `split`: also by itself,
 /// along edges of its mesh, where its load exceeds the fabric's limits. `erode`: where an edge exceeds the fabric's
-/// `tear_ratio`, a triangle at it is removed. Needs a mesh in which each vertex is one particle, and in which no edge
-/// has three triangles or more.
+/// `tear_ratio`, a triangle at it is removed. Needs a mesh in which no edge has three triangles or more.
 enum class Tearing { off, cuts, split, erode };
 
 /// `smooth`: neighboring triangles get the same gust. `scattered`: each triangle has its own phase and frequency.

@@ -68,7 +68,7 @@ struct WorldDesc {
 /// The render mesh of one cloth. The views point into the simulation and are valid until its next step or change.
 struct Surface {
     std::string_view name;
-    std::span<const Vec3> positions;  ///< m, one per vertex of the mesh as loaded; then copies from cuts
+    std::span<const Vec3> positions;  ///< m, one per vertex of the mesh as loaded; then those of cuts
     std::span<const Vec3> normals;    ///< unit, one per vertex
     std::span<const Vec2> uvs;        ///< one per vertex; empty if the mesh has no UVs
     std::span<const std::array<std::uint32_t, 3>> triangles;  ///< three vertex indices each
@@ -146,9 +146,9 @@ class WEFT_API Simulation {
     /// later, in the same frame on every run.
     Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
     /// Opens edges of the cloth along a path or a plane, before the next frame; CutDesc::time is ignored. Particles on
-    /// the cut are doubled, so surface() has more vertices afterwards, appended to those before. The cloth needs a
-    /// tearing other than `off`. The open edges are part of save_state(), not of save_scene(). Fails if the cut meets
-    /// no closed edge, parts nothing (a single edge inside the cloth), leaves the cloth, or needs more copies of
+    /// the cut are doubled, so surface() may have more vertices afterwards, appended to those of the mesh. The cloth
+    /// needs a tearing other than `off`. The open edges are part of save_state(), not of save_scene(). Fails if the cut
+    /// meets no closed edge, parts nothing (a single edge inside the cloth), leaves the cloth, or needs more copies of
     /// particles than the cloth has room for: an eighth of its particles and 256.
     Result<void> cut(ClothId id, const CutDesc& cut, CutPositions positions = CutPositions::current);
     /// Moves the collider from its current pose to this one during the next frame; cloth in contact moves with it. The

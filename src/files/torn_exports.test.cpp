@@ -4,10 +4,14 @@
 #include "io/exports/exporter.h"
 #include "io/meshes/mesh_file.h"
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
+#include "scene/fabric.h"
 #include "solver/model/cut.test.h"
+#include "solver/model/drawn_pieces.test.h"
 #include "solver/world/world.h"
 #include "weft/backends.h"
 #include "weft/drawn_frame.h"
+#include "weft/scene_world.h"
 
 #include "base/temporary_folder.test.h"
 
@@ -92,9 +96,13 @@ class TornFilmFolder {
 
     /// Expects that the files show each frame, with so many vertices.
     void expect_film(std::size_t points) const {
+        expect_film();
+        EXPECT_EQ(load_mesh(folder_.path() / "film.obj")->positions.size(), points);
+    }
+    void expect_film() const {
         const Result<TriangleMesh> rest = load_mesh(folder_.path() / "film.obj");
         ASSERT_TRUE(rest.ok());
-        ASSERT_EQ(rest->positions.size(), points);
+        const std::size_t points = rest->positions.size();
         shown[0].expect_same(rest->triangles, rest->positions);
         std::ifstream file(folder_.path() / "film.pc2", std::ios::binary);
         const std::string cache{std::istreambuf_iterator<char>(file), {}};
@@ -156,6 +164,149 @@ TEST_P(TornExports, ShowEachFrameOfAClothThatIsCut) {
     EXPECT_NE(film.shown[2].positions.size(), film.shown[3].positions.size());
     EXPECT_NE(film.shown[4].triangles, film.shown[5].triangles);
     film.expect_film(2 * cut_side * cut_side + cut_side + 2);
+}
+
+/// A sheet of rubber with the sides along x pinned. The right one moves away in a second.
+SceneDesc pulled_sheet(MeshDesc mesh, Tearing tearing) {
+    SceneDesc scene;
+    scene.solver.substeps = 10;
+    SceneCloth cloth;
+    cloth.name = "pulled";
+    cloth.mesh = std::move(mesh);
+    cloth.fabric = find_fabric("rubber")->fabric;
+    cloth.fabric.tear.tear_ratio = tearing == Tearing::erode ? 1.5f : 0;
+    cloth.fabric_name = "rubber";
+    cloth.tearing = tearing;
+    cloth.pins = {{.select = BoxPins{{{-0.51f, -1, -1}, {-0.49f, 1, 1}}}},
+                  {.select = BoxPins{{{0.49f, -1, -1}, {0.51f, 1, 1}}}, .motion = {{0, {}}, {1, {8, 1, 0}}}}};
+    scene.cloths = {cloth};
+    return scene;
+}
+
+/// Four patches with seams of UVs along x = 0 and z = 0.
+TriangleMesh patched_square() {
+    return testing_meshes::with_seams(make_grid({1, 1}, {17, 17}, GridDiagonal::alternating),
+                                      [](Vec3 at) { return 2 * (at.x > 0) + (at.z > 0); });
+}
+
+SceneWorld open_torn_world(const SceneDesc& scene, const std::string& backend) {
+    auto world = SceneWorld::create(scene, {.backend = backend});
+    EXPECT_TRUE(world.ok()) << world.error().message();
+    return std::move(*world);
+}
+
+// Beside a seam and across another one.
+const CutDesc beside_the_seam{.along = PlaneCut{{1, 0, 0}, 0.0625f}};
+
+/// The simulated mesh is drawn, with seams; or a finer mesh with seams, out of step with it.
+SceneDesc seamed_sheet(bool bound, Tearing tearing) {
+    if (!bound) return pulled_sheet(patched_square(), tearing);
+    SceneDesc scene = pulled_sheet(GridDesc{.size = {1, 1}, .resolution = {17, 17}}, tearing);
+    scene.cloths[0].render_mesh = testing_meshes::with_seams(make_grid({1, 1}, {40, 36}, GridDiagonal::uniform),
+                                                             [](Vec3 at) { return 2 * (at.x > 0) + (at.z > 0); });
+    return scene;
+}
+
+void expect_cut_film(bool bound, const char* backend) {
+    SceneWorld world = open_torn_world(seamed_sheet(bound, Tearing::cuts), backend);
+    const ClothId id = world.world().cloth_id(0);
+    const auto cloth = [&]() -> const ClothFrame& { return world.world().frame().cloths[0]; };
+    const std::size_t vertices = cloth().render_mesh().positions.size();
+    Snapshot whole, parted;
+    std::vector<Vec3> shown_then;
+    TornFilmFolder film;
+    film.write(world.world(), 10, [&](std::uint64_t frame) {
+        if (frame == 3) {
+            const double area = test::drawn_area(cloth());
+            whole = world.world().save();
+            ASSERT_TRUE(world.cut(id, beside_the_seam, CutPositions::start).ok());
+            EXPECT_NEAR(test::drawn_area(cloth()), area, 1e-5 * area) << "closed at first";
+            // The surface is curved by the normals of its particles, which are one-sided on the cut.
+            EXPECT_LT(test::widest_gap(cloth()), bound ? 1e-4f : 1e-9f);
+        }
+        world.step();
+        EXPECT_EQ(test::expect_no_triangle_spans_pieces(*cloth().model).size(), frame < 3 ? 1u : 2u);
+        if (frame == 6) {
+            parted = world.world().save();
+            shown_then = cloth().render_mesh().positions;
+        }
+    });
+    EXPECT_GT(test::widest_gap(cloth()), 0.05f);
+    const std::size_t appended = cloth().render_mesh().positions.size() - vertices;
+    if (bound) {
+        EXPECT_GT(appended, 36u + 35);
+    } else {
+        EXPECT_EQ(appended, 18u);
+    }
+    film.expect_film(vertices + appended);
+    // A restored world shows the same mesh.
+    const TriangleMesh mesh = cloth().model->mesh();
+    ASSERT_TRUE(world.world().restore(whole).ok());
+    EXPECT_EQ(cloth().render_mesh().positions.size(), vertices);
+    SceneWorld other = open_torn_world(seamed_sheet(bound, Tearing::cuts), backend);
+    for (SceneWorld* restored : {&world, &other}) {
+        ASSERT_TRUE(restored->world().restore(parted).ok());
+        const ClothFrame& now = restored->world().frame().cloths[0];
+        EXPECT_EQ(now.model->mesh(), mesh);
+        EXPECT_EQ(now.render_mesh().positions, shown_then);
+    }
+}
+
+void expect_torn_film(bool bound, const char* backend) {
+    SceneWorld world = open_torn_world(seamed_sheet(bound, Tearing::split), backend);
+    const std::size_t vertices = world.world().frame().cloths[0].render_mesh().positions.size();
+    TornFilmFolder film;
+    film.write(world.world(), 25, [&](std::uint64_t) {
+        world.step();
+        test::expect_no_triangle_spans_pieces(*world.world().frame().cloths[0].model);
+    });
+    const ClothFrame& cloth = world.world().frame().cloths[0];
+    EXPECT_GE(test::expect_no_triangle_spans_pieces(*cloth.model).size(), 2u);
+    EXPECT_GT(test::widest_gap(cloth), 0.2f);
+    EXPECT_GT(cloth.render_mesh().positions.size(), vertices);
+    film.expect_film(cloth.render_mesh().positions.size());
+}
+
+// Drawn triangles of removed ones have no area. All others keep theirs.
+void expect_eroded_film(bool bound, const char* backend) {
+    SceneWorld world = open_torn_world(seamed_sheet(bound, Tearing::erode), backend);
+    const auto cloth = [&]() -> const ClothFrame& { return world.world().frame().cloths[0]; };
+    const double whole = test::area_of(cloth().render_mesh().triangles, cloth().render_mesh().rest_positions);
+    TornFilmFolder film;
+    film.write(world.world(), 25, [&](std::uint64_t) { world.step(); });
+    double left = 0;
+    for (const float area : cloth().model->face_area) left += double{area};
+    EXPECT_LT(left, 0.99 * whole);
+    EXPECT_NEAR(test::area_of(cloth().render_mesh().triangles, cloth().render_mesh().rest_positions), left,
+                1e-4 * whole);
+    EXPECT_GT(test::expect_no_triangle_spans_pieces(*cloth().model).size(), 1u);
+    for (const Vec3& x : cloth().render_mesh().positions) EXPECT_TRUE(std::isfinite(x.x + x.y + x.z));
+    for (const Vec3& n : cloth().render_mesh().normals) EXPECT_TRUE(std::isfinite(n.x + n.y + n.z));
+    film.expect_film();
+    const TriangleMesh mesh = cloth().model->mesh();
+    const Snapshot state = world.world().save();
+    SceneWorld other = open_torn_world(seamed_sheet(bound, Tearing::erode), backend);
+    ASSERT_TRUE(other.world().restore(state).ok());
+    EXPECT_EQ(other.world().frame().cloths[0].model->mesh(), mesh);
+}
+
+TEST_P(TornExports, ShowEachFrameOfAClothWithSeamsThatErodes) {
+    expect_eroded_film(false, GetParam());
+}
+TEST_P(TornExports, ShowEachFrameOfARenderMeshThatErodes) {
+    expect_eroded_film(true, GetParam());
+}
+TEST_P(TornExports, ShowEachFrameOfAClothWithSeamsThatIsCut) {
+    expect_cut_film(false, GetParam());
+}
+TEST_P(TornExports, ShowEachFrameOfAClothWithSeamsThatTears) {
+    expect_torn_film(false, GetParam());
+}
+TEST_P(TornExports, ShowEachFrameOfARenderMeshThatIsCut) {
+    expect_cut_film(true, GetParam());
+}
+TEST_P(TornExports, ShowEachFrameOfARenderMeshThatTears) {
+    expect_torn_film(true, GetParam());
 }
 
 constexpr const char* backends_of_build[] = {"cpu",

@@ -1,10 +1,12 @@
-// Degenerate meshes. Tests only.
+// Degenerate meshes, and meshes with seams. Tests only.
 #pragma once
 
 #include "mesh/triangle_mesh.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace weft::testing_meshes {
 
@@ -54,6 +56,32 @@ inline TriangleMesh pieces(std::uint32_t count) {
         add_triangle(mesh, {x, 0, 0}, {x, 0, 0.5f}, {x + 0.5f, 0, 0});
     }
     return mesh;
+}
+
+/// Gives each group of triangles its own vertices, at the same positions. UVs of group g are moved by (g, 0), so that
+/// they differ along the seams. `group_of(center)`: the group of a triangle, from its center.
+template <class GroupOf>
+TriangleMesh with_seams(const TriangleMesh& mesh, GroupOf&& group_of) {
+    TriangleMesh split;
+    std::map<std::pair<int, std::uint32_t>, std::uint32_t> made;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Vec3 sum = mesh.positions[triangle[0]] + mesh.positions[triangle[1]] + mesh.positions[triangle[2]];
+        const int group = group_of(sum * (1.0f / 3));
+        Triangle own{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [at, is_new] =
+                made.try_emplace({group, triangle[k]}, static_cast<std::uint32_t>(split.positions.size()));
+            own[k] = at->second;
+            if (!is_new) continue;
+            split.positions.push_back(mesh.positions[triangle[k]]);
+            const Vec2 uv = mesh.uvs.empty() ? Vec2{mesh.positions[triangle[k]].x, mesh.positions[triangle[k]].z}
+                                             : mesh.uvs[triangle[k]];
+            split.uvs.push_back({uv.x + static_cast<float>(group), uv.y});
+            split.colors.push_back({static_cast<float>(group & 1), 0.5f, 0, 1});
+        }
+        split.triangles.push_back(own);
+    }
+    return split;
 }
 
 }  // namespace weft::testing_meshes

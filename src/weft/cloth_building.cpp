@@ -82,19 +82,6 @@ ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
             .erodes = erodes};
 }
 
-// Openings change the triangles of particles, so the drawn mesh must have the same ones.
-Result<void> check_tearing(const SceneCloth& cloth, const TriangleMesh& mesh, const Topology& topology) {
-    if (cloth.tearing == Tearing::off) return {};
-    if (cloth.render_mesh) return Error{"/tearing", "cannot be used with a render mesh"};
-    if (topology.particle_count == mesh.positions.size() && topology.triangles.size() == mesh.triangles.size())
-        return {};
-    return Error{"/tearing",
-                 "needs a mesh in which every vertex is one particle: " + std::to_string(mesh.positions.size()) +
-                     " vertices make " + std::to_string(topology.particle_count) +
-                     " particles (seams of UVs, or "
-                     "vertices and triangles left out)"};
-}
-
 }  // namespace
 
 Fabric fabric_of(const SceneCloth& cloth) {
@@ -125,7 +112,6 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     if (!topology) return within(pointer + "/mesh: " + loaded->from, topology.errors());
     clock.spent_on(BuildPart::topology);
     note_report(cloth.name, topology->report, notes);
-    if (auto can = check_tearing(cloth, loaded->mesh, *topology); !can) return within(pointer, can.errors());
     const ClothReserve reserve = reserve_of(cloth, topology->particle_count);
 
     BuiltCloth built;

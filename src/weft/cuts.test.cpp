@@ -1,7 +1,9 @@
 // Cuts of scenes and of programs.
 
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
 #include "scene/fabric.h"
+#include "solver/model/drawn_pieces.test.h"
 #include "solver/model/tear_law.h"
 #include "solver/model/tear_table.h"
 #include "weft/scene_world.h"
@@ -178,6 +180,39 @@ TEST(SceneCuts, give_the_model_of_a_cloth_that_was_built_so) {
     ASSERT_FALSE(a.hierarchy.empty());
     for (std::size_t i = 0; i < a.hierarchy.size(); ++i)
         EXPECT_EQ(a.hierarchy[i].limits.fields, b.hierarchy[i].limits.fields);
+}
+
+// Cloth that is not drawn as it is simulated: with seams of UVs, and with a render mesh of its own.
+TEST(SceneCuts, part_what_is_drawn) {
+    const auto patches = [](Vec3 at) { return 2 * (at.x > 0.2f) + (at.z > 0.1f); };
+    SceneDesc seams = curtain_with({down_the_middle, from_the_left}), bound = seams;
+    seams.cloths[0].mesh =
+        testing_meshes::with_seams(make_grid({1, 1}, {cut_side, cut_side}, GridDiagonal::alternating), patches);
+    bound.cloths[0].render_mesh =
+        testing_meshes::with_seams(make_grid({1, 1}, {50, 47}, GridDiagonal::uniform), patches);
+    for (const SceneDesc& scene : {seams, bound}) {
+        SceneWorld world = open_cut_world(scene);
+        const TriangleMesh built = only_model(world).mesh();
+        step(world, 8);
+        const std::size_t half = only_model(world).mesh().positions.size();
+        EXPECT_GE(half, built.positions.size() + cut_side);
+        step(world, 7);
+        EXPECT_GE(only_model(world).mesh().positions.size(), half + 16);
+        EXPECT_EQ(copies_in(world), cut_side + 17);
+        EXPECT_EQ(only_model(world).mesh().triangles.size(), built.triangles.size());
+        EXPECT_EQ(test::expect_no_triangle_spans_pieces(only_model(world)).size(), 2u);
+        // The same mesh in a model that is built again, and none of the cuts in one without them.
+        const TriangleMesh cut = only_model(world).mesh();
+        Fabric fabric = find_fabric("cotton")->fabric;
+        fabric.bend.model = BendModel::distance;
+        ASSERT_TRUE(world.set_fabric(only_cloth(world), fabric, "cotton").ok());
+        EXPECT_EQ(only_model(world).mesh(), cut);
+        EXPECT_EQ(test::expect_no_triangle_spans_pieces(only_model(world)).size(), 2u);
+        EXPECT_EQ(world.world().unedited_model(only_cloth(world))->mesh(), built);
+        step(world, 10);
+        EXPECT_EQ(world.world().frame().reports, report_none);
+        EXPECT_GT(test::widest_gap(world.world().frame().cloths[0]), 1e-3f);
+    }
 }
 
 std::size_t pinned_copies(const SceneWorld& world) {

@@ -21,12 +21,6 @@ const Material* drawn_material(const ClothFrame& cloth, const SceneCloth* descri
     return described ? &material_of(*described) : &find_material("cotton")->material;
 }
 
-// In an animation, copies of particles and the corners of removed triangles need vertices of their own.
-std::size_t spare_vertices(const ClothModel& model) {
-    if (!model.mesh_is_of_particles()) return 0;
-    return model.reserve + (model.reserved.erodes ? std::size_t{3} * model.triangle_count : 0);
-}
-
 }  // namespace
 
 void DrawnFrame::update(const Frame& frame, std::span<const SceneCloth> cloths) {
@@ -43,7 +37,7 @@ void DrawnFrame::update(const Frame& frame, std::span<const SceneCloth> cloths) 
                         .rest_positions = mesh.rest_positions,
                         .topology_version = cloth.topology_version,
                         .material = drawn_material(cloth, find_cloth(cloths, cloth.model->name, i)),
-                        .spare_vertices = spare_vertices(*cloth.model)};
+                        .spare_vertices = cloth.model->spare_vertices()};
     }
 }
 

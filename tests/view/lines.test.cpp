@@ -41,20 +41,25 @@ TEST(WireframeOverlay, has_every_edge_once_on_either_side) {
 }
 
 TEST(RimsOverlay, has_both_sides_of_each_open_edge) {
-    TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::uniform);
-    ClothModelDesc desc{.name = "sheet", .reserve = {.particles = 20, .openings = true}};
-    auto topology = build_topology(mesh, {.reorder = false});
-    desc.mesh = std::move(mesh);
-    World world = make_world({});
-    const ClothId id = world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
-    EXPECT_TRUE(Shown(world).draw("rims").lines.empty());
-    const auto& model = world.model(id);
-    ASSERT_TRUE(world.edit(id, {.openings = openings_along_plane(*model, model->start, {}, {1, 0, 0})}).ok());
-    Shown shown(world);
-    const OverlayOutput output = shown.draw("rims");
-    EXPECT_EQ(output.lines.size(), 8u * 2 * 2) << "edges, sides of the cut, sides of the surface";
-    for (const render::Line& line : output.lines) EXPECT_NEAR(line.from.x, 0, 0.01f);
-    EXPECT_EQ(output.legends[0].entries[0].text, "open edges: 8");
+    for (const bool bound : {false, true}) {
+        TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::uniform);
+        ClothModelDesc desc{.name = "sheet", .reserve = {.particles = 20, .openings = true}};
+        auto topology = build_topology(mesh, {.reorder = false});
+        desc.mesh = std::move(mesh);
+        if (bound) desc.render_mesh = make_grid({1, 1}, {20, 20}, GridDiagonal::alternating);
+        World world = make_world({});
+        const ClothId id = world.add(*build_cloth_model(std::move(desc), std::move(*topology)));
+        EXPECT_TRUE(Shown(world).draw("rims").lines.empty());
+        const std::size_t closed = Shown(world).draw("wireframe").lines.size();
+        const auto& model = world.model(id);
+        ASSERT_TRUE(world.edit(id, {.openings = openings_along_plane(*model, model->start, {}, {1, 0, 0})}).ok());
+        Shown shown(world);
+        const OverlayOutput output = shown.draw("rims");
+        EXPECT_EQ(output.lines.size(), 8u * 2 * 2) << "edges, sides of the cut, sides of the surface";
+        for (const render::Line& line : output.lines) EXPECT_NEAR(line.from.x, 0, 0.01f);
+        EXPECT_EQ(output.legends[0].entries[0].text, "open edges: 8");
+        EXPECT_GE(shown.draw("wireframe").lines.size(), closed + 2 * 8) << "both sides of the cut";
+    }
 }
 
 TEST(WireframeOverlay, is_that_of_the_mesh_that_is_drawn) {

@@ -5,6 +5,8 @@
 #include "vulkan_fixture.h"
 
 #include "mesh/procedural.h"
+#include "mesh/testing.h"
+#include "solver/model/cuts.h"
 #include "solver/world/world.h"
 #include "vulkan/interop.h"
 
@@ -20,14 +22,18 @@ struct ModelDesc {
     TriangleMesh mesh = {};
     std::optional<TriangleMesh> render_mesh = {};
     std::vector<std::uint32_t> pins = {0};
+    ClothReserve reserve = {};
 };
 
 std::shared_ptr<const ClothModel> make_model(ModelDesc desc) {
     auto topology = build_topology(desc.mesh, {.reorder = true});
     EXPECT_TRUE(topology.ok());
-    auto model = build_cloth_model(
-        {.name = "cloth", .mesh = desc.mesh, .render_mesh = desc.render_mesh, .pins = {.particles = desc.pins}},
-        std::move(*topology));
+    auto model = build_cloth_model({.name = "cloth",
+                                    .mesh = desc.mesh,
+                                    .render_mesh = desc.render_mesh,
+                                    .pins = {.particles = desc.pins},
+                                    .reserve = desc.reserve},
+                                   std::move(*topology));
     EXPECT_TRUE(model.ok());
     return *model;
 }
@@ -169,6 +175,24 @@ class VulkanSurfaces : public testing::Test {
         EXPECT_LT(world().frame().cloths.back().velocities.back().y, 0) << "it falls";
     }
 
+    /// Before and after a cut through the middle.
+    void expect_surfaces_of_cpu_when_cut(ModelDesc desc) {
+        desc.reserve = {.particles = 100, .openings = true};
+        const ClothId id = add(std::move(desc));
+        step(2);
+        expect_surface_of_cpu(id);
+        const std::uint32_t vertices = surface(id).vertex_count;
+        const auto positions = world().frame().cloths[0].positions;
+        const std::vector<Opening> middle = openings_along_plane(*world().model(id), positions, {}, {1, 0, 0});
+        ASSERT_TRUE(world().edit(id, {.openings = middle}).ok());
+        EXPECT_GT(surface(id).vertex_count, vertices);
+        expect_surface_of_cpu(id);
+        for (int i = 0; i < 3; ++i) {
+            step(2);
+            expect_surface_of_cpu(id);
+        }
+    }
+
     std::unique_ptr<World> world_;
     VulkanInterop* interop_ = nullptr;
     std::optional<ReadBack> reader_;
@@ -209,6 +233,17 @@ TEST_F(VulkanSurfaces, that_follow_another_mesh) {
     TriangleMesh ball = make_sphere(0.35f, 3);
     ball.normals.clear();
     expect_surfaces_of_cpu({.mesh = make_sphere(0.3f, 1), .render_mesh = ball});
+}
+
+TEST_F(VulkanSurfaces, of_cloth_with_seams_that_is_cut) {
+    expect_surfaces_of_cpu_when_cut(
+        {.mesh = testing_meshes::with_seams(sheet(), [](Vec3 at) { return 2 * (at.x > 0.2f) + (at.z > 0); })});
+}
+
+TEST_F(VulkanSurfaces, of_a_render_mesh_that_is_cut) {
+    TriangleMesh fine = make_grid({1.1f, 0.9f}, {31, 17}, GridDiagonal::cross);
+    for (Vec3& p : fine.positions) p.y += 0.02f * std::sin(20 * p.x);
+    expect_surfaces_of_cpu_when_cut({.mesh = sheet(), .render_mesh = fine});
 }
 
 // Random positions, some of them with normals and tangents of zero.

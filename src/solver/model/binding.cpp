@@ -1,6 +1,5 @@
 #include "solver/model/binding.h"
 
-#include "collide/closest_point.h"
 #include "mesh/weld.h"
 #include "physics/scalar.h"
 
@@ -41,8 +40,9 @@ std::vector<Vec3> area_weighted_normals(std::span<const Vec3> positions, std::sp
     return sums;
 }
 
-// Smooth across seams: vertices at the same position share their normal. Zero if the triangles define none.
-std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
+}  // namespace
+
+std::vector<Vec3> normals_to_draw(const TriangleMesh& mesh) {
     if (!mesh.normals.empty()) return mesh.normals;
     const Weld weld = weld_vertices(mesh.positions, 0);
     std::vector<Triangle> triangles = mesh.triangles;
@@ -53,30 +53,42 @@ std::vector<Vec3> normals_of(const TriangleMesh& mesh) {
     return normals;
 }
 
-}  // namespace
+Binder::Binder(const Topology& topology) : topology_(topology), search_(topology.rest_positions, topology.triangles) {
+    for (const Vec3 p : topology.rest_positions) positions_.push_back({p.x, p.y, p.z, 0});
+    for (const Vec3 n : area_weighted_normals(topology.rest_positions, topology.triangles))
+        normals_.push_back(n == Vec3{} ? Vec4{0, 1, 0, 0} : Vec4{n.x, n.y, n.z, 0});
+}
+
+BoundVertex Binder::bind(Vec3 position, Vec3 normal, std::uint32_t triangle,
+                         const std::array<double, 3>& weights) const {
+    BoundVertex vertex{.particles = topology_.triangles[triangle],
+                       .weights = {static_cast<float>(weights[1]), static_cast<float>(weights[2])},
+                       .offset = {},
+                       .normal = {}};
+    const FollowFrame frame = frame_at(vertex, positions_, normals_);
+    vertex.offset = to_local(frame, position - gathered(frame.origin));
+    const Vec3 local = to_local(frame, normal);
+    vertex.normal = dot(local, local) > 0.25f ? normalized(local) : Vec3{0, 0, 1};
+    return vertex;
+}
+
+double Binder::bind_to(std::uint32_t triangle, Vec3 position, Vec3 normal, BoundVertex& bound) const {
+    const auto& [a, b, c] = topology_.triangles[triangle];
+    const auto& at = topology_.rest_positions;
+    const TrianglePoint point = closest_on_triangle(position, at[a], at[b], at[c]);
+    bound = bind(position, normal, triangle, point.weights);
+    return point.squared_distance;
+}
 
 Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology) {
-    std::vector<Vec4> positions, normals;
-    for (const Vec3 p : topology.rest_positions) positions.push_back({p.x, p.y, p.z, 0});
-    for (const Vec3 n : area_weighted_normals(topology.rest_positions, topology.triangles))
-        normals.push_back(n == Vec3{} ? Vec4{0, 1, 0, 0} : Vec4{n.x, n.y, n.z, 0});
-    const std::vector<Vec3> drawn_normals = normals_of(drawn);
-    const SurfaceSearch search(topology.rest_positions, topology.triangles);
-
+    const Binder binder(topology);
+    const std::vector<Vec3> normals = normals_to_draw(drawn);
     Binding binding;
     std::vector<BoundVertex> vertices;
     vertices.reserve(drawn.positions.size());
     for (std::size_t v = 0; v < drawn.positions.size(); ++v) {
-        const SurfacePoint point = search.closest(drawn.positions[v]);
-        BoundVertex vertex{.particles = topology.triangles[point.triangle],
-                           .weights = {static_cast<float>(point.weights[1]), static_cast<float>(point.weights[2])},
-                           .offset = {},
-                           .normal = {}};
-        const FollowFrame frame = frame_at(vertex, positions, normals);
-        vertex.offset = to_local(frame, drawn.positions[v] - gathered(frame.origin));
-        const Vec3 normal = to_local(frame, drawn_normals[v]);
-        vertex.normal = dot(normal, normal) > 0.25f ? normalized(normal) : Vec3{0, 0, 1};
-        vertices.push_back(vertex);
+        const SurfacePoint point = binder.closest(drawn.positions[v]);
+        vertices.push_back(binder.bind(drawn.positions[v], normals[v], point.triangle, point.weights));
         binding.farthest = std::max(binding.farthest, static_cast<float>(point.distance));
     }
     binding.vertices = std::move(vertices);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/shared_array.h"
+#include "collide/closest_point.h"
 #include "mesh/topology.h"
 
 #include <weft/vector.h>
@@ -30,8 +31,29 @@ struct Binding {
     bool empty() const { return vertices.empty(); }
 };
 
-/// Binds every vertex of the render mesh to the closest triangle at rest. Normals are those of the render mesh, or are
-/// computed from its shape if it has none. Its positions must be finite.
+/// Binds points to triangles of the simulated mesh at rest. Keeps a reference to the topology.
+class Binder {
+  public:
+    explicit Binder(const Topology& topology);
+
+    SurfacePoint closest(Vec3 position) const { return search_.closest(position); }
+    /// `weights`: barycentric, of the bound point. `normal`: unit, or zero for that of the surface.
+    BoundVertex bind(Vec3 position, Vec3 normal, std::uint32_t triangle, const std::array<double, 3>& weights) const;
+    /// Binds to the closest point of the triangle. Returns the squared distance from it, m².
+    double bind_to(std::uint32_t triangle, Vec3 position, Vec3 normal, BoundVertex& bound) const;
+
+  private:
+    const Topology& topology_;
+    std::vector<Vec4> positions_, normals_;
+    SurfaceSearch search_;
+};
+
+/// The normals of a render mesh, or those of its shape if it has none: smooth across seams, zero where the triangles
+/// define none.
+std::vector<Vec3> normals_to_draw(const TriangleMesh& mesh);
+
+/// Binds every vertex of the render mesh to the closest triangle at rest, with normals_to_draw(). Its positions must be
+/// finite.
 Binding bind_mesh(const TriangleMesh& drawn, const Topology& topology);
 
 /// Computes positions (m) and unit normals of the render vertices from those of the particles. At rest the result is

@@ -63,7 +63,7 @@ struct ClothEdit {
 /// triangles keeps its mass. If particles or triangles change, coarse levels are removed, and tethers stay unless
 /// `rows` removes them; openings alone rebuild both for each piece. All other data is shared with `from`. Fails on
 /// indices out of range, on constraints of one batch that would share a particle, and if the model's reserve is used
-/// up. Changes of particles and triangles also fail unless each vertex of the render mesh is one particle.
+/// up. `appended` and `triangles` also fail unless each vertex of the render mesh is one particle.
 Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit);
 
 /// The same for openings alone, with exactly these particles pinned, copies included.

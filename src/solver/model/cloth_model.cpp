@@ -7,6 +7,7 @@
 #include "scene/scene_keys.h"
 #include "solver/model/lines.h"
 #include "solver/model/masses.h"
+#include "solver/model/parting_mesh.h"
 #include "solver/model/tear_law.h"
 #include "solver/model/tear_table.h"
 
@@ -140,6 +141,23 @@ void measure_edges(ClothModel& model, const RestShape& rest) {
 // Whether every vertex is a particle, and every triangle a face.
 bool is_simulated_as_drawn(const TriangleMesh& mesh, const Topology& topology) {
     return topology.particle_count == mesh.positions.size() && topology.triangles.size() == mesh.triangles.size();
+}
+
+// Drawn triangles must have the numbers of the simulated ones to follow their corners.
+void part_as_drawn(ClothModel& model, TriangleMesh mesh, Topology& topology) {
+    std::vector<Triangle> kept;
+    for (const std::uint32_t source : topology.source_triangle) kept.push_back(mesh.triangles[source]);
+    mesh.triangles = std::move(kept);
+    model.parting = std::make_shared<const PartingMesh>(std::move(mesh), std::move(topology.vertex_to_particle),
+                                                        model.reserved.particles);
+    model.reset_mesh();
+}
+
+// A render mesh of its own is cut along the edges of simulated triangles, so that it can part there.
+void part_as_bound(ClothModel& model, TriangleMesh drawn, const Topology& topology) {
+    drawn.normals = normals_to_draw(drawn);
+    model.parting = std::make_shared<const PartingMesh>(clip_to_triangles(drawn, topology), topology);
+    model.reset_mesh();
 }
 
 // A simulated mesh was checked when its topology was built.
@@ -276,15 +294,19 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     BuildClock clock(model->build_times);
     if (desc.render_mesh) {
         if (auto sound = check_drawn(*desc.render_mesh); !sound) return sound.errors();
-        model->binding = bind_mesh(*desc.render_mesh, topology);
+        if (desc.reserve.openings) {
+            part_as_bound(*model, std::move(*desc.render_mesh), topology);
+        } else {
+            model->binding = bind_mesh(*desc.render_mesh, topology);
+            model->set_mesh(std::move(*desc.render_mesh));
+        }
+    } else if (is_simulated_as_drawn(desc.mesh, topology)) {
+        model->vertex_to_particle = std::move(topology.vertex_to_particle);
+        model->set_mesh_of_particles(std::move(desc.mesh.uvs), std::move(desc.mesh.colors));
+    } else if (desc.reserve.openings) {
+        part_as_drawn(*model, std::move(desc.mesh), topology);
     } else {
         model->vertex_to_particle = std::move(topology.vertex_to_particle);
-    }
-    if (desc.render_mesh) {
-        model->set_mesh(std::move(*desc.render_mesh));
-    } else if (is_simulated_as_drawn(desc.mesh, topology)) {
-        model->set_mesh_of_particles(std::move(desc.mesh.uvs), std::move(desc.mesh.colors));
-    } else {
         model->set_mesh(std::move(desc.mesh));
     }
     clock.spent_on(BuildPart::rest);
@@ -317,17 +339,19 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
     model->collision = collision;
     model->binding = from.binding;
     model->tear_paint = from.tear_paint;
+    model->parting = from.parting;
     if (from.binding.empty() && is_simulated_as_drawn(mesh, topology)) {
         model->set_mesh_of_particles(mesh.uvs, mesh.colors);
-    } else {
+    } else if (!from.parting) {
         model->set_mesh(from.mesh());
     }
     model->vertex_to_particle = from.vertex_to_particle;
-    if (!from.copied_from.empty())  // without its copies
+    if (!from.copied_from.empty() && !from.parting)  // without its copies
         model->vertex_to_particle = std::vector<std::uint32_t>(
             from.vertex_to_particle.begin(), from.vertex_to_particle.begin() + std::ptrdiff_t(mesh.positions.size()));
     if (auto done = lay_out(*model, mesh, topology, fabric, pins, {}, layout, from.reserved); !done)
         return done.errors();
+    if (model->parting) model->reset_mesh();
     return std::shared_ptr<const ClothModel>(std::move(model));
 }
 
@@ -366,7 +390,21 @@ void ClothModel::append_vertices(const std::vector<std::uint32_t>& sources) {
 }
 
 void ClothModel::reset_mesh() {
+    if (parting) {
+        PartingMesh::Parted now = parting->parted(triangles());
+        vertex_to_particle = std::move(now.vertex_to_particle);
+        binding = std::move(now.binding);
+        return set_mesh(std::move(now.mesh));
+    }
     set_mesh_of_particles(std::vector<Vec2>(drawn_->mesh.uvs), std::vector<Vec4>(drawn_->mesh.colors));
+}
+
+std::size_t ClothModel::spare_vertices() const {
+    if (!parting && !mesh_is_of_particles()) return 0;
+    // In an animation, corners of removed triangles need vertices of their own.
+    const std::size_t removed = reserved.erodes ? 3 * mesh().triangles.size() : 0;
+    if (!parting) return reserve + removed;
+    return removed + parting->most_appended() + parting->built().positions.size() - mesh().positions.size();
 }
 
 void ClothModel::set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors) {

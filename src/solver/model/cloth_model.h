@@ -65,6 +65,7 @@ struct ClothReserve {
     bool erodes = false;            ///< where it tears, triangles are removed; implies tears
 };
 
+class PartingMesh;
 struct TearTable;
 struct TearLaw;
 struct TearPaint;
@@ -97,7 +98,7 @@ struct ClothModel {
     std::string name;
     /// Binding of the render mesh to the simulated mesh. Empty if they are the same.
     Binding binding;
-    SharedArray<std::uint32_t> vertex_to_particle;  ///< as in Topology; empty with a binding
+    SharedArray<std::uint32_t> vertex_to_particle;  ///< as in Topology, and appended vertices; empty with a binding
     Fabric fabric;                                  ///< `tether.use` is on or off, never automatic
     Tethers tethers_asked = Tethers::automatic;     ///< `tether.use` as requested
     ClothCollision collision;
@@ -137,6 +138,8 @@ struct ClothModel {
     /// of.
     SharedArray<std::uint32_t> copied_from;
     SharedArray<float> strayed;  ///< OpenedArrays::strayed; empty without openings
+    /// Null unless the edges can be opened and the render mesh is not the simulated one, vertex by vertex.
+    std::shared_ptr<const PartingMesh> parting;
 
     BuildTimes build_times;
 
@@ -154,8 +157,10 @@ struct ClothModel {
     bool mesh_is_of_particles() const { return drawn_->of_particles && binding.empty(); }
     /// Appends vertices to a mesh of particles, before the particles are appended: copies of the vertices of `sources`.
     void append_vertices(const std::vector<std::uint32_t>& sources);
-    /// Recomputes a mesh of particles from the current particles and triangles.
+    /// Recomputes a mesh of particles, or one that parts, from the current particles and triangles.
     void reset_mesh();
+    /// The most vertices that openings and edits can still append to the drawn mesh; an upper bound.
+    std::size_t spare_vertices() const;
 
     /// Points are ordered: particles, reserved particles, anchors, reserved anchors.
     std::uint32_t first_anchor() const { return particle_count + reserve; }
@@ -207,7 +212,8 @@ std::vector<float> face_masses(const ClothModel& model);
 
 /// Builds a model. `topology` is that of `desc.mesh`. Fails if the density is ≤ 0 or not finite, if the inverse of a
 /// particle mass is not > 0 and finite in float, if a pinned or attached particle is out of range, if a compliance is
-/// not > 0 and finite, or if the render mesh is malformed.
+/// not > 0 and finite, or if the render mesh is malformed. If edges can be opened, triangles that the topology leaves
+/// out are not drawn either.
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology);
 
 /// Builds a model of the same mesh with another fabric, other pins, another layout or other collision. `mesh`

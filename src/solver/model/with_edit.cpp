@@ -53,10 +53,10 @@ class Editor {
     Result<std::shared_ptr<const ClothModel>> run(const ClothEdit& edit) {
         const bool has_openings = !edit.openings.empty(), other = !edit.appended.empty() || !edit.triangles.empty();
         const bool reshaped = has_openings || other;
-        if (reshaped && !model_->mesh_is_of_particles())
-            return Error{
-                "cloth '" + model_->name + "'",
-                "has a render mesh of its own, or vertices that share a particle: its triangles cannot change"};
+        if (reshaped && !model_->mesh_is_of_particles() && (other || !model_->parting))
+            return Error{"cloth '" + model_->name + "'",
+                         "has a render mesh of its own, or vertices that share a particle: only openings can change "
+                         "its triangles"};
         for (std::size_t i = 0; i < edit.appended.size(); ++i)
             if (auto known = check_particle("appended particle " + std::to_string(i), edit.appended[i]); !known)
                 return known.errors();
@@ -174,7 +174,7 @@ class Editor {
         }
         model_->start = std::move(start);
         model_->mass = std::move(mass);
-        model_->append_vertices(sources);
+        if (!model_->parting) model_->append_vertices(sources);
         std::vector<std::uint32_t> copied_from(model_->copied_from.begin(), model_->copied_from.end());
         copied_from.insert(copied_from.end(), sources.begin(), sources.end());
         model_->copied_from = std::move(copied_from);

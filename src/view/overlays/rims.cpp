@@ -5,7 +5,7 @@
 
 namespace weft::overlay {
 
-// Both sides of each open edge. Cloth that can be cut is drawn as it is simulated, vertex by vertex.
+// Both sides of each open edge.
 void rims(const OverlayInput& input, OverlayOutput& output) {
     constexpr Vec4 color{1.0f, 0.35f, 0.05f, 1};
     const float width = pixels(input, 2);
@@ -14,15 +14,11 @@ void rims(const OverlayInput& input, OverlayOutput& output) {
         const std::vector<OpenEdge> open = open_edges(*cloth.model);
         count += open.size();
         if (open.empty()) continue;
-        const std::vector<std::uint32_t> vertex = first_vertices(*cloth.model);
-        const auto& positions = cloth.render_mesh().positions;
-        const auto& normals = cloth.render_mesh().normals;
         const float lifted = lift(input, *cloth.model);
         for (const OpenEdge& sides : open) {
             for (const auto& [a, b] : sides) {
-                const std::uint32_t from = vertex[a], to = vertex[b];
-                add_line_on_surface(output.lines, positions[from], positions[to], normals[from], normals[to], lifted,
-                                    color, width);
+                add_line_on_surface(output.lines, cloth.positions[a].xyz(), cloth.positions[b].xyz(),
+                                    cloth.normals[a].xyz(), cloth.normals[b].xyz(), lifted, color, width);
             }
         }
     }

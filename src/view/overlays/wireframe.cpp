@@ -36,10 +36,12 @@ std::vector<Ends> unique_edges(const Triangles& triangles, Welded&& welded) {
     return edges;
 }
 
-// The edges of the render mesh, as pairs of vertices. An edge along a seam appears once.
+// The edges of the render mesh, as pairs of vertices. An edge along a seam appears once, until the cloth parts: then
+// both sides of a cut would be at the same place at rest.
 std::vector<Ends> drawn_edges(const ClothFrame& cloth) {
     if (!cloth.model->binding.empty()) {
         const RenderMesh& mesh = cloth.render_mesh();
+        if (!cloth.model->copied_from.empty()) return unique_edges(mesh.triangles, [](auto v) { return v; });
         const Weld weld = weld_vertices(mesh.rest_positions, 0);
         std::vector<Ends> edges = unique_edges(mesh.triangles, [&](auto v) { return weld.vertex_to_welded[v]; });
         for (Ends& edge : edges) edge = {weld.first_vertex[edge[0]], weld.first_vertex[edge[1]]};
