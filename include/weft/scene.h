@@ -315,6 +315,9 @@ struct ClothDesc {
     float tether_slack = 0;  ///< fraction by which a particle may exceed the geodesic distance, 0…100
     SelfCollision self_collision = SelfCollision::off;
     Tearing tearing = Tearing::off;
+    /// 0…5: copies of particles that openings can make, as a fraction of the particles; 256 more are always there. 5 is
+    /// enough for any cloth to fall into single triangles.
+    float tear_room = 0.125f;
     std::uint32_t collision_group = 0;          ///< 0…31
     std::uint32_t collision_mask = 0xffffffff;  ///< bit g: collides with cloths of group g
     std::uint32_t layer =

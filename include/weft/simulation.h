@@ -149,7 +149,7 @@ class WEFT_API Simulation {
     /// the cut are doubled, so surface() may have more vertices afterwards, appended to those of the mesh. The cloth
     /// needs a tearing other than `off`. The open edges are part of save_state(), not of save_scene(). Fails if the cut
     /// meets no closed edge, parts nothing (a single edge inside the cloth), leaves the cloth, or needs more copies of
-    /// particles than the cloth has room for: an eighth of its particles and 256.
+    /// particles than the cloth has room for (ClothDesc::tear_room).
     Result<void> cut(ClothId id, const CutDesc& cut, CutPositions positions = CutPositions::current);
     /// Moves the collider from its current pose to this one during the next frame; cloth in contact moves with it. The
     /// collider then stays there. Position in m; rotation in degrees, R = Rz·Ry·Rx. Ends a motion by keys.

@@ -37,6 +37,12 @@ Range ClothRun::particles(Worker worker) const {
     return as_range(worker.of(padded(model().point_count())));
 }
 
+// Openings bring particles of the reserve into use within a frame. Passes that keep something per worker during a frame
+// need the ranges of all points.
+Range ClothRun::particles_in_use(Worker worker) const {
+    return as_range(worker.of(padded(cloth_.points_in_use())));
+}
+
 bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {
     const Pass& pass = island_pass.pass;
     if (!island_pass.all && !takes_part(planned_, pass)) return false;
@@ -45,7 +51,7 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
         return false;
     }
     if (pass.kind == PassKind::tear) {
-        if (worker.number == 0) cloth_.tearing->run(model(), cloth_.now(), cloth_.weights(), substep);
+        if (worker.number == 0) cloth_.tearing->run(passes_, model(), cloth_.now(), cloth_.weights(), substep);
         return false;
     }
     switch (pass_info(pass.kind).over) {
@@ -76,11 +82,11 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
     const auto without_anchors = [&](std::uint32_t end) { return Range{mine.begin, std::min(mine.end, end)}; };
     switch (pass.kind) {
         case PassKind::predict:
-            return passes_.predict(view_, mine, input_.gravity, numbers_.max_speed, numbers_.h);
+            return passes_.predict(view_, particles_in_use(worker), input_.gravity, numbers_.max_speed, numbers_.h);
         case PassKind::advance:
-            return passes_.advance(view_, mine, input_.gravity, numbers_.max_speed, numbers_.h);
+            return passes_.advance(view_, particles_in_use(worker), input_.gravity, numbers_.max_speed, numbers_.h);
         case PassKind::velocities:
-            return passes_.velocities(view_, mine, numbers_.max_speed, numbers_.h);
+            return passes_.velocities(view_, particles_in_use(worker), numbers_.max_speed, numbers_.h);
         case PassKind::targets:
             run_targets(substep, mine);
             break;

@@ -29,6 +29,7 @@ class ClothRun {
 
   private:
     Range particles(Worker worker) const;
+    Range particles_in_use(Worker worker) const;
     bool run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_targets(std::uint32_t substep, Range mine) const;
     ColliderPart& cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;

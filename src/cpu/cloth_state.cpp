@@ -214,6 +214,11 @@ const std::uint32_t* ClothState::faces() const {
     return tearing ? tearing->arrays().faces.data() : model->faces.data();
 }
 
+std::uint32_t ClothState::points_in_use() const {
+    if (model->anchor_count > 0) return model->point_count();  // anchors follow the reserve
+    return tearing ? tearing->arrays().particle_count : model->particle_count;
+}
+
 void ClothState::begin_tearing() {
     tearing = model->tear_law ? std::make_unique<Tearing>(*model) : nullptr;
 }

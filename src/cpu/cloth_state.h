@@ -78,6 +78,8 @@ struct ClothState {
     const AlignedVector<float>& stretch_lambda() const {
         return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)];
     }
+    /// Points from 0 on that a pass goes over: without unused ones in reserve, if no anchors follow them.
+    std::uint32_t points_in_use() const;
     RowView rows(ConstraintKind kind);
     /// Whether any of these second halves of stretch constraints is in use (tear_table.h).
     bool uses_halves(std::uint32_t begin, std::uint32_t end) const;

@@ -4,13 +4,26 @@
 #include <bit>
 
 namespace weft::cpu {
+namespace {
+
+// A triangle with this part of the largest load that its particles can have is one around which an edge may open in the
+// substep. The load of a particle is at most the largest of its triangles: it is that of their mean stress. The
+// difference to 1 is room for rounding.
+constexpr float loaded_part_of_load = 0.99f;
+
+}  // namespace
 
 Tearing::Tearing(const ClothModel& model) : arrays_(model) {
     const std::size_t room = std::size_t{arrays_.particle_count} + arrays_.room;
     vertex_.reserve(room);
     hot_.resize(model.face_stride / lane_padding);
+    loaded_triangles_.resize(hot_.size());
+    is_near_.resize(hot_.size());
+    near_.reserve(hot_.size());
     is_watched_.resize(room);
     loads_.resize(room);
+    is_loaded_.resize(room);
+    loaded_.reserve(room);
     watched_.reserve(room), ends_.reserve(room), chosen_.reserve(room);
     openings_.reserve(arrays_.room);
     set_model(model);
@@ -43,32 +56,46 @@ void Tearing::list_ends(const ClothModel& model) {
 }
 
 void Tearing::watch(const Passes& passes, const ClothModel& model, const float* position, Range triangles) {
-    const TearLaw& law = *model.tear_law;
-    passes.watch_tears({.position = position,
-                        .faces = arrays_.faces.data(),
-                        .stride = model.face_stride,
-                        .sides = law.sides.data(),
-                        .limits = law.watch.data(),
-                        .hot = hot_.data()},
-                       watched_part_of_load, triangles);
+    passes.watch_tears(view(model, position, hot_), watched_part_of_load, triangles);
 }
 
-void Tearing::add_watched(std::uint32_t particle) {
+TearView Tearing::view(const ClothModel& model, const float* position, std::vector<std::uint16_t>& hot) const {
+    const TearLaw& law = *model.tear_law;
+    return {.position = position,
+            .faces = arrays_.faces.data(),
+            .stride = model.face_stride,
+            .sides = law.sides.data(),
+            .limits = law.watch.data(),
+            .hot = hot.data()};
+}
+
+void Tearing::add_watched(const ClothModel& model, std::uint32_t particle) {
     if (is_watched_[particle]) return;
     is_watched_[particle] = 1;
     watched_.push_back(particle);
+    const TearTable& table = *model.tears;
+    const std::uint32_t vertex = vertex_[particle];
+    for (std::uint32_t i = table.ring_begin[vertex]; i < table.ring_begin[vertex + 1]; ++i) {
+        const std::uint32_t packet = table.entries[i].corner % model.face_stride / lane_padding;
+        if (is_near_[packet]) continue;
+        is_near_[packet] = 1;
+        near_.push_back(packet);
+    }
 }
 
 void Tearing::begin_watching(const ClothModel& model) {
     for (const std::uint32_t p : watched_) is_watched_[p] = 0;
     watched_.clear();
+    for (const std::uint32_t packet : near_) is_near_[packet] = 0;
+    near_.clear();
     for (std::uint32_t packet = 0; packet < hot_.size(); ++packet) {
         for (unsigned bits = hot_[packet]; bits != 0; bits &= bits - 1) {
             const std::uint32_t t = packet * lane_padding + static_cast<std::uint32_t>(std::countr_zero(bits));
-            for (std::uint32_t k = 0; k < 3; ++k) add_watched(arrays_.faces[std::size_t{k} * model.face_stride + t]);
+            for (std::uint32_t k = 0; k < 3; ++k)
+                add_watched(model, arrays_.faces[std::size_t{k} * model.face_stride + t]);
         }
     }
-    for (const std::uint32_t p : ends_) add_watched(p);
+    for (const std::uint32_t p : ends_) add_watched(model, p);
 }
 
 // The particles that share a triangle with one at the vertex.
@@ -76,8 +103,28 @@ void Tearing::add_around(const ClothModel& model, std::uint32_t vertex) {
     const TearTable& table = *model.tears;
     for (std::uint32_t i = table.ring_begin[vertex]; i < table.ring_begin[vertex + 1]; ++i) {
         const std::uint32_t t = table.entries[i].corner % model.face_stride;
-        for (std::uint32_t k = 0; k < 3; ++k) add_watched(arrays_.faces[std::size_t{k} * model.face_stride + t]);
+        for (std::uint32_t k = 0; k < 3; ++k) add_watched(model, arrays_.faces[std::size_t{k} * model.face_stride + t]);
     }
+}
+
+// Lists the watched particles that may open: those of loaded triangles, and the ends of cuts.
+void Tearing::list_loaded(const Passes& passes, const ClothModel& model, const float* position) {
+    for (const std::uint32_t p : loaded_) is_loaded_[p] = 0, loads_[p] = {};
+    loaded_.clear();
+    const auto add = [&](std::uint32_t p) {
+        if (!is_watched_[p] || is_loaded_[p]) return;
+        is_loaded_[p] = 1;
+        loaded_.push_back(p);
+    };
+    const TearView triangles = view(model, position, loaded_triangles_);
+    for (const std::uint32_t packet : near_) {
+        passes.watch_tears(triangles, loaded_part_of_load, {packet * lane_padding, (packet + 1) * lane_padding});
+        for (unsigned bits = loaded_triangles_[packet]; bits != 0; bits &= bits - 1) {
+            const std::uint32_t t = packet * lane_padding + static_cast<std::uint32_t>(std::countr_zero(bits));
+            for (std::uint32_t k = 0; k < 3; ++k) add(arrays_.faces[std::size_t{k} * model.face_stride + t]);
+        }
+    }
+    for (const std::uint32_t p : ends_) add(p);
 }
 
 // Particles at the vertex have other masses now, unless they are pinned.
@@ -116,9 +163,12 @@ void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& 
     }
 }
 
-void Tearing::run(const ClothModel& model, const Particles& now, std::span<float> weights, std::uint32_t substep) {
+void Tearing::run(const Passes& passes, const ClothModel& model, const Particles& now, std::span<float> weights,
+                  std::uint32_t substep) {
     if (substep == 0) begin_watching(model);
     if (watched_.empty()) return;
+    list_loaded(passes, model, &now.position.data()->x);
+    if (loaded_.empty()) return;
     const StretchLaw law(model.fabric.stretch);
     const scalar::TearAccess access{.model = model,
                                     .arrays = arrays_,
@@ -127,12 +177,12 @@ void Tearing::run(const ClothModel& model, const Particles& now, std::span<float
                                     .vertex = vertex_.data(),
                                     .watched = is_watched_.data(),
                                     .loads = loads_.data()};
-    for (const std::uint32_t p : watched_) {
+    for (const std::uint32_t p : loaded_) {
         loads_[p] = scalar::tear_load(access, p);
         if (!(weights[p] > 0)) loads_[p].load = 0;  // a pinned particle stays whole; cloth tears beside it
     }
     chosen_.clear();
-    for (const std::uint32_t p : watched_)
+    for (const std::uint32_t p : loaded_)
         if (loads_[p].load >= 1 && scalar::tear_is_largest(access, p, loads_[p])) chosen_.push_back(p);
     std::ranges::sort(chosen_);
     if (chosen_.size() > WEFT_TEAR_MOST_OPENINGS) chosen_.resize(WEFT_TEAR_MOST_OPENINGS);

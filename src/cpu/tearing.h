@@ -32,12 +32,15 @@ class Tearing {
     /// frame.
     void watch(const Passes& passes, const ClothModel& model, const float* position, Range triangles);
     /// Opens edges. One worker calls it in every substep.
-    void run(const ClothModel& model, const Particles& now, std::span<float> weights, std::uint32_t substep);
+    void run(const Passes& passes, const ClothModel& model, const Particles& now, std::span<float> weights,
+             std::uint32_t substep);
 
   private:
     void list_ends(const ClothModel& model);
     void begin_watching(const ClothModel& model);
-    void add_watched(std::uint32_t particle);
+    TearView view(const ClothModel& model, const float* position, std::vector<std::uint16_t>& hot) const;
+    void add_watched(const ClothModel& model, std::uint32_t particle);
+    void list_loaded(const Passes& passes, const ClothModel& model, const float* position);
     void add_around(const ClothModel& model, std::uint32_t vertex);
     void open(const scalar::TearAccess& access, const scalar::TearOpening& opening, const Particles& now,
               std::span<float> weights);
@@ -46,14 +49,19 @@ class Tearing {
 
     OpenedArrays arrays_;
     std::vector<Opening> openings_;
-    std::vector<std::uint32_t> vertex_;           ///< per particle
-    std::vector<std::uint16_t> hot_;              ///< per lane_padding triangles: a bit for each that is watched
-    std::vector<std::uint32_t> ends_;             ///< particles at which a cut ends, ascending
-    std::vector<std::uint8_t> is_watched_;        ///< per particle
-    std::vector<std::uint32_t> watched_;          ///< particles
-    std::vector<scalar::TearLoad> loads_;         ///< per particle; valid where it is watched
-    std::vector<std::uint32_t> chosen_;           ///< particles
-    std::vector<ParticleWeight> weights_before_;  ///< those that this frame has changed, in the order of the changes
+    std::vector<std::uint32_t> vertex_;            ///< per particle
+    std::vector<std::uint16_t> hot_;               ///< per lane_padding triangles: a bit for each that is watched
+    std::vector<std::uint32_t> ends_;              ///< particles at which a cut ends, ascending
+    std::vector<std::uint8_t> is_watched_;         ///< per particle
+    std::vector<std::uint32_t> watched_;           ///< particles
+    std::vector<std::uint32_t> near_;              ///< packets of the triangles at watched particles
+    std::vector<std::uint8_t> is_near_;            ///< per packet
+    std::vector<std::uint16_t> loaded_triangles_;  ///< as hot_, in this substep; valid in near packets
+    std::vector<std::uint8_t> is_loaded_;          ///< per particle
+    std::vector<std::uint32_t> loaded_;            ///< watched particles that may open in this substep
+    std::vector<scalar::TearLoad> loads_;          ///< per particle; no load unless it is loaded
+    std::vector<std::uint32_t> chosen_;            ///< particles
+    std::vector<ParticleWeight> weights_before_;   ///< those that this frame has changed, in the order of the changes
 };
 
 }  // namespace weft::cpu

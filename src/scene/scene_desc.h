@@ -54,6 +54,7 @@ struct SceneCloth {
     float tether_slack = 0;  ///< relative to the geodesic distance
     SelfCollision self_collision = SelfCollision::off;
     Tearing tearing = Tearing::off;
+    float tear_room = 0.125f;  ///< copies of particles, as a fraction of the particles
     std::uint32_t collision_group = 0;
     std::uint32_t collision_mask = ~0u;
     std::uint32_t layer = 0;

@@ -184,6 +184,9 @@ inline constexpr Parameter cloth_keys[] = {
      .what = "whether it can part: never; where it is cut; also by itself where its load exceeds the fabric's limits; "
              "or where it is cut, and by losing triangles whose edges exceed `tear_ratio`",
      .choices = "off|cuts|split|erode"},
+    {.key = "tear_room", .offset = offsetof(SceneCloth, tear_room), .min = 0, .max = 5,
+     .what = "room for copies of particles where it parts, as a fraction of its particles; 256 more are always there; "
+             "with `tearing`"},
     {.key = "collision_group", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, collision_group),
      .max = 31, .what = "group of the cloth, for `collision_mask`"},
     {.key = "collision_mask", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, collision_mask),

@@ -72,11 +72,11 @@ ClothCollision collision_of(const SceneCloth& cloth) {
     return {cloth.self_collision, {1u << cloth.collision_group, cloth.collision_mask}, cloth.layer};
 }
 
-// Room for an eighth of the particles to be doubled, and for some in small cloths.
 ClothReserve reserve_of(const SceneCloth& cloth, std::uint32_t particles) {
     if (cloth.tearing == Tearing::off) return {};
     const bool erodes = cloth.tearing == Tearing::erode;
-    return {.particles = particles / 8 + 256,
+    constexpr std::uint32_t least = 256;
+    return {.particles = least + static_cast<std::uint32_t>(cloth.tear_room * static_cast<float>(particles)),
             .openings = true,
             .tears = erodes || cloth.tearing == Tearing::split,
             .erodes = erodes};

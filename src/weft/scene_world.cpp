@@ -61,6 +61,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .tether_slack = cloth.tether_slack,
             .self_collision = cloth.self_collision,
             .tearing = cloth.tearing,
+            .tear_room = cloth.tear_room,
             .collision_group = cloth.collision_group,
             .collision_mask = cloth.collision_mask,
             .layer = cloth.layer,
@@ -70,8 +71,8 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
 /// Whether the first can be changed to the second while it moves.
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
     return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform &&
-           a.velocity == b.velocity && a.tearing == b.tearing && a.cuts == b.cuts && a.seams == b.seams &&
-           a.resistance == b.resistance;
+           a.velocity == b.velocity && a.tearing == b.tearing && a.tear_room == b.tear_room && a.cuts == b.cuts &&
+           a.seams == b.seams && a.resistance == b.resistance;
 }
 bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
     return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&

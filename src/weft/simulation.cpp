@@ -34,6 +34,7 @@ SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
             .tether_slack = desc.tether_slack,
             .self_collision = desc.self_collision,
             .tearing = desc.tearing,
+            .tear_room = desc.tear_room,
             .collision_group = desc.collision_group,
             .collision_mask = desc.collision_mask,
             .layer = desc.layer};
