@@ -174,6 +174,32 @@ TEST(Cuts, are_counted_by_edges_and_pieces) {
     EXPECT_NEAR(pieces().smallest.part, 0.25, 1e-6);
 }
 
+// One half is moved through the plane of the other one, where the rims meet. They coincide at rest.
+TEST(Cuts, leave_rims_that_do_not_pass_through_each_other) {
+    constexpr std::uint32_t side = 17;
+    TriangleMesh mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating);
+    ClothModelDesc desc{.name = "curtain",
+                        .collision = {SelfCollision::exact},
+                        .layout = {.lines = true, .hierarchy = true},
+                        .reserve = {.particles = 100, .openings = true}};
+    const auto model =
+        make_upright(std::move(desc), std::move(mesh), [](Vec3 x) { return x.z < -0.499f && std::abs(x.x) > 0.1f; });
+    // To and fro through the other half's plane, rim against rim.
+    std::vector<OffsetKey> keys{{0, {}}, {0.2f, {-0.02f, 0, 0.01f}}};
+    for (int i = 0; i < 6; ++i)
+        keys.push_back({0.4f + 0.3f * static_cast<float>(i), {0.01f, 0, i % 2 == 0 ? -0.04f : 0.04f}});
+    KinematicTargets targets{.motions = {{.offsets = keys}}, .particles = {}};
+    for (std::uint32_t p = 0; p < model->particle_count; ++p)
+        if (const Vec3 x = model->rest_position(p); x.x < -0.1f && !(model->start[p].w > 0))
+            targets.particles.push_back({p, 0, x});
+    World world = make_world({.solver = solver_with(true)});
+    const ClothId id = world.add(model, targets);
+    ASSERT_TRUE(world.edit(id, {.openings = down_the_middle(world, id)}).ok());
+    std::uint64_t tangled = 0;
+    for (int i = 0; i < 120; ++i) tangled += world.step(1.0 / 60).cloth_contacts.tangled;
+    EXPECT_EQ(tangled, 0u);
+}
+
 #ifdef WEFT_VULKAN
 TEST(Cuts, are_the_same_on_both_backends) {
     for (const bool lines : {true, false}) {
