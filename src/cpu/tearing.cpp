@@ -148,7 +148,7 @@ void Tearing::open(const scalar::TearAccess& access, const scalar::TearOpening& 
                    std::span<float> weights) {
     const std::uint32_t before = arrays_.particle_count;
     const Opening links{{opening.first, opening.second}, {opening.first_strayed, opening.second_strayed}};
-    if (!Opener(access.model, arrays_).open(links)) return;
+    if (!Opener(access.model, arrays_, access.stretch).open(links)) return;
     openings_.push_back(links);
     for (std::uint32_t copy = before; copy < arrays_.particle_count; ++copy) {
         const std::uint32_t from = arrays_.copied_from[copy - access.model.tears->vertex_count()];

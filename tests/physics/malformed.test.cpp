@@ -121,6 +121,7 @@ TriangleMesh scaled(TriangleMesh mesh, float scale, Vec3 offset) {
     return mesh;
 }
 
+// Labels on Vulkan: no-asan
 TEST_F(Malformed, meshes_by_every_method) {
     const TriangleMesh grid = make_grid({1, 1}, {5, 5}, GridDiagonal::cross);
     const TriangleMesh meshes[] = {messy_mesh(),

@@ -465,6 +465,7 @@ struct BothBackends {
     bool erodes = false, painted = false;
 };
 
+// Labels: slow no-asan
 TEST(Tearing, is_the_same_on_both_backends) {
     for (const BothBackends& both :
          {BothBackends{}, BothBackends{.jitter = 0.25f, .wind = true},

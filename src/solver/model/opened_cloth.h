@@ -52,6 +52,9 @@ class Opener {
   public:
     /// `model` must have a tear table, and must be the one from which `arrays` were copied or an earlier one.
     Opener(const ClothModel& model, OpenedArrays& arrays);
+    /// `law`: that of the model's fabric.
+    Opener(const ClothModel& model, OpenedArrays& arrays, const StretchLaw& law)
+        : model_(model), arrays_(arrays), law_(law) {}
 
     /// Removes the triangle of a link, or parts the triangles at the vertex of the links along these edges. If they
     /// then form several fans, the first fan keeps the particle, and each other fan gets a copy. The same is done at
