@@ -142,58 +142,89 @@ TEST(Kite, pulls_its_line_where_air_and_weight_pull_the_kite) {
 
 // --- Spinnaker ---
 
+struct SailDesc {
+    double slack = 1;  // length over the distance between the masts
+    std::uint32_t substeps = 80;
+    bool hierarchy = false;
+};
+
+struct Sail {
+    double depth = 0, parabola = 0;    // m
+    double tension = 0, expected = 0;  // N/m, in the middle
+    double off = 0;                    // m: the farthest from the parabola
+};
+
 // Without lift the air pushes each part along the wind, by the area that the part shows to it. So a sail between two
-// masts is a parabola, and the tension in its middle is q d²/(8 f), with the pressure q, the distance d and the depth
-// f.
+// masts is a parabola, and the tension in its middle is H = q d²/(8 f), with the pressure q, the distance d and the
+// depth f.
+Sail blow(const SailDesc& desc) {
+    SheetDesc sheet{.size = {1, 0.25f},
+                    .resolution = {65, 17},
+                    .rotation_degrees = {90, 0, 0},
+                    .fabric = find_fabric("ripstop")->fabric,
+                    .layout = {.lines = true, .hierarchy = desc.hierarchy},
+                    .pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f; }};
+    sheet.fabric.air.lift = 0;
+    const double d = 1 / desc.slack, q = 0.5 * sail_air * 1.28 * 36, k = double{sheet.fabric.stretch.stretch[0]};
+    // m: the length at rest of a parabola of this depth, whose tension is H √(1 + slope²).
+    const auto length_at_rest = [&](double f) {
+        const double u = 4 * f / d;
+        return 0.5 * d * (std::sqrt(1 + u * u) + std::asinh(u) / u) - q * d * d / (8 * f) / k * d * (1 + u * u / 3);
+    };
+    double low = 1e-3, high = 1;
+    for (int i = 0; i < 60; ++i) (length_at_rest(0.5 * (low + high)) < 1 ? low : high) = 0.5 * (low + high);
+    Sail sail{.parabola = low, .expected = q * d * d / (8 * low)};
+
+    const auto flat = make_sheet(sheet);
+    KinematicTargets targets;
+    for (const float way : {-1.0f, 1.0f})
+        targets.motions.push_back({.offsets = {{0, {}}, {1, {way * (static_cast<float>(d) - 1) / 2, 0, 0}}}});
+    for (std::uint32_t p = 0; p < flat->particle_count; ++p) {
+        const Vec3 x = flat->rest_position(p);
+        if (std::abs(x.x) > 0.499f) targets.particles.push_back({p, x.x > 0 ? 1u : 0u, x});
+    }
+    World world =
+        make_world({.gravity = {},
+                    .solver = {.substeps = desc.substeps, .projection = Projection::lines, .hierarchy = desc.hierarchy},
+                    .air = AirDesc{.wind = {{.velocity = {0, 0, 6}}}}});
+    world.add(flat, targets);
+    run(world, 2.5);
+    const ClothFrame& cloth = world.frame().cloths[0];
+    const ClothTension tension = measure_tension(make_stress_table(*cloth.model, cloth.triangles), cloth.positions);
+    double count = 0;
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+        const Vec3 x = cloth.positions[p].xyz();
+        const double along = 2 * double{x.x} / d;
+        sail.depth = std::max(sail.depth, double{x.z});
+        sail.off = std::max(sail.off, std::abs(double{x.z} - sail.parabola * (1 - along * along)));
+        if (std::abs(cloth.model->rest_position(p).x) < 0.05f) sail.tension += tension.tension[p], ++count;
+    }
+    sail.tension /= count;
+    std::printf(
+        "  sail of %.2f times the distance, %2u substeps%s: depth %.4f m (parabola %.4f), off by at most %.1f mm, "
+        "tension "
+        "%.2f N/m, expected %.2f (%+.1f %%), speed %.3f m/s\n",
+        desc.slack, desc.substeps, desc.hierarchy ? " and coarse levels" : "", sail.depth, sail.parabola,
+        1000 * sail.off, sail.tension, sail.expected, 100 * (sail.tension / sail.expected - 1),
+        max_speed(world.frame()));
+    return sail;
+}
+
 TEST(Spinnaker, is_a_parabola_whose_tension_carries_the_pressure) {
     for (const double slack : {1.05, 1.2, 1.5}) {
-        const double d = 1 / slack, q = 0.5 * sail_air * 1.28 * 36, k = 6000;  // m, N/m², N/m
-        // m: the length at rest of a parabola of this depth, whose tension is H √(1 + slope²) with H = q d²/(8 f).
-        const auto length_at_rest = [&](double f) {
-            const double u = 4 * f / d;
-            return 0.5 * d * (std::sqrt(1 + u * u) + std::asinh(u) / u) - q * d * d / (8 * f) / k * d * (1 + u * u / 3);
-        };
-        double low = 1e-3, high = 1;
-        for (int i = 0; i < 60; ++i) (length_at_rest(0.5 * (low + high)) < 1 ? low : high) = 0.5 * (low + high);
-        const double depth = low, expected = q * d * d / (8 * depth);
-        SheetDesc sheet{.size = {1, 0.25f},
-                        .resolution = {65, 17},
-                        .fabric = find_fabric("ripstop")->fabric,
-                        .layout = {.lines = true},
-                        .pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f; }};
-        sheet.fabric.air.lift = 0;
-        sheet.rotation_degrees = {90, 0, 0};
-        const auto flat = make_sheet(sheet);
-        KinematicTargets targets;
-        for (const float way : {-1.0f, 1.0f})
-            targets.motions.push_back({.offsets = {{0, {}}, {1, {way * (static_cast<float>(d) - 1) / 2, 0, 0}}}});
-        for (std::uint32_t p = 0; p < flat->particle_count; ++p) {
-            const Vec3 x = flat->rest_position(p);
-            if (std::abs(x.x) > 0.499f) targets.particles.push_back({p, x.x > 0 ? 1u : 0u, x});
-        }
-        World world = make_world({.gravity = {},
-                                  .solver = {.substeps = 80, .projection = Projection::lines},
-                                  .air = AirDesc{.wind = {{.velocity = {0, 0, 6}}}}});
-        world.add(flat, targets);
-        run(world, 6);
-        const ClothFrame& cloth = world.frame().cloths[0];
-        const ClothTension tension = measure_tension(make_stress_table(*cloth.model, cloth.triangles), cloth.positions);
-        double off = 0, deepest = 0, middle = 0, count = 0;
-        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
-            const Vec3 x = cloth.positions[p].xyz();
-            const double along = 2 * double{x.x} / d;
-            deepest = std::max(deepest, double{x.z});
-            off = std::max(off, std::abs(double{x.z} - depth * (1 - along * along)));
-            if (std::abs(cloth.model->rest_position(p).x) < 0.05f) middle += tension.tension[p], ++count;
-        }
-        std::printf(
-            "  sail of %.2f times the distance: depth %.4f m (parabola %.4f), off by at most %.1f mm, tension %.2f "
-            "N/m, "
-            "expected %.2f (%+.1f %%), speed %.3f m/s\n",
-            slack, deepest, depth, 1000 * off, middle / count, expected, 100 * (middle / count / expected - 1),
-            max_speed(world.frame()));
-        EXPECT_NEAR(deepest, depth, 0.01 * depth);
-        EXPECT_NEAR(middle / count, expected, 0.05 * expected);
+        const Sail sail = blow({.slack = slack});
+        EXPECT_NEAR(sail.depth, sail.parabola, 0.01 * sail.parabola);
+        EXPECT_LT(sail.off, 1e-3);
+        EXPECT_NEAR(sail.tension, sail.expected, 0.03 * sail.expected);
+    }
+}
+
+// Known error: stretch of a stiff and light cloth under load has not converged with few substeps.
+TEST(Spinnaker, is_too_deep_with_few_substeps) {
+    for (const std::uint32_t substeps : {20u, 40u}) {
+        const Sail sail = blow({.slack = 1.05, .substeps = substeps, .hierarchy = true});
+        EXPECT_GT(sail.depth, sail.parabola);
+        EXPECT_LT(sail.depth, 1.25 * sail.parabola);
     }
 }
 

@@ -123,22 +123,34 @@ TongueTear tear_tongues(const TongueDesc& desc) {
     return result;
 }
 
-TEST(TongueTear, needs_half_the_tear_energy_at_each_tongue) {
-    for (const TongueDesc& desc :
-         {TongueDesc{.cells = 8}, TongueDesc{.cells = 8, .substeps = 80}, TongueDesc{.cells = 16, .substeps = 40},
-          TongueDesc{.cells = 16, .substeps = 80}, TongueDesc{.cells = 32, .substeps = 80},
-          TongueDesc{.cells = 16, .substeps = 80, .jitter = 0.25f},
-          TongueDesc{.cells = 8, .substeps = 80, .fabric = "denim"},
-          TongueDesc{.cells = 16, .substeps = 80, .fabric = "denim"},
-          TongueDesc{.cells = 16, .substeps = 80, .fabric = "cotton"}}) {
+void print(const TongueDesc& desc, const TongueTear& tear) {
+    std::printf(
+        "  %s, %2u cells, %2u substeps, jitter %.2f: force %.3f N at first, at most %.3f, expected %.3f, ratio %.2f; "
+        "the rip grew by %.3f m, within %.2f edges of its line%s\n",
+        desc.fabric, desc.cells, desc.substeps, static_cast<double>(desc.jitter), tear.first, tear.most, tear.expected,
+        tear.first / tear.expected, tear.advance, tear.farthest, tear.parted ? "; a tongue was torn off" : "");
+    std::fflush(stdout);
+}
+
+// The figures of docs/validation.md.
+TEST(TongueTear, DISABLED_measures_all) {
+    for (const char* fabric : {"rubber", "denim", "cotton"}) {
+        for (const TongueDesc& desc : {TongueDesc{.cells = 8, .substeps = 80, .fabric = fabric},
+                                       TongueDesc{.cells = 16, .substeps = 80, .fabric = fabric},
+                                       TongueDesc{.cells = 32, .substeps = 80, .fabric = fabric},
+                                       TongueDesc{.cells = 16, .substeps = 80, .jitter = 0.25f, .fabric = fabric}})
+            print(desc, tear_tongues(desc));
+    }
+}
+
+// Known error: the limit at the end of a cut is one of tension in the plane of the cloth. Here the tongues are folded
+// away from the end, and their tension along the cut counts instead of the force that parts them.
+TEST(TongueTear, needs_several_times_half_of_the_tear_energy) {
+    for (const TongueDesc& desc : {TongueDesc{.cells = 8, .substeps = 80}, TongueDesc{.cells = 16, .substeps = 80}}) {
         const TongueTear tear = tear_tongues(desc);
-        std::printf(
-            "  %s, %2u cells, %2u substeps, jitter %.2f: force %.3f N at first, at most %.3f, expected %.3f, ratio "
-            "%.2f; the rip grew by %.3f m, within %.2f edges of its line%s\n",
-            desc.fabric, desc.cells, desc.substeps, static_cast<double>(desc.jitter), tear.first, tear.most,
-            tear.expected, tear.first / tear.expected, tear.advance, tear.farthest,
-            tear.parted ? "; a tongue was torn off" : "");
-        std::fflush(stdout);
+        print(desc, tear);
+        EXPECT_GT(tear.first, 0.9 * tear.expected);
+        EXPECT_LT(tear.first, 6.5 * tear.expected);
     }
 }
 

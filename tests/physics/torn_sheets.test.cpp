@@ -246,26 +246,72 @@ void print(const TornDesc& desc, const TornResult& r) {
     std::fflush(stdout);
 }
 
-TEST(TornSheet, measure) {
-    const auto number = [](const char* name, std::uint32_t usual) {
-        const char* text = std::getenv(name);
-        return text ? static_cast<std::uint32_t>(std::atoi(text)) : usual;
-    };
-    for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
-        for (const bool irregular : {false, true}) {
-            for (std::uint32_t seed = 1; seed <= number("SEEDS", 2); ++seed) {
-                const TornDesc desc{.by = by,
-                                    .side = number("SIDE", 33),
-                                    .irregular = irregular,
-                                    .seed = seed,
-                                    .substeps = number("SUBSTEPS", 20),
-                                    .frames = by == TornBy::hands ? 120 : 60,
-                                    .self_collision = number("FAST", 0) ? SelfCollision::fast : SelfCollision::exact};
-                print(desc, tear_sheet(desc, torn_world(desc)));
+// The figures of docs/validation.md; takes minutes.
+TEST(TornSheet, DISABLED_measures_all) {
+    for (const std::uint32_t side : {33u, 65u, 129u}) {
+        for (const std::uint32_t substeps : {20u, 40u}) {
+            for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
+                for (const bool irregular : {false, true}) {
+                    for (std::uint32_t seed = 1; seed <= (side == 129 ? 1u : 2u); ++seed) {
+                        if (side == 129 && substeps == 40) continue;
+                        const TornDesc desc{.by = by,
+                                            .side = side,
+                                            .irregular = irregular,
+                                            .seed = seed,
+                                            .substeps = substeps,
+                                            .frames = by == TornBy::hands ? 120 : 60};
+                        print(desc, tear_sheet(desc, torn_world(desc)));
+                    }
+                }
             }
         }
     }
 }
+
+TEST(TornSheet, keeps_its_area_and_its_mass_and_leaves_few_crumbs) {
+    for (const TornDesc& desc : {TornDesc{.by = TornBy::ball, .irregular = true}, TornDesc{.by = TornBy::corner},
+                                 TornDesc{.by = TornBy::hands, .seed = 2, .frames = 90}}) {
+        const TornResult torn = tear_sheet(desc, torn_world(desc));
+        print(desc, torn);
+        EXPECT_GT(torn.torn_edges, 20u);
+        EXPECT_LT(torn.small, 0.02);
+        EXPECT_EQ(torn.long_edges, 0u);
+        // Where rips had ended at a pin, cloth beside it stayed closed and was stretched to 2.
+        if (desc.by == TornBy::hands) {
+            EXPECT_LT(torn.longest, 1.8);
+        }
+        EXPECT_LT(std::abs(torn.area), 1e-5);
+        EXPECT_LT(std::abs(torn.mass), 1e-5);
+        EXPECT_EQ(torn.reports & report_non_finite, report_none);
+        // Known error: in the frame of a tear, contact does not know the copies yet.
+        EXPECT_LT(torn.elsewhere, 100u);
+    }
+}
+
+TEST(TornSheet, is_the_same_on_any_number_of_threads) {
+    for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
+        const TornDesc desc{.by = by, .side = 17, .irregular = true, .substeps = 10, .frames = 30};
+        const TornResult one = tear_sheet(desc, torn_world(desc, {.workers = 0}));
+        EXPECT_GT(one.torn_edges, 3u) << name_of(by);
+        EXPECT_EQ(tear_sheet(desc, torn_world(desc, {.workers = 3})).hash, one.hash) << name_of(by);
+    }
+}
+
+#ifdef WEFT_VULKAN
+// Labels: slow
+TEST(TornSheet, is_the_same_on_both_backends) {
+    for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
+        const TornDesc desc{.by = by, .side = 13, .irregular = true, .substeps = 10, .frames = 15};
+        World device(checked_vulkan_backend({}), torn_world(desc).settings());
+        const bool exact = rounds_like_the_cpu(device);
+        const TornResult on_cpu = tear_sheet(desc, torn_world(desc)), on_device = tear_sheet(desc, std::move(device));
+        EXPECT_GT(on_cpu.torn_edges, 3u) << name_of(by);
+        if (!exact) continue;
+        EXPECT_EQ(on_device.torn_edges, on_cpu.torn_edges) << name_of(by);
+        EXPECT_EQ(on_device.hash, on_cpu.hash) << name_of(by);
+    }
+}
+#endif
 
 }  // namespace
 }  // namespace weft::physical
