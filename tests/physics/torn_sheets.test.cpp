@@ -290,7 +290,7 @@ TEST(TornSheet, keeps_its_area_and_its_mass_and_leaves_few_crumbs) {
 
 TEST(TornSheet, is_the_same_on_any_number_of_threads) {
     for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
-        const TornDesc desc{.by = by, .side = 17, .irregular = true, .substeps = 10, .frames = 30};
+        const TornDesc desc{.by = by, .side = 13, .irregular = true, .substeps = 10, .frames = 15};
         const TornResult one = tear_sheet(desc, torn_world(desc, {.workers = 0}));
         EXPECT_GT(one.torn_edges, 3u) << name_of(by);
         EXPECT_EQ(tear_sheet(desc, torn_world(desc, {.workers = 3})).hash, one.hash) << name_of(by);
