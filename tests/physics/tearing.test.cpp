@@ -8,6 +8,7 @@
 #include "solver/model/cuts.h"
 #include "solver/model/tear_law.h"
 #include "solver/model/tear_paint.h"
+#include "solver/model/tear_table.h"
 
 #include <cmath>
 #include <numbers>

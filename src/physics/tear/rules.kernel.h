@@ -155,7 +155,8 @@ WEFT_FN bool tear_is_hot(TearCloth c, uint t, real part)
     return (stress.mean + radius) * tear_watch_limit(c, t, 0u) > part || strain * tear_watch_limit(c, t, 1u) > part;
 }
 
-// Whether the load of another particle keeps this one closed. A rip does not start beside the end of another one.
+// Whether the load of another particle keeps this one closed. A rip does not start beside the end of another one. A pinned
+// end has no load: it never opens, so cloth beside it must.
 WEFT_FN bool tear_yields(TearCloth c, uint particle, TearLoad at, uint other)
 {
     bool yields = false;
@@ -164,7 +165,7 @@ WEFT_FN bool tear_yields(TearCloth c, uint particle, TearLoad at, uint other)
         if (there.end == at.end) {
             yields = there.load > at.load || (there.load == at.load && other < particle);
         } else {
-            yields = there.end;
+            yields = there.end && there.load > real(0);
         }
     }
     return yields;
