@@ -48,7 +48,7 @@ void ClothContact::prepare(const Passes& passes, const WorldStep& step, std::spa
         prepare_particles(*cloths_[i], *steps[i], step.input.surface_motion);
         if (model.tiles) rests.push_back(cloths_[i]->rests);
         if (model.tiles)
-            searched.push_back({model.tiles, cloths_[i]->base, model.start.data(), pair_thickness(model),
+            searched.push_back({model.tiles, cloths_[i]->base, model.rest_of_features(), pair_thickness(model),
                                 slack_per_cap * cap_of(model, 0), model.collision.surface, model.collision.filter,
                                 seams});
     }

@@ -137,7 +137,8 @@ struct ClothModel {
     /// Per appended particle, the first of which follows those that the cloth was built with: the particle it is a copy
     /// of.
     SharedArray<std::uint32_t> copied_from;
-    SharedArray<float> strayed;  ///< OpenedArrays::strayed; empty without openings
+    SharedArray<Vec4> contact_rest;  ///< rest_for_contact(); empty: `start`
+    SharedArray<float> strayed;      ///< OpenedArrays::strayed; empty without openings
     /// Null unless the edges can be opened and the render mesh is not the simulated one, vertex by vertex.
     std::shared_ptr<const PartingMesh> parting;
 
@@ -170,6 +171,8 @@ struct ClothModel {
     std::uint32_t room() const { return first_anchor() + anchor_room; }
     /// Length of particle arrays: room() plus padding and dummies.
     std::uint32_t capacity() const { return particle_capacity(room()); }
+    /// m, per particle: at rest, for contact of features.
+    const Vec4* rest_of_features() const { return contact_rest.empty() ? start.data() : contact_rest.data(); }
     Vec3 rest_position(std::uint32_t particle) const { return start[particle].xyz(); }
     /// Triangles of particles at the start; ClothFrame has the current ones.
     TriangleView triangles() const { return {faces.data(), face_stride, triangle_count}; }

@@ -1,6 +1,7 @@
 #include "mesh/grouping.h"
 #include "physics/change_rows.h"
 #include "solver/model/cloth_edit.h"
+#include "solver/model/contact_rest.h"
 #include "solver/model/masses.h"
 #include "solver/model/opened_cloth.h"
 #include "solver/model/rebuilt_limits.h"
@@ -68,6 +69,7 @@ class Editor {
         if (reshaped) {
             if (pinned_) pin(*pinned_);
             if (auto done = reshape(); !done) return done.errors();
+            if (has_openings && model_->tiles) model_->contact_rest = rest_for_contact(*model_);
             if (other) {
                 model_->hierarchy = {};
                 model_->pin_spans = {};

@@ -108,7 +108,7 @@ struct FrameArrays {
     void add_particles(const ClothContact::Member& member) {
         const ClothModel& model = member.cloth->model();
         Vec4* const mine = &rest[member.cloth->base()];
-        std::copy_n(model.start.begin(), model.particle_count, mine);
+        std::copy_n(model.rest_of_features(), model.particle_count, mine);
         for (std::uint32_t p = 0; p < model.particle_count; ++p) mine[p].w = cap_of(model);
         if (member.poses == 0) return;
         carriers.push_back(member.poses);
