@@ -439,7 +439,7 @@ class Clipper {
     Vertices vertices_;
     std::vector<Piece> pieces_;
     std::uint32_t left_whole_ = 0;
-    // Of the triangle at hand:
+    // Of the drawn triangle that is being clipped:
     Triangle corners_{};
     std::vector<Stop> stops_;
     std::map<std::uint32_t, std::vector<std::uint32_t>> lines_;  ///< vertices on the planes of edges

@@ -244,7 +244,8 @@ TEST(Openings, that_remove_triangles_need_a_cloth_that_erodes) {
     const auto opened = with_edit(*make_tearable({}), {.openings = {{{0, drops_triangle}}}});
     ASSERT_FALSE(opened.ok());
     EXPECT_EQ(opened.errors()[0].message(), "opening 0: removes a triangle, but the cloth does not erode");
-    EXPECT_FALSE(with_edit(*make_tearable({.erodes = true}), {.openings = {{{1u << 30, drops_triangle}}}}).ok());
+    for (const std::uint32_t link : {1u << 30, none, drops_triangle})
+        EXPECT_FALSE(with_edit(*make_tearable({.erodes = true}), {.openings = {{{link, drops_triangle}}}}).ok());
 }
 
 TEST(Openings, one_by_one_give_the_same_model) {

@@ -90,24 +90,31 @@ class Editor {
                      "there are only " + text(model_->particle_count) + " particles, got number " + text(particle)};
     }
 
+    Result<void> check_opening(const Opening& opening, const std::string& where) const {
+        const auto& entries = model_->tears->entries;
+        const auto& links = opening.links;
+        if (links[1] == drops_triangle) {
+            if (!model_->reserved.erodes) return Error{where, "removes a triangle, but the cloth does not erode"};
+            if (links[0] >= entries.size()) return Error{where, "must name a triangle of the cloth"};
+            return {};
+        }
+        for (const std::uint32_t link : links) {
+            if (link == none) continue;
+            if (link >= entries.size() || entries[link].next == none ||
+                entries[link].vertex != entries[links[0] == none ? link : links[0]].vertex)
+                return Error{where, "must name edges inside the cloth at one vertex"};
+        }
+        return {};
+    }
+
     Result<void> open(const std::vector<Opening>& openings) {
         const std::string name = "cloth '" + model_->name + "'";
         if (!model_->tears) return Error{name, "was not built to be cut or torn"};
         OpenedArrays arrays(*model_);
         const auto first_copy = static_cast<std::ptrdiff_t>(arrays.copied_from.size());
         Opener opener(*model_, arrays);
-        const auto& entries = model_->tears->entries;
         for (std::size_t i = 0; i < openings.size(); ++i) {
-            const auto& links = openings[i].links;
-            if (links[1] == drops_triangle && !model_->reserved.erodes)
-                return Error{"opening " + std::to_string(i), "removes a triangle, but the cloth does not erode"};
-            for (const std::uint32_t link : links) {
-                if (link == none || (link == drops_triangle && links[0] != none)) continue;
-                if (links[1] == drops_triangle ? link < entries.size() : false) continue;
-                if (link >= entries.size() || entries[link].next == none ||
-                    entries[link].vertex != entries[links[0] == none ? link : links[0]].vertex)
-                    return Error{"opening " + std::to_string(i), "must name edges inside the cloth at one vertex"};
-            }
+            if (auto sound = check_opening(openings[i], "opening " + std::to_string(i)); !sound) return sound;
             if (!opener.open(openings[i]))
                 return Error{name, "has no room for more particles at opening " + std::to_string(i) + " of " +
                                        std::to_string(openings.size())};
