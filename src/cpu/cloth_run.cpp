@@ -37,10 +37,11 @@ Range ClothRun::particles(Worker worker) const {
     return as_range(worker.of(padded(model().point_count())));
 }
 
-// Openings bring particles of the reserve into use within a frame. Passes that keep something per worker during a frame
-// need the ranges of all points.
+// Of the worker's particles: passes over particles have no barrier between them, so each worker keeps its own.
 Range ClothRun::particles_in_use(Worker worker) const {
-    return as_range(worker.of(padded(cloth_.points_in_use())));
+    const Range mine = particles(worker);
+    const std::uint32_t end = padded(cloth_.points_in_use());
+    return {std::min(mine.begin, end), std::min(mine.end, end)};
 }
 
 bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const {

@@ -49,7 +49,7 @@ TEST(SaveScene, RandomScenesRunTheSame) {
     const fs::path path = folder.path() / "s.json", copy = folder.path() / "b" / "s.json";
     fs::create_directories(copy.parent_path());
     int ran = 0;
-    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
         SCOPED_TRACE(seed);
         const SceneDesc scene = RandomScene(seed).draw();
         auto direct = SceneWorld::create(scene, {.backend = "cpu"});

@@ -439,8 +439,10 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
         check_cloth(scene.cloths[i], at("/cloths", i), problems);
         // Jacobi sums corrections by lists of constraints per particle, which openings do not change.
-        if (scene.cloths[i].tearing == Tearing::split && scene.solver.projection == Projection::jacobi)
-            problems.add(at(at("/cloths", i), "tearing"), "\"split\" cannot be used with the projection \"jacobi\"");
+        const Tearing tearing = scene.cloths[i].tearing;
+        if ((tearing == Tearing::split || tearing == Tearing::erode) && scene.solver.projection == Projection::jacobi)
+            problems.add(at(at("/cloths", i), "tearing"),
+                         "\"split\" and \"erode\" cannot be used with the projection \"jacobi\"");
     }
     for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
         check_collider(scene.colliders[i], at("/colliders", i), problems);

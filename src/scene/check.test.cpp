@@ -50,8 +50,10 @@ TEST(CheckScene, DoesNotSplitClothThatJacobiProjects) {
             s.cloths[0].tearing = tearing;
         });
     };
-    EXPECT_THAT(with(Tearing::split),
-                ElementsAre("/cloths/0/tearing: \"split\" cannot be used with the projection \"jacobi\""));
+    for (const Tearing tearing : {Tearing::split, Tearing::erode})
+        EXPECT_THAT(
+            with(tearing),
+            ElementsAre("/cloths/0/tearing: \"split\" and \"erode\" cannot be used with the projection \"jacobi\""));
     EXPECT_THAT(with(Tearing::cuts), ElementsAre());
 }
 

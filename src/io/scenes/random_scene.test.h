@@ -28,9 +28,12 @@ class RandomScene {
         if (maybe()) draw(scene.air.emplace());
         for (std::uint32_t i = below(3); i > 0; --i) draw(static_cast<ColliderDesc&>(scene.colliders.emplace_back()));
         for (std::uint32_t i = 1 + below(3); i > 0; --i) draw(scene.cloths.emplace_back());
-        if (scene.solver.projection == Projection::jacobi)  // cloth cannot split with it
-            for (SceneCloth& cloth : scene.cloths)
-                if (cloth.tearing == Tearing::split) cloth.tearing = Tearing::cuts;
+        if (scene.solver.projection == Projection::jacobi) {  // cloth cannot tear by itself with it
+            for (SceneCloth& cloth : scene.cloths) {
+                if (cloth.tearing != Tearing::off) cloth.tearing = Tearing::cuts;
+                cloth.seams.clear(), cloth.resistance.clear();
+            }
+        }
         name(scene.cloths, "sheet"), name(scene.colliders, "body");
         name_unnamed(scene);
         for (SceneCloth& cloth : scene.cloths) {
@@ -202,7 +205,10 @@ class RandomScene {
         if (cloth.tearing == Tearing::off) return;
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back(), cut_keys);
         if (cloth.tearing == Tearing::split)
-            for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.seams.emplace_back(), seam_keys);
+            for (std::uint32_t i = below(3); i > 0; --i) {
+                draw(cloth.seams.emplace_back(), seam_keys);
+                if (cloth.seams.back().strength == 0) cloth.seams.back().strength = 5;  // the key is required
+            }
         if (cloth.tearing == Tearing::cuts) return;
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.resistance.emplace_back(), of_a_file);
     }
