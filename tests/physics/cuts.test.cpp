@@ -201,6 +201,7 @@ TEST(Cuts, leave_rims_that_do_not_pass_through_each_other) {
 }
 
 #ifdef WEFT_VULKAN
+// Labels: no-asan
 TEST(Cuts, are_the_same_on_both_backends) {
     for (const bool lines : {true, false}) {
         const auto model = make_curtain(33, {.lines = lines, .hierarchy = lines});

@@ -288,6 +288,7 @@ TEST(TornSheet, keeps_its_area_and_its_mass_and_leaves_few_crumbs) {
     }
 }
 
+// Labels: no-asan
 TEST(TornSheet, is_the_same_on_any_number_of_threads) {
     for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
         const TornDesc desc{.by = by, .side = 13, .irregular = true, .substeps = 10, .frames = 15};
@@ -298,7 +299,7 @@ TEST(TornSheet, is_the_same_on_any_number_of_threads) {
 }
 
 #ifdef WEFT_VULKAN
-// Labels: slow
+// Labels: slow no-asan
 TEST(TornSheet, is_the_same_on_both_backends) {
     for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
         const TornDesc desc{.by = by, .side = 13, .irregular = true, .substeps = 10, .frames = 15};
