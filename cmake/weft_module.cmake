@@ -1,6 +1,6 @@
 # One static library per folder of src/, from all of its .cpp files. Files named *.test.cpp go into the test program of
-# the folder. FOLDER names a folder with another name than the library; WITHOUT names subfolders that have their own
-# library. A new constraint, exporter or shape is a file in its folder and needs no change here.
+# the folder. FOLDER names a folder with another name than the library, ROOT one in another place than src; WITHOUT names
+# subfolders that have their own library. A new constraint, exporter or shape is a file in its folder and needs no change here.
 
 find_package(Threads REQUIRED)
 
@@ -141,11 +141,14 @@ function(weft_test name)
 endfunction()
 
 function(weft_module name)
-    cmake_parse_arguments(ARG "JSON" "FOLDER" "DEPENDS;WITHOUT" ${ARGN})
+    cmake_parse_arguments(ARG "JSON" "FOLDER;ROOT" "DEPENDS;WITHOUT" ${ARGN})
     if(NOT ARG_FOLDER)
         set(ARG_FOLDER ${name})
     endif()
-    set(folder ${PROJECT_SOURCE_DIR}/src/${ARG_FOLDER})
+    if(NOT ARG_ROOT)
+        set(ARG_ROOT src)
+    endif()
+    set(folder ${PROJECT_SOURCE_DIR}/${ARG_ROOT}/${ARG_FOLDER})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
     foreach(other ${ARG_WITHOUT})
         list(FILTER sources EXCLUDE REGEX "^${folder}/${other}/")
@@ -159,6 +162,9 @@ function(weft_module name)
         add_library(weft::${name} ALIAS weft_${name})
     endif()
     target_link_libraries(weft_${name} PUBLIC weft_options Threads::Threads)
+    if(NOT ARG_ROOT STREQUAL src)
+        target_include_directories(weft_${name} PUBLIC ${PROJECT_SOURCE_DIR}/${ARG_ROOT})
+    endif()
     foreach(floor ${ARG_DEPENDS})
         target_link_libraries(weft_${name} PUBLIC weft_${floor})
     endforeach()
