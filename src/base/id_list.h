@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,20 @@ class IdList {
         owners_.erase(owners_.begin() + static_cast<std::ptrdiff_t>(place));
         slots_[id.index].place = none;
         for (std::size_t i = place; i < owners_.size(); ++i) slots_[owners_[i]].place = static_cast<std::uint32_t>(i);
+    }
+
+    /// Orders the values. `order`: all ids of the list, each once.
+    void reorder(std::span<const Id<Tag>> order) {
+        assert(order.size() == size());
+        std::vector<T> values;
+        std::vector<std::uint32_t> owners;
+        for (const Id<Tag> id : order) {
+            values.push_back(std::move(values_[find(id)]));
+            owners.push_back(id.index);
+        }
+        values_ = std::move(values);
+        owners_ = std::move(owners);
+        for (std::size_t i = 0; i < owners_.size(); ++i) slots_[owners_[i]].place = static_cast<std::uint32_t>(i);
     }
 
     Id<Tag> id_of(std::size_t place) const { return {owners_[place], slots_[owners_[place]].generation}; }

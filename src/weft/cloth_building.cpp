@@ -116,11 +116,12 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
 
     BuiltCloth built;
     built.source.topology = options;
-    built.source.numbers = {topology->particle_count, topology->welded_to_particle, topology->vertex_to_particle,
-                            topology->particle_count + reserve.particles};
+    built.source.numbers = std::make_shared<const ParticleNumbers>(
+        ParticleNumbers{topology->particle_count, topology->welded_to_particle, topology->vertex_to_particle,
+                        topology->particle_count + reserve.particles});
     auto pinned = select_pins(cloth.pins,
                               {.mesh = loaded->mesh,
-                               .numbers = built.source.numbers,
+                               .numbers = *built.source.numbers,
                                .rest_positions = topology->rest_positions,
                                .positions = {}},
                               world, pointer + "/pins");
@@ -143,7 +144,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
     note_binding(**model, notes);
     auto paint = paint_strength(cloth, **model,
                                 {.mesh = simulated_mesh(**model, built.source),
-                                 .numbers = built.source.numbers,
+                                 .numbers = *built.source.numbers,
                                  .positions = {(*model)->start.data(), (*model)->particle_count}},
                                 pointer);
     if (!paint) return paint.errors();
@@ -171,7 +172,7 @@ Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource
     const auto& copied_from = world.model(id)->copied_from;
     return select_pins(pins,
                        {.mesh = simulated_mesh(*world.model(id), source),
-                        .numbers = source.numbers,
+                        .numbers = *source.numbers,
                         .positions = cloth->positions,
                         .copied_from = {copied_from.data(), copied_from.size()},
                         .time = frame.time},

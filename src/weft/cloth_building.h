@@ -26,9 +26,10 @@ struct MeshFiles {
 struct ClothSource {
     std::shared_ptr<const TriangleMesh> simulated = {};  ///< in world space; null if it is the drawn mesh
     TopologyOptions topology = {};
-    ParticleNumbers numbers = {};
+    std::shared_ptr<const ParticleNumbers> numbers = {};
     ClothPins pins = {};
     std::vector<PlannedCut> cuts = {};
+    std::uint64_t serial = 0;  ///< of the cloth in its SceneWorld; another cloth has another one
 };
 
 struct BuiltCloth {

@@ -190,6 +190,7 @@ Result<ClothId> SceneWorld::add(SceneCloth cloth, const std::string& pointer) {
     auto id = world_->try_add(std::move(built->model), std::move(built->targets));
     if (!id) return placed_at(pointer, id.errors());
     sources_.push_back(std::move(built->source));
+    sources_.back().serial = next_serial_++;
     scene_.cloths.push_back(std::move(cloth));
     return *id;
 }
@@ -224,6 +225,7 @@ Result<ColliderId> SceneWorld::add(SceneCollider collider, const std::string& po
     made.surface = std::move(*surface);
     auto id = world_->try_add(std::move(made));
     if (!id) return placed_at(pointer, id.errors());
+    collider_serials_.push_back(next_serial_++);
     scene_.colliders.push_back(std::move(collider));
     return *id;
 }
@@ -243,6 +245,7 @@ void SceneWorld::remove(ColliderId id) {
     world_->remove(id);
     const std::string name = std::move(scene_.colliders[static_cast<std::size_t>(place)].name);
     scene_.colliders.erase(scene_.colliders.begin() + place);
+    collider_serials_.erase(collider_serials_.begin() + place);
     for (SceneCloth& cloth : scene_.cloths)
         for (PinDesc& pin : cloth.pins)
             if (pin.attach == name) pin.attach.clear();
@@ -418,14 +421,17 @@ Result<void> SceneWorld::change_to(SceneDesc next) {
     Problems problems;
     check_parts(next, problems);
     if (!problems.none()) return std::move(problems).take();
-    const SceneDesc before = scene_;
-    auto done = follow(next);
-    // The old document fitted before, so this does not fail.
-    if (!done) (void)follow(before);
-    return done;
+    const Checkpoint before = checkpoint();
+    auto done = change_all(next);
+    if (!done) {
+        (void)go_to(before);  // fitted before
+        return done;
+    }
+    take_order_of(next);
+    return {};
 }
 
-Result<void> SceneWorld::follow(const SceneDesc& next) {
+Result<void> SceneWorld::change_all(const SceneDesc& next) {
     remove_what_is_not_in(next);
     if (auto changed = change_colliders(next); !changed) return changed;
     scene_.gravity = next.gravity;
@@ -442,14 +448,53 @@ Result<void> SceneWorld::follow(const SceneDesc& next) {
     return {};
 }
 
-void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
-    for (std::size_t i = scene_.cloths.size(); i-- > 0;) {
-        const SceneCloth* there = find_named(next.cloths, scene_.cloths[i].name);
-        if (!there || !same_particles(scene_.cloths[i], *there)) remove(world_->cloth_id(i));
+// The document has the objects of `next`; puts them, and those of the world, in its order.
+void SceneWorld::take_order_of(const SceneDesc& next) {
+    std::vector<ClothId> cloths;
+    std::vector<ClothSource> sources;
+    for (const SceneCloth& cloth : next.cloths) {
+        const auto place = static_cast<std::size_t>(find_named(scene_.cloths, cloth.name) - scene_.cloths.data());
+        cloths.push_back(world_->cloth_id(place));
+        sources.push_back(std::move(sources_[place]));
     }
+    std::vector<ColliderId> colliders;
+    std::vector<std::uint64_t> serials;
+    for (const SceneCollider& collider : next.colliders) {
+        const auto place =
+            static_cast<std::size_t>(find_named(scene_.colliders, collider.name) - scene_.colliders.data());
+        colliders.push_back(world_->collider_id(place));
+        serials.push_back(collider_serials_[place]);
+    }
+    const bool ordered = collider_serials_ == serials &&
+                         std::ranges::equal(scene_.cloths, next.cloths, {}, &SceneCloth::name, &SceneCloth::name);
+    sources_ = std::move(sources);
+    collider_serials_ = std::move(serials);
+    scene_.cloths = next.cloths;
+    scene_.colliders = next.colliders;
+    if (!ordered) world_->reorder(cloths, colliders);
+}
+
+// Before the first frame nothing moves yet: whatever differs is made again, so that the world is the one that the
+// changed document describes.
+void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
+    const bool at_start = world_->index() == 0;
+    const bool other_layout = at_start && WorldSettings{.solver = next.solver}.layout() != world_->settings().layout();
+    const auto stays = [&](const auto& now, const auto* there, bool can_change) {
+        if (!there || !can_change) return false;
+        if (!at_start) return true;
+        auto same = *there;
+        same.material = now.material;
+        return same == now;
+    };
     for (std::size_t i = scene_.colliders.size(); i-- > 0;) {
         const SceneCollider* there = find_named(next.colliders, scene_.colliders[i].name);
-        if (!there || !same_body(scene_.colliders[i], *there)) remove(world_->collider_id(i));
+        if (!stays(scene_.colliders[i], there, there && same_body(scene_.colliders[i], *there)))
+            remove(world_->collider_id(i));
+    }
+    for (std::size_t i = scene_.cloths.size(); i-- > 0;) {
+        const SceneCloth* there = find_named(next.cloths, scene_.cloths[i].name);
+        if (other_layout || !stays(scene_.cloths[i], there, there && same_particles(scene_.cloths[i], *there)))
+            remove(world_->cloth_id(i));
     }
 }
 

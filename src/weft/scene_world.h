@@ -4,6 +4,7 @@
 #include "scene/scene_desc.h"
 #include "solver/world/world.h"
 #include "weft/backends.h"
+#include "weft/checkpoint.h"
 #include "weft/cloth_building.h"
 #include "weft/shape_building.h"
 
@@ -77,11 +78,17 @@ class SceneWorld {
 
     /// Applies the differences between the document and `next`, for example to undo edits. Objects are matched by name.
     /// Fabric, pins, friction and pose of a matched object are changed while it keeps moving. A cloth whose mesh,
-    /// transform or velocity differs, and a collider whose shape or keys differ, are replaced by new ones. Kept objects
-    /// keep their order. Fails on a scene that does not pass its checks, with all problems, and then changes nothing.
-    /// If a cloth cannot be built, the world returns to the old document; cloths that were removed in the process begin
-    /// at their start.
+    /// transform or velocity differs, and a collider whose shape or keys differ, are replaced by new ones. Objects then
+    /// have the order of `next`. Fails on a scene that does not pass its checks, with all problems, and on a cloth that
+    /// cannot be built, and then changes nothing.
     Result<void> change_to(SceneDesc next);
+
+    /// The document and the world at this moment, to go back to it in this SceneWorld.
+    Checkpoint checkpoint();
+    /// Brings the document and the world back, to the bit: steps from here give the bits of the steps from then, and
+    /// so do changes. Objects that were removed since then come back with new ids, without being built again. Fails if
+    /// the device has not enough memory, and then changes nothing.
+    Result<void> go_to(const Checkpoint& checkpoint);
 
     World& world() { return *world_; }
     const World& world() const { return *world_; }
@@ -122,13 +129,20 @@ class SceneWorld {
     void remove_what_is_not_in(const SceneDesc& next);
     Result<void> change_colliders(const SceneDesc& next);
     Result<void> change_cloths(const SceneDesc& next);
-    Result<void> follow(const SceneDesc& next);
+    Result<void> change_all(const SceneDesc& next);
+    void take_order_of(const SceneDesc& next);
+    // checkpoint.cpp
+    Result<void> match_objects(const Checkpoint& checkpoint);
+    Result<void> match_stitches(const SceneDesc& scene, bool all);
 
     SceneDesc scene_;
     MeshFiles files_;
     ShapeLibrary shapes_;
-    std::vector<ClothSource> sources_;  ///< per cloth, in the order of the document
-    std::vector<StitchId> stitch_ids_;  ///< per StitchDesc, in the order of the document
+    std::vector<ClothSource> sources_;             ///< per cloth, in the order of the document
+    std::vector<std::uint64_t> collider_serials_;  ///< per collider; another collider has another one
+    std::uint64_t next_serial_ = 1;
+    std::vector<StitchId> stitch_ids_;                   ///< per StitchDesc, in the order of the document
+    std::shared_ptr<const SceneDesc> checked_document_;  ///< of the last checkpoint
     std::unique_ptr<World> world_;
     std::vector<std::string> notes_;
 };

@@ -19,7 +19,7 @@ class EndReader {
 
   private:
     StitchPoint at_vertex(std::uint32_t vertex, const std::string& where) {
-        const auto& particle = cloth_.source.numbers.of_welded;
+        const auto& particle = cloth_.source.numbers->of_welded;
         if (vertex >= particle.size()) {
             fail(where, "must be a vertex of the mesh, 0 to " + std::to_string(particle.size() - 1) + ", got " +
                             std::to_string(vertex));
@@ -43,7 +43,7 @@ class EndReader {
         const float sum = point.weights.x + point.weights.y + point.weights.z;
         result.shares = {point.weights.x / sum, point.weights.y / sum, point.weights.z / sum};
         for (std::size_t k = 0; k < 3; ++k) {
-            result.particles[k] = cloth_.source.numbers.of_vertex[triangles[point.triangle][k]];
+            result.particles[k] = cloth_.source.numbers->of_vertex[triangles[point.triangle][k]];
             if (result.particles[k] != none) continue;
             fail(where + "/triangle", "triangle " + std::to_string(point.triangle) + " is not simulated");
             return {};

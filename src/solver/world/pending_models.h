@@ -25,6 +25,7 @@ constexpr std::uint64_t frames_to_build(std::uint32_t particles) {
     return 1 + particles / 1024;
 }
 
+/// Copies share the builds, so a copy keeps what was pending when it was made.
 class PendingModels {
   public:
     struct Ready {
@@ -44,13 +45,20 @@ class PendingModels {
     std::optional<Ready> take_due(std::uint64_t frame);
     /// The same for any due frame.
     std::optional<Ready> take_any() { return take_due(~std::uint64_t{0}); }
+    bool empty() const { return pending_.empty(); }
+    /// The builds go on for another cloth with the same particles.
+    void rename(ClothId cloth, ClothId to);
 
   private:
+    struct Build {
+        explicit Build(BuildModel build);
+        std::optional<Result<std::shared_ptr<const ClothModel>>> result;
+        LaterWork work;  ///< writes to `result`; destroyed first
+    };
     struct Pending {
         ClothId cloth;
         std::uint64_t due;
-        std::unique_ptr<std::optional<Result<std::shared_ptr<const ClothModel>>>> result;
-        std::unique_ptr<LaterWork> work;  ///< writes to `result`; destroyed first
+        std::shared_ptr<Build> build;
     };
     std::vector<Pending> pending_;
     std::vector<Pending> dropped_;  ///< dropped builds that are still running

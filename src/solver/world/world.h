@@ -8,28 +8,15 @@
 #include "solver/world/islands.h"
 #include "solver/world/pending_models.h"
 #include "solver/world/tangle_watch.h"
+#include "solver/world/world_moment.h"
+#include "solver/world/world_settings.h"
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace weft {
-
-struct WorldSettings {
-    Vec3 gravity{0, -9.81f, 0};  ///< m/s²
-    SolverDesc solver = {};
-    std::optional<AirDesc> air = {};                      ///< nullopt: no air
-    bool surface = true;                                  ///< compute normals
-    bool contact_forces = false;                          ///< record contacts
-    bool contact_marks = false;                           ///< record ClothFrame::contact_marks
-    std::uint32_t list_capacity = default_list_capacity;  ///< initial capacity of dynamic lists, in constraints
-    bool background = false;                              ///< rebuild models on a separate thread, one after another
-
-    /// The layout that cloth models need for these settings.
-    ClothLayout layout() const {
-        return {.lines = resolve(solver.projection, solver.method) == Projection::lines, .hierarchy = solver.hierarchy};
-    }
-};
 
 /// Objects can be added, removed and changed between two steps. Ids must name existing objects. Not thread-safe.
 class World {
@@ -147,6 +134,17 @@ class World {
     /// same. Fails and changes nothing if the numbers or sizes of cloths or colliders differ.
     Result<void> restore(const Snapshot& snapshot);
 
+    /// Everything of this world at this moment, to go back to it. Unlike save(), it does not wait for models that are
+    /// being built.
+    WorldMoment moment();
+    /// Brings everything back, to the bit, including models, pins, colliders, settings and pending models. The world
+    /// must have as many cloths with the same particles, as many colliders of the same shapes, and the same stitches as
+    /// then, in the same order; ids may differ. Fails if the device has not enough memory; the world may then hold a
+    /// part of the moment.
+    Result<void> go_to(const WorldMoment& moment);
+    /// Orders the cloths and the colliders. Each list holds all ids, each once.
+    void reorder(std::span<const ClothId> cloths, std::span<const ColliderId> colliders);
+
     /// Measures over all cloths. State on a device is measured there.
     ClothMeasures measure() const;
     Residual stretch_residual() const { return measure().residual; }
@@ -210,6 +208,8 @@ class World {
     Result<void> restore_cloth(Cloth& cloth, const ClothSnapshot& snapshot,
                                const std::shared_ptr<const ClothModel>& model);
     Result<void> check_fits(const Snapshot& snapshot) const;
+    Snapshot snapshot();
+    Result<void> bring_back(const Snapshot& snapshot);
     void list_cloths();
     // world_surfaces.cpp
     Result<Surface> make_surface(const Collider& collider);

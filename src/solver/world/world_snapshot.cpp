@@ -6,6 +6,11 @@ namespace weft {
 Snapshot World::save() {
     complete();
     while (const auto ready = pending_.take_any()) use_model(*ready);
+    return snapshot();
+}
+
+Snapshot World::snapshot() {
+    complete();
     Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
     for (const Cloth& cloth : cloths_) {
         snapshot.cloths.push_back(backend_->save(cloth.handle));
@@ -72,7 +77,7 @@ Result<void> World::restore_cloths(const Snapshot& snapshot,
     Snapshot before;
     std::vector<std::shared_ptr<const ClothModel>> models_before;
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
-        if (before.cloths.empty() && has_other_edits(i)) before = save();
+        if (before.cloths.empty() && has_other_edits(i)) before = this->snapshot();
         models_before.push_back(cloths_[i].model);
     }
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
@@ -99,6 +104,10 @@ Result<void> World::restore_cloth(Cloth& cloth, const ClothSnapshot& snapshot,
 Result<void> World::restore(const Snapshot& snapshot) {
     complete();
     while (const auto ready = pending_.take_any()) use_model(*ready);
+    return bring_back(snapshot);
+}
+
+Result<void> World::bring_back(const Snapshot& snapshot) {
     if (auto fits = check_fits(snapshot); !fits) return fits;
     std::vector<std::shared_ptr<const ClothModel>> edited;
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
