@@ -4,6 +4,7 @@
 #include "weft/scene_world.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace weft {
@@ -75,6 +76,22 @@ Result<void> SceneWorld::match_stitches(const SceneDesc& scene, bool all) {
     for (std::size_t i = 0; i < scene.stitches.size(); ++i)
         if (auto added = add(scene.stitches[i], "/stitches/" + std::to_string(i)); !added) return added.errors();
     return {};
+}
+
+// Models that are being built have the old names, so this waits for them.
+Result<void> SceneWorld::rename(const SceneDesc& next) {
+    assert(next.cloths.size() == scene_.cloths.size() && next.colliders.size() == scene_.colliders.size());
+    (void)world_->save();
+    Checkpoint renamed = checkpoint();
+    for (std::size_t i = 0; i < next.cloths.size(); ++i) {
+        if (next.cloths[i].name == scene_.cloths[i].name) continue;
+        auto model = std::make_shared<ClothModel>(*renamed.moment.models[i]);
+        model->name = next.cloths[i].name;
+        renamed.moment.models[i] = std::move(model);
+    }
+    for (std::size_t i = 0; i < next.colliders.size(); ++i) renamed.moment.colliders[i].name = next.colliders[i].name;
+    renamed.scene = std::make_shared<const SceneDesc>(next);
+    return go_to(renamed);
 }
 
 std::size_t size_of(const Checkpoint& checkpoint) {

@@ -216,6 +216,42 @@ TEST(Checkpoints, bring_back_a_move_that_is_due) {
     EXPECT_EQ(world->world().state_hash(), expected);
 }
 
+// The state goes on in a world without objects, for example on another backend.
+TEST(Checkpoints, go_to_another_world) {
+    auto world = SceneWorld::create(furnished_scene(), {.backend = "cpu"});
+    ASSERT_TRUE(world.ok());
+    for (int i = 0; i < 4; ++i) world->advance();
+    const Checkpoint then = world->checkpoint();
+    auto other = SceneWorld::create({}, {.backend = "cpu", .threads = 2});
+    ASSERT_TRUE(other.ok());
+    ASSERT_TRUE(other->go_to(then).ok());
+    for (int i = 0; i < 4; ++i) world->advance(), other->advance();
+    EXPECT_EQ(world->world().state_hash(), other->world().state_hash());
+    EXPECT_TRUE(world->scene() == other->scene());
+    ASSERT_TRUE(world->go_to(then).ok());
+    EXPECT_EQ(world->world().index(), 4u);
+}
+
+TEST(Checkpoints, of_renamed_objects_move_on) {
+    auto world = SceneWorld::create(furnished_scene(), {.backend = "cpu"});
+    ASSERT_TRUE(world.ok());
+    for (int i = 0; i < 3; ++i) world->advance();
+    const Checkpoint then = world->checkpoint();
+    world->advance();
+    const std::string expected = world->world().state_hash();
+    ASSERT_TRUE(world->go_to(then).ok());
+    SceneDesc next = world->scene();
+    next.cloths[1].name = "other";
+    next.stitches[0].b.cloth = "other";
+    next.colliders[0].name = next.cloths[1].pins[2].attach = "globe";
+    ASSERT_TRUE(world->rename(next).ok());
+    EXPECT_TRUE(world->scene() == next);
+    EXPECT_EQ(world->world().model(world->world().cloth_id(1))->name, "other");
+    EXPECT_EQ(world->world().colliders()[0].name, "globe");
+    world->advance();
+    EXPECT_EQ(world->world().state_hash(), expected);
+}
+
 TEST(Checkpoints, report_their_size) {
     auto world = SceneWorld::create(furnished_scene(), {.backend = "cpu"});
     ASSERT_TRUE(world.ok());

@@ -8,6 +8,7 @@
 #include "weft/stitching.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <utility>
 
@@ -29,6 +30,12 @@ WorldSettings settings_of(const SceneDesc& scene, const SolverDesc& solver, Worl
     now.solver = solver;
     now.air = scene.air;
     return now;
+}
+
+/// Unique in the process, so that a checkpoint can go to another SceneWorld.
+std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
 }
 
 /// Puts the place of an object before the places of its values.
@@ -190,7 +197,7 @@ Result<ClothId> SceneWorld::add(SceneCloth cloth, const std::string& pointer) {
     auto id = world_->try_add(std::move(built->model), std::move(built->targets));
     if (!id) return placed_at(pointer, id.errors());
     sources_.push_back(std::move(built->source));
-    sources_.back().serial = next_serial_++;
+    sources_.back().serial = next_serial();
     scene_.cloths.push_back(std::move(cloth));
     return *id;
 }
@@ -225,7 +232,7 @@ Result<ColliderId> SceneWorld::add(SceneCollider collider, const std::string& po
     made.surface = std::move(*surface);
     auto id = world_->try_add(std::move(made));
     if (!id) return placed_at(pointer, id.errors());
-    collider_serials_.push_back(next_serial_++);
+    collider_serials_.push_back(next_serial());
     scene_.colliders.push_back(std::move(collider));
     return *id;
 }

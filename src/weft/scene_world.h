@@ -83,7 +83,11 @@ class SceneWorld {
     /// cannot be built, and then changes nothing.
     Result<void> change_to(SceneDesc next);
 
-    /// The document and the world at this moment, to go back to it in this SceneWorld.
+    /// Gives cloths and colliders other names. `next` must equal the document except for names and references to them.
+    /// Everything keeps moving.
+    Result<void> rename(const SceneDesc& next);
+
+    /// The document and the world at this moment, to go back to it, also in another SceneWorld with another backend.
     Checkpoint checkpoint();
     /// Brings the document and the world back, to the bit: steps from here give the bits of the steps from then, and
     /// so do changes. Objects that were removed since then come back with new ids, without being built again. Fails if
@@ -138,9 +142,8 @@ class SceneWorld {
     SceneDesc scene_;
     MeshFiles files_;
     ShapeLibrary shapes_;
-    std::vector<ClothSource> sources_;             ///< per cloth, in the order of the document
-    std::vector<std::uint64_t> collider_serials_;  ///< per collider; another collider has another one
-    std::uint64_t next_serial_ = 1;
+    std::vector<ClothSource> sources_;                   ///< per cloth, in the order of the document
+    std::vector<std::uint64_t> collider_serials_;        ///< per collider; another collider has another one
     std::vector<StitchId> stitch_ids_;                   ///< per StitchDesc, in the order of the document
     std::shared_ptr<const SceneDesc> checked_document_;  ///< of the last checkpoint
     std::unique_ptr<World> world_;

@@ -232,7 +232,7 @@ void read_stitches(ObjectReader& o, StitchDesc& stitches) {
     o.object("b", [&](ObjectReader& end) { read_stitch_end(end, stitches.b); });
 }
 
-SceneDesc read_scene(const json& value, Problems& problems) {
+SceneDesc read_values(const json& value, Problems& problems) {
     SceneDesc scene;
     ObjectReader o(value, "", problems);
     if (!value.is_object()) return scene;
@@ -248,25 +248,41 @@ SceneDesc read_scene(const json& value, Problems& problems) {
     return scene;
 }
 
+// `check`: the checks of the whole scene.
+Result<SceneDesc> checked(SceneDesc scene, Problems problems, std::string_view name,
+                          void (*check)(const SceneDesc&, Problems&)) {
+    // Values that could not be read have their defaults; check errors about those would be misleading.
+    Problems of_values(&problems);
+    check(scene, of_values);
+    problems.append(std::move(of_values));
+    if (!problems.none()) return std::move(problems).take(name);
+    name_unnamed(scene);
+    return scene;
+}
+
 }  // namespace
 
 Result<SceneDesc> parse_scene(std::string_view text, std::string_view name) {
     Problems problems;
     const std::optional<json> value = parse_json(text, problems);
     if (!value) return std::move(problems).take(name);
+    SceneDesc scene = read_values(*value, problems);
+    return checked(std::move(scene), std::move(problems), name, check_scene);
+}
 
-    SceneDesc scene = read_scene(*value, problems);
-    // Values that could not be read have their defaults; check errors about those would be misleading.
-    Problems of_values(&problems);
-    check_scene(scene, of_values);
-    problems.append(std::move(of_values));
-    if (!problems.none()) return std::move(problems).take(name);
-
-    name_unnamed(scene);
-    return scene;
+Result<SceneDesc> read_scene(const json& value, std::string_view name) {
+    Problems problems;
+    SceneDesc scene = read_values(value, problems);
+    return checked(std::move(scene), std::move(problems), name, check_parts);
 }
 
 Result<SceneDesc> load_scene(const std::filesystem::path& path) {
+    const auto text = read_scene_text(path);
+    if (!text) return text.errors();
+    return parse_scene(*text, path.string());
+}
+
+Result<std::string> read_scene_text(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) return Error{name, "is a folder, not a scene file"};
@@ -284,7 +300,7 @@ Result<SceneDesc> load_scene(const std::filesystem::path& path) {
         text.resize(before + static_cast<std::size_t>(file.gcount()));
     }
     if (file.bad()) return Error{name, "cannot be read"};
-    return parse_scene(text, name);
+    return text;
 }
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include <weft/result.h>
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 namespace weft {
@@ -16,5 +17,12 @@ Result<SceneDesc> load_scene(const std::filesystem::path& path);
 
 /// The same for a text; `name` is its name in error messages.
 Result<SceneDesc> parse_scene(std::string_view text, std::string_view name);
+
+/// The same for a value that parse_json() returned. A scene without cloths is valid here, because cloths can be added
+/// to it later.
+Result<SceneDesc> read_scene(const nlohmann::json& value, std::string_view name);
+
+/// The text of a scene file, at most as long as a scene may be. Fails if it cannot be read.
+Result<std::string> read_scene_text(const std::filesystem::path& path);
 
 }  // namespace weft

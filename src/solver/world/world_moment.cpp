@@ -34,6 +34,7 @@ Result<void> World::go_to(const WorldMoment& moment) {
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         const ColliderId id = colliders_.id_of(i);
         if (colliders_[i].friction != moment.colliders[i].friction) set_friction(id, moment.colliders[i].friction);
+        colliders_[i].name = moment.colliders[i].name;
         colliders_[i].motion = moment.colliders[i].motion;
         colliders_[i].adhesion = moment.colliders[i].adhesion;
     }
