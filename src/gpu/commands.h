@@ -61,6 +61,8 @@ class Commands {
     void end_pass();
     void bind(const GraphicsPipeline& pipeline);
     void bind(std::uint32_t set, const DescriptorSet& images);
+    /// Later drawing of this pass changes only these pixels, which must lie within the framebuffer.
+    void scissor(const VkRect2D& pixels);
     void draw(std::uint32_t vertices, std::uint32_t instances = 1);
     /// `indices`: 32 bits each.
     void draw_indexed(const BufferRange& indices, std::uint32_t count);

@@ -51,6 +51,10 @@ void Commands::bind(std::uint32_t set, const DescriptorSet& images) {
                                           nullptr);
 }
 
+void Commands::scissor(const VkRect2D& pixels) {
+    device_->vk().vkCmdSetScissor(commands_, 0, 1, &pixels);
+}
+
 void Commands::draw(std::uint32_t vertices, std::uint32_t instances) {
     device_->vk().vkCmdDraw(commands_, vertices, instances, 0, 0);
 }

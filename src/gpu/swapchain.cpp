@@ -117,8 +117,10 @@ Result<void> Swapchain::choose(const SwapchainOptions& options) {
         device, surface_,
         surface_function<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(device, "vkGetPhysicalDeviceSurfaceFormatsKHR"));
     format_.format = VK_FORMAT_UNDEFINED;
-    for (const VkFormat wanted :
-         {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
+    std::array candidates = {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM,
+                             VK_FORMAT_R8G8B8A8_UNORM};
+    if (options.plain) std::ranges::rotate(candidates, candidates.begin() + 2);
+    for (const VkFormat wanted : candidates) {
         const auto it = std::ranges::find_if(formats, [&](const VkSurfaceFormatKHR& one) {
             return one.format == wanted && one.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
         });

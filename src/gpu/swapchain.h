@@ -13,6 +13,9 @@ struct SwapchainOptions {
     /// Draws without waiting for the screen, which shows the newest image (VK_PRESENT_MODE_MAILBOX_KHR), if the surface
     /// supports it. Otherwise one image per refresh of the screen (FIFO).
     bool mailbox = false;
+    /// Prefers images whose values are shown as they are written, so that shaders encode sRGB and blending mixes
+    /// encoded colors. Otherwise images that encode sRGB come first.
+    bool plain = false;
     /// Usage flags of the images in addition to drawing, if the surface supports them.
     VkImageUsageFlags also = 0;
 };

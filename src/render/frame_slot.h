@@ -13,15 +13,15 @@ namespace weft::render {
 class FrameSlot {
   public:
     /// Begins a new frame. The device must have finished the previous one of this slot. Makes room for `bytes`,
-    /// including alignment.
-    Result<void> begin(gpu::Device& device, std::uint64_t bytes) {
+    /// including alignment. `usage`: of the upload buffer, in addition to storage; the same each time.
+    Result<void> begin(gpu::Device& device, std::uint64_t bytes, VkBufferUsageFlags usage = 0) {
         if (!commands) {
             auto made = gpu::Commands::create(device);
             if (!made) return made.errors();
             commands.emplace(std::move(*made));
         }
         if (!upload_ || upload_.size() < bytes) {
-            auto made = device.memory().buffer(bytes + bytes / 2, gpu::MemoryKind::upload, "frame");
+            auto made = device.memory().buffer(bytes + bytes / 2, gpu::MemoryKind::upload, "frame", usage);
             if (!made) return made.errors();
             upload_ = std::move(*made);
         }
@@ -41,6 +41,8 @@ class FrameSlot {
     std::uint64_t put(const Value& value) {
         return put(std::span<const Value>(&value, 1));
     }
+    /// The range of the upload buffer at an address that put() returned.
+    gpu::BufferRange range(std::uint64_t address) const { return {upload_.handle(), address - upload_.address()}; }
     static constexpr std::uint64_t room_for(std::uint64_t bytes) { return (bytes + 15) / 16 * 16; }
 
     std::optional<gpu::Commands> commands;

@@ -1,13 +1,26 @@
 #include "render/window.h"
 
+#include "render/glfw_keys.h"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 namespace weft::render {
 namespace {
+
+constexpr std::array cursor_shapes = {GLFW_ARROW_CURSOR,     GLFW_IBEAM_CURSOR,   GLFW_CROSSHAIR_CURSOR,
+                                      GLFW_HAND_CURSOR,      GLFW_HRESIZE_CURSOR, GLFW_VRESIZE_CURSOR,
+#ifdef GLFW_RESIZE_ALL_CURSOR  // GLFW 3.4
+                                      GLFW_RESIZE_ALL_CURSOR
+#else
+                                      GLFW_CROSSHAIR_CURSOR
+#endif
+};
 
 std::string last_words() {
     const char* text = nullptr;
@@ -40,6 +53,14 @@ std::vector<std::string> Display::surface_extensions() const {
     return names ? std::vector<std::string>(names, names + count) : std::vector<std::string>{};
 }
 
+double Display::now() const {
+    return glfwGetTime();
+}
+
+void Display::wake() const {
+    glfwPostEmptyEvent();
+}
+
 struct Window::Impl {
     std::shared_ptr<const Display> display;
     std::shared_ptr<gpu::Device> device;
@@ -47,6 +68,8 @@ struct Window::Impl {
     GLFWwindow* window = nullptr;
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     std::optional<gpu::Swapchain> swapchain;
+    std::vector<WindowEvent> events;
+    std::array<GLFWcursor*, cursor_shapes.size()> cursors{};
     WindowInput input;
     bool buttons[3]{};
     double asked = 0;  // s: time of the last call of input()
@@ -54,14 +77,21 @@ struct Window::Impl {
     ~Impl() {
         drop_surface();
         if (window) glfwDestroyWindow(window);
+        for (GLFWcursor* cursor : cursors)
+            if (cursor) glfwDestroyCursor(cursor);
     }
 
     Result<void> open(const WindowOptions& options);
     Result<void> make_surface();
     void drop_surface();
     void listen();
+    void listen_to_system();
+    void tell(WindowChange what) { events.push_back({glfwGetTime(), std::move(what)}); }
     void moved(double x, double y);
-    void pressed(int key, int action);
+    void clicked(int button, int action, int modifiers);
+    void pressed(int key, int scancode, int action, int modifiers);
+    void resized();
+    VkExtent2D extent() const;
 };
 
 Result<void> Window::Impl::open(const WindowOptions& options) {
@@ -103,15 +133,51 @@ void Window::Impl::listen() {
     glfwSetWindowUserPointer(window, this);
     static const auto of = [](GLFWwindow* one) { return static_cast<Impl*>(glfwGetWindowUserPointer(one)); };
     glfwSetCursorPosCallback(window, [](GLFWwindow* one, double x, double y) { of(one)->moved(x, y); });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* one, int button, int action, int) {
-        if (button <= GLFW_MOUSE_BUTTON_MIDDLE) of(one)->buttons[button] = action == GLFW_PRESS;
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* one, int entered) {
+        if (!entered) of(one)->tell(PointerLeft{});
     });
-    glfwSetScrollCallback(window,
-                          [](GLFWwindow* one, double, double y) { of(one)->input.scroll += static_cast<float>(y); });
-    glfwSetKeyCallback(window, [](GLFWwindow* one, int key, int, int action, int) { of(one)->pressed(key, action); });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* one, int button, int action, int modifiers) {
+        of(one)->clicked(button, action, modifiers);
+    });
+    glfwSetScrollCallback(window, [](GLFWwindow* one, double x, double y) {
+        of(one)->input.scroll += static_cast<float>(y);
+        of(one)->tell(WheelTurned{{static_cast<float>(x), static_cast<float>(y)}});
+    });
+    glfwSetKeyCallback(window, [](GLFWwindow* one, int key, int scancode, int action, int modifiers) {
+        of(one)->pressed(key, scancode, action, modifiers);
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* one, unsigned character) {
+        of(one)->tell(TextTyped{static_cast<char32_t>(character)});
+    });
+    listen_to_system();
     double x = 0, y = 0;
     glfwGetCursorPos(window, &x, &y);
     input.pointer = {static_cast<float>(x), static_cast<float>(y)};
+}
+
+void Window::Impl::listen_to_system() {
+    static const auto of = [](GLFWwindow* one) { return static_cast<Impl*>(glfwGetWindowUserPointer(one)); };
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* one, int focused) { of(one)->tell(FocusChanged{focused != 0}); });
+    glfwSetDropCallback(window, [](GLFWwindow* one, int count, const char** paths) {
+        of(one)->tell(FilesDropped{std::vector<std::string>(paths, paths + count)});
+    });
+    glfwSetWindowContentScaleCallback(window, [](GLFWwindow* one, float x, float) { of(one)->tell(ScaleChanged{x}); });
+    glfwSetFramebufferSizeCallback(window, [](GLFWwindow* one, int, int) { of(one)->resized(); });
+    glfwSetWindowIconifyCallback(window, [](GLFWwindow* one, int) { of(one)->resized(); });
+    glfwSetWindowRefreshCallback(window, [](GLFWwindow* one) { of(one)->tell(Exposed{}); });
+    glfwSetWindowCloseCallback(window, [](GLFWwindow* one) { of(one)->tell(CloseRequested{}); });
+}
+
+void Window::Impl::resized() {
+    const VkExtent2D pixels = extent();
+    tell(Resized{pixels.width, pixels.height, glfwGetWindowAttrib(window, GLFW_ICONIFIED) != 0});
+}
+
+VkExtent2D Window::Impl::extent() const {
+    if (glfwGetWindowAttrib(window, GLFW_ICONIFIED)) return {0, 0};
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
 void Window::Impl::moved(double x, double y) {
@@ -123,9 +189,24 @@ void Window::Impl::moved(double x, double y) {
                                            {GLFW_MOUSE_BUTTON_RIGHT, &input.right}};
     for (const auto& [button, drag] : drags)
         if (buttons[button]) *drag = {drag->x + by.x, drag->y + by.y};
+    tell(PointerMoved{to});
 }
 
-void Window::Impl::pressed(int key, int action) {
+void Window::Impl::clicked(int button, int action, int modifiers) {
+    if (button <= GLFW_MOUSE_BUTTON_MIDDLE) buttons[button] = action == GLFW_PRESS;
+    if (button > GLFW_MOUSE_BUTTON_5) return;
+    double x = 0, y = 0;
+    glfwGetCursorPos(window, &x, &y);
+    tell(ButtonChanged{static_cast<PointerButton>(button),
+                       action == GLFW_PRESS,
+                       {static_cast<float>(x), static_cast<float>(y)},
+                       modifiers_of(modifiers)});
+}
+
+void Window::Impl::pressed(int key, int scancode, int action, int modifiers) {
+    const bool down = action != GLFW_RELEASE;
+    tell(KeyChanged{key_of(key), label_of(key, scancode), down, action == GLFW_REPEAT,
+                    modifiers_of(modifiers, key_of(key), down)});
     if (key == GLFW_KEY_LEFT_SHIFT || key == GLFW_KEY_RIGHT_SHIFT) input.shift = action != GLFW_RELEASE;
     const int number = key == GLFW_KEY_ESCAPE ? escape_key : key;
     if (number < 0 || number >= static_cast<int>(input.held.size())) return;
@@ -147,12 +228,28 @@ Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
-WindowInput Window::input(double patience) {
-    if (patience > 0) {
-        glfwWaitEventsTimeout(patience);
-    } else {
+namespace {
+
+void wait_for_events(double patience) {
+    if (patience <= 0) {
         glfwPollEvents();
+    } else if (std::isinf(patience)) {
+        glfwWaitEvents();
+    } else {
+        glfwWaitEventsTimeout(patience);
     }
+}
+
+}  // namespace
+
+std::vector<WindowEvent> Window::events(double patience) {
+    wait_for_events(impl_->events.empty() ? patience : 0);
+    return std::exchange(impl_->events, {});
+}
+
+WindowInput Window::input(double patience) {
+    wait_for_events(patience);
+    impl_->events.clear();
     WindowInput& now = impl_->input;
     int width = 0, height = 0;
     glfwGetWindowSize(impl_->window, &width, &height);
@@ -179,11 +276,41 @@ void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(impl_->window, title.c_str());
 }
 
+void Window::keep_open() {
+    glfwSetWindowShouldClose(impl_->window, GLFW_FALSE);
+}
+
+// A missing shape leaves the arrow.
+void Window::set_cursor(CursorShape shape) {
+    GLFWcursor*& cursor = impl_->cursors[static_cast<std::size_t>(shape)];
+    if (!cursor) cursor = glfwCreateStandardCursor(cursor_shapes[static_cast<std::size_t>(shape)]);
+    glfwSetCursor(impl_->window, cursor);
+}
+
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(impl_->window);
+    return text ? text : "";
+}
+
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(impl_->window, text.c_str());
+}
+
+float Window::content_scale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(impl_->window, &x, &y);
+    return x > 0 ? x : 1;
+}
+
+float Window::pixels_per_unit() const {
+    int pixels = 0, units = 0, unused = 0;
+    glfwGetFramebufferSize(impl_->window, &pixels, &unused);
+    glfwGetWindowSize(impl_->window, &units, &unused);
+    return pixels > 0 && units > 0 ? static_cast<float>(pixels) / static_cast<float>(units) : 1;
+}
+
 VkExtent2D Window::extent() const {
-    if (glfwGetWindowAttrib(impl_->window, GLFW_ICONIFIED)) return {0, 0};
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(impl_->window, &width, &height);
-    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    return impl_->extent();
 }
 
 VkFormat Window::format() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/swapchain.h"
+#include "render/window_events.h"
 #include "render/window_input.h"
 
 #include <weft/result.h>
@@ -24,6 +25,10 @@ class Display {
 
     /// For gpu::InstanceOptions. Empty if Vulkan does not support windows here.
     std::vector<std::string> surface_extensions() const;
+    /// s: the clock of events.
+    double now() const;
+    /// Ends a wait for events, or the next one. Any thread may call this.
+    void wake() const;
 
   private:
     Display() = default;
@@ -44,13 +49,26 @@ class Window {
     Window& operator=(Window&&) noexcept;
     ~Window();
 
+    /// Returns the events since the last call, in their order. `patience`: longest time to wait for the first one, s;
+    /// infinity: until an event or Display::wake(). Use either this or input().
+    std::vector<WindowEvent> events(double patience = 0);
     /// Returns the user input since the last call. Also collects events of other windows, which their own calls return.
     /// `patience`: longest time to wait for an event, s.
     WindowInput input(double patience = 0);
     /// Whether the user or close() asked to close the window. It stays open until it is destroyed.
     bool closed() const;
     void close();
+    /// Takes back a request to close.
+    void keep_open();
     void set_title(const std::string& title);
+    void set_cursor(CursorShape shape);
+    /// UTF-8; empty if the clipboard has no text.
+    std::string clipboard() const;
+    void set_clipboard(const std::string& text);
+    /// The scale that the system asks for: 1 for 96 pixels per inch.
+    float content_scale() const;
+    /// Pixels per unit of the positions in events.
+    float pixels_per_unit() const;
     /// Pixels; 0 while it is minimized.
     VkExtent2D extent() const;
 
