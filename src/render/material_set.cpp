@@ -83,13 +83,26 @@ Result<const MaterialSet::Tile*> MaterialSet::tile_of(Weave weave) {
     return &*tile;
 }
 
+void MaterialSet::write(const Material& material, const Tile& tile, Entry& entry) {
+    const bool mapped = static_cast<bool>(entry.own.first), colored = static_cast<bool>(entry.color);
+    const auto data = data_of(material, tile.threads, mapped ? 1.0f : tile.warp, mapped, colored);
+    std::memcpy(entry.data.mapped().data(), &data, sizeof data);
+    entry.sheer = material.coverage < 1;
+}
+
+Result<void> MaterialSet::change(std::uint32_t id, const Material& material) {
+    const auto tile = tile_of(material.weave);
+    if (!tile) return tile.errors();
+    write(material, **tile, entries_[id]);
+    return {};
+}
+
 Result<std::uint32_t> MaterialSet::add(const Material& material, const MaterialMaps& maps,
                                        VkDescriptorSetLayout layout) {
     if (auto prepared = prepare(); !prepared) return prepared.errors();
     const auto tile = tile_of(material.weave);
     if (!tile) return tile.errors();
     Entry entry;
-    entry.sheer = material.coverage < 1;
     if (maps.color) {
         auto color = make_texture(device_, *maps.color, "color map");
         if (!color) return color.errors();
@@ -100,12 +113,10 @@ Result<std::uint32_t> MaterialSet::add(const Material& material, const MaterialM
         if (!own) return own.errors();
         entry.own = std::move(*own);
     }
-    const float warp = maps.normal ? 1.0f : (*tile)->warp;
-    const auto data = data_of(material, (*tile)->threads, warp, maps.normal != nullptr, maps.color != nullptr);
-    auto buffer = device_.memory().buffer(sizeof data, gpu::MemoryKind::upload, "material");
+    auto buffer = device_.memory().buffer(sizeof(shading::MaterialData), gpu::MemoryKind::upload, "material");
     if (!buffer) return buffer.errors();
-    std::memcpy(buffer->mapped().data(), &data, sizeof data);
     entry.data = std::move(*buffer);
+    write(material, **tile, entry);
 
     const ReliefImages& relief = maps.normal ? entry.own : (*tile)->images;
     const VkImageView color = entry.color ? entry.color.view() : white_.view();

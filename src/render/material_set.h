@@ -26,6 +26,8 @@ class MaterialSet {
 
     /// `layout`: of the descriptor set with the material's images.
     Result<std::uint32_t> add(const Material& material, const MaterialMaps& maps, VkDescriptorSetLayout layout);
+    /// Changes everything except weave and maps, which must be those of before.
+    Result<void> change(std::uint32_t id, const Material& material);
     /// Frees the material. add() reuses its number.
     void remove(std::uint32_t id);
     std::uint64_t address(std::uint32_t id) const { return entries_[id].data.address(); }
@@ -52,6 +54,7 @@ class MaterialSet {
     Result<void> prepare();
     Result<ReliefImages> upload(const Relief& relief, const std::string& name);
     Result<const Tile*> tile_of(Weave weave);
+    static void write(const Material& material, const Tile& tile, Entry& entry);
 
     gpu::Device& device_;
     gpu::Sampler sampler_;

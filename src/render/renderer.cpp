@@ -508,6 +508,10 @@ Result<MaterialId> Renderer::add(const Material& material, const Image8* color_m
     return impl_->materials.add(material, {color_map, normal_map}, impl_->pipelines.lit[0].set_layout(1));
 }
 
+Result<void> Renderer::change(MaterialId id, const Material& material) {
+    return impl_->materials.change(id, material);
+}
+
 void Renderer::remove(MaterialId material) {
     impl_->materials.remove(material);
 }

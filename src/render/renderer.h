@@ -39,6 +39,8 @@ class Renderer {
     /// The caller reads the maps that the material names. Null: the material has no such map.
     Result<MaterialId> add(const Material& material, const Image8* color_map = nullptr,
                            const Image8* normal_map = nullptr);
+    /// Changes the numbers of a material; its weave and its maps stay. No frame in flight may use it.
+    Result<void> change(MaterialId id, const Material& material);
     /// No frame in flight may use the material. Its number is reused.
     void remove(MaterialId material);
     /// Sets the surroundings and their light. Waits for the frames in flight.

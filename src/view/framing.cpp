@@ -49,7 +49,7 @@ void spring(Value& at, Value& speed, const Value& goal_before, const Value& goal
 
 }  // namespace
 
-Subject subject_of(const World& world) {
+Subject subject_of(const WorldFrame& world) {
     const Bounds cloths = bounds_of_cloths(world.frame());
     Bounds all = cloths;
     Bounds reach = cloths;

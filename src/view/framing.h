@@ -2,7 +2,7 @@
 #pragma once
 
 #include "look/camera.h"
-#include "solver/world/world.h"
+#include "view/world_frame.h"
 
 #include <weft/bounds.h>
 
@@ -20,10 +20,13 @@ struct Subject {
     Ball all;     ///< around the cloths and nearby parts of colliders
 };
 
-/// Reads the frame back to the host (World::frame). Colliders count only within the cloths' bounding box, enlarged by
+/// Reads the frame of a live world back to the host. Colliders count only within the cloths' bounding box, enlarged by
 /// its diagonal on all sides. So colliders far from the cloths are ignored, and large ones count in part. Without
 /// cloths, all colliders except planes count.
-Subject subject_of(const World& world);
+Subject subject_of(const WorldFrame& world);
+inline Subject subject_of(const World& world) {
+    return subject_of(LiveWorldFrame(world));
+}
 
 /// A camera in front of the ball, slightly to the right and above, that shows the whole ball. `aspect`: width over
 /// height of the image.

@@ -33,7 +33,7 @@ std::vector<std::uint32_t> first_vertices(const ClothModel& model) {
     return first;
 }
 
-std::vector<Vec3> anchor_places(const World& world, const ClothFrame& cloth, double time) {
+std::vector<Vec3> anchor_places(const WorldFrame& world, const ClothFrame& cloth, double time) {
     const ClothModel& model = *cloth.model;
     std::vector<Vec3> places;
     for (std::uint32_t i = 0; i < model.anchor_count; ++i)

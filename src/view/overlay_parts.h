@@ -31,7 +31,7 @@ std::vector<float> at_vertices(const ClothModel& model, std::span<const float> o
 std::vector<std::uint32_t> first_vertices(const ClothModel& model);
 
 /// Positions of the anchors of a cloth's attachments at the end of the frame.
-std::vector<Vec3> anchor_places(const World& world, const ClothFrame& cloth, double time);
+std::vector<Vec3> anchor_places(const WorldFrame& world, const ClothFrame& cloth, double time);
 
 /// Scales a size in pixels from an image of height 720 to this image; at least `size`.
 float pixels(const OverlayInput& input, float size);

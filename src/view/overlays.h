@@ -2,9 +2,9 @@
 #pragma once
 
 #include "render/drawing.h"
-#include "solver/world/world.h"
 #include "view/field_surfaces.h"
 #include "view/legend.h"
+#include "view/world_frame.h"
 
 #include <weft/result.h>
 
@@ -18,8 +18,8 @@ namespace weft {
 
 /// Input of overlays.
 struct OverlayInput {
-    World& world;
-    const Frame& frame;
+    const WorldFrame& world;
+    const Frame& frame;                        ///< of the world
     FieldSurfaces& fields;                     ///< kept from image to image
     float size = 1;                            ///< m: radius of the scene, for the length of arrows
     std::uint32_t width = 1280, height = 720;  ///< pixels of the image
@@ -34,7 +34,7 @@ struct Scalars {
 
 /// A surface that is drawn in place of a collider's own, with a value per vertex.
 struct ColliderScalars {
-    std::uint32_t collider = 0;  ///< place in World::colliders()
+    std::uint32_t collider = 0;  ///< place in WorldFrame::colliders()
     std::shared_ptr<const FieldSurface> field = {};
     float least = 0, most = 1;
     render::ColorScale scale = render::ColorScale::balance;

@@ -32,25 +32,54 @@ const Image8* SceneMaterials::picture(const std::string& file, const std::string
     return entry->second ? &*entry->second : nullptr;
 }
 
-Result<render::MaterialId> SceneMaterials::find(render::Renderer& renderer, const std::string& name,
-                                                const Material& material, std::vector<std::string>& notes) {
-    if (const auto known = ids_.find(name); known != ids_.end()) return known->second;
+Result<render::MaterialId> SceneMaterials::add(render::Renderer& renderer, const std::string& name,
+                                               const Material& material, std::vector<std::string>& notes) {
     const Image8* color = picture(material.color_map, name, "; it is checkered instead", notes);
     const Image8* normal = picture(material.normal_map, name, "; its weave is drawn instead", notes);
     const Image8 checker = checkered();
     if (!material.color_map.empty() && color == nullptr) color = &checker;
-    auto id = renderer.add(material, color, normal);
-    if (!id) return id;
-    ids_.emplace(name, *id);
-    return id;
+    return renderer.add(material, color, normal);
 }
 
-void SceneMaterials::keep(render::Renderer& renderer, std::span<const render::MaterialId> used) {
-    std::erase_if(ids_, [&](const auto& entry) {
-        if (std::ranges::find(used, entry.second) != used.end()) return false;
-        renderer.remove(entry.second);
-        return true;
-    });
+Result<void> SceneMaterials::set(render::Renderer& renderer, std::optional<render::MaterialId>& of,
+                                 const std::string& name, const Material& material, std::vector<std::string>& notes) {
+    if (of && used_.at(*of).material == material) return {};
+    const auto equal =
+        std::ranges::find_if(used_, [&](const auto& entry) { return entry.second.material == material; });
+    if (of) {
+        gpu::Device& device = *renderer.device();
+        if (auto idle = device.wait(device.submitted()); !idle) return idle;
+        // While a slider moves, the material changes with each image, and its images stay on the device.
+        Used& mine = used_.at(*of);
+        if (mine.objects == 1 && equal == used_.end() && mine.material.weave == material.weave &&
+            mine.material.color_map == material.color_map && mine.material.normal_map == material.normal_map) {
+            mine.material = material;
+            return renderer.change(*of, material);
+        }
+    }
+    if (equal != used_.end()) {
+        ++equal->second.objects;
+        const render::MaterialId id = equal->first;
+        release(renderer, of);
+        of = id;
+        return {};
+    }
+    release(renderer, of);
+    const auto id = add(renderer, name, material, notes);
+    if (!id) return id.errors();
+    used_[*id] = {material, 1};
+    of = *id;
+    return {};
+}
+
+void SceneMaterials::release(render::Renderer& renderer, std::optional<render::MaterialId>& of) {
+    if (!of) return;
+    const auto used = used_.find(*of);
+    if (--used->second.objects == 0) {
+        renderer.remove(*of);
+        used_.erase(used);
+    }
+    of.reset();
 }
 
 }  // namespace weft

@@ -7,8 +7,8 @@
 #include "look/camera.h"
 #include "render/renderer.h"
 #include "scene/scene_desc.h"
-#include "solver/world/world.h"
 #include "view/overlays.h"
+#include "view/world_frame.h"
 
 #include <weft/result.h>
 
@@ -30,7 +30,8 @@ struct ViewOptions {
     float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };
 
-/// Returns the drawn surface of a cloth on the device. If the simulation has none there, the view uploads a copy.
+/// Returns the drawn surface of a cloth of a live world on the device. If the simulation has none there, the view
+/// uploads a copy.
 using SurfaceOnDevice = std::function<Result<gpu::SurfaceBuffers>(ClothId cloth)>;
 
 /// Reads the image of a material's map.
@@ -43,24 +44,39 @@ struct ViewSources {
     ReadLight read_light = {};
 };
 
+/// Scene and world are read only during calls. They may move between calls, and anything in them may change: the next
+/// image shows it. A world is drawn itself, or from a copy (view/world_frame.h), which may be older than the scene.
 class SceneView {
   public:
-    /// `device`: that of the simulation, or a separate one. Scene and world are read only during calls and may move
-    /// between them. A map that cannot be read is replaced by a checkerboard and causes a note.
-    static Result<SceneView> create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene, World& world,
-                                    const ViewOptions& options, const ViewSources& sources = {});
+    /// `device`: that of the simulation, or a separate one. A map that cannot be read is replaced by a checkerboard and
+    /// causes a note.
+    static Result<SceneView> create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene,
+                                    const WorldFrame& world, const ViewOptions& options,
+                                    const ViewSources& sources = {});
+    static Result<SceneView> create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene, const World& world,
+                                    const ViewOptions& options, const ViewSources& sources = {}) {
+        return create(std::move(device), scene, LiveWorldFrame(world), options, sources);
+    }
     SceneView(SceneView&&) noexcept;
     SceneView& operator=(SceneView&&) noexcept;
     ~SceneView();
 
     /// The scene's camera; if it has none, one that shows the current state of everything (framing.h).
-    Camera camera(const SceneDesc& scene, const World& world) const;
+    Camera camera(const SceneDesc& scene, const WorldFrame& world) const;
+    Camera camera(const SceneDesc& scene, const World& world) const { return camera(scene, LiveWorldFrame(world)); }
     /// Draws the current state of the world. Frees device data of objects that were removed since the previous image.
-    Result<Image8> picture(const SceneDesc& scene, World& world, const Camera& camera);
+    Result<Image8> picture(const SceneDesc& scene, const WorldFrame& world, const Camera& camera);
+    Result<Image8> picture(const SceneDesc& scene, const World& world, const Camera& camera) {
+        return picture(scene, LiveWorldFrame(world), camera);
+    }
     /// The same into a target of any size. Returns the value that the device's timeline reaches when the image is done.
     /// `window`: semaphores of a window's image.
-    Result<std::uint64_t> draw(const SceneDesc& scene, World& world, const Camera& camera, const render::Target& target,
-                               gpu::BinarySemaphores window = {});
+    Result<std::uint64_t> draw(const SceneDesc& scene, const WorldFrame& world, const Camera& camera,
+                               const render::Target& target, gpu::BinarySemaphores window = {});
+    Result<std::uint64_t> draw(const SceneDesc& scene, const World& world, const Camera& camera,
+                               const render::Target& target, gpu::BinarySemaphores window = {}) {
+        return draw(scene, LiveWorldFrame(world), camera, target, window);
+    }
     /// Replaces the overlays.
     void set_overlays(std::vector<const Overlay*> overlays);
     /// One line per problem that was worked around: maps that cannot be read.

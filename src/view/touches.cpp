@@ -119,12 +119,12 @@ class ClothTouches {
 
 }  // namespace
 
-bool has_contacts_of(const World& world, const Frame& frame) {
+bool has_contacts_of(const WorldFrame& world, const Frame& frame) {
     const ContactForces& forces = world.contact_forces();
     return forces.frame > 0 && forces.frame == frame.index;
 }
 
-std::vector<Touch> touches_of(const World& world, const Frame& frame) {
+std::vector<Touch> touches_of(const WorldFrame& world, const Frame& frame) {
     std::vector<Touch> touches;
     if (!has_contacts_of(world, frame)) return touches;
     const std::span<const Contact> contacts = world.contact_forces().contacts;

@@ -1,7 +1,7 @@
 // Where cloth touches colliders, from the contacts that a frame has recorded.
 #pragma once
 
-#include "solver/world/world.h"
+#include "view/world_frame.h"
 
 #include <vector>
 
@@ -20,9 +20,9 @@ struct Touch {
 /// end of the frame any more, the impulse stays at the particle.
 ///
 /// Empty if the world has no contacts of this frame.
-std::vector<Touch> touches_of(const World& world, const Frame& frame);
+std::vector<Touch> touches_of(const WorldFrame& world, const Frame& frame);
 
 /// Whether the world has the contacts of this frame.
-bool has_contacts_of(const World& world, const Frame& frame);
+bool has_contacts_of(const WorldFrame& world, const Frame& frame);
 
 }  // namespace weft

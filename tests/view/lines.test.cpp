@@ -274,7 +274,7 @@ TEST(ContactsOverlay, shows_a_tip_between_particles_where_it_touches) {
         EXPECT_EQ(point.color, *output.legends[0].entries[1].color);
     }
     // All of the push is shown. Lines are in scale.
-    const std::vector<Touch> touches = touches_of(world, world.frame());
+    const std::vector<Touch> touches = touches_of(LiveWorldFrame(world), world.frame());
     Vec3 shown_total, along;
     for (const Touch& touch : touches) shown_total += touch.impulse;
     for (const render::Line& line : output.lines_on_top) along += line.to - line.from;
@@ -294,7 +294,7 @@ TEST(ContactsOverlay, shows_all_of_the_push) {
     for (int i = 0; i < 30; ++i) {
         world.step(frame_seconds);
         Shown shown(world);
-        const std::vector<Touch> touches = touches_of(world, shown.frame());
+        const std::vector<Touch> touches = touches_of(LiveWorldFrame(world), shown.frame());
         Vec3 total, shown_total;
         float size = 0;
         for (const Contact& contact : world.contact_forces().contacts)

@@ -13,7 +13,7 @@ namespace weft::physical {
 class Shown {
   public:
     /// The last frame.
-    explicit Shown(World& world, float size = 0.7f) : world_(world), frame_(world.frame()), size_(size) {
+    explicit Shown(const World& world, float size = 0.7f) : world_(world), frame_(world.frame()), size_(size) {
         for (ClothFrame& cloth : frame_.cloths) {
             particles_.emplace_back(cloth.positions.begin(), cloth.positions.end());
             particle_normals_.emplace_back(cloth.normals.begin(), cloth.normals.end());
@@ -68,7 +68,7 @@ class Shown {
         }
     }
 
-    World& world_;
+    LiveWorldFrame world_;
     Frame frame_;
     FieldSurfaces fields_;
     float size_;

@@ -29,24 +29,28 @@ void draw_surface(const ClothFrame& cloth, std::vector<Vec3>& positions, std::ve
 }
 
 const RenderMesh& ClothFrame::render_mesh() const {
-    if (has_render_mesh_) return render_mesh_;
+    if (computed_.has_mesh) return computed_.mesh;
+    const std::lock_guard lock(computed_.mutex);
+    if (computed_.has_mesh) return computed_.mesh;
     const TriangleMesh& mesh = model->mesh();
-    draw_surface(*this, render_mesh_.positions, render_mesh_.normals);
-    render_mesh_.triangles = mesh.triangles;
-    render_mesh_.uvs = mesh.uvs;
-    render_mesh_.colors = mesh.colors;
-    render_mesh_.rest_positions = mesh.positions;
-    has_render_mesh_ = true;
-    return render_mesh_;
+    RenderMesh& made = computed_.mesh;
+    draw_surface(*this, made.positions, made.normals);
+    made.triangles = mesh.triangles;
+    made.uvs = mesh.uvs;
+    made.colors = mesh.colors;
+    made.rest_positions = mesh.positions;
+    computed_.has_mesh = true;
+    return made;
 }
 
 std::span<const Vec4> ClothFrame::tangents() const {
-    if (!has_tangents_) {
-        const RenderMesh& mesh = render_mesh();
-        compute_tangents(mesh.triangles, mesh.uvs, mesh.positions, mesh.normals, tangents_);
-        has_tangents_ = true;
-    }
-    return tangents_;
+    if (computed_.has_tangents) return computed_.tangents;
+    const RenderMesh& mesh = render_mesh();
+    const std::lock_guard lock(computed_.mutex);
+    if (computed_.has_tangents) return computed_.tangents;
+    compute_tangents(mesh.triangles, mesh.uvs, mesh.positions, mesh.normals, computed_.tangents);
+    computed_.has_tangents = true;
+    return computed_.tangents;
 }
 
 void compute_tangents(std::span<const Triangle> triangles, std::span<const Vec2> uvs, std::span<const Vec3> positions,

@@ -12,7 +12,9 @@
 #include <weft/ids.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,18 +61,31 @@ struct ClothFrame {
     std::vector<Opening> openings;  ///< where it has torn in the frame; the model has them already
     std::string detail;             ///< source of the first non-finite value, or the device's error message
 
-    /// Computed by the first call in a frame. Needs normals. Not thread-safe.
+    /// Computed by the first call in a frame, on any thread. Needs normals.
     const RenderMesh& render_mesh() const;
     /// Tangents of the render mesh's vertices, also computed by the first call: unit, w is the handedness
     /// (tangents.md). Empty if the mesh has no UVs.
     std::span<const Vec4> tangents() const;
     /// Must be called after the arrays of the frame have changed: discards the computed mesh and tangents.
-    void invalidate() { has_render_mesh_ = has_tangents_ = false; }
+    void invalidate() { computed_.clear(); }
 
   private:
-    mutable RenderMesh render_mesh_;
-    mutable std::vector<Vec4> tangents_;
-    mutable bool has_render_mesh_ = false, has_tangents_ = false;
+    /// Copies are empty, because a copied frame may get other arrays. Assignment keeps the memory of the arrays.
+    struct Computed {
+        Computed() = default;
+        Computed(const Computed&) {}
+        Computed& operator=(const Computed&) {
+            clear();
+            return *this;
+        }
+        void clear() { has_mesh = has_tangents = false; }
+
+        std::mutex mutex;
+        RenderMesh mesh;
+        std::vector<Vec4> tangents;
+        std::atomic<bool> has_mesh = false, has_tangents = false;
+    };
+    mutable Computed computed_;
 };
 
 /// A particle of a cloth in a frame.

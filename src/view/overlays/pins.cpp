@@ -8,7 +8,7 @@ namespace {
 constexpr Vec4 in_place{1.0f, 0.72f, 0.1f, 1}, on_collider{0.15f, 0.8f, 1.0f, 1};
 
 // Marks the particles and anchors that a collider moves.
-std::vector<std::uint8_t> attached_particles(const World& world, const ClothFrame& cloth) {
+std::vector<std::uint8_t> attached_particles(const WorldFrame& world, const ClothFrame& cloth) {
     std::vector<std::uint8_t> by_collider(cloth.model->point_count());
     const KinematicTargets& targets = world.kinematic_targets(cloth.id);
     for (const KinematicTarget& target : targets.particles)

@@ -66,7 +66,7 @@ void add_arrow(std::vector<render::Line>& lines, Vec3 from, Vec3 along, Vec4 col
 }  // namespace
 
 void wind(const OverlayInput& input, OverlayOutput& output) {
-    const auto& air = input.world.settings().air;
+    const auto& air = input.world.air();
     const Bounds bounds = bounds_of_cloths(input);
     const double most = air ? nice_above(fastest_of(air->wind)) : 0;  // m/s
     if (!air || air->wind.empty() || bounds.empty() || !(fastest_of(air->wind) > 0)) {
