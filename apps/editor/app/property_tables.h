@@ -1,0 +1,57 @@
+// What the parameter tables say about a place in a scene: its values with units, ranges and defaults, and what lies below.
+#pragma once
+
+#include "base/parameter.h"
+#include "editor/core/document.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft::editor {
+
+/// A value under a key of an object.
+struct Property {
+    const Parameter* parameter = nullptr;
+    const void* defaults = nullptr;  ///< the struct that holds the default; null: there is none
+    std::string_view key() const { return parameter->key; }
+};
+
+/// An object or a list under a key.
+struct ChildProperty {
+    const Parameter* parameter = nullptr;
+    bool is_list = false;
+    std::string_view key() const { return parameter->key; }
+};
+
+/// Keys of one object of a scene.
+struct PropertyGroup {
+    std::vector<Property> values;
+    std::vector<ChildProperty> children;
+    /// Keys of which the object has exactly one, such as the shapes of a collider.
+    std::vector<std::string_view> one_of;
+};
+
+/// `/cloths/*/pins/*` of `/cloths/0/pins/3`.
+std::string pattern_of(const std::string& place);
+
+/// Everything that the tables know about the object at `place`. Defaults of a fabric or a material are those of its
+/// preset.
+PropertyGroup properties_of(const Document& document, const std::string& place);
+
+/// The default as a scene file would have it; nullopt: there is none.
+std::optional<Json> default_of(const Property& property);
+/// The value of the document, or the default.
+std::optional<Json> value_of(const Document& document, const std::string& place, const Property& property);
+
+/// `Static friction` of `static_friction`.
+std::string label_of_key(std::string_view key);
+
+/// Names that a text may have: fabrics, materials, colliders, cloths; empty: any text.
+std::vector<std::string> names_for(const Document& document, const std::string& place, std::string_view key);
+
+/// A new element for a list, which passes the checks of a scene; nullopt: the list cannot be extended by a button.
+std::optional<Json> new_element(const Document& document, const std::string& list);
+
+}  // namespace weft::editor
