@@ -68,7 +68,7 @@ Vec3 angles_near(const Mat3& rotation, Vec3 near) {
 Vec3 turned_angles(Vec3 start, Vec3 axis, double degrees) {
     const Double3 around = normalized(exact(axis));
     if (!finite(start) || !(length(around) > 0) || !std::isfinite(degrees) || degrees == 0) return start;
-    constexpr double step = 0.5, most_turns = 100;
+    constexpr double step = 1, most_turns = 100;
     // Whole turns beyond what anybody drags are left out, so that the work is limited.
     if (std::abs(degrees) > most_turns * 360) degrees = std::remainder(degrees, 360.0);
     const Matrix first = matrix_from(exact(start));

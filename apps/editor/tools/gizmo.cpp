@@ -129,9 +129,8 @@ void Gizmo::add_planes() {
 void Gizmo::add_ring(GizmoHandle handle, int axis, Double3 around, double radius) {
     const Double3 toward_eye = normalized(center_ * -1);
     const Double3 in_plane = toward_eye - around * dot(around, toward_eye);
-    constexpr double front = 0.1;  // sine of the angle
     constexpr int steps = 96;
-    const bool whole = length(in_plane) < front;
+    const bool whole = length(in_plane) < ring_front;
     const Double3 start =
         whole ? cross(around, std::abs(around.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0}) : in_plane;
     const Double3 u = normalized(start), v = cross(around, u);

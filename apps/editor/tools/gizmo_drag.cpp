@@ -25,7 +25,7 @@ std::size_t number_of(GizmoHandle handle, GizmoHandle first) {
 
 double in_steps(double value, float step) {
     const auto s = static_cast<double>(step);
-    return s > 0 ? std::round(value / s) * s : value;
+    return s > 0 ? std::round(value / s) * s + 0.0 : value;  // no -0
 }
 
 // In pixels, the way of a point of the view's frame that moves.
@@ -68,12 +68,12 @@ void GizmoDrag::start_turn(Double2 pointer) {
         axis = axes_[i], around_ = frame_.axes[i], radius_ = size_;
     }
     Double3 nearest_to_eye = toward_eye - axis * dot(axis, toward_eye);
-    if (!(length(nearest_to_eye) > 1e-6))
-        nearest_to_eye = cross(axis, std::abs(axis.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0});
+    const bool whole = length(nearest_to_eye) < ring_front;
+    if (whole) nearest_to_eye = cross(axis, std::abs(axis.x) < 0.7 ? Double3{1, 0, 0} : Double3{0, 1, 0});
     const Double3 u = normalized(nearest_to_eye), v = cross(axis, u);
     const double radius = radius_ * center_.z / view_.focal();
     constexpr int steps = 360;
-    const int reach = handle_ == GizmoHandle::turn_view ? steps / 2 : steps / 4;
+    const int reach = whole ? steps / 2 : steps / 4;
     double least = 0;
     Double3 grabbed = u, way = v;
     for (int i = -reach; i <= reach; ++i) {

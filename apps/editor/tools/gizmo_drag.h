@@ -51,6 +51,8 @@ struct GizmoDragFrame {
     GizmoPlace place;
     std::array<Double3, 3> axes;
 };
+/// A ring whose axis is so near to the line of sight (sine of the angle) has no half that faces away.
+inline constexpr double ring_front = 0.1;
 inline constexpr double outer_ring = 1.2;  ///< radius of the ring `turn_view`, in sizes of the gizmo
 GizmoDragFrame gizmo_frame(const GizmoPlace& place, GizmoKind kind, GizmoAxes axes);
 

@@ -61,9 +61,11 @@ TEST(Picking, meets_every_shape_of_a_collider_where_its_surface_is) {
             const Pick pick = pick_at(view, pixel, {.colliders = colliders});
             // Marches along the exact distance.
             const auto ray = view.ray(pixel);
-            double at = 0;
-            for (int k = 0; k < 400 && at < 50; ++k)
-                at += std::abs(signed_distance(collider, ray->origin + ray->direction * static_cast<float>(at)));
+            double at = 0, left = 1;
+            for (int k = 0; k < 400 && at < 50 && left > 1e-5; ++k) {
+                left = std::abs(signed_distance(collider, ray->origin + ray->direction * static_cast<float>(at)));
+                at += left;
+            }
             const Vec3 end = ray->origin + ray->direction * static_cast<float>(at);
             if (pick.kind != PickKind::collider) continue;
             ++hits;

@@ -81,6 +81,10 @@ std::span<const ReachedVertex> SurfaceDistance::from(const MeshView& mesh, const
         }
     }
     for (const ReachedVertex& r : reached_) distance_[r.vertex] = not_reached, final_[r.vertex] = 0;
+    // Where triangles are obtuse, a vertex may be reached after one that is farther away.
+    std::ranges::sort(reached_, [](const ReachedVertex& a, const ReachedVertex& b) {
+        return a.distance != b.distance ? a.distance < b.distance : a.vertex < b.vertex;
+    });
     return reached_;
 }
 

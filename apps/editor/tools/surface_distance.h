@@ -22,9 +22,9 @@ struct ReachedVertex {
     float distance = 0;  ///< m
 };
 
-/// By fast marching, as physics/tether/geodesic.h does for whole meshes at rest. Exact on flat parts in front of which
-/// the triangles are not obtuse; elsewhere a little too long. Keeps the connections of the triangles, so it must be
-/// made anew when the triangles change; positions may change.
+/// By fast marching, as physics/tether/geodesic.h does for whole meshes at rest. On a flat grid never too short, and
+/// too long by a fifth of an edge at most. Keeps the connections of the triangles, so it must be made anew when the
+/// triangles change; positions may change.
 class SurfaceDistance {
   public:
     explicit SurfaceDistance(const MeshView& mesh);
