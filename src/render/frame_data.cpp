@@ -1,5 +1,7 @@
 #include "render/frame_data.h"
 
+#include "look/view_limits.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -14,10 +16,7 @@ vec3 as_glm(Vec3 v) {
     return {v.x, v.y, v.z};
 }
 
-// In units of the distance from the eye to the target.
-constexpr float near_plane = 0.005f, far_plane = 60;
-constexpr float ground_begins_to_fade = 1.5f, ground_ends = 6;
-constexpr float occlusion_reaches = 0.2f;
+constexpr float occlusion_reaches = 0.2f;  // in units of the distance from the eye to the target
 
 /// Right-handed, y down in the image, depth from 0 to 1.
 mat4 perspective(float fov, float aspect, float nearby, float far) {
@@ -32,9 +31,7 @@ mat4 perspective(float fov, float aspect, float nearby, float far) {
 }
 
 mat4 view_of(const Camera& camera) {
-    const vec3 eye = as_glm(camera.position), target = as_glm(camera.target);
-    const vec3 along = normalize(target - eye);
-    return lookAt(eye, target, std::abs(along.y) < 0.9999f ? vec3(0, 1, 0) : vec3(0, 0, -1));
+    return lookAt(as_glm(camera.position), as_glm(camera.target), as_glm(image_up(camera)));
 }
 
 }  // namespace
@@ -43,7 +40,7 @@ FrameData frame_data(const Drawing& drawing, const Surroundings& around, const F
     const Camera& camera = drawing.camera;
     const Lighting& light = drawing.lighting;
     const vec3 eye = as_glm(camera.position), target = as_glm(camera.target);
-    const float distance = std::max(length(target - eye), 1e-4f);
+    const float distance = std::max(length(target - eye), least_target_distance);
     const vec2 size(shape.width, shape.height);
     FrameData data{};
     data.to_view = view_of(camera);
