@@ -1,0 +1,147 @@
+#include "editor/app/objects.h"
+
+#include "editor/app/property_tables.h"
+#include "editor/app/session.h"
+#include "scene/scene_keys.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace weft::editor {
+namespace {
+
+constexpr AddableObject addable[] = {
+    {"cloth", "Cloth", "a flat sheet of cotton, 1 m wide", Icon::cloth, true},
+    {"box", "Box", "a solid box", Icon::box, true},
+    {"sphere", "Sphere", "a solid ball", Icon::sphere, true},
+    {"mesh", "Mesh", "a cloth from a mesh file", Icon::mesh, true},
+    {"capsule", "Capsule", "a solid capsule", Icon::capsule, false},
+    {"plane", "Plane", "the solid half space below a plane", Icon::plane, false},
+    {"solid", "Solid mesh", "a mesh file as a solid", Icon::mesh, false},
+    {"wind", "Wind", "a wind source", Icon::wind, false},
+    {"stitch", "Stitch", "ties two points of cloth together", Icon::stitch, false},
+};
+
+Json at_height(float height) {
+    return Json{{"position", {0, number(height), 0}}};
+}
+
+Json collider(const Document& document, const char* shape, const char* name, Json values, float height) {
+    return Json{{"name", free_name(document, name)}, {shape, std::move(values)}, {"transform", at_height(height)}};
+}
+
+/// `shirt` of `folder/shirt.obj`.
+std::string name_of_file(const std::string& file) {
+    return std::filesystem::path(file).stem().string();
+}
+
+Addition append(const Document& document, const std::string& list, Json value) {
+    return {{{list + "/-", std::move(value)}}, place_after_append(document, list)};
+}
+
+}  // namespace
+
+std::span<const AddableObject> addable_objects() {
+    return addable;
+}
+
+Result<Addition> addition(const Document& document, std::string_view name, const std::string& file) {
+    if (name == "cloth") {
+        return append(document, "/cloths",
+                      Json{{"name", free_name(document, "sheet")},
+                           {"mesh", {{"grid", {{"size", {1, 1}}, {"resolution", {64, 64}}}}}},
+                           {"transform", at_height(1 + 0.25f * static_cast<float>(document.scene.cloths.size()))}});
+    }
+    if (name == "mesh" || name == "solid") {
+        if (file.empty()) return Error{"mesh", "needs the name of a mesh file"};
+        const std::string called = free_name(document, name_of_file(file));
+        if (name == "mesh")
+            return append(document, "/cloths", Json{{"name", called}, {"mesh", {{"file", file}}}});
+        return append(document, "/colliders", Json{{"name", called}, {"mesh", {{"file", file}}}});
+    }
+    if (name == "box")
+        return append(document, "/colliders",
+                      collider(document, "box", "box", Json{{"half_extents", {0.2, 0.2, 0.2}}}, 0.2f));
+    if (name == "sphere")
+        return append(document, "/colliders", collider(document, "sphere", "ball", Json{{"radius", 0.25}}, 0.25f));
+    if (name == "capsule")
+        return append(document, "/colliders",
+                      collider(document, "capsule", "capsule", Json{{"radius", 0.1}, {"half_height", 0.2}}, 0.3f));
+    if (name == "plane")
+        return append(document, "/colliders",
+                      Json{{"name", free_name(document, "floor")}, {"plane", Json::object()}});
+    if (name == "wind") return append(document, "/air/wind", Json{{"velocity", {3, 0, 0}}});
+    if (name == "stitch") {
+        const auto stitch = new_element(document, "/stitches");
+        if (!stitch) return Error{"stitch", "needs a cloth; add one first"};
+        return append(document, "/stitches", *stitch);
+    }
+    return Error{"add", "\"" + std::string(name) + "\" is no kind of object"};
+}
+
+Result<Addition> duplication(const Document& document, const std::string& place) {
+    const Json* object = find(document.json, place);
+    if (!is_object(place) || !object) return Error{place, "cannot be duplicated"};
+    Json copy = *object;
+    if (copy.contains("name")) copy["name"] = free_name(document, copy["name"].get<std::string>());
+    Json& position = copy["transform"]["position"];
+    if (!position.is_array() || position.size() != 3) position = {0, 0, 0};
+    position[0] = number(position[0].get<float>() + 0.25f);
+    return append(document, place.substr(0, place.rfind('/')), std::move(copy));
+}
+
+std::vector<Edit> removal(const Document& document, const std::string& place) {
+    std::vector<Edit> edits;
+    const Json* object = find(document.json, place);
+    const std::string name = object && object->is_object() ? object->value("name", "") : "";
+    const SceneDesc& scene = document.scene;
+    if (place.starts_with("/colliders/")) {
+        for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+            for (std::size_t k = 0; k < scene.cloths[i].pins.size(); ++k)
+                if (scene.cloths[i].pins[k].attach == name)
+                    edits.push_back({"/cloths/" + std::to_string(i) + "/pins/" + std::to_string(k) + "/attach", {}});
+    } else if (place.starts_with("/cloths/")) {
+        for (std::size_t i = scene.stitches.size(); i-- > 0;)
+            if (scene.stitches[i].a.cloth == name || scene.stitches[i].b.cloth == name)
+                edits.push_back({"/stitches/" + std::to_string(i), {}});
+    }
+    edits.push_back({place, {}});
+    return edits;
+}
+
+bool is_object(const std::string& place) {
+    const std::string pattern = pattern_of(place);
+    return pattern == "/cloths/*" || pattern == "/colliders/*" || pattern == "/air/wind/*" || pattern == "/stitches/*";
+}
+
+std::string describe_object(const Document& document, const std::string& place) {
+    if (place == "/.") return "Scene";
+    const Json* object = find(document.json, place);
+    const std::string name = object && object->is_object() ? object->value("name", "") : "";
+    if (!name.empty()) return name;
+    const std::string pattern = pattern_of(place);
+    const std::string number = " " + place.substr(place.rfind('/') + 1);
+    if (pattern == "/air/wind/*") return "wind" + number;
+    if (pattern == "/stitches/*") return "stitches" + number;
+    return label_of_key(place.substr(place.rfind('/') + 1));
+}
+
+Icon icon_of(const Document& document, const std::string& place) {
+    const std::string pattern = pattern_of(place);
+    if (pattern == "/cloths/*") return Icon::cloth;
+    if (pattern == "/air/wind/*" || place == "/air") return Icon::wind;
+    if (pattern == "/stitches/*") return Icon::stitch;
+    if (place == "/light") return Icon::light;
+    if (place == "/camera") return Icon::camera;
+    if (place == "/solver") return Icon::settings;
+    const Json* object = find(document.json, place);
+    const auto has = [&](const char* key) { return object && object->is_object() && object->contains(key); };
+    if (has("sphere")) return Icon::sphere;
+    if (has("box")) return Icon::box;
+    if (has("capsule") || has("tapered_capsule")) return Icon::capsule;
+    if (has("plane")) return Icon::plane;
+    if (has("mesh") || has("convex")) return Icon::mesh;
+    return Icon::file;
+}
+
+}  // namespace weft::editor
