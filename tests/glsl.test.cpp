@@ -92,6 +92,19 @@ TEST_F(Glsl, every_constraint_compiles) {
 #undef WEFT_CONSTRAINT
 }
 
+TEST_F(Glsl, grabs_compile) {
+    EXPECT_EQ(
+        compile(
+            "    GrabRow row = GrabRow(grab_target(x[0].xyz, x[1].xyz, n[0], n[1]), x[2].xyz, n[2], n[3], n[4], n[5],\n"
+            "                          n[6], n[7], n[8]);\n"
+            "    vec4 a = x[i], b = x[i + 1], c = x[i + 2];\n"
+            "    vec3 lambda = x[3].xyz;\n"
+            "    take_hold(a.xyz, a.w, n[9], row.c0, x[4].xyz, row, h);\n"
+            "    project_grab(a.xyz, b.xyz, c.xyz, x[5].xyz, x[6].xyz, x[7].xyz, a.w, b.w, c.w, lambda, row, h);\n"
+            "    x[i] = a + b + c + vec4(lambda, 0);\n"),
+        "");
+}
+
 TEST_F(Glsl, every_collider_shape_compiles) {
 #define WEFT_SHAPE(name, Name)                                                                                    \
     EXPECT_EQ(                                                                                                    \

@@ -19,5 +19,6 @@ struct Id {
 using ClothId = Id<struct ClothTag>;
 using ColliderId = Id<struct ColliderTag>;
 using StitchId = Id<struct StitchTag>;  ///< names the stitches of one StitchDesc
+using GrabId = Id<struct GrabTag>;
 
 }  // namespace weft

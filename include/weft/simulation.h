@@ -3,6 +3,7 @@
 
 #include <weft/contact_forces.h>
 #include <weft/export.h>
+#include <weft/grab.h>
 #include <weft/ids.h>
 #include <weft/mesh.h>
 #include <weft/result.h>
@@ -161,6 +162,25 @@ class WEFT_API Simulation {
     Result<void> set_solver(const SolverDesc& solver);
     /// nullopt: no air.
     Result<void> set_air(const std::optional<AirDesc>& air);
+
+    // Grabs: a hand, or the mouse, pulls a cloth at a point. Any number at a time, also at one triangle. They belong to
+    // save_state() and state_hash(), not to save_scene().
+
+    /// Pulls the point of the cloth toward the place `to` in world space (m, each coordinate up to 1e6), from the next
+    /// frame on. A grab follows its triangle through cuts and tears, and stays when fabric, pins or solver change. It
+    /// is released with its cloth, and when its triangle is eroded. Pinned corners do not move. Fails if the triangle
+    /// is not in the mesh, is not simulated or has been removed, if the weights do not sum to 1, and on values out of
+    /// the ranges of GrabDesc.
+    Result<GrabId> grab(ClothId id, const MeshPoint& point, Vec3 to, const GrabDesc& grab = {});
+    /// The target moves evenly from its place to `to` during the next frame, then stays there. Does not wait.
+    Result<void> move_grab(GrabId id, Vec3 to);
+    Result<void> release(GrabId id);
+    std::vector<GrabId> grabs() const;  ///< in the order of grabbing
+    /// N: the force on the cloth in the last frame, its mean over the substeps. In each of them it is at most
+    /// `max_force`. 0 if the id names nothing.
+    Vec3 grab_force(GrabId id) const;
+    /// m: the place of the grabbed point. 0 if the id names nothing.
+    Vec3 grab_position(GrabId id) const;
 
     // Results.
 

@@ -5,6 +5,7 @@
 #include <weft/contact_forces.h>
 #include <weft/export.h>
 #include <weft/files.h>
+#include <weft/grab.h>
 #include <weft/ids.h>
 #include <weft/mesh.h>
 #include <weft/result.h>

@@ -29,7 +29,7 @@ ClothRun::ClothRun(const Passes& passes, ClothState& cloth, const WorldStep& ste
       plan_(*step.plan),
       input_(step.input),
       step_(mine),
-      planned_{cloth.model.get(), !mine.targets.empty()},
+      planned_{cloth.model.get(), !mine.targets.empty(), !mine.grabs.empty()},
       view_(cloth.now().view()),
       numbers_(frame_numbers(*cloth.model, *step.plan, step.input.dt)) {}
 
@@ -49,6 +49,10 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
     if (!island_pass.all && !takes_part(planned_, pass)) return false;
     if (is_face_contact(pass.kind)) {
         run_face_contact(pass, substep, worker);
+        return false;
+    }
+    if (is_grab(pass.kind)) {
+        if (worker.number == 0) run_grabs(pass, substep);
         return false;
     }
     if (pass.kind == PassKind::tear) {

@@ -51,6 +51,9 @@ class ClothRun {
     void run_corrections(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_level(const IslandPass& island_pass, std::uint32_t substep, Worker worker) const;
     void run_faces(const Pass& pass, Worker worker) const;
+    template <class Visit>
+    void for_each_grab(Visit&& visit) const;
+    void run_grabs(const Pass& pass, std::uint32_t substep) const;
     void run_winds(const AirView& air, Range mine, unsigned worker) const;
     /// Finds the triangles that have a collider within `reach` m against AirView::sheltered.
     void run_shelter(const AirView& air, float reach, Range mine, unsigned worker) const;

@@ -29,6 +29,7 @@
 #include "physics/distance_bend/distance_bend.kernel.h"
 #include "physics/stitch/stitch.kernel.h"
 #include "physics/adhesion/adhesion.kernel.h"
+#include "physics/grab/grab.kernel.h"
 
 #include "physics/contact/contact.kernel.h"
 #include "physics/contact/contact_forces.kernel.h"

@@ -394,6 +394,13 @@ void check_collider(const ColliderDesc& collider, const std::string& pointer, Pr
     check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
 }
 
+void check_mesh_point(const MeshPoint& point, const std::string& pointer, Problems& problems) {
+    check_values(surface_point_keys, &point, pointer, problems);
+    const Vec3 w = point.weights;
+    if (std::abs(w.x + w.y + w.z - 1) > 1e-3f && !problems.concern(at(pointer, "weights")))
+        problems.add(at(pointer, "weights"), "must have the sum 1, got " + number_text(w.x + w.y + w.z));
+}
+
 namespace {
 
 void check_stitch_end(const StitchEnd& end, std::span<const std::string_view> names, const std::string& pointer,
@@ -402,13 +409,8 @@ void check_stitch_end(const StitchEnd& end, std::span<const std::string_view> na
     if (std::ranges::find(names, end.cloth) == names.end() && !problems.concern(at(pointer, "cloth")))
         problems.add(at(pointer, "cloth"),
                      "unknown cloth " + in_quotes(end.cloth) + suggestion(end.cloth, {names.begin(), names.end()}));
-    for (std::size_t i = 0; i < end.points.size(); ++i) {
-        const std::string place = at(at(pointer, "points"), i);
-        check_values(surface_point_keys, &end.points[i], place, problems);
-        const Vec3 w = end.points[i].weights;
-        if (std::abs(w.x + w.y + w.z - 1) > 1e-3f && !problems.concern(at(place, "weights")))
-            problems.add(at(place, "weights"), "must have the sum 1, got " + number_text(w.x + w.y + w.z));
-    }
+    for (std::size_t i = 0; i < end.points.size(); ++i)
+        check_mesh_point(end.points[i], at(at(pointer, "points"), i), problems);
     if (end.vertices.empty() == end.points.empty())
         problems.add(pointer, "must hold either \"vertices\" or \"points\", at least one");
 }

@@ -45,6 +45,8 @@ void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::st
 /// Cloths that stitches name must be among `names`.
 void check_stitches(const StitchDesc& stitches, std::span<const std::string_view> names, const std::string& pointer,
                     Problems& problems);
+/// A point in a triangle: its weights must sum to 1.
+void check_mesh_point(const MeshPoint& point, const std::string& pointer, Problems& problems);
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems);
 /// Accepts an absent material.
 void check_material(const std::optional<SceneMaterial>& material, const std::string& pointer, Problems& problems);

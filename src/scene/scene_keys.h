@@ -8,6 +8,8 @@
 #include "physics/contact/shapes.def"
 #include "scene/scene_desc.h"
 
+#include <weft/grab.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -394,6 +396,22 @@ inline constexpr Parameter surface_point_keys[] = {
      .max = 1e9, .what = "number of the triangle in the mesh"},
     {.key = "weights", .kind = ParameterKind::vector, .count = 3, .offset = offsetof(MeshPoint, weights), .min = 0,
      .max = 1, .what = "barycentric weights of its three corners; their sum is 1"},
+};
+
+/// Of a grab, which is no part of a scene.
+inline constexpr Parameter grab_keys[] = {
+    {.key = "max_force", .offset = offsetof(GrabDesc, max_force), .min = 0, .max = largest_grab_force,
+     .min_excluded = true, .unit = "N", .what = "the pull is never stronger"},
+    {.key = "compliance", .offset = offsetof(GrabDesc, compliance), .min = 0, .max = 1e6, .unit = "m/N",
+     .what = "distance between point and target per newton; 0: rigid"},
+    {.key = "damping", .offset = offsetof(GrabDesc, damping), .min = 0, .max = 10, .unit = "s",
+     .what = "how long the point takes to approach its target"},
+};
+
+/// Of a Vec3.
+inline constexpr Parameter grab_target_keys[] = {
+    {.key = "to", .kind = ParameterKind::vector, .count = 3, .min = -far_away, .max = far_away, .unit = "m",
+     .what = "where the point is pulled to"},
 };
 
 inline constexpr Parameter material_keys[] = {

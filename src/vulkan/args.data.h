@@ -24,6 +24,7 @@ using NearTileRef = std::uint64_t;
 using PoseRef = std::uint64_t;
 using WindRef = std::uint64_t;
 using TargetRef = std::uint64_t;
+using GrabRef = std::uint64_t;
 using LimitsRef = std::uint64_t;
 #else
 #extension GL_EXT_buffer_reference : require
@@ -45,6 +46,7 @@ layout(buffer_reference) buffer NearTileRef;
 layout(buffer_reference) buffer PoseRef;
 layout(buffer_reference) buffer WindRef;
 layout(buffer_reference) buffer TargetRef;
+layout(buffer_reference) buffer GrabRef;
 layout(buffer_reference) buffer LimitsRef;
 #endif
 
@@ -124,6 +126,16 @@ struct TargetIn {
     uint unused1;
 };
 
+struct GrabIn {
+    vec4 from;     // m    target at the start of the frame; w: largest force in N
+    vec4 to;       // m    target at its end; w: compliance in m/N
+    vec4 weights;  // of the corners; w: damping in s
+    uint triangle;
+    uint unused0;
+    uint unused1;
+    uint unused2;
+};
+
 // Slack of the one-sided constraints in a frame.
 struct LimitsIn {
     float tension;  // N/m
@@ -151,6 +163,23 @@ struct TargetArgs {
     FrameRef frame;
     uint count;
     uint substep;
+};
+
+// All grabs of a cloth.
+struct GrabArgs {
+    Vec4s position;
+    Vec4s start;
+    Floats weights;  // 1/kg: inverse masses without hands
+    Uints faces;     // [corner · stride + triangle]
+    GrabRef grabs;
+    Vec4s pulls;  // [substep · count + grab]: lambda
+    FrameRef frame;
+    uint stride;
+    uint count;
+    uint substep;
+    uint first_iteration;
+    float per_substep;  // 1 / substeps
+    float reach;        // m
 };
 
 // Use of lambda, which restarts at 0 in every substep.
@@ -374,6 +403,9 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Wi
 };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TargetRef {
     TargetIn at[];
+};
+layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer GrabRef {
+    GrabIn at[];
 };
 layout(buffer_reference, std430, buffer_reference_align = 8) buffer LimitsRef {
     LimitsIn at;

@@ -40,6 +40,8 @@ class CommandLists {
     /// `first` is the number of the first command in the memory that build() gets. Returns the list's number.
     std::uint32_t add(std::span<const Command> commands, std::uint32_t first, const SharedPoints& points = {},
                       const LineRows& lines = {}, const Repeat& repeat = {});
+    /// The pipeline has this shader though no command uses it.
+    void keep(std::uint32_t program) { used_ |= std::uint64_t{1} << program; }
     Result<void> build(gpu::Device& device, Programs& programs, const CommandMemory& memory, const std::string& name);
 
     /// Runs `count` lists from `first` on in parallel. `substep` is added to that of each command.

@@ -26,7 +26,7 @@ class Compiler {
           plan_(plan),
           stiffness_(stiffness),
           island_(island) {
-        const PlannedCloth single_cloth{&model_, shape.targets > 0};
+        const PlannedCloth single_cloth{&model_, shape.targets > 0, shape.grabs > 0};
         const std::span<const LinkTables* const> links(&island_.tables, island_.tables ? 1 : 0);
         passes_ = IslandPlan(plan, {&single_cloth, 1}, links, Sharing::free);
     }
@@ -86,7 +86,7 @@ class Compiler {
             const std::size_t before = list.size();
             add_pass(list, pass, substep);
             for (std::size_t i = before; i < list.size(); ++i) {
-                list[i].single = single && !is_for_all(pass);
+                list[i].single = single && !is_for_all(pass) && !is_grab(pass.kind);
                 // The commands before the first pass are not in the plan, so the plan has no barrier after them.
                 list[i].needs_barrier = barrier || first_pass_ || i > before;
                 first_pass_ = false;
@@ -170,6 +170,12 @@ class Compiler {
                 break;  // for all cloths only
             case PassKind::targets:
                 add_targets(list, pass, substep);
+                break;
+            case PassKind::hide_grabs:
+            case PassKind::hold_grabs:
+            case PassKind::grab:
+            case PassKind::free_grabs:
+                add_grabs(list, pass, substep);
                 break;
             case PassKind::project:
             case PassKind::damp:
@@ -434,6 +440,23 @@ class Compiler {
                               .count = shape_.targets,
                               .substep = substep};
         if (args.count > 0) add(list, "targets", args, args.count, pass, substep);
+    }
+
+    void add_grabs(List& list, const Pass& pass, std::uint32_t substep) {
+        const GrabArgs args{.position = state(PointArray::position),
+                            .start = state(PointArray::start),
+                            .weights = state(cloth_.weights),
+                            .faces = of_model(buffers_.faces),
+                            .grabs = input_.grabs(),
+                            .pulls = input_.pulls(),
+                            .frame = input_.frame(),
+                            .stride = model_.face_stride,
+                            .count = shape_.grabs,
+                            .substep = substep,
+                            .first_iteration = pass.first_iteration ? 1u : 0u,
+                            .per_substep = 1.0f / static_cast<float>(plan_.substeps),
+                            .reach = hand_reach_in_edges * model_.mean_edge};
+        add(list, pass_info(pass.kind).name, args, 1, pass, substep);
     }
 
     void add_contacts(List& list, const Pass& pass, std::uint32_t substep) {

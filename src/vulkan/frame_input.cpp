@@ -11,7 +11,8 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(FrameIn) == 112 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 176 && sizeof(TargetIn) == 32);
+static_assert(sizeof(FrameIn) == 112 && sizeof(PoseIn) == 64 && sizeof(WindIn) == 176 && sizeof(TargetIn) == 32 &&
+              sizeof(GrabIn) == 64);
 
 constexpr std::uint64_t report_bytes = WEFT_REPORT_WORDS * sizeof(std::uint32_t);
 
@@ -92,6 +93,7 @@ InputShape shape_of(const ClothModel& model, const WorldPlan& plan, const StepIn
             static_cast<std::uint32_t>(input.winds.size()),
             cloth.motions,
             static_cast<std::uint32_t>(cloth.targets.size()),
+            static_cast<std::uint32_t>(cloth.grabs.size()),
             input.contact_forces && !input.colliders.empty()};
 }
 
@@ -107,6 +109,9 @@ FrameInput::FrameInput(const InputShape& shape) {
     winds_ = take(shape.winds * sizeof(WindIn));
     motion_poses_ = take(places * shape.motions * sizeof(PoseIn));
     targets_ = take(shape.targets * sizeof(TargetIn));
+    grabs_ = take(shape.grabs * sizeof(GrabIn));
+    pull_bytes_ = std::uint64_t{shape.substeps} * shape.grabs * sizeof(Vec4);
+    pulls_ = take(pull_bytes_);
 }
 
 void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
@@ -121,23 +126,31 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
         const KinematicTarget& target = cloth.targets[i];
         put(targets_ + i * sizeof(TargetIn), TargetIn{with(target.local, 0), target.particle, target.motion, 0, 0});
     }
+    for (std::size_t i = 0; i < cloth.grabs.size(); ++i) {
+        const GrabStep& grab = cloth.grabs[i];
+        put(grabs_ + i * sizeof(GrabIn),
+            GrabIn{with(grab.from, grab.spring.max_force), with(grab.to, grab.spring.compliance),
+                   with(grab.weights, grab.spring.damping), grab.triangle, 0, 0, 0});
+    }
 }
 
 Result<FrameBuffers> FrameBuffers::create(gpu::Device& device, std::span<const InputShape> shapes,
                                           const std::string& name) {
     FrameBuffers self;
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0, read_back = shapes.size() * report_bytes;
+    read_back = (read_back + sizeof(Vec4) - 1) / sizeof(Vec4) * sizeof(Vec4);
     for (const InputShape& shape : shapes) {
         self.inputs_.emplace_back(shape);
         self.offsets_.push_back(bytes);
         bytes += self.inputs_.back().bytes();
+        self.pull_offsets_.push_back(read_back);
+        read_back += self.inputs_.back().pull_bytes();
     }
     auto upload = device.memory().buffer(bytes, gpu::MemoryKind::upload, "frame of " + name + ", on its way");
     if (!upload) return upload.errors();
     auto buffer = device.memory().buffer(bytes, gpu::MemoryKind::device, "frame of " + name);
     if (!buffer) return buffer.errors();
-    auto reports =
-        device.memory().buffer(shapes.size() * report_bytes, gpu::MemoryKind::readback, "reports of " + name);
+    auto reports = device.memory().buffer(read_back, gpu::MemoryKind::readback, "reports of " + name);
     if (!reports) return reports.errors();
     self.upload_ = std::move(*upload);
     self.buffer_ = std::move(*buffer);
@@ -157,10 +170,17 @@ void FrameBuffers::record_reports(gpu::Commands& commands, std::uint32_t report)
     for (const std::uint64_t offset : offsets_) commands.fill(buffer_, report, sizeof report, offset);
 }
 
+void FrameBuffers::read_pulls(std::size_t cloth, std::span<Vec4> pulls) const {
+    if (!pulls.empty()) std::memcpy(pulls.data(), reports_.mapped().data() + pull_offsets_[cloth], pulls.size_bytes());
+}
+
 void FrameBuffers::record_end(gpu::Commands& commands) const {
     commands.barrier();
-    for (std::size_t i = 0; i < offsets_.size(); ++i)
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
         commands.copy(buffer_, reports_, report_bytes, offsets_[i], i * report_bytes);
+        if (const std::uint64_t bytes = inputs_[i].pull_bytes())
+            commands.copy(buffer_, reports_, bytes, offsets_[i] + inputs_[i].first_pull(), pull_offsets_[i]);
+    }
     commands.host_barrier();
 }
 

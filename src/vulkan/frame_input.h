@@ -19,7 +19,7 @@ inline constexpr std::uint32_t report_near_full = 1u << 30;
 
 /// Numbers of elements. They determine the layout of the buffer.
 struct InputShape {
-    std::uint32_t substeps = 0, colliders = 0, winds = 0, motions = 0, targets = 0;
+    std::uint32_t substeps = 0, colliders = 0, winds = 0, motions = 0, targets = 0, grabs = 0;
     bool contact_forces = false;  ///< contacts are recorded
     friend bool operator==(const InputShape&, const InputShape&) = default;
 };
@@ -46,9 +46,15 @@ class FrameInput {
     std::uint64_t winds() const { return address_ + winds_; }
     std::uint64_t motion_poses() const { return address_ + motion_poses_; }
     std::uint64_t targets() const { return address_ + targets_; }
+    std::uint64_t grabs() const { return address_ + grabs_; }
+    /// ClothStep::pulls: written by the device.
+    std::uint64_t pulls() const { return address_ + pulls_; }
+    std::uint64_t first_pull() const { return pulls_; }  ///< bytes from the start of the input
+    std::uint64_t pull_bytes() const { return pull_bytes_; }
 
   private:
-    std::uint64_t frame_ = 0, winds_ = 0, motion_poses_ = 0, targets_ = 0, bytes_ = 0;
+    std::uint64_t frame_ = 0, winds_ = 0, motion_poses_ = 0, targets_ = 0, grabs_ = 0, pulls_ = 0, pull_bytes_ = 0,
+                  bytes_ = 0;
     std::byte* host_ = nullptr;
     std::uint64_t address_ = 0;
 };
@@ -69,6 +75,8 @@ class FrameBuffers {
     void record_reports(gpu::Commands& commands, std::uint32_t report) const;
     /// Report of the last frame, which the device must have finished.
     std::uint32_t report(std::size_t cloth) const { return word(cloth, WEFT_REPORT_BITS); }
+    /// Copies ClothStep::pulls of the last frame.
+    void read_pulls(std::size_t cloth, std::span<Vec4> pulls) const;
     /// Slots that lists of near colliders needed in it.
     std::uint32_t near_slots(std::size_t cloth) const { return word(cloth, WEFT_REPORT_NEAR_SLOTS); }
 
@@ -79,6 +87,7 @@ class FrameBuffers {
 
     std::vector<FrameInput> inputs_;
     std::vector<std::uint64_t> offsets_;
+    std::vector<std::uint64_t> pull_offsets_;  ///< in `reports_`
     gpu::Buffer upload_, buffer_, reports_;
 };
 

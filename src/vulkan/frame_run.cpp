@@ -2,6 +2,7 @@
 
 #include "solver/measures/diagnosis.h"
 #include "solver/plan/frame_numbers.h"
+#include "vulkan/shaders.h"
 
 #include <algorithm>
 
@@ -235,6 +236,8 @@ Result<void> FrameRun::record_fused(bool timings) {
         lists_.add(plans_[i].commands, first_command_[i], points,
                    lines ? largest_lines(cloth.model().table(ConstraintKind::stretch)) : LineRows{}, plans_[i].repeat);
     }
+    // So that the first grab needs no other pipeline, which takes some drivers seconds to compile.
+    for (const char* const grab : {"hide_grabs", "hold_grabs", "grab", "free_grabs"}) lists_.keep(shader_number(grab));
     if (auto built = lists_.build(device_, programs_, memory_, name()); !built) return built;
     stages_ = {stage_fused};
     if (auto begun = begin_recording(timings, 1); !begun) return begun;

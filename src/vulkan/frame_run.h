@@ -96,6 +96,8 @@ class FrameRun {
     void finish(std::array<double, stage_count>& stage_ms);
     /// Reports of the member. A non-finite number in one cloth is reported for all cloths of its island.
     std::uint32_t report(std::size_t member) const;
+    /// ClothStep::pulls of the member.
+    void read_pulls(std::size_t member, std::span<Vec4> pulls) const { buffers_.read_pulls(member, pulls); }
     /// Contacts of the member if InputShape::contact_forces is set: see ContactReadback::read.
     std::uint32_t read_contact_forces(std::size_t member, ClothContactLog& to);
     /// Adds the bits (ContactMark) of a cloth of the last finished frame.

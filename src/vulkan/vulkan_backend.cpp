@@ -426,6 +426,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         for (std::size_t i = 0; i < group.steps.size(); ++i) {
             ClothFrame& frame = *group.steps[i]->frame;
             frame.reports = group.run->report(i);
+            group.run->read_pulls(i, group.steps[i]->pulls);
             if (ClothContactLog* contact_forces = group.steps[i]->contact_forces)
                 frame.reports |= group.run->read_contact_forces(i, *contact_forces);
             if (frame.reports & report_non_finite) {

@@ -165,6 +165,21 @@ Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, c
     return change_cloth_model(now, mesh, *topology, fabric_of(cloth), pins, layout, collision_of(cloth));
 }
 
+Result<std::uint32_t> find_triangle(std::uint32_t number, const ClothModel& model, const ClothSource& source) {
+    const auto& triangles = simulated_mesh(model, source).triangles;
+    if (number >= triangles.size())
+        return Error{"/triangle", "must be a triangle of the mesh, 0 to " + std::to_string(triangles.size() - 1) +
+                                      ", got " + std::to_string(number)};
+    Triangle corners = triangles[number];
+    for (std::uint32_t& corner : corners) corner = source.numbers.of_vertex[corner];
+    // Triangles keep their order. Those that are left out move the later ones to lower numbers.
+    const auto left_out = static_cast<std::uint32_t>(triangles.size()) - model.triangle_count;
+    const std::uint32_t last = std::min(number, model.triangle_count - 1);
+    for (std::uint32_t t = number - std::min(number, left_out); t <= last; ++t)
+        if (model.triangles()[t] == corners) return t;
+    return Error{"/triangle", "triangle " + std::to_string(number) + " is not simulated"};
+}
+
 Result<Pinned> select_pins_now(const World& world, ClothId id, const ClothSource& source,
                                const std::vector<PinDesc>& pins) {
     const Frame& frame = world.frame();

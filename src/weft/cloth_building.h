@@ -49,6 +49,10 @@ Fabric fabric_of(const SceneCloth& cloth);
 /// The simulated mesh at the start, in world space.
 const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& source);
 
+/// The number in the model, before any edit, of a triangle of the simulated mesh. Fails if the mesh has no such
+/// triangle, or if it is not simulated.
+Result<std::uint32_t> find_triangle(std::uint32_t number, const ClothModel& model, const ClothSource& source);
+
 /// Builds a model with the fabric and the self-collision of `cloth`, and other pins or another layout, for the
 /// particles of `now`.
 Result<std::shared_ptr<const ClothModel>> rebuild_cloth(const ClothModel& now, const ClothSource& source,

@@ -177,6 +177,18 @@ Result<void> SceneWorld::cut(ClothId id, const CutDesc& cut, CutPositions positi
     return world_->edit(id, {.openings = std::move(*openings)});
 }
 
+Result<GrabId> SceneWorld::grab(ClothId id, const MeshPoint& point, Vec3 to, const GrabDesc& spring) {
+    const std::size_t place = place_of(id);
+    (void)world_->summary();  // the running frame may remove the triangle
+    const auto triangle = find_triangle(point.triangle, *world_->unedited_model(id), sources_[place]);
+    if (!triangle) return triangle.errors();
+    const Triangle corners = world_->model(id)->triangles()[*triangle];
+    if (corners[0] == corners[1])
+        return Error{"/triangle", "triangle " + std::to_string(point.triangle) + " has been removed"};
+    const float sum = point.weights.x + point.weights.y + point.weights.z;  // 1 up to rounding
+    return world_->grab(id, *triangle, point.weights / sum, to, spring);
+}
+
 std::size_t SceneWorld::place_of(ClothId id) const {
     assert(world_->contains(id));
     std::size_t place = 0;

@@ -64,6 +64,8 @@ class SceneWorld {
     Result<void> set_pins(ClothId id, std::vector<PinDesc> pins);
     /// Cuts the cloth now. Positions are those of `positions`. Not part of the document; part of the saved state.
     Result<void> cut(ClothId id, const CutDesc& cut, CutPositions positions);
+    /// Pulls a point of the simulated mesh (World::grab). Not part of the document; part of the saved state.
+    Result<GrabId> grab(ClothId id, const MeshPoint& point, Vec3 to, const GrabDesc& spring);
     /// Moves the collider during the next frame; it then stays there. Ends its motion by keys.
     void move(ColliderId id, Vec3 position, Vec3 rotation_degrees);
     void set_friction(ColliderId id, std::array<float, 2> friction);

@@ -269,6 +269,45 @@ Result<void> Simulation::cut(ClothId id, const CutDesc& cut, CutPositions positi
     return done;
 }
 
+Result<GrabId> Simulation::grab(ClothId id, const MeshPoint& point, Vec3 to, const GrabDesc& grab) {
+    if (!impl_->world().contains(id)) return no_such("cloth");
+    const auto sound = checked([&](Problems& problems) {
+        check_mesh_point(point, "", problems);
+        check_values(grab_target_keys, &to, "", problems);
+        check_values(grab_keys, &grab, "", problems);
+    });
+    if (!sound) return sound.errors();
+    return impl_->scene.grab(id, point, to, grab);
+}
+
+Result<void> Simulation::move_grab(GrabId id, Vec3 to) {
+    if (!impl_->world().knows(id)) return no_such("grab");
+    const auto sound = checked([&](Problems& problems) { check_values(grab_target_keys, &to, "", problems); });
+    if (!sound) return sound;
+    impl_->world().move_grab(id, to);
+    return {};
+}
+
+Result<void> Simulation::release(GrabId id) {
+    if (!impl_->world().contains(id)) return no_such("grab");
+    impl_->world().release(id);
+    return {};
+}
+
+std::vector<GrabId> Simulation::grabs() const {
+    std::vector<GrabId> ids;
+    for (const Grab& grab : impl_->world().grabs()) ids.push_back(grab.id);
+    return ids;
+}
+
+Vec3 Simulation::grab_force(GrabId id) const {
+    return impl_->world().contains(id) ? impl_->world().grab_force(id) : Vec3{};
+}
+
+Vec3 Simulation::grab_position(GrabId id) const {
+    return impl_->world().contains(id) ? impl_->world().grab_position(id) : Vec3{};
+}
+
 Result<void> Simulation::move(ColliderId id, Vec3 position, Vec3 rotation_degrees) {
     if (!impl_->world().contains(id)) return no_such("collider");
     const TransformDesc transform{.position = position, .rotation_degrees = rotation_degrees};

@@ -56,6 +56,7 @@ World make_world() {
                                    std::move(*topology));
     require(model.ok(), "no model");
     world.add(*model);
+    world.grab(world.cloth_id(0), 5, {0.2f, 0.3f, 0.5f}, {0, 0.1f, 0});
     for (int i = 0; i < 3; ++i) world.step(1.0 / 60);
     return world;
 }

@@ -162,7 +162,11 @@ class TrafficCounter {
             case PassKind::velocities:  // four read, two written; all but the last are merged with the next prediction
                 return {.own = 0, .shared = 6 * block * points / (predicts_first() ? plan_.substeps : 1)};
             case PassKind::advance:  // counted as its two halves
-            case PassKind::targets:  // few particles are kinematic targets
+            case PassKind::targets:  // few particles are kinematic targets or grabbed
+            case PassKind::hide_grabs:
+            case PassKind::hold_grabs:
+            case PassKind::grab:
+            case PassKind::free_grabs:
                 return {};
             case PassKind::contact:  // most particles touch nothing, and only where they are and were is read
                 return {.own = 0, .shared = 2 * colliders_ * block * points};

@@ -185,7 +185,7 @@ Result<void> Stage::act(const Reset&) {
         gone = world.errors();
     }
     if (!gone) return gone;
-    grab_.reset();
+    let_go();
     const bool same = world_->scene() == document_->scene;
     followed_ = same ? document_ : nullptr;
     if (start && same)
@@ -206,7 +206,7 @@ Result<void> Stage::act(const Seek& action) {
     const Lineage lineage = lineage_;
     const DocumentPtr document = document_;
     if (auto gone = go_to(**then); !gone) return gone;
-    grab_.reset();
+    let_go();
     // The document stays as it is. The world follows it when the run goes on.
     document_ = document;
     followed_ = *(*then)->world.scene == document->scene ? document : nullptr;
@@ -218,14 +218,16 @@ Result<void> Stage::act(const Seek& action) {
 
 Result<void> Stage::act(const Undo&) {
     if (history_.done().empty()) return Error{"undo", "there is nothing to undo"};
-    grab_.reset();
-    return go_back(*history_.undo(moment()));
+    auto gone = go_back(*history_.undo(moment()));
+    let_go();
+    return gone;
 }
 
 Result<void> Stage::act(const Redo&) {
     if (history_.undone() == 0) return Error{"redo", "there is nothing to redo"};
-    grab_.reset();
-    return go_back(*history_.redo());
+    auto gone = go_back(*history_.redo());
+    let_go();
+    return gone;
 }
 
 Result<void> Stage::act(const UndoSetting& action) {
@@ -280,7 +282,7 @@ Result<void> Stage::recover() {
     options.backend = "cpu";
     options.device.clear();
     if (auto moved = move_to(options, (*then)->world); !moved) return moved;
-    grab_.reset();
+    let_go();
     notes_.push_back(why + "; the CPU goes on from frame " + std::to_string(last));
     return {};
 }

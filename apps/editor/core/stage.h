@@ -7,6 +7,7 @@
 #include "editor/core/timeline.h"
 #include "weft/scene_world.h"
 
+#include <weft/ids.h>
 #include <weft/simulation.h>
 
 #include <cstdint>
@@ -16,8 +17,6 @@
 #include <vector>
 
 namespace weft::editor {
-
-using GrabId = std::uint32_t;
 
 struct StageOptions {
     Options simulation = {};
@@ -82,6 +81,8 @@ class Stage {
     Result<void> follow(DocumentPtr next);
     /// Carries out `change` as an undo step: keeps the moment before it, which is dropped if the change fails.
     Result<void> as_step(const std::string& label, std::uint64_t gesture, const std::function<Result<void>()>& change);
+    /// A pull does not go on after a jump to another moment.
+    void let_go();
     Result<ClothId> cloth_called(const std::string& name) const;
     void begin_branch();
     void record();

@@ -2,6 +2,7 @@
 
 #include "physics/scalar.h"
 #include "solver/plan/tension.h"
+#include "solver/state/grab.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,7 @@ FrameNumbers frame_numbers(const ClothModel& model, const WorldPlan& plan, doubl
             .viscous = std::max(static_cast<float>(model.fabric.body.damping * dt), 1e-30f),
             .half_thickness = 0.5f * model.fabric.contact.thickness,
             .depenetration = depenetration_speed * static_cast<float>(h),
+            .hand_reach = hand_reach_in_edges * model.mean_edge,
             .tile_margin = 0.5f * model.fabric.contact.thickness + model.mean_edge +
                            (has_face_contact(plan) ? widest_face(model) : 0)};
 }

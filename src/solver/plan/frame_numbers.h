@@ -19,6 +19,7 @@ struct FrameNumbers {
     float viscous;         ///< s²: retardation time times length of the frame
     float half_thickness;  ///< m
     float depenetration;   ///< m per substep
+    float hand_reach;      ///< m: GrabRow::reach
     float tile_margin;     ///< m: a tile's colliders are searched this far around it, for contact and constraints
 };
 

@@ -86,6 +86,7 @@ enum Stage : std::uint32_t {
     stage_predict,
     stage_hierarchy,
     stage_average,
+    stage_grab,
     stage_contact,
     stage_cloth_contact,
     stage_velocities,

@@ -37,7 +37,7 @@ class Planner {
         const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
         const bool exact = std::ranges::any_of(cloths_, collides);
         for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) {
-            if (settings_.solver.hierarchy) add_hierarchy(i == 0, plan.substep);
+            add_levels(i == 0, plan.substep);
             add_constraints(i == 0, plan.substep);
             if (i + 1 == settings_.solver.iterations) add_particle_contact(plan.substep);
             add_contact(i == 0, plan.substep);
@@ -52,6 +52,7 @@ class Planner {
             plan.substep.push_back({.kind = PassKind::hold_particles});
             plan.substep.push_back({.kind = PassKind::settle_particles});
         }
+        if (grabbed()) plan.substep.push_back({.kind = PassKind::free_grabs});
         if (tears) plan.substep.push_back({.kind = PassKind::tear});
         plan.substep.push_back({.kind = PassKind::velocities});
         if (exact) plan.substep.push_back({.kind = PassKind::separate});
@@ -88,6 +89,8 @@ class Planner {
         return static_cast<std::uint32_t>(largest);
     }
 
+    bool grabbed() const { return std::ranges::any_of(cloths_, &PlannedCloth::grabbed); }
+
     /// Kinds whose constraints are found again in every frame.
     std::vector<ConstraintKind> found() const {
         if (settings_.adhesion) return {ConstraintKind::adhesion};
@@ -95,6 +98,15 @@ class Planner {
     }
     static Pass dynamic(PassKind pass, ConstraintKind kind, bool first = true) {
         return {.kind = pass, .constraint = kind, .first_iteration = first, .source = RowSource::dynamic};
+    }
+
+    // Coarse levels know nothing of the hands of grabs and would throw them about, so they do not move what is grabbed.
+    void add_levels(bool first, Passes& passes) const {
+        const bool levels = settings_.solver.hierarchy &&
+                            std::ranges::any_of(cloths_, [](const auto& one) { return !one.model->hierarchy.empty(); });
+        if (levels && grabbed()) passes.push_back({.kind = PassKind::hide_grabs});
+        if (levels) add_hierarchy(first, passes);
+        if (grabbed() && (levels || first)) passes.push_back({.kind = PassKind::hold_grabs, .first_iteration = first});
     }
 
     void add_hierarchy(bool first, Passes& passes) const {
@@ -211,6 +223,8 @@ class Planner {
             passes.push_back(dynamic(PassKind::correct, kind, first));
             passes.push_back(dynamic(PassKind::average, kind, first));
         }
+        // Last, so that a grabbed point is where its grab has pulled it.
+        if (grabbed()) passes.push_back({.kind = PassKind::grab, .first_iteration = first});
     }
 
     // Damping runs once per frame and costs as much as the projection of one substep. It is implicit, so the longer
@@ -316,6 +330,11 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     switch (pass.kind) {
         case PassKind::targets:
             return cloth.kinematic;
+        case PassKind::hide_grabs:
+        case PassKind::hold_grabs:
+        case PassKind::grab:
+        case PassKind::free_grabs:
+            return cloth.grabbed;
         case PassKind::project:
             return pass.batch < model.table(pass.constraint).batches.size();
         case PassKind::damp:

@@ -46,6 +46,7 @@ using LinkTables = std::array<ConstraintTable, constraint_kind_count>;
 struct PlannedCloth {
     const ClothModel* model = nullptr;
     bool kinematic = false;  ///< it has kinematic targets
+    bool grabbed = false;    ///< it has grabs
 };
 
 /// A frame runs `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those
@@ -72,6 +73,12 @@ bool has_face_contact(const WorldPlan& plan);
 constexpr bool is_cloth_contact(PassKind kind) {
     return kind == PassKind::detect || kind == PassKind::cloth_contact || kind == PassKind::limit ||
            kind == PassKind::separate;
+}
+
+/// Whether a pass is one of grabs.
+constexpr bool is_grab(PassKind kind) {
+    return kind == PassKind::hide_grabs || kind == PassKind::hold_grabs || kind == PassKind::grab ||
+           kind == PassKind::free_grabs;
 }
 
 /// Whether any of the cloths collides by particles.

@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and the format version. On a machine of the other byte order neither matches.
-constexpr std::uint32_t magic = 0x74666577, version = 5;
+constexpr std::uint32_t magic = 0x74666577, version = 6;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;
@@ -83,6 +83,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
     out.one(snapshot.frame);
     out.one(snapshot.time);
     out.list(snapshot.colliders);
+    out.list(snapshot.grabs);
     out.one<std::uint64_t>(snapshot.cloths.size());
     for (const ClothSnapshot& cloth : snapshot.cloths) {
         out.list(cloth.position);
@@ -127,6 +128,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
     snapshot.frame = in.one<std::uint64_t>();
     snapshot.time = in.one<double>();
     snapshot.colliders = in.list<Pose>();
+    snapshot.grabs = in.list<SavedGrab>();
     const auto cloths = in.one<std::uint64_t>();
     for (std::uint64_t i = 0; i < cloths && !in.too_short(); ++i) {
         ClothSnapshot& cloth = snapshot.cloths.emplace_back();
@@ -184,6 +186,15 @@ bool sound(const KinematicTarget& target) {
 bool sound(const OffsetKey& key) {
     return std::isfinite(key.time) && sound(key.offset);
 }
+bool sound(const SavedGrab& grab) {
+    const GrabStep& step = grab.step;
+    const float least = std::min({step.weights.x, step.weights.y, step.weights.z});
+    const float sum = step.weights.x + step.weights.y + step.weights.z;
+    return sound(step.from) && sound(step.to) && least >= 0 && std::abs(sum - 1) <= 1e-3f &&
+           step.spring.max_force > 0 && step.spring.max_force <= largest_grab_force && step.spring.compliance >= 0 &&
+           step.spring.compliance <= largest && step.spring.damping >= 0 && step.spring.damping <= largest &&
+           grab.id < none;
+}
 bool sound_time(double seconds) {
     return seconds >= 0 && std::isfinite(seconds);
 }
@@ -201,6 +212,12 @@ Result<void> check_numbers(const Snapshot& snapshot) {
     if (!sound_time(snapshot.time)) return Error{"state", "its time must be finite and ≥ 0 s"};
     if (const auto i = first_unsound(snapshot.colliders))
         return Error{"state", "collider " + std::to_string(*i) + " must have a rotation and a finite position"};
+    if (const auto i = first_unsound(snapshot.grabs))
+        return Error{"state",
+                     "grab " + std::to_string(*i) + " must have finite places, weights that sum to 1 and a force"};
+    for (std::size_t i = 0; i < snapshot.grabs.size(); ++i)
+        if (std::ranges::count(snapshot.grabs, snapshot.grabs[i].id, &SavedGrab::id) > 1)
+            return Error{"state", "grab " + std::to_string(i) + " has the id of another one"};
     for (std::size_t c = 0; c < snapshot.cloths.size(); ++c) {
         const ClothSnapshot& cloth = snapshot.cloths[c];
         const std::string of_cloth = "cloth " + std::to_string(c) + ": ";

@@ -3,6 +3,7 @@
 
 #include "base/transform.h"
 #include "solver/model/cloth_edit.h"
+#include "solver/state/grab.h"
 #include "solver/state/kinematic_targets.h"
 
 #include <weft/result.h>
@@ -36,11 +37,19 @@ struct ClothSnapshot {
     SavedTargets targets = {};                                  ///< of pinned particles and anchors
 };
 
+/// A grab, with the index of its cloth.
+struct SavedGrab {
+    std::uint32_t id = 0;  ///< its index
+    std::uint32_t cloth = 0;
+    GrabStep step = {};
+};
+
 struct Snapshot {
     std::uint64_t frame = 0;
     double time = 0;
     std::vector<ClothSnapshot> cloths;
     std::vector<Pose> colliders;
+    std::vector<SavedGrab> grabs = {};
 };
 
 std::vector<std::byte> to_bytes(const Snapshot& snapshot);

@@ -9,6 +9,7 @@
 #include "solver/state/cloth_contact_counts.h"
 #include "solver/state/contact_forces.h"
 #include "solver/state/frame.h"
+#include "solver/state/grab.h"
 #include "solver/state/kinematic_targets.h"
 #include "solver/state/list_counts.h"
 #include "solver/state/particle_weight.h"
@@ -56,6 +57,10 @@ struct ClothStep {
     /// Poses of the target motions: [substep · motions + motion], substep = 0 … substeps.
     std::span<const Pose> motion_poses = {};
     std::uint32_t motions = 0;
+    std::span<const GrabStep> grabs = {};
+    /// Output: kg·m, the impulse of each grab in each substep times the length of the substep:
+    /// [substep · grabs + grab].
+    std::span<Vec4> pulls = {};
     ClothFrame* frame = nullptr;                ///< the backend writes reports and details here
     ClothContactLog* contact_forces = nullptr;  ///< output; null if the input records no contacts
 };

@@ -71,6 +71,7 @@ void World::remove(ClothId id) {
     space_.give_back(cloth.base, cloth.model->capacity());
     cloths_.remove(id);
     pending_.drop(id);
+    grabs_.remove_if([&](const Grab& grab) { return grab.cloth == id; });
     for (std::size_t i = stitches_.size(); i-- > 0;) {
         const auto of_cloth = [&](const Stitch& stitch) { return stitch.a == id || stitch.b == id; };
         if (std::ranges::any_of(stitches_[i], of_cloth)) stitches_.remove(stitches_.id_of(i));
@@ -300,8 +301,9 @@ void World::replan() {
         .surface = settings_.surface};
     const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
     std::vector<PlannedCloth> planned, planned_surfaces;
-    for (Cloth& cloth : cloths_) {
-        planned.push_back({cloth.model.get(), !cloth.targets.particles.empty()});
+    for (std::size_t i = 0; i < cloths_.size(); ++i) {
+        Cloth& cloth = cloths_[i];
+        planned.push_back({cloth.model.get(), !cloth.targets.particles.empty(), is_grabbed(cloths_.id_of(i))});
         if (settings_.solver.method == Method::pbd)
             cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
         cloth.motion_poses.resize(places * cloth.targets.motions.size());
@@ -433,6 +435,7 @@ void World::advance(double dt) {
     const auto begin = std::chrono::steady_clock::now();
     places_->begin_frame(colliders_.values(), frame_.time, dt, settings_.solver.substeps);
     for (Cloth& cloth : cloths_) place_motions(cloth, dt);
+    begin_grabs();
     place_surfaces();
     for (std::size_t i = 0; i < winds_.size(); ++i) {
         winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
@@ -446,13 +449,15 @@ void World::advance(double dt) {
     for (Island& island : islands_) {
         island.steps.clear();
         for (const std::uint32_t place : island.cloths) {
-            const Cloth& cloth = cloths_[place];
+            Cloth& cloth = cloths_[place];
             island.steps.push_back(
                 {.cloth = cloth.handle,
                  .stiffness = &cloth.stiffness,
                  .targets = cloth.targets.particles,
                  .motion_poses = cloth.motion_poses,
                  .motions = static_cast<std::uint32_t>(cloth.targets.motions.size()),
+                 .grabs = cloth.grabs,
+                 .pulls = cloth.pulls,
                  .frame = &frame_.cloths[place],
                  .contact_forces = settings_.contact_forces ? &contact_log.cloths[place].contact_forces : nullptr});
         }
@@ -493,6 +498,7 @@ void World::complete() const {
     if (tangle_.tangle() || frame_.cloth_contacts.tangled > 0) watch_tangle();
     tangle_.count(frame_.cloth_contacts);
     if (settings_.contact_marks) collect_contact_marks();
+    read_grabs();
     take_openings();
     frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
     for (const ClothFrame& cloth : frame_.cloths) frame_.reports |= cloth.reports;
@@ -543,6 +549,7 @@ std::string World::state_hash() const {
         backend_->hash(cloth.handle, hash);
         hash_edits(cloth, hash);
     }
+    hash_grabs(hash);
     return hash.text();
 }
 

@@ -5,6 +5,7 @@
 #include "solver/model/cloth_edit.h"
 #include "solver/state/address_space.h"
 #include "solver/world/backend.h"
+#include "solver/world/grabs.h"
 #include "solver/world/islands.h"
 #include "solver/world/pending_models.h"
 #include "solver/world/tangle_watch.h"
@@ -76,6 +77,26 @@ class World {
     StitchId add(std::vector<Stitch> stitches);
     void remove(StitchId id);
     bool contains(StitchId id) const { return stitches_.contains(id); }
+
+    /// Pulls a point of a cloth toward `to` from the next frame on. The triangle must be alive, the weights must be ≥ 0
+    /// and sum to 1. Triangles are those of ClothFrame; the grab follows its triangle through edits and tears. It is
+    /// released with its cloth, and when its triangle is removed. Grabs belong to the saved state and to the hash.
+    GrabId grab(ClothId cloth, std::uint32_t triangle, Vec3 weights, Vec3 to, const GrabDesc& spring = {});
+    /// The target moves evenly from its place to `to` during the next frame, then stays.
+    void move_grab(GrabId id, Vec3 to);
+    void release(GrabId id);
+    bool contains(GrabId id) const { return grabs().contains(id); }
+    /// Whether the grab existed when the last frame began. Does not wait.
+    bool knows(GrabId id) const { return grabs_.contains(id); }
+    /// Waits for the frame, which may have removed a triangle.
+    const Grabs& grabs() const {
+        complete();
+        return grabs_;
+    }
+    /// N, with which the grab pulled in the last frame, on average. 0 if the frame was taken back.
+    Vec3 grab_force(GrabId id) const { return grabs()[id].force; }
+    /// m, of the grabbed point.
+    Vec3 grab_position(GrabId id) const;
 
     /// Fails if the device has not enough memory for the collider's surface.
     Result<ColliderId> try_add(Collider collider);
@@ -162,6 +183,8 @@ class World {
         std::vector<ClothEdit> edits;                ///< lead from `unedited` to `model`
         PlainStiffness stiffness{};
         std::vector<Pose> motion_poses;
+        std::vector<GrabStep> grabs;  ///< of the frame
+        std::vector<Vec4> pulls;      ///< ClothStep::pulls of the frame
     };
     /// The surface of a collider: a cloth for the backend alone.
     struct Surface {
@@ -221,6 +244,15 @@ class World {
     float surface_motion() const;
     ClothStep step_of(Surface& surface) const;
     std::vector<Vec3> places_of(const Surface& surface) const;
+    // world_grabs.cpp
+    bool is_grabbed(ClothId id) const;
+    void begin_grabs();
+    void read_grabs() const;
+    void drop_grabs_without_triangle() const;
+    void hash_grabs(StateHash& hash) const;
+    std::vector<SavedGrab> save_grabs() const;
+    Result<void> check_grabs(const Snapshot& snapshot, std::span<const std::shared_ptr<const ClothModel>> models) const;
+    void restore_grabs(const std::vector<SavedGrab>& saved);
     // world_contact.cpp
     std::shared_ptr<const Seams> seams_of(std::span<const std::uint32_t> cloths,
                                           std::span<const PlacedStitch> stitches) const;
@@ -245,6 +277,7 @@ class World {
     PendingModels pending_;
     AddressSpace space_;
     IdList<std::vector<Stitch>, struct StitchTag> stitches_;
+    mutable Grabs grabs_;
     WorldPlan plan_;
     std::uint64_t plan_serial_ = 0;
     std::vector<Island> islands_;

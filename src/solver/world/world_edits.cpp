@@ -80,6 +80,7 @@ void World::take_openings() const {
         torn_.push_back(cloths_.id_of(i));
         unread_ = true;
     }
+    if (!torn_.empty()) drop_grabs_without_triangle();
 }
 
 Result<void> World::edit(ClothId id, const ClothEdit& edit) {
@@ -102,6 +103,7 @@ Result<void> World::edit(ClothId id, const ClothEdit& edit) {
     cloth.pinned = std::move(changed.pinned);
     cloth.targets = std::move(changed.targets);
     if (!is_only_openings(edit)) pending_.drop(id);
+    drop_grabs_without_triangle();
     list_cloths();
     replan();
     return {};

@@ -11,7 +11,7 @@ Snapshot World::save() {
 
 Snapshot World::snapshot() {
     complete();
-    Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}};
+    Snapshot snapshot{.frame = frame_.index, .time = frame_.time, .cloths = {}, .colliders = {}, .grabs = save_grabs()};
     for (const Cloth& cloth : cloths_) {
         snapshot.cloths.push_back(backend_->save(cloth.handle));
         snapshot.cloths.back().targets = save_targets(cloth.targets);
@@ -115,7 +115,9 @@ Result<void> World::bring_back(const Snapshot& snapshot) {
         if (!model) return model.errors();
         edited.push_back(std::move(*model));
     }
+    if (auto found = check_grabs(snapshot, edited); !found) return found;
     if (auto restored = restore_cloths(snapshot, edited); !restored) return restored;
+    restore_grabs(snapshot.grabs);
     places_->reset();
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
         colliders_[i].pose = snapshot.colliders[i];

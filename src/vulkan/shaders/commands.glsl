@@ -21,6 +21,7 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Co
     };
 WEFT_COMMAND(ParticleArgs)
 WEFT_COMMAND(TargetArgs)
+WEFT_COMMAND(GrabArgs)
 WEFT_COMMAND(AverageArgs)
 WEFT_COMMAND(ContactArgs)
 WEFT_COMMAND(FaceContactArgs)
@@ -40,6 +41,9 @@ WEFT_COMMAND(RowArgs)
 #endif
 #ifndef WEFT_PUSHES_target_args
 #define target_args TargetArgsRef(command)
+#endif
+#ifndef WEFT_PUSHES_grab_args
+#define grab_args GrabArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_average_args
 #define average_args AverageArgsRef(command)

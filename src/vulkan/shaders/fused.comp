@@ -8,6 +8,7 @@
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/cover.glsl"
 #include "vulkan/shaders/faces.glsl"
+#include "vulkan/shaders/grabs.glsl"
 #include "vulkan/shaders/levels.glsl"
 #include "vulkan/shaders/limits.glsl"
 #include "vulkan/shaders/lines.glsl"
@@ -93,6 +94,10 @@ void run_command(uint me, uint all)
     WEFT_EACH(velocities)
     WEFT_EACH(advance)
     WEFT_EACH(targets)
+    WEFT_EACH(hide_grabs)
+    WEFT_EACH(hold_grabs)
+    WEFT_EACH(grab)
+    WEFT_EACH(free_grabs)
     WEFT_EACH(average)
     WEFT_EACH(cover)
     WEFT_EACH(contact)

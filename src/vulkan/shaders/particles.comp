@@ -7,6 +7,7 @@
 #include "vulkan/shaders/cover.glsl"
 #include "vulkan/shaders/face_contact.glsl"
 #include "vulkan/shaders/faces.glsl"
+#include "vulkan/shaders/grabs.glsl"
 #include "vulkan/shaders/levels.glsl"
 
 void main()
