@@ -113,6 +113,8 @@ class SceneWorld {
 
     /// Warnings, one line each: of building cloths, and of cuts that were due and for which there was no room.
     const std::vector<std::string>& notes() const { return notes_; }
+    /// How the vertices of a cloth in the document are numbered as particles. `place`: of the cloth in the document.
+    const std::shared_ptr<const ParticleNumbers>& numbers(std::size_t place) const { return sources_[place].numbers; }
     /// Ids of the stitches, in the order of the document.
     std::span<const StitchId> stitches() const { return stitch_ids_; }
 

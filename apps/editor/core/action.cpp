@@ -102,7 +102,7 @@ struct Writer {
         if (a.gesture != 0) json["gesture"] = a.gesture;
     }
     void operator()(const Rename& a) const { json["place"] = a.place, json["name"] = a.name; }
-    void operator()(const CutCloth& a) const {
+    void operator()(const Cut& a) const {
         json["cloth"] = a.cloth;
         json["points"] = Json::array();
         for (const Vec3 point : a.points) json["points"].push_back(to_json(point));
@@ -131,7 +131,7 @@ struct Reader {
         if (line.has("gesture")) line.read("gesture", a.gesture);
     }
     void operator()(Rename& a) const { line.read("place", a.place), line.read("name", a.name); }
-    void operator()(CutCloth& a) const { line.read("cloth", a.cloth), line.read("points", a.points); }
+    void operator()(Cut& a) const { line.read("cloth", a.cloth), line.read("points", a.points); }
     void operator()(Grab& a) const {
         line.read("cloth", a.cloth);
         line.read("triangle", a.point.triangle);

@@ -32,10 +32,10 @@ struct Rename {
     friend bool operator==(const Rename&, const Rename&) = default;
 };
 /// Cuts a cloth along a path on it, as it is now. Part of the state, not of the document.
-struct CutCloth {
+struct Cut {
     std::string cloth = {};
     std::vector<Vec3> points = {};  ///< m
-    friend bool operator==(const CutCloth&, const CutCloth&) = default;
+    friend bool operator==(const Cut&, const Cut&) = default;
 };
 /// Begins to pull a point of a cloth.
 struct Grab {
@@ -84,7 +84,7 @@ struct Advance {
     friend bool operator==(const Advance&, const Advance&) = default;
 };
 
-using Action = std::variant<ChangeScene, Rename, CutCloth, Grab, MoveGrab, Release, Reset, Seek, Undo, Redo,
+using Action = std::variant<ChangeScene, Rename, Cut, Grab, MoveGrab, Release, Reset, Seek, Undo, Redo,
                             UndoSetting, UseBackend, Advance>;
 
 /// An action and the frame at which it acts: before the next frame, when so many frames are done.

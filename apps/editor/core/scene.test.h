@@ -71,7 +71,7 @@ inline std::vector<Action> sample_actions() {
                                                      "b": {"cloth": "cloth 1", "vertices": [4]}})")),
             Rename{"/cloths/0", "banner"},
             Rename{"/colliders/0", "globe"},
-            CutCloth{"sheet", {{-0.6f, 0.5f, 0.01f}, {0.1f, 0.5f, 0.01f}}},
+            Cut{"sheet", {{-0.6f, 0.5f, 0.01f}, {0.1f, 0.5f, 0.01f}}},
             Grab{"sheet", {40, {0.25f, 0.25f, 0.5f}}, {0.3f, 1, 0.2f}, 5},
             Reset{}};
 }

@@ -159,7 +159,7 @@ Result<void> Stage::act(const Rename& action) {
     });
 }
 
-Result<void> Stage::act(const CutCloth& action) {
+Result<void> Stage::act(const Cut& action) {
     auto cloth = cloth_called(action.cloth);
     if (!cloth) return cloth.errors();
     if (action.points.size() < 2) return Error{"cut", "needs at least two points"};

@@ -60,7 +60,7 @@ class Stage {
     Stage() = default;
     Result<void> act(const ChangeScene& action);
     Result<void> act(const Rename& action);
-    Result<void> act(const CutCloth& action);
+    Result<void> act(const Cut& action);
     Result<void> act(const Grab& action);
     Result<void> act(const MoveGrab& action);
     Result<void> act(const Release& action);

@@ -1,0 +1,103 @@
+// The 3-D view: camera, picking, and the tools of the pointer.
+#pragma once
+
+#include "editor/app/pick_trees.h"
+#include "editor/app/session.h"
+#include "editor/tools/camera_moves.h"
+#include "editor/tools/drag_plane.h"
+#include "editor/tools/gizmo.h"
+#include "editor/tools/stroke_sampler.h"
+#include "editor/tools/surface_distance.h"
+#include "editor/ui/ui_renderer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft::editor {
+
+/// What the left button does in the view.
+enum class Tool : std::uint8_t {
+    hand,    ///< pulls cloth and moves colliders
+    select,  ///< chooses vertices
+    move,
+    turn,
+    scale,
+    cut,
+};
+
+struct ViewSettings {
+    Tool tool = Tool::hand;
+    GizmoAxes axes = GizmoAxes::world;
+    FlyKeys keys = FlyKeys::usual;
+    float pull_force = 5;  ///< N, largest
+    bool through = false;  ///< choose hidden vertices too
+};
+
+class ViewPanel {
+  public:
+    ViewSettings settings;
+    Camera camera;
+
+    /// Draws the view's image over the rest of the current window and reacts to the pointer. `image_size`: pixels of
+    /// the image; zero: there is none yet.
+    void show(Ui& ui, Session& session, const ViewMarks& marks, UiImage image, Vec2 image_size);
+
+    Vec2 size() const { return size_; }  ///< pixels
+    /// Whether the camera or something under the pointer moves.
+    bool moving() const { return moving_; }
+
+    void frame_all(const Picture& picture);
+    void frame_selected(const Picture& picture, const Session& session);
+    void look_from(ViewFrom side);
+
+    /// Chosen vertices of the selected cloth, as pins number them.
+    const std::vector<std::uint32_t>& chosen() const { return chosen_; }
+    void choose_none() { chosen_.clear(); }
+    /// Pins the chosen vertices, or takes their pins away.
+    void pin_chosen(Session& session);
+    void unpin_chosen(Session& session);
+    /// Ends what the pointer does, as Esc does. Whether there was something.
+    bool cancel(Session& session);
+
+  private:
+    enum class Gesture : std::uint8_t { none, orbit, look, pan, pull, carry, gizmo, box, stroke };
+    struct Input;
+    void move_camera(Ui& ui, const Input& input);
+    void begin_left(Session& session, const ViewMarks& marks, const Input& input);
+    void drag(Session& session, const Input& input);
+    void end(Session& session, const ViewMarks& marks, const Input& input);
+    void choose(Session& session, const ViewMarks& marks, const Input& input);
+    void cut(Session& session, const ViewMarks& marks, const Input& input);
+    void draw_marks(Ui& ui, const Session& session, const Input& input);
+    void draw_gizmo(Ui& ui, const Session& session, const Input& input);
+    std::optional<GizmoPlace> place_of_selected(const Session& session) const;
+    std::optional<Gizmo> gizmo(const Session& session, const Projection& view) const;
+    void change_place(Session& session, const GizmoChange& change, Change phase);
+    Bounds bounds_of_selected(const Picture& picture, const Session& session) const;
+    void go_to(const Camera& to);
+    std::optional<std::size_t> selected_cloth(const Picture& picture, const Session& session) const;
+
+    PickTrees trees_;
+    Vec2 origin_, size_{1, 1};  // pixels
+    Gesture gesture_ = Gesture::none;
+    bool moving_ = false, clicked_ = false;
+    Vec2 start_, last_;  // of the pointer, in the view
+    Pick pick_;          // where the gesture began
+    std::string picked_place_;
+    std::optional<DragPlane> plane_;
+    Vec3 carried_from_;
+    std::optional<GizmoDrag> gizmo_drag_;
+    Vec3 scale_start_{1, 1, 1};
+    std::vector<Vec2> stroke_;
+    std::vector<std::uint32_t> chosen_;
+    std::string chosen_cloth_;
+    std::optional<CameraTransition> transition_;
+    double transition_since_ = 0;
+    double time_ = 0;
+};
+
+std::string_view name_of(Tool tool);
+
+}  // namespace weft::editor
