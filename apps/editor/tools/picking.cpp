@@ -27,7 +27,7 @@ Vec3 facing(Vec3 normal, const Ray& ray) {
 std::uint32_t nearest_corner(const TriangleTree& tree, const SurfaceHit& hit) {
     std::uint32_t best = none;
     float least = std::numeric_limits<float>::infinity();
-    for (const std::uint32_t corner : tree.corners(hit.triangle)) {
+    for (const std::uint32_t corner : hit.corners) {
         const float d = length(tree.position(corner) - hit.point);
         if (d < least) least = d, best = corner;
     }
@@ -44,7 +44,7 @@ void pick_surface_along(const Ray& ray, const PickSurface& surface, Pick found, 
     } else if (surface.tree) {
         const auto hit = surface.tree->nearest(own, from, best.distance);
         if (!hit || !(hit->distance < best.distance)) return;
-        const auto [a, b, c] = surface.tree->corners(hit->triangle);
+        const auto [a, b, c] = hit->corners;
         const Vec3 p = surface.tree->position(a);
         const Vec3 normal = cross(surface.tree->position(b) - p, surface.tree->position(c) - p);
         found.distance = hit->distance;

@@ -134,16 +134,14 @@ bool usable(const Ray& ray) {
 
 void TriangleTree::build(const MeshView& mesh) {
     order_ = curve_order(mesh);
-    place_.resize(order_.size());
     corners_.resize(order_.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
         const Triangle t = mesh.triangle(order_[i]);
-        place_[order_[i]] = i;
         const bool in_range = std::ranges::all_of(t, [&](std::uint32_t v) { return v < mesh.vertices(); });
         corners_[i] = in_range ? t : Triangle{0, 0, 0};
     }
     levels_.clear();
-    for (std::size_t boxes = (order_.size() + width - 1) / width; boxes > 0;) {
+    for (std::size_t boxes = (order_.size() + leaf_size - 1) / leaf_size; boxes > 0;) {
         levels_.emplace_back((boxes + width - 1) / width);
         boxes = boxes > width ? levels_.back().size() : 0;
     }
@@ -174,9 +172,9 @@ void TriangleTree::take_boxes() {
             for (std::size_t slot = 0; slot < width; ++slot) put(level.back(), slot, Bounds{});
         }
     }
-    for (std::size_t first = 0; first < corners_.size(); first += width) {
+    for (std::size_t first = 0; first < corners_.size(); first += leaf_size) {
         Bounds box;
-        for (std::size_t i = first; i < std::min(first + width, corners_.size()); ++i) {
+        for (std::size_t i = first; i < std::min(first + leaf_size, corners_.size()); ++i) {
             const auto [a, b, c] = corners_[i];
             if (a == b) continue;
             const Vec3 p = positions_[a], q = positions_[b], r = positions_[c];
@@ -185,7 +183,7 @@ void TriangleTree::take_boxes() {
         }
         const Vec3 size = box.size();
         area_ += static_cast<double>(size.x * size.y + size.y * size.z + size.z * size.x);
-        put(levels_[0][first / width / width], first / width % width, box);
+        put(levels_[0][first / leaf_size / width], first / leaf_size % width, box);
     }
     for (std::size_t level = 1; level < levels_.size(); ++level) {
         for (std::size_t g = 0; g < levels_[level - 1].size(); ++g) {
@@ -247,16 +245,16 @@ std::optional<SurfaceHit> TriangleTree::nearest(const Ray& ray, float from, floa
     if (!usable(ray)) return std::nullopt;
     const ShearedRay sheared(ray);
     std::optional<Crossing> best;
-    std::uint32_t triangle = none;
+    std::size_t place = 0;
     double limit = static_cast<double>(to);
     visit_leaves(ray, from, limit, [&](std::uint32_t leaf) {
-        const std::size_t first = std::size_t{leaf} * width;
-        for (std::size_t i = first; i < std::min(first + width, corners_.size()); ++i) {
+        const std::size_t first = std::size_t{leaf} * leaf_size;
+        for (std::size_t i = first; i < std::min(first + leaf_size, corners_.size()); ++i) {
             const auto [a, b, c] = corners_[i];
             const auto found = sheared.meet(positions_[a], positions_[b], positions_[c]);
             if (!found || !(found->distance >= static_cast<double>(from)) || !(found->distance <= limit)) continue;
-            if (best && found->distance == limit && order_[i] > triangle) continue;
-            best = found, triangle = order_[i], limit = found->distance;
+            if (best && found->distance == limit && order_[i] > order_[place]) continue;
+            best = found, place = i, limit = found->distance;
         }
         return limit;
     });
@@ -264,7 +262,8 @@ std::optional<SurfaceHit> TriangleTree::nearest(const Ray& ray, float from, floa
     const auto& w = best->weights;
     return SurfaceHit{.distance = static_cast<float>(best->distance),
                       .point = rounded(exact(ray.origin) + exact(ray.direction) * best->distance),
-                      .triangle = triangle,
+                      .triangle = order_[place],
+                      .corners = corners_[place],
                       .weights = rounded(Double3{w[0], w[1], w[2]}),
                       .front = best->front};
 }
@@ -274,8 +273,8 @@ bool TriangleTree::blocks(const Ray& ray, float from, float to) const {
     const ShearedRay sheared(ray);
     bool blocked = false;
     visit_leaves(ray, from, static_cast<double>(to), [&](std::uint32_t leaf) {
-        const std::size_t first = std::size_t{leaf} * width;
-        for (std::size_t i = first; i < std::min(first + width, corners_.size()) && !blocked; ++i) {
+        const std::size_t first = std::size_t{leaf} * leaf_size;
+        for (std::size_t i = first; i < std::min(first + leaf_size, corners_.size()) && !blocked; ++i) {
             const auto [a, b, c] = corners_[i];
             const auto found = sheared.meet(positions_[a], positions_[b], positions_[c]);
             blocked =

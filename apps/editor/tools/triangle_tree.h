@@ -18,11 +18,12 @@ struct SurfaceHit {
     float distance = 0;          ///< m, from the ray's origin
     Vec3 point;                  ///< m
     std::uint32_t triangle = 0;  ///< number in the mesh
+    Triangle corners{};          ///< its vertices
     Vec3 weights;                ///< barycentric: ≥ 0, their sum is 1
     bool front = false;          ///< the ray meets its front side: the corners are counterclockwise as seen
 };
 
-/// Boxes around groups of eight triangles, boxes around eight of those, and so on. Triangles are ordered along a curve
+/// Boxes around groups of four triangles, boxes around eight of those, and so on. Triangles are ordered along a curve
 /// that fills space (Morton), so building takes linear time and no triangle makes it slower. Has its own copy of the
 /// mesh. Triangles with corners out of range or not finite are never met.
 class TriangleTree {
@@ -49,12 +50,11 @@ class TriangleTree {
     /// Whether nearest() would find something.
     bool blocks(const Ray& ray, float from, float to) const;
 
-    /// Corners of a triangle, and where they are.
-    Triangle corners(std::uint32_t triangle) const { return corners_[place_[triangle]]; }
     Vec3 position(std::uint32_t vertex) const { return positions_[vertex]; }
 
   private:
-    static constexpr std::uint32_t width = 8;  // triangles of a leaf, and boxes of a group
+    static constexpr std::uint32_t width = 8;      // boxes of a group
+    static constexpr std::uint32_t leaf_size = 4;  // triangles
 
     // Eight boxes: min x, y, z, then max x, y, z.
     struct Group {
@@ -67,7 +67,6 @@ class TriangleTree {
 
     std::vector<Vec3> positions_;
     std::vector<std::uint32_t> order_;        // numbers of the triangles, leaf by leaf
-    std::vector<std::uint32_t> place_;        // where each triangle stands in it
     std::vector<Triangle> corners_;           // in that order; {0, 0, 0} if out of range
     std::vector<std::vector<Group>> levels_;  // [0]: boxes of leaves; each group of a level is a box of the next one
     double area_ = 0, built_area_ = 0;        // m²

@@ -27,7 +27,7 @@ std::optional<SurfaceHit> brute_force(const TriangleMesh& mesh, const Ray& ray) 
         const double v = dot(s, h) / det, w = dot(d, cross(s, e1)) / det, at = dot(e2, cross(s, e1)) / det;
         if (v < 0 || w < 0 || v + w > 1 || at < 0) continue;
         if (best && at >= static_cast<double>(best->distance)) continue;
-        best = SurfaceHit{static_cast<float>(at), {}, t, rounded(Double3{1 - v - w, v, w}), det > 0};
+        best = SurfaceHit{static_cast<float>(at), {}, t, {a, b, c}, rounded(Double3{1 - v - w, v, w}), det > 0};
     }
     return best;
 }
@@ -36,6 +36,7 @@ void expect_same(const std::optional<SurfaceHit>& a, const std::optional<Surface
     ASSERT_EQ(a.has_value(), b.has_value());
     if (!a) return;
     EXPECT_EQ(a->triangle, b->triangle);
+    EXPECT_EQ(a->corners, b->corners);
     EXPECT_EQ(a->distance, b->distance);
     EXPECT_EQ(a->weights, b->weights);
     EXPECT_EQ(a->front, b->front);
