@@ -1,0 +1,153 @@
+// The editor: a window with the view, the list of objects, their properties and the timeline of a running scene.
+#pragma once
+
+#include "editor/app/cards.h"
+#include "editor/app/export_job.h"
+#include "editor/app/file_dialog.h"
+#include "editor/app/picture.h"
+#include "editor/app/properties.h"
+#include "editor/app/session.h"
+#include "editor/app/settings.h"
+#include "editor/app/view_panel.h"
+#include "editor/ui/ui_window.h"
+#include "editor/view/view_thread.h"
+
+#include <weft/simulation.h>
+
+#include <deque>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft::editor {
+
+struct EditorOptions {
+    std::filesystem::path scene = {};  ///< empty: the first scene
+    Options simulation = {};
+    std::filesystem::path probe = {};   ///< UiWindowOptions::probe
+    std::filesystem::path record = {};  ///< a log of the session is written here; empty: to the folder of logs
+    std::uint32_t width = 1280, height = 720;
+    double least_frame = 0;  ///< s, of the user interface, for tests
+    float scale = 0;         ///< of the user interface; 0: that of the settings or the system
+    bool keep_settings = true;
+};
+
+/// Something that the user can do: by menu, button and key.
+struct Command {
+    std::string_view name;  ///< for tests and for the probe
+    std::string_view label, what;
+    Icon icon{};
+    Key key = Key::none;
+    Modifiers modifiers = {};
+    std::function<void()> run;
+    std::function<bool()> enabled = {};
+};
+
+class Editor {
+  public:
+    /// Builds the scene and opens the window. Fails without a display, with an error that names the commands that need
+    /// none.
+    static Result<std::unique_ptr<Editor>> open(const EditorOptions& options);
+    ~Editor();
+    /// Runs until the window is closed.
+    Result<void> run();
+
+  private:
+    explicit Editor(EditorOptions options);
+    struct Opened {
+        std::optional<Stage> stage;
+        Errors errors;
+        std::filesystem::path file;
+    };
+    Result<void> start();
+    void set_stage(Stage stage);
+    void open_later(const std::filesystem::path& file, DocumentPtr document);
+    void take_opened();
+    void recover(const std::filesystem::path& log);
+
+    Result<void> frame(Ui& ui);
+    void layout(Ui& ui);
+    void toolbar(Ui& ui);
+    void menus(Ui& ui);
+    void menu(Ui& ui, const char* name, const char* label, std::initializer_list<const char*> commands);
+    void tool_row(Ui& ui);
+    void view(Ui& ui);
+    void view_overlay(Ui& ui);
+    void timeline(Ui& ui);
+    void status_line(Ui& ui);
+    void messages(Ui& ui);
+    void hints(Ui& ui);
+    void dialogs(Ui& ui);
+    void history(Ui& ui);
+    void gallery_dialog(Ui& ui);
+    void export_dialog(Ui& ui);
+    void help(Ui& ui);
+    void preferences(Ui& ui);
+    void request_view();
+    Result<void> take_view_image();
+
+    void make_commands();
+    const Command* command(std::string_view name) const;
+    void run_command(const Command& command);
+    void keys(Ui& ui);
+
+    void add_object(std::string_view name);
+    void remove_selected();
+    void duplicate_selected();
+    void toggle_play();
+    void step_once();
+    void key_selected();
+    void save(bool as);
+    void save_to(const std::filesystem::path& file);
+    void ask_open();
+    void ask_export();
+    void screenshot();
+    void drop(const std::vector<std::string>& files);
+    /// Runs `what` at once, or after the user has answered what becomes of unsaved changes.
+    void unless_changed(std::function<void()> what);
+    void toggle_overlay(const Overlay* overlay);
+    void close();
+    void update_title();
+    void did(const std::string& hint) { settings_.hints_done.insert(hint); }
+
+    EditorOptions options_;
+    Settings settings_;
+    std::unique_ptr<UiWindow> window_;
+    std::shared_ptr<Photographer> photographer_;
+    std::unique_ptr<Simulator> simulator_;
+    std::unique_ptr<Session> session_;
+    std::unique_ptr<ViewThread> view_thread_;
+    std::shared_ptr<const ViewImage> view_image_;
+    UiImage image_ = UiImage::none;
+    std::vector<Command> commands_;
+    Cards cards_;
+    Properties properties_;
+    ViewPanel view_;
+    ViewMarks marks_;
+    std::vector<const Overlay*> overlays_;
+    FileDialog file_dialog_;
+    std::optional<ExportJob> export_;
+    ExportOptions export_options_;
+    enum class Panel : std::uint8_t { none, gallery, export_file, help, preferences, unsaved, recovery };
+    Panel panel_ = Panel::none;
+    bool show_history_ = false;
+    std::function<void()> after_unsaved_;
+    std::vector<std::filesystem::path> abandoned_;
+    std::future<Opened> opening_;
+    std::filesystem::path log_file_;
+    std::deque<float> step_ms_;
+    std::uint64_t plotted_ = 0;
+    std::string title_;
+    bool closing_ = false;
+};
+
+/// `Ctrl+Shift+Z`; empty without a key.
+std::string shortcut_text(const Command& command);
+
+/// Opens the editor and runs it; for the command line.
+Result<void> edit(const EditorOptions& options);
+
+}  // namespace weft::editor

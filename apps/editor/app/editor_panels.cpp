@@ -1,0 +1,303 @@
+// Toolbar, menus, status line and what lies over the view.
+#include "editor/app/editor.h"
+#include "editor/app/objects.h"
+#include "editor/ui/expression.h"
+#include "editor/ui/widgets/controls.h"
+#include "editor/ui/widgets/field.h"
+#include "editor/ui/widgets/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace weft::editor {
+namespace {
+
+std::string milliseconds(double ms) {
+    return format_number(ms, ms < 1 ? 2 : 3) + " ms";
+}
+
+}  // namespace
+
+std::string shortcut_text(const Command& command) {
+    if (command.key == Key::none) return {};
+    std::string text;
+    if (command.modifiers.control) text += "Ctrl+";
+    if (command.modifiers.shift) text += "Shift+";
+    const auto key = static_cast<int>(command.key);
+    if (command.key >= Key::a && command.key <= Key::z) return text + static_cast<char>('A' + key - static_cast<int>(Key::a));
+    if (command.key >= Key::digit_0 && command.key <= Key::digit_9)
+        return text + static_cast<char>('0' + key - static_cast<int>(Key::digit_0));
+    if (command.key >= Key::f1 && command.key <= Key::f12) return text + "F" + std::to_string(key - static_cast<int>(Key::f1) + 1);
+    if (command.key >= Key::pad_0 && command.key <= Key::pad_9)
+        return text + "Keypad " + std::to_string(key - static_cast<int>(Key::pad_0));
+    switch (command.key) {
+        case Key::space: return text + "Space";
+        case Key::period: return text + ".";
+        case Key::comma: return text + ",";
+        case Key::delete_key: return text + "Del";
+        case Key::home: return text + "Home";
+        default: return text;
+    }
+}
+
+// A button that opens a list of commands below it.
+void Editor::menu(Ui& ui, const char* name, const char* label, std::initializer_list<const char*> names) {
+    const ImVec2 below(ImGui::GetCursorScreenPos().x, ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight());
+    if (button(ui, name, {.text = label, .flat = true})) ImGui::OpenPopup(name);
+    ImGui::SetNextWindowPos(below);
+    const Theme& theme = ui.theme();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(6), theme.px(6)));
+    if (ImGui::BeginPopup(name)) {
+        const Ui::Scope scope(ui, name);
+        const float width = theme.px(300);
+        for (const char* one : names) {
+            if (!*one) {
+                ImGui::Separator();
+                continue;
+            }
+            const Command& known = *command(one);
+            const std::string keys = shortcut_text(known);
+            const bool enabled = !known.enabled || known.enabled();
+            const ImVec2 corner = ImGui::GetCursorScreenPos();
+            const bool pressed = button(ui, known.name, {.icon = known.icon,
+                                                         .text = known.label,
+                                                         .what = known.what,
+                                                         .flat = true,
+                                                         .enabled = enabled,
+                                                         .width = width});
+            const float wide = ImGui::CalcTextSize(keys.c_str()).x;
+            ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x + width - wide - theme.px(8), corner.y + theme.px(5)),
+                                                theme.color(theme.colors.muted), keys.c_str());
+            if (!pressed) continue;
+            ImGui::CloseCurrentPopup();
+            run_command(known);
+        }
+        if (std::string_view(name) == "overlays") {
+            for (const Overlay& overlay : weft::overlays()) {
+                const bool on = std::ranges::find(overlays_, &overlay) != overlays_.end();
+                if (button(ui, overlay.name, {.icon = on ? Icon::check : Icon::overlay,
+                                              .text = overlay.name,
+                                              .what = overlay.what,
+                                              .chosen = on,
+                                              .flat = true,
+                                              .width = width}))
+                    toggle_overlay(&overlay);
+            }
+        }
+        ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar();
+    ImGui::SameLine();
+}
+
+void Editor::toolbar(Ui& ui) {
+    const Theme& theme = ui.theme();
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, theme.colors.header);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(8), theme.px(5)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(theme.px(4), theme.px(4)));
+    ImGui::BeginChild("toolbar", ImVec2(ui.size().x, ImGui::GetFrameHeight() + theme.px(10)), false,
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
+    {
+        const Ui::Scope scope(ui, "toolbar");
+        menu(ui, "file", "File", {"new", "open", "gallery", "", "save", "save_as", "", "export", "screenshot", "", "quit"});
+        menu(ui, "edit", "Edit", {"undo", "redo", "history", "", "duplicate", "rename", "delete", "", "pin", "unpin", "key", "", "preferences"});
+        menu(ui, "view_menu", "View", {"frame", "frame_all", "", "from_front", "from_back", "from_left", "from_right", "from_top", "from_bottom", "", "go_to_camera", "use_camera", "", "axes", "through"});
+        menu(ui, "overlays", "Overlays", {});
+        menu(ui, "help_menu", "Help", {"help"});
+        ImGui::SameLine(0, theme.px(14));
+        const bool playing = session_->now().playing;
+        if (button(ui, "play", {.icon = playing ? Icon::pause : Icon::play,
+                                .text = playing ? "Pause" : "Play",
+                                .what = "Run the simulation",
+                                .shortcut = "Space",
+                                .primary = true,
+                                .width = theme.px(92)}))
+            toggle_play();
+        for (const char* name : {"step", "reset", "", "undo", "redo", "", "hand", "select", "move", "turn", "scale", "cut"}) {
+            if (!*name) {
+                ImGui::SameLine(0, theme.px(14));
+                continue;
+            }
+            if (ImGui::GetCursorPosX() > theme.px(9)) ImGui::SameLine();
+            const Command& one = *command(name);
+            const bool chosen = name_of(view_.settings.tool) == one.name;
+            const std::string keys = shortcut_text(one);
+            if (button(ui, one.name, {.icon = one.icon,
+                                      .what = one.what,
+                                      .shortcut = keys,
+                                      .chosen = chosen,
+                                      .flat = true,
+                                      .enabled = !one.enabled || one.enabled()}))
+                run_command(one);
+        }
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleVar(2);
+    ImGui::PopStyleColor();
+}
+
+// Lines over the upper left corner of the view: what the tool does, messages, hints.
+void Editor::view_overlay(Ui& ui) {
+    const Theme& theme = ui.theme();
+    const float width = std::min(ImGui::GetContentRegionAvail().x - theme.px(10), theme.px(520));
+    if (width < theme.px(80)) return;
+    ImGui::BeginGroup();
+    ImGui::PushItemWidth(width);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    tool_row(ui);
+    messages(ui);
+    hints(ui);
+    ImGui::PopTextWrapPos();
+    ImGui::PopItemWidth();
+    ImGui::EndGroup();
+}
+
+void Editor::tool_row(Ui& ui) {
+    const Ui::Scope scope(ui, "tool");
+    if (view_.settings.tool == Tool::select) {
+        const std::size_t count = view_.chosen().size();
+        const std::string pin = "Pin " + std::to_string(count), unpin = "Unpin";
+        if (button(ui, "pin", {.icon = Icon::pin, .text = pin, .what = "Hold the chosen vertices", .shortcut = "P", .enabled = count > 0}))
+            view_.pin_chosen(*session_);
+        ImGui::SameLine();
+        if (button(ui, "unpin", {.icon = Icon::unpin, .text = unpin, .what = "Let go of them", .shortcut = "Shift+P", .enabled = count > 0}))
+            view_.unpin_chosen(*session_);
+        ImGui::SameLine();
+        if (button(ui, "through", {.icon = view_.settings.through ? Icon::eye : Icon::eye_off,
+                                   .text = "Hidden too",
+                                   .what = "Choose vertices that cloth or colliders hide",
+                                   .shortcut = "T",
+                                   .chosen = view_.settings.through}))
+            view_.settings.through = !view_.settings.through;
+    }
+}
+
+void Editor::messages(Ui& ui) {
+    const Ui::Scope scope(ui, "messages");
+    std::vector<Message>& all = session_->messages();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Message& message = all[i];
+        // Notes go by themselves, errors stay until they are closed.
+        constexpr double note_time = 6;  // s
+        if (!message.is_error) {
+            const double left = message.since + note_time - ui.now();
+            if (left <= 0) {
+                all.erase(all.begin() + static_cast<std::ptrdiff_t>(i--));
+                continue;
+            }
+            ui.redraw_in(left);
+        }
+        const Ui::Scope one(ui, std::to_string(i));
+        std::string text = message.title.empty() ? "" : message.title + ": ";
+        for (const std::string& line : message.lines) text += (&line == &message.lines.front() ? "" : "\n") + line;
+        if (button(ui, "close", {.icon = Icon::cross, .what = "Close this message", .flat = true})) {
+            all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+            return;
+        }
+        ImGui::SameLine();
+        note(ui, "text", message.is_error ? Note::error : Note::info, text);
+    }
+    if (opening_.valid()) note(ui, "opening", Note::info, "Opening …");
+    if (!export_) return;
+    export_->update();
+    const std::string name = export_->file().filename().string();
+    if (export_->running()) {
+        ui.redraw_in(0.2);
+        if (progress(ui, "export", export_->done(), "Exporting " + name)) export_->cancel();
+    } else {
+        const std::string problem = export_->problem(), file = export_->file().string();
+        export_.reset();
+        if (problem.empty()) session_->say("Exported " + file);
+        else session_->say("Export of " + name, {Error{"", problem}});
+    }
+}
+
+// One line, which loses each hint once it is done.
+void Editor::hints(Ui& ui) {
+    constexpr std::pair<const char*, const char*> all[] = {{"pull", "Drag the cloth to pull it"},
+                                                           {"space", "Space pauses"},
+                                                           {"drop", "Drop a mesh or a scene on the window"},
+                                                           {"help", "H shows keys and mouse"}};
+    std::string line;
+    for (const auto& [hint, text] : all)
+        if (!settings_.hints_done.contains(hint)) line += (line.empty() ? "" : "  ·  ") + std::string(text);
+    const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
+    if (picture && !picture->pulls.empty()) did("pull");
+    if (line.empty()) return;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 size = ImGui::CalcTextSize(line.c_str());
+    const float pad = ui.theme().px(6);
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(at.x - pad, at.y - pad / 2),
+                                              ImVec2(at.x + size.x + pad, at.y + size.y + pad / 2),
+                                              IM_COL32(20, 22, 26, 170), pad);
+    ImGui::GetWindowDrawList()->AddText(at, IM_COL32(240, 240, 240, 255), line.c_str());
+    ui.note("hints", ImRect(at, ImVec2(at.x + size.x, at.y + size.y)), line);
+    ImGui::Dummy(size);
+}
+
+void Editor::status_line(Ui& ui) {
+    const Theme& theme = ui.theme();
+    const Published& now = session_->now();
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, theme.colors.header);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(10), theme.px(4)));
+    ImGui::BeginChild("status", ImVec2(ui.size().x, theme.px(26)), false,
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
+    const Ui::Scope scope(ui, "status");
+    std::array<char, 64> time{};
+    std::snprintf(time.data(), time.size(), "%.2f s", now.time);
+    std::string text = "Frame " + std::to_string(now.frame) + " (" + time.data() + ")   Step " + milliseconds(now.step_ms);
+    if (now.playing) text += "   " + format_number(now.real_time_factor, 2) + " × real time";
+    text += "   " + std::to_string(now.particles) + " particles   " + now.backend;
+    if (now.threads > 1) text += ", " + std::to_string(now.threads) + " threads";
+    if (view_image_) text += "   View " + milliseconds(view_image_->ms) + " at " + std::to_string(view_image_->percent) + " %";
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushStyleColor(ImGuiCol_Text, theme.colors.muted);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    const ImRect box(at, ImVec2(at.x + ImGui::GetItemRectSize().x, at.y + ImGui::GetItemRectSize().y));
+    ui.note("text", box, text);
+    ui.note("frame", box, std::to_string(now.frame));
+    ui.note("acknowledged", box, std::to_string(now.acknowledged));
+    if (ImGui::IsItemHovered()) {
+        ImGui::BeginTooltip();
+        for (std::size_t i = 0; i < now.stage_ms.size(); ++i)
+            if (now.stage_ms[i] > 0)
+                ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<weft::Stage>(i))).c_str(), now.stage_ms[i]);
+        ImGui::EndTooltip();
+    }
+    for (const std::string_view report : now.reports) {
+        ImGui::SameLine(0, theme.px(14));
+        ImGui::PushStyleColor(ImGuiCol_Text, theme.colors.warning);
+        ImGui::TextUnformatted((text_of(Icon::warning) + " " + std::string(report)).c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+}
+
+void Editor::history(Ui& ui) {
+    const Ui::Scope scope(ui, "history");
+    const Published& now = session_->now();
+    ImGui::PushFont(ui.theme().strong);
+    ImGui::TextUnformatted("History");
+    ImGui::PopFont();
+    const float width = ImGui::GetContentRegionAvail().x;
+    for (std::size_t i = 0; i < now.done.size(); ++i) {
+        const StepLabel& step = now.done[i];
+        const Ui::Scope one(ui, std::to_string(i));
+        if (button(ui, "undo_setting", {.icon = Icon::undo, .what = "Take back this setting alone; the cloth stays", .flat = true}))
+            session_->post(UndoSetting{step.number});
+        ImGui::SameLine();
+        const std::string label = step.label + " (frame " + std::to_string(step.frame) + ")" + (step.cloth_returns ? "" : ", scene only");
+        if (button(ui, "go", {.text = label, .what = "Go back to before this step", .flat = true, .width = width - ImGui::GetFrameHeight() - ui.theme().px(6)}))
+            for (std::size_t k = i; k < now.done.size(); ++k) session_->undo();
+    }
+    for (std::size_t i = now.undone.size(); i-- > 0;) muted_text(ui, "(undone) " + now.undone[i]);
+    muted_text(ui, format_number(static_cast<double>(now.undo_bytes) / 1e6, 3) + " MB");
+}
+
+}  // namespace weft::editor
