@@ -44,7 +44,8 @@ class Maker {
 
 }  // namespace
 
-Result<Pipelines> Pipelines::create(const gpu::Device& device, const Passes& passes, std::uint32_t samples) {
+Result<Pipelines> Pipelines::create(const gpu::Device& device, const Passes& passes, std::uint32_t samples,
+                                    bool draft) {
     Pipelines all;
     Maker maker(device);
     const GraphicsState solid{.depth = DepthTest::write};
@@ -54,15 +55,17 @@ Result<Pipelines> Pipelines::create(const gpu::Device& device, const Passes& pas
     maker.make(all.ground_depth, passes.depth, "ground_vert", nullptr, solid);
     maker.make(all.occlusion, passes.occlusion, "full_vert", "occlusion_frag", {});
     maker.make(all.occlusion_smooth, passes.occlusion, "full_vert", "occlusion_blur_frag", {});
-    maker.make(all.background, passes.lit, "full_vert", "background_frag", {});
+    maker.make(all.background, passes.lit, "full_vert", "background_frag", {}, {0, 0, draft});
     // Alpha blends a ground that shows only its shadows. For any other ground, alpha is 1.
-    maker.make(all.ground, passes.lit, "ground_vert", "ground_frag", {.depth = DepthTest::write, .blend = Blend::over});
+    maker.make(all.ground, passes.lit, "ground_vert", "ground_frag", {.depth = DepthTest::write, .blend = Blend::over},
+               {0, 0, draft});
     constexpr VkCullModeFlags hidden[] = {VK_CULL_MODE_NONE, VK_CULL_MODE_BACK_BIT, VK_CULL_MODE_FRONT_BIT};
     for (std::uint32_t sides = 0; sides < 3; ++sides) {
         maker.make(all.lit[sides], passes.lit, "lit_vert", "lit_frag",
-                   {.cull = hidden[sides], .depth = DepthTest::write}, {sides});
-        maker.make(all.sheer[sides], passes.sheer, "lit_vert", "sheer_frag",
-                   {.cull = hidden[sides], .depth = DepthTest::read, .blend = Blend::add}, {sides});
+                   {.cull = hidden[sides], .depth = DepthTest::write}, {sides, 0, draft});
+        maker.make(all.sheer[sides], draft ? passes.lit : passes.sheer, "lit_vert", draft ? "lit_frag" : "sheer_frag",
+                   {.cull = hidden[sides], .depth = DepthTest::read, .blend = draft ? Blend::over : Blend::add},
+                   {sides, 0, draft});
     }
     maker.make(all.line, passes.lit, "line_vert", "line_frag", {.depth = DepthTest::read, .blend = Blend::over});
     maker.make(all.line_on_top, passes.top, "line_vert", "line_frag", {.blend = Blend::over});

@@ -17,7 +17,7 @@ struct Pipelines {
     gpu::GraphicsPipeline resolve, resolve_sheer;
     std::optional<gpu::Pipeline> bounds, sun;
 
-    static Result<Pipelines> create(const gpu::Device& device, const Passes& passes, std::uint32_t samples);
+    static Result<Pipelines> create(const gpu::Device& device, const Passes& passes, std::uint32_t samples, bool draft);
 };
 
 /// The pipeline that writes to a target. `encode`: encodes sRGB. `straight`: colors are not multiplied by alpha.

@@ -93,7 +93,8 @@ struct Presenting {
 
 struct Renderer::Impl {
     std::shared_ptr<gpu::Device> device;
-    std::uint32_t samples = 1, repeats = 1;
+    std::uint32_t samples = 1, repeats = 1, shadow_side = shadow_map_side;
+    bool draft = false;
     VkFormat display = light_format;
     Passes passes;
     Pipelines pipelines;
@@ -133,14 +134,19 @@ struct Renderer::Impl {
     void record_shadow(gpu::Commands& commands, const Drawing& drawing, const Placed& placed);
     void record_occlusion(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, std::size_t pass);
     void record_lit(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, std::size_t pass);
+    void draw_sheer(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, std::size_t pass);
     void record_sheer(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, std::size_t pass);
     void record_resolve(gpu::Commands& commands, const Placed& placed, std::size_t pass, bool sheer);
     void record_top(gpu::Commands& commands, const Drawing& drawing, const Placed& placed);
     void draw_surface(gpu::Commands& commands, const Object& object);
 
+    const gpu::Image& shown() const { return draft ? targets.lit : targets.display; }
     bool is_sheer(const Object& object) const {
         return object.scalars.values.address == 0 && materials.sheer(object.material);
     }
+    void record(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, bool sheer);
+    Result<void> record_target(gpu::Commands& commands, FrameSlot& slot, const Target& target, const Presenting& onto,
+                               const Placed& placed);
     Result<std::uint64_t> draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window,
                                bool straight);
 };
@@ -151,11 +157,13 @@ Result<void> Renderer::Impl::open(const RendererOptions& options) {
     const std::string& name = device->info().name;
     if (!device->draws()) return Error::of_machine(name, "has no graphics queue; choose another device");
     const std::uint32_t wanted = std::clamp(options.samples, 1u, most_samples);
-    samples = gpu::supported_samples(*device, std::min(wanted, 4u));
-    repeats = (wanted + samples - 1) / samples;
+    samples = options.draft ? 1 : gpu::supported_samples(*device, std::min(wanted, 4u));
+    repeats = options.draft ? 1 : (wanted + samples - 1) / samples;
     if (repeats > 1 && blends(*device, VK_FORMAT_R32G32B32A32_SFLOAT)) display = VK_FORMAT_R32G32B32A32_SFLOAT;
-    if (auto made = take(Passes::create(*device, samples, display), passes); !made) return made;
-    if (auto made = take(Pipelines::create(*device, passes, samples), pipelines); !made) return made;
+    if (auto made = take(Passes::create(*device, samples, display, options.draft), passes); !made) return made;
+    draft = options.draft;
+    if (draft) shadow_side = draft_shadow_map_side;
+    if (auto made = take(Pipelines::create(*device, passes, samples, draft), pipelines); !made) return made;
     return make_fixed();
 }
 
@@ -166,13 +174,13 @@ Result<void> Renderer::Impl::make_fixed() {
     if (auto made = take(gpu::Sampler::create(*device, compare), shadow_compare); !made) return made;
     if (auto made = take(gpu::Sampler::create(*device, point), nearest); !made) return made;
     if (auto made = take(gpu::Sampler::create(*device, {.address_v = clamp}), around_sampler); !made) return made;
-    const gpu::ImageDesc map{.width = shadow_map_side,
-                             .height = shadow_map_side,
+    const gpu::ImageDesc map{.width = shadow_side,
+                             .height = shadow_side,
                              .format = depth_format,
                              .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
     if (auto made = take(gpu::Image::create(*device, map, "shadow"), shadow_map); !made) return made;
     const VkImageView view = shadow_map.view();
-    auto frame = gpu::Framebuffer::create(*device, passes.shadow, {&view, 1}, shadow_map_side, shadow_map_side);
+    auto frame = gpu::Framebuffer::create(*device, passes.shadow, {&view, 1}, shadow_side, shadow_side);
     if (auto made = take(std::move(frame), shadow_frame); !made) return made;
     gpu::Memory& memory = device->memory();
     if (auto made = take(memory.buffer(32, gpu::MemoryKind::device, "bounds"), bounds); !made) return made;
@@ -183,15 +191,15 @@ Result<void> Renderer::Impl::make_fixed() {
 
 Result<void> Renderer::Impl::fit(std::uint32_t width, std::uint32_t height, bool sheer) {
     const bool same = targets.width == width && targets.height == height;
-    if (same && (targets.sheer || !sheer) && display_set.handle() != VK_NULL_HANDLE) return {};
+    if (same && (targets.sheer || !sheer || draft) && display_set.handle() != VK_NULL_HANDLE) return {};
     if (auto idle = device->wait(device->submitted()); !idle) return idle;
     if (!same) {
         targets = {};
-        auto made = Targets::create(*device, passes, width, height, samples, display);
+        auto made = Targets::create(*device, passes, width, height, samples, display, draft);
         if (!made) return made.errors();
         targets = std::move(*made);
     }
-    if (sheer) {
+    if (sheer && !draft) {
         if (auto added = targets.add_sheer(*device, passes, samples); !added) return added;
     }
     return make_sets();
@@ -224,7 +232,7 @@ Result<void> Renderer::Impl::make_sets() {
         made = make(sheer_set, pipelines.resolve_sheer,
                     {drawn(0, targets.lit), drawn(1, targets.sheer.sum), drawn(2, targets.sheer.depth)});
     }
-    if (made && !presenting.empty()) made = make(display_set, presenting.front().pipeline, {drawn(0, targets.display)});
+    if (made && !presenting.empty()) made = make(display_set, presenting.front().pipeline, {drawn(0, shown())});
     return made;
 }
 
@@ -297,7 +305,7 @@ void Renderer::Impl::record_sun(gpu::Commands& commands, const Drawing& drawing,
     }
     commands.barrier();
     commands.bind(*pipelines.sun);
-    const SunPush values{placed.frames[0], bounds.address(), light.address(), static_cast<float>(shadow_map_side)};
+    const SunPush values{placed.frames[0], bounds.address(), light.address(), static_cast<float>(shadow_side)};
     commands.push(std::as_bytes(std::span(&values, 1)).first(28));
     commands.dispatch(1);
     commands.drawing_barrier();
@@ -317,7 +325,7 @@ void Renderer::Impl::record_shadow(gpu::Commands& commands, const Drawing& drawi
 
 void Renderer::Impl::record_occlusion(gpu::Commands& commands, const Drawing& drawing, const Placed& placed,
                                       std::size_t pass) {
-    const bool wanted = drawing.lighting.ambient_occlusion > 0;
+    const bool wanted = !draft && drawing.lighting.ambient_occlusion > 0;
     commands.begin_pass(passes.depth, targets.depth_frame, {&clear_depth, 1});
     if (wanted) {
         commands.bind(pipelines.depth);
@@ -383,6 +391,7 @@ void Renderer::Impl::record_lit(gpu::Commands& commands, const Drawing& drawing,
         push(commands, frame, placed.grounds[i]);
         commands.draw(6);
     }
+    if (draft) draw_sheer(commands, drawing, placed, pass);
     if (!drawing.lines.empty()) {
         constexpr float nearer = 2e-5f;  // of the depth range: about a tenth of a millimeter
         commands.bind(pipelines.line);
@@ -392,10 +401,8 @@ void Renderer::Impl::record_lit(gpu::Commands& commands, const Drawing& drawing,
     commands.end_pass();
 }
 
-void Renderer::Impl::record_sheer(gpu::Commands& commands, const Drawing& drawing, const Placed& placed,
-                                  std::size_t pass) {
-    const VkClearValue clear[] = {clear_nothing, clear_nothing, clear_depth};
-    commands.begin_pass(passes.sheer, targets.sheer.frame, clear);
+void Renderer::Impl::draw_sheer(gpu::Commands& commands, const Drawing& drawing, const Placed& placed,
+                                std::size_t pass) {
     const auto surfaces = [&](const gpu::GraphicsPipeline& pipeline) {
         commands.bind(pipeline);
         commands.bind(0, scene_set);
@@ -413,6 +420,13 @@ void Renderer::Impl::record_sheer(gpu::Commands& commands, const Drawing& drawin
     } else {
         surfaces(pipelines.sheer[0]);
     }
+}
+
+void Renderer::Impl::record_sheer(gpu::Commands& commands, const Drawing& drawing, const Placed& placed,
+                                  std::size_t pass) {
+    const VkClearValue clear[] = {clear_nothing, clear_nothing, clear_depth};
+    commands.begin_pass(passes.sheer, targets.sheer.frame, clear);
+    draw_sheer(commands, drawing, placed, pass);
     commands.end_pass();
 }
 
@@ -440,37 +454,54 @@ void Renderer::Impl::record_top(gpu::Commands& commands, const Drawing& drawing,
     commands.end_pass();
 }
 
+void Renderer::Impl::record(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, bool sheer) {
+    record_sun(commands, drawing, placed);
+    record_shadow(commands, drawing, placed);
+    for (std::size_t pass = 0; pass < repeats; ++pass) {
+        // A draft has no occlusion, but images that shaders name must have been written once.
+        if (!draft || !targets.cleared) record_occlusion(commands, drawing, placed, pass);
+        targets.cleared = true;
+        record_lit(commands, drawing, placed, pass);
+        if (draft) continue;
+        if (sheer) record_sheer(commands, drawing, placed, pass);
+        record_resolve(commands, placed, pass, sheer);
+    }
+    record_top(commands, drawing, placed);
+}
+
+Result<void> Renderer::Impl::record_target(gpu::Commands& commands, FrameSlot& slot, const Target& target,
+                                           const Presenting& onto, const Placed& placed) {
+    auto frame = gpu::Framebuffer::create(*device, onto.pass, {&target.view, 1}, target.width, target.height);
+    if (auto made = take(std::move(frame), slot.target); !made) return made;
+    commands.begin_pass(onto.pass, slot.target, {&clear_nothing, 1});
+    commands.bind(onto.pipeline);
+    commands.bind(0, display_set);
+    push(commands, placed.frames.back(), 0);
+    commands.draw(3);
+    commands.end_pass();
+    return {};
+}
+
+// Without a view, `target` has a size only: the image stays where it was drawn.
 Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target& target, gpu::BinarySemaphores window,
                                            bool straight) {
     const bool sheer = std::ranges::any_of(drawing.objects, [&](const Object& object) { return is_sheer(object); });
-    auto onto = presenting_for(target, straight);
-    if (!onto) return onto.errors();
+    const Presenting* onto = nullptr;
+    if (target.view != VK_NULL_HANDLE) {
+        if (auto made = take(presenting_for(target, straight), onto); !made) return made.errors();
+    }
     if (auto fitted = fit(target.width, target.height, sheer); !fitted) return fitted.errors();
     FrameSlot& slot = slots[next_slot];
     if (slot.submitted > 0) {
         if (auto done = device->wait(slot.submitted); !done) return done.errors();
     }
-    auto frame = gpu::Framebuffer::create(*device, (*onto)->pass, {&target.view, 1}, target.width, target.height);
-    if (auto made = take(std::move(frame), slot.target); !made) return made.errors();
     if (auto begun = slot.begin(*device, room_for(drawing, repeats)); !begun) return begun.errors();
     gpu::Commands& commands = *slot.commands;
     const Placed placed = place(slot, drawing);
-
-    record_sun(commands, drawing, placed);
-    record_shadow(commands, drawing, placed);
-    for (std::size_t pass = 0; pass < repeats; ++pass) {
-        record_occlusion(commands, drawing, placed, pass);
-        record_lit(commands, drawing, placed, pass);
-        if (sheer) record_sheer(commands, drawing, placed, pass);
-        record_resolve(commands, placed, pass, sheer);
+    record(commands, drawing, placed, sheer);
+    if (onto) {
+        if (auto recorded = record_target(commands, slot, target, *onto, placed); !recorded) return recorded.errors();
     }
-    record_top(commands, drawing, placed);
-    commands.begin_pass((*onto)->pass, slot.target, {&clear_nothing, 1});
-    commands.bind((*onto)->pipeline);
-    commands.bind(0, display_set);
-    push(commands, placed.frames.back(), 0);
-    commands.draw(3);
-    commands.end_pass();
     if (auto ended = commands.end(); !ended) return ended.errors();
 
     // All surfaces have times of the same timeline, so waiting for the latest is enough.
@@ -544,24 +575,29 @@ Result<Image8> Renderer::picture(const Drawing& drawing, std::uint32_t width, st
         if (auto made = surround(drawing.lighting); !made) return made.errors();
     }
     const std::uint64_t bytes = std::uint64_t{width} * height * 4;
-    if (!self.own || self.own.desc().width != width || self.own.desc().height != height) {
+    if (!self.read_back || self.read_back.size() < bytes) {
+        auto buffer = self.device->memory().buffer(bytes, gpu::MemoryKind::readback, "picture");
+        if (auto made = take(std::move(buffer), self.read_back); !made) return made.errors();
+    }
+    if (!self.draft && (!self.own || self.own.desc().width != width || self.own.desc().height != height)) {
         const gpu::ImageDesc desc{.width = width,
                                   .height = height,
                                   .format = VK_FORMAT_R8G8B8A8_SRGB,
                                   .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
         if (auto made = take(gpu::Image::create(*self.device, desc, "picture"), self.own); !made) return made.errors();
-        auto buffer = self.device->memory().buffer(bytes, gpu::MemoryKind::readback, "picture");
-        if (auto made = take(std::move(buffer), self.read_back); !made) return made.errors();
     }
-    const Target target{.view = self.own.view(),
-                        .format = self.own.desc().format,
+    const Target target{.view = self.draft ? VK_NULL_HANDLE : self.own.view(),
+                        .format = VK_FORMAT_R8G8B8A8_SRGB,
                         .width = width,
                         .height = height,
                         .after = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
     const auto drawn = self.draw(drawing, target, {}, drawing.background == Background::transparent);
     if (!drawn) return drawn.errors();
     const auto copied = gpu::run_once(*self.device, [&](gpu::Commands& commands) {
-        commands.copy_from_image(self.own, self.read_back);
+        const gpu::Image& image = self.draft ? self.targets.lit : self.own;
+        if (self.draft)
+            commands.transition(image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        commands.copy_from_image(image, self.read_back);
         commands.host_barrier();
     });
     if (!copied) return copied.errors();

@@ -10,13 +10,16 @@
 
 namespace weft::render {
 
-/// Width of the sun's shadow map in texels: 1.5 mm each over 3 m.
-inline constexpr std::uint32_t shadow_map_side = 2048;
+/// Width of the sun's shadow map in texels: 1.5 mm each over 3 m; and that of drafts.
+inline constexpr std::uint32_t shadow_map_side = 2048, draft_shadow_map_side = 1024;
 
 struct RendererOptions {
     /// Samples per pixel, 1…256. 1, 2 or 4 in one pass, if the device supports them; more by drawing the image
     /// repeatedly.
     std::uint32_t samples = 4;
+    /// Less work per pixel, for images that must be ready soon: hard shadows from a smaller map, no ambient occlusion,
+    /// no threads, reflections without detail.
+    bool draft = false;
 };
 
 /// The image that a drawing is written to.

@@ -25,7 +25,7 @@ bool take(Result<Value> made, Value& into, Errors& errors) {
 
 }  // namespace
 
-Result<Passes> Passes::create(const gpu::Device& device, std::uint32_t samples, VkFormat display) {
+Result<Passes> Passes::create(const gpu::Device& device, std::uint32_t samples, VkFormat display, bool draft) {
     Passes passes;
     Errors errors;
     const auto make = [&](gpu::RenderPass& into, const char* name, std::initializer_list<Attachment> attachments) {
@@ -35,20 +35,21 @@ Result<Passes> Passes::create(const gpu::Device& device, std::uint32_t samples, 
     make(passes.depth, "depth", {{depth_format, 1, Keep::cleared, depth_read}});
     make(passes.occlusion, "occlusion", {{occlusion_format, 1, Keep::cleared, read}});
     make(passes.lit, "lit",
-         {{light_format, samples, Keep::cleared, read}, {depth_format, samples, Keep::cleared, depth_kept}});
+         {{draft ? draft_format : light_format, samples, Keep::cleared, read},
+          {depth_format, samples, Keep::cleared, depth_kept}});
     make(passes.sheer, "sheer",
          {{light_format, samples, Keep::cleared, read},
           {light_format, samples, Keep::cleared, read},
           {depth_format, samples, Keep::loaded, depth_kept, depth_kept}});
     make(passes.first, "resolve", {{display, 1, Keep::cleared, read}});
     make(passes.further, "resolve more", {{display, 1, Keep::loaded, read, read}});
-    make(passes.top, "top", {{display, 1, Keep::loaded, read, read}});
+    make(passes.top, "top", {{draft ? draft_format : display, 1, Keep::loaded, read, read}});
     if (!errors.empty()) return errors;
     return passes;
 }
 
 Result<Targets> Targets::create(gpu::Device& device, const Passes& passes, std::uint32_t width, std::uint32_t height,
-                                std::uint32_t samples, VkFormat display) {
+                                std::uint32_t samples, VkFormat display, bool draft) {
     Targets targets;
     targets.width = width;
     targets.height = height;
@@ -69,9 +70,13 @@ Result<Targets> Targets::create(gpu::Device& device, const Passes& passes, std::
     image(targets.depth, "depth", depth_format, deep, 1);
     image(targets.occlusion, "occlusion", occlusion_format, drawn, 1, 2);
     image(targets.occlusion_smooth, "occlusion, smooth", occlusion_format, drawn, 1, 2);
-    image(targets.lit, "lit", light_format, drawn, samples);
+    if (draft) {
+        image(targets.lit, "draft", draft_format, drawn | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 1);
+    } else {
+        image(targets.lit, "lit", light_format, drawn, samples);
+        image(targets.display, "display", display, drawn, 1);
+    }
     image(targets.lit_depth, "depth of what is lit", depth_format, deep, samples);
-    image(targets.display, "display", display, drawn, 1);
     if (!errors.empty()) return errors;
     const auto frame = [&](gpu::Framebuffer& into, const gpu::RenderPass& pass,
                            std::initializer_list<const gpu::Image*> images) {
@@ -84,7 +89,7 @@ Result<Targets> Targets::create(gpu::Device& device, const Passes& passes, std::
     frame(targets.occlusion_frame, passes.occlusion, {&targets.occlusion});
     frame(targets.smooth_frame, passes.occlusion, {&targets.occlusion_smooth});
     frame(targets.lit_frame, passes.lit, {&targets.lit, &targets.lit_depth});
-    frame(targets.display_frame, passes.first, {&targets.display});
+    frame(targets.display_frame, draft ? passes.top : passes.first, {draft ? &targets.lit : &targets.display});
     if (!errors.empty()) return errors;
     return targets;
 }

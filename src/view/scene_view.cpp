@@ -447,7 +447,7 @@ SceneView::~SceneView() = default;
 
 Result<SceneView> SceneView::create(std::shared_ptr<gpu::Device> device, const SceneDesc& scene,
                                     const WorldFrame& world, const ViewOptions& options, const ViewSources& sources) {
-    auto renderer = render::Renderer::create(std::move(device), {.samples = options.samples});
+    auto renderer = render::Renderer::create(std::move(device), {.samples = options.samples, .draft = options.draft});
     if (!renderer) return renderer.errors();
     auto impl = std::make_unique<Impl>(options, sources, std::move(*renderer));
     if (auto opened = impl->open(scene, world); !opened) return opened.errors();
@@ -468,10 +468,14 @@ void SceneView::set_overlays(std::vector<const Overlay*> overlays) {
 }
 
 Result<Image8> SceneView::picture(const SceneDesc& scene, const WorldFrame& world, const Camera& camera) {
-    Impl& self = *impl_;
-    const auto drawing = self.draw(scene, world, camera, self.options.width, self.options.height);
+    return picture(scene, world, camera, impl_->options.width, impl_->options.height);
+}
+
+Result<Image8> SceneView::picture(const SceneDesc& scene, const WorldFrame& world, const Camera& camera,
+                                  std::uint32_t width, std::uint32_t height) {
+    const auto drawing = impl_->draw(scene, world, camera, width, height);
     if (!drawing) return drawing.errors();
-    return self.renderer.picture(*drawing, self.options.width, self.options.height);
+    return impl_->renderer.picture(*drawing, width, height);
 }
 
 Result<std::uint64_t> SceneView::draw(const SceneDesc& scene, const WorldFrame& world, const Camera& camera,

@@ -25,6 +25,7 @@ struct ViewOptions {
     std::uint32_t samples = 4;                 ///< per pixel, 1…256; more than 4 take proportionally longer
     bool transparent = false;                  ///< no background; the ground shows only its shadows
     bool two_passes = false;                   ///< render/drawing.h
+    bool draft = false;                        ///< RendererOptions::draft
     std::vector<std::string> overlays;         ///< names of view/overlays.h
 
     float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
@@ -66,6 +67,9 @@ class SceneView {
     Camera camera(const SceneDesc& scene, const World& world) const { return camera(scene, LiveWorldFrame(world)); }
     /// Draws the current state of the world. Frees device data of objects that were removed since the previous image.
     Result<Image8> picture(const SceneDesc& scene, const WorldFrame& world, const Camera& camera);
+    /// The same in another size than that of the options.
+    Result<Image8> picture(const SceneDesc& scene, const WorldFrame& world, const Camera& camera, std::uint32_t width,
+                           std::uint32_t height);
     Result<Image8> picture(const SceneDesc& scene, const World& world, const Camera& camera) {
         return picture(scene, LiveWorldFrame(world), camera);
     }

@@ -2,7 +2,6 @@
 #include "editor/app/editor.h"
 #include "editor/app/objects.h"
 #include "editor/app/scene_files.h"
-#include "io/images/image_file.h"
 #include "io/images/picture_writer.h"
 
 #include <algorithm>
@@ -239,8 +238,13 @@ void Editor::screenshot() {
     std::error_code ignored;
     for (int i = 1; file.empty() || std::filesystem::exists(file, ignored); ++i)
         file = folder / ("weft-" + std::to_string(i) + ".png");
-    if (auto written = write_png(view_image_->image, file); !written)
-        return session_->say("Save image", written.errors());
+    const Image8& image = view_image_->image;
+    auto writer = make_picture_writer(file);
+    Result<void> written = writer ? (*writer)->begin({.width = image.width, .height = image.height, .picture_count = 1})
+                                  : Result<void>(writer.errors());
+    if (written) written = (*writer)->write(image);
+    if (written) written = (*writer)->finish();
+    if (!written) return session_->say("Save image", written.errors());
     session_->say("Saved " + file.string());
 }
 

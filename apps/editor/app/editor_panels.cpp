@@ -265,7 +265,7 @@ void Editor::status_line(Ui& ui) {
         ImGui::BeginTooltip();
         for (std::size_t i = 0; i < now.stage_ms.size(); ++i)
             if (now.stage_ms[i] > 0)
-                ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<weft::Stage>(i))).c_str(), now.stage_ms[i]);
+                ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<std::uint32_t>(i))).c_str(), now.stage_ms[i]);
         ImGui::EndTooltip();
     }
     for (const std::string_view report : now.reports) {

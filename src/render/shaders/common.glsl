@@ -6,6 +6,12 @@
 #include "render/shading/tone.h"
 #define frame push.frame.data
 
+// Less work per pixel, for images that must be ready soon (RendererOptions::draft).
+layout(constant_id = 2) const bool draft = false;
+
+// The color that is written for light. Drafts have no later pass that maps tones.
+vec4 written(vec3 light, float alpha) { return vec4(draft ? tone_map(light) : light, alpha); }
+
 // Reads a whole vector from a buffer. Works around Lavapipe (Mesa 22.3), which reads the first component if a shader
 // reads only the last one.
 vec4 whole(vec4 v) { return v; }

@@ -14,14 +14,18 @@ layout(location = 0) out vec4 color;
 void main() {
     Place place = find_place(normal, tangent, uv, rest, gl_FrontFacing, gl_FragCoord.xy);
     float fading = smoothstep(whole(frame.background).z, whole(frame.background).w, length(position - frame.target.xyz));
-    float occlusion = occlusion_at(gl_FragCoord.xy, position);
-    // For a ground that shows only its shadows: the share of light that they remove.
-    float sun = dot(frame.sun_color.rgb, vec3(1.0)) / pi * max(0.0, dot(place.normal, frame.sun.xyz));
-    float around = dot(around_at(place.normal), vec3(1.0));
     vec3 behind = whole(frame.background).y > 0.5
                       ? textureLod(background_map, environment_place(picture_direction(-place.to_eye)), 0.0).rgb *
                             whole(frame.environment).x
                       : sky_at(-place.to_eye);
+    if (draft && whole(frame.background).x < 0.5) {
+        color = written(mix(light_of(place), behind * whole(frame.light).x, fading), 1.0);
+        return;
+    }
+    float occlusion = occlusion_at(gl_FragCoord.xy, position);
+    // For a ground that shows only its shadows: the share of light that they remove.
+    float sun = dot(frame.sun_color.rgb, vec3(1.0)) / pi * max(0.0, dot(place.normal, frame.sun.xyz));
+    float around = dot(around_at(place.normal), vec3(1.0));
     vec3 seen = mix(light_of(place), behind * whole(frame.light).x, fading);
     float reached = sun_reaching(position, place.normal, gl_FragCoord.xy);
     float shadow = 1.0 - (sun * reached + around * occlusion) / max(sun + around, 1e-6);

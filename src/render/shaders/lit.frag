@@ -26,8 +26,10 @@ void main() {
     bool front = sides == 0u ? gl_FrontFacing : sides == 1u;
     Place place = find_place(normal, tangent, uv, rest, front, gl_FragCoord.xy);
     if ((object.flags & object_has_scalars) != 0u) {
-        color = vec4(scalar_color(place), 2.0);  // alpha 2: resolve.frag does not tone-map it
+        color = vec4(scalar_color(place), draft ? 1.0 : 2.0);  // alpha 2: resolve.frag does not tone-map it
     } else {
-        color = vec4(light_of(place), 1.0);
+        // Sheer cloth of a draft is blended over what was drawn before.
+        float alpha = draft ? coverage_at(abs(dot(place.normal, place.to_eye))) : 1.0;
+        color = written(light_of(place), alpha);
     }
 }

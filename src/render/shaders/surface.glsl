@@ -30,6 +30,7 @@ float coverage_at(float cosine) { return 1.0 - pow(1.0 - whole(material.velvet).
 
 // Samples the occlusion at half resolution, from pixels of similar depth.
 float occlusion_at(vec2 pixel, vec3 position) {
+    if (draft) return 1.0;
     float depth = dot(position - frame.eye.xyz, -vec3(whole(frame.to_view[0]).z, whole(frame.to_view[1]).z, whole(frame.to_view[2]).z));
     vec2 at = pixel * 0.5 - 0.5;
     ivec2 corner = ivec2(floor(at)), most = textureSize(occlusion_map, 0) - 1;
@@ -101,8 +102,17 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
     float relief = whole(material.roughness).z;
     vec2 texels = per_uv * vec2(textureSize(relief_map, 0)), across = d.uv_x * texels, down = d.uv_y * texels;
     float level = 0.5 * log2(max(dot(across, across), dot(down, down)) + 1e-12);
-    vec4 first = textureLod(relief_map, tiles, level);
-    vec3 squares = textureLod(relief_squares, tiles, level).xyz * relief * relief;
+    vec4 first;
+    vec3 squares;
+    if (draft) {  // as from afar
+        int last = textureQueryLevels(relief_map) - 1;
+        first = texelFetch(relief_map, ivec2(0), last);
+        squares = texelFetch(relief_squares, ivec2(0), last).xyz;
+    } else {
+        first = textureLod(relief_map, tiles, level);
+        squares = textureLod(relief_squares, tiles, level).xyz;
+    }
+    squares *= relief * relief;
     vec2 slope = first.xy * relief;
     // The far side of a thread is not visible, so normals that face away from the eye are turned back.
     place.normal = normalize(outward - slope.x * place.u - slope.y * place.v);
@@ -137,6 +147,7 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
 }
 
 vec3 mirrored_around(vec3 direction, float alpha) {
+    if (draft) return around_at(direction);
     float level = sqrt(clamp(alpha, 0.0, 1.0)) * whole(frame.environment).w;
     return textureLod(environment_map, environment_place(direction), level).rgb;
 }
