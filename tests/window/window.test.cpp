@@ -8,12 +8,17 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
+#include <thread>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace weft::render {
 namespace {
@@ -407,6 +412,105 @@ TEST_F(WindowTest, hears_what_hands_do) {
     EXPECT_TRUE(all.pressed['W'] && all.pressed['3'] && all.pressed[escape_key]);
     EXPECT_FALSE(all.pressed['S'] || all.held[escape_key]);
     EXPECT_TRUE(window->input().pressed.none()) << "told once";
+}
+
+TEST_F(WindowTest, lists_events_in_their_order) {
+    if (!show_window()) return;
+    draw(red);
+    (void)window->events();
+    std::vector<WindowEvent> all;
+    const auto wait_for = [&](const std::function<bool()>& so) {
+        for (int i = 0; i < 1000 && !so(); ++i)
+            for (WindowEvent& event : window->events(0.02)) all.push_back(std::move(event));
+        return so();
+    };
+    const auto count = [&]<class What>(What) {
+        return std::ranges::count_if(all,
+                                     [](const WindowEvent& one) { return std::holds_alternative<What>(one.what); });
+    };
+    input->point_at(100, 50);
+    input->button(1, true);
+    input->point_at(130, 60);
+    input->button(1, false);
+    input->button(4, true);
+    input->key("Shift_L", true);
+    input->key("w", true);
+    input->key("w", false);
+    input->key("Shift_L", false);
+    input->key("Escape", true);
+    input->key("Escape", false);
+    input->resize(400, 300);
+    input->ask_to_close();
+    ASSERT_TRUE(wait_for([&] { return count(CloseRequested{}) > 0 && count(Resized{}) > 0; }));
+    std::string told;
+    double before = 0;
+    for (const WindowEvent& event : all) {
+        EXPECT_GE(event.time, before);
+        before = event.time;
+        if (const auto* one = std::get_if<PointerMoved>(&event.what))
+            told += "move" + std::to_string(static_cast<int>(one->to.x)) + " ";
+        if (const auto* one = std::get_if<ButtonChanged>(&event.what)) {
+            told += one->down ? "press " : "release ";
+            EXPECT_EQ(one->at.x, one->down ? 100 : 130);
+        }
+        if (const auto* one = std::get_if<WheelTurned>(&event.what))
+            told += "wheel" + std::to_string(static_cast<int>(one->by.y)) + " ";
+        if (const auto* one = std::get_if<TextTyped>(&event.what))
+            told += std::string("text_") + static_cast<char>(one->character) + " ";
+        if (const auto* one = std::get_if<KeyChanged>(&event.what)) {
+            told += one->key == Key::w            ? "w"
+                    : one->key == Key::escape     ? "escape"
+                    : one->key == Key::left_shift ? "shift"
+                                                  : "?";
+            told += one->down ? "+ " : "- ";
+            EXPECT_EQ(one->label, one->key);
+            if (one->key == Key::left_shift) {
+                EXPECT_EQ(one->modifiers.shift, one->down) << "after the change";
+            }
+        }
+    }
+    EXPECT_THAT(told, HasSubstr("move100 press move130 release wheel1 shift+ w+ "));
+    EXPECT_THAT(told, HasSubstr("w- shift- escape+ escape- "));
+    EXPECT_THAT(told, HasSubstr("text_"));
+    const auto resized =
+        std::ranges::find_if(all, [](const WindowEvent& one) { return std::holds_alternative<Resized>(one.what); });
+    EXPECT_EQ(std::get<Resized>(resized->what).width, 400u);
+    EXPECT_FALSE(std::get<Resized>(resized->what).minimized);
+    EXPECT_TRUE(window->closed());
+    window->keep_open();
+    EXPECT_FALSE(window->closed());
+    EXPECT_TRUE(window->events().empty()) << "told once";
+}
+
+TEST_F(WindowTest, a_wait_for_events_is_ended_by_another_thread) {
+    if (!show_window()) return;
+    for (int i = 0; i < 10; ++i) (void)window->events(0.01);
+    std::thread other([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        display->wake();
+    });
+    const double before = display->now();
+    (void)window->events(20);
+    EXPECT_LT(display->now() - before, 10);
+    other.join();
+}
+
+TEST_F(WindowTest, has_a_cursor_a_clipboard_and_a_scale) {
+    if (!show_window()) return;
+    for (const CursorShape shape :
+         {CursorShape::text, CursorShape::hand, CursorShape::resize_x, CursorShape::resize_both, CursorShape::arrow})
+        window->set_cursor(shape);
+    window->set_clipboard("weft µ");
+    EXPECT_EQ(window->clipboard(), "weft µ");
+    EXPECT_GT(window->content_scale(), 0.5f);
+    EXPECT_EQ(window->pixels_per_unit(), 1);
+}
+
+TEST_F(WindowTest, may_have_images_that_do_not_encode) {
+    if (!show_window({.plain = true})) return;
+    EXPECT_FALSE(window->encodes_srgb());
+    draw(green);
+    EXPECT_TRUE(seen(green));
 }
 
 TEST_F(WindowTest, there_may_be_two) {

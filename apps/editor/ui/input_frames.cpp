@@ -91,13 +91,14 @@ bool InputFrames::take(const render::WindowChange& what, Changes& changes, bool 
                     return true;
                 }
                 if (event.key == Key::none || now.down[key] == event.down) return true;
-                if (changes.keys[key] || changes.buttons.any() || changes.wheel) return false;
+                const Modifiers held = now.modifiers();
+                // Text is all that such a key does, so down and up may fall into one frame.
+                const bool types = typing && is_printable(event.key) && !held.control && !held.alt && !held.super;
+                if ((changes.keys[key] && !types) || changes.buttons.any() || changes.wheel) return false;
                 if (is_modifier(event.key)) {
                     // It must not change what an earlier key of this frame meant.
                     if (changes.any_key || changes.text) return false;
                 } else {
-                    const Modifiers held = now.modifiers();
-                    const bool types = typing && is_printable(event.key) && !held.control && !held.alt && !held.super;
                     if (event.down && !types && (changes.pressed || changes.text)) return false;
                     changes.any_key |= event.down;
                     changes.pressed |= event.down && !types;
@@ -110,8 +111,9 @@ bool InputFrames::take(const render::WindowChange& what, Changes& changes, bool 
             },
             // A field inserts text before it looks at keys, so text must not follow a key that edits.
             [&](const render::TextTyped& event) {
-                const bool edited = std::ranges::any_of(
-                    now.keys, [](const InputFrame::Press& one) { return one.down && !is_printable(one.key) && !is_modifier(one.key); });
+                const bool edited = std::ranges::any_of(now.keys, [](const InputFrame::Press& one) {
+                    return one.down && !is_printable(one.key) && !is_modifier(one.key);
+                });
                 if (edited || changes.buttons.any()) return false;
                 changes.text = true;
                 now.text.push_back(event.character);
@@ -137,14 +139,14 @@ bool InputFrames::take(const render::WindowChange& what, Changes& changes, bool 
         what);
 }
 
-InputFrame InputFrames::next(double now, bool typing) {
+InputFrame InputFrames::next(double now, bool typing, bool hold) {
     state_.wheel = {};
     state_.keys.clear();
     state_.text.clear();
     state_.files.clear();
     Changes changes;
     double last = state_.time;
-    while (!waiting_.empty()) {
+    while (!waiting_.empty() && !hold) {
         const double time = waiting_.front().time;
         if (!take(waiting_.front().what, changes, typing)) {
             if (changes.moved) last = std::max(last, time);

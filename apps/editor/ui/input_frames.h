@@ -22,12 +22,12 @@ using render::PointerButton;
 
 /// The user input of one frame: the state at its end, and what happened in it.
 struct InputFrame {
-    double time = 0;  ///< s: when its last event came, or now if nothing is left
+    double time = 0;              ///< s: when its last event came, or now if nothing is left
     std::optional<Vec2> pointer;  ///< pixels; nothing while it is outside the window
     std::bitset<5> buttons;       ///< down, by PointerButton
     Vec2 wheel;                   ///< notches in this frame
     bool focused = true;
-    std::bitset<static_cast<std::size_t>(Key::count)> down;  ///< keys by their place
+    std::bitset<static_cast<std::size_t>(Key::count)> down;        ///< keys by their place
     std::bitset<static_cast<std::size_t>(Key::count)> label_down;  ///< keys by their label
     struct Press {
         Key key = Key::none, label = Key::none;
@@ -47,8 +47,8 @@ class InputFrames {
     void add(const std::vector<render::WindowEvent>& events, float scale = 1);
     bool pending() const { return !waiting_.empty(); }
     /// The next frame. `now`: s, on the clock of the events. `typing`: a text field has the keyboard, so that keys that
-    /// type a character need no frame of their own.
-    InputFrame next(double now, bool typing = false);
+    /// type a character need no frame of their own. `hold`: takes nothing; keys would go to the wrong widget.
+    InputFrame next(double now, bool typing = false, bool hold = false);
 
   private:
     struct Changes;

@@ -13,8 +13,9 @@ namespace {
 constexpr float em_at_100 = 15;  // pixels
 
 // Latin, Greek, Cyrillic, punctuation, superscripts, letterlike symbols, arrows and mathematical operators.
-constexpr std::array<ImWchar, 19> all_letters = {0x0020, 0x024F, 0x02B0, 0x02FF, 0x0370, 0x052F, 0x1E00, 0x1EFF, 0x2010, 0x205E,
-                                                 0x2070, 0x209C, 0x20A0, 0x20BF, 0x2100, 0x21FF, 0x2200, 0x22FF, 0};
+constexpr std::array<ImWchar, 19> all_letters = {0x0020, 0x024F, 0x02B0, 0x02FF, 0x0370, 0x052F, 0x1E00,
+                                                 0x1EFF, 0x2010, 0x205E, 0x2070, 0x209C, 0x20A0, 0x20BF,
+                                                 0x2100, 0x21FF, 0x2200, 0x22FF, 0};
 constexpr std::array<ImWchar, 11> few_letters = {0x0020, 0x017F, 0x0391, 0x03C9, 0x2010, 0x2027,
                                                  0x2070, 0x2089, 0x2190, 0x22FF, 0};
 
@@ -28,9 +29,10 @@ ImFont* add_font(ImFontAtlas& atlas, TypefaceStyle style, float em, const ImWcha
     const TypefaceMetrics metrics = metrics_of(file);
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
-    config.OversampleH = 2;
+    config.OversampleH = 1;
     config.OversampleV = 1;
-    config.PixelSnapH = true;  // whole pixels between letters: no blurred stems
+    config.RasterizerMultiply = 1.1f;  // unhinted letters of this size are a little too thin
+    config.PixelSnapH = true;          // whole pixels between letters: no blurred stems
     // ImGui takes the height of a line for the size.
     const float size = sharp_em(em, metrics) * metrics.line;
     return atlas.AddFontFromMemoryTTF(const_cast<std::byte*>(file.data()), static_cast<int>(file.size()), size, &config,
@@ -44,7 +46,7 @@ struct IconPlace {
 
 std::vector<IconPlace> reserve_icons(ImFontAtlas& atlas, ImFont* font, int side) {
     std::vector<IconPlace> places;
-    const float below = std::floor((atlas.ConfigData[0].SizePixels - static_cast<float>(side)) / 2);
+    const float below = std::round((atlas.ConfigData[0].SizePixels - static_cast<float>(side)) / 2);
     for (int i = 1; i < static_cast<int>(Icon::count); ++i) {
         const auto icon = static_cast<Icon>(i);
         places.push_back({icon, atlas.AddCustomRectFontGlyph(font, static_cast<ImWchar>(character_of(icon)), side, side,
@@ -98,7 +100,8 @@ void set_lengths(ImGuiStyle& style, const Theme& theme) {
     style.ScrollbarRounding = px(6);
     style.GrabRounding = px(3);
     style.TabRounding = px(4);
-    style.WindowBorderSize = style.ChildBorderSize = style.PopupBorderSize = px(1);
+    style.WindowBorderSize = style.ChildBorderSize = 0;
+    style.PopupBorderSize = px(1);
     style.FrameBorderSize = 0;
     style.WindowMinSize = ImVec2(px(16), px(16));
     style.MouseCursorScale = 1;
@@ -160,7 +163,10 @@ Theme make_theme(ImGuiContext& context, Appearance appearance, float scale) {
     const std::vector<IconPlace> places = reserve_icons(atlas, theme.body, side);
     atlas.Build();
     fill_icons(atlas, places, side);
-    for (ImFont* font : {theme.body, theme.strong, theme.small}) align_digits(font);
+    for (ImFont* font : {theme.body, theme.strong, theme.small}) {
+        align_digits(font);
+        font->FontSize = std::round(font->FontSize);  // lines on whole pixels; the letters keep their size
+    }
     io.FontDefault = theme.body;
     set_lengths(context.Style, theme);
     set_colors(context.Style, theme.colors);

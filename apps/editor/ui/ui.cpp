@@ -10,8 +10,8 @@
 namespace weft::editor {
 namespace {
 
-constexpr double tooltip_delay = 0.6;   // s
-constexpr int frames_to_settle = 2;     // ImGui shows some consequences, such as popups, one or two frames later
+constexpr double tooltip_delay = 0.6;  // s
+constexpr int frames_to_settle = 2;    // ImGui shows some consequences, such as popups, one or two frames later
 constexpr double never = std::numeric_limits<double>::infinity();
 
 struct KeyPair {
@@ -19,14 +19,27 @@ struct KeyPair {
     ImGuiKey imgui;
 };
 // Keys that ImGui's own widgets use. Tab is missing: focus_next() moves the keyboard.
-constexpr KeyPair imgui_keys[] = {
-    {Key::left, ImGuiKey_LeftArrow}, {Key::right, ImGuiKey_RightArrow}, {Key::up, ImGuiKey_UpArrow},
-    {Key::down, ImGuiKey_DownArrow}, {Key::page_up, ImGuiKey_PageUp},   {Key::page_down, ImGuiKey_PageDown},
-    {Key::home, ImGuiKey_Home},      {Key::end, ImGuiKey_End},          {Key::insert, ImGuiKey_Insert},
-    {Key::delete_key, ImGuiKey_Delete}, {Key::backspace, ImGuiKey_Backspace}, {Key::space, ImGuiKey_Space},
-    {Key::enter, ImGuiKey_Enter},    {Key::escape, ImGuiKey_Escape},    {Key::pad_enter, ImGuiKey_KeyPadEnter},
-    {Key::a, ImGuiKey_A},            {Key::c, ImGuiKey_C},              {Key::v, ImGuiKey_V},
-    {Key::x, ImGuiKey_X},            {Key::y, ImGuiKey_Y},              {Key::z, ImGuiKey_Z}};
+constexpr KeyPair imgui_keys[] = {{Key::left, ImGuiKey_LeftArrow},
+                                  {Key::right, ImGuiKey_RightArrow},
+                                  {Key::up, ImGuiKey_UpArrow},
+                                  {Key::down, ImGuiKey_DownArrow},
+                                  {Key::page_up, ImGuiKey_PageUp},
+                                  {Key::page_down, ImGuiKey_PageDown},
+                                  {Key::home, ImGuiKey_Home},
+                                  {Key::end, ImGuiKey_End},
+                                  {Key::insert, ImGuiKey_Insert},
+                                  {Key::delete_key, ImGuiKey_Delete},
+                                  {Key::backspace, ImGuiKey_Backspace},
+                                  {Key::space, ImGuiKey_Space},
+                                  {Key::enter, ImGuiKey_Enter},
+                                  {Key::escape, ImGuiKey_Escape},
+                                  {Key::pad_enter, ImGuiKey_KeyPadEnter},
+                                  {Key::a, ImGuiKey_A},
+                                  {Key::c, ImGuiKey_C},
+                                  {Key::v, ImGuiKey_V},
+                                  {Key::x, ImGuiKey_X},
+                                  {Key::y, ImGuiKey_Y},
+                                  {Key::z, ImGuiKey_Z}};
 
 std::size_t at(Key key) {
     return static_cast<std::size_t>(key);
@@ -101,7 +114,8 @@ void Ui::begin(float width, float height, double now) {
     if (now >= due_) due_ = never;
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(std::max(1.0f, width), std::max(1.0f, height));
-    input_ = frames_.next(now, io.WantTextInput);
+    // While the keyboard moves on to a widget, the next key waits for it.
+    input_ = frames_.next(now, wants_text(), focus_wanted_ != 0);
     // ImGui's clock is that of the events, so that a double click is one even if frames are slow.
     io.DeltaTime = static_cast<float>(std::max(last_time_ < 0 ? 1.0 / 60 : input_.time - last_time_, 1e-5));
     last_time_ = input_.time;
@@ -122,8 +136,7 @@ void Ui::begin(float width, float height, double now) {
 void Ui::feed() {
     ImGuiIO& io = ImGui::GetIO();
     const Modifiers modifiers = input_.modifiers();
-    const ImVec2 pointer =
-        input_.pointer ? ImVec2(input_.pointer->x, input_.pointer->y) : ImVec2(-FLT_MAX, -FLT_MAX);
+    const ImVec2 pointer = input_.pointer ? ImVec2(input_.pointer->x, input_.pointer->y) : ImVec2(-FLT_MAX, -FLT_MAX);
 #if IMGUI_VERSION_NUM >= 18700
     io.AddFocusEvent(input_.focused);
     io.AddMousePosEvent(pointer.x, pointer.y);
@@ -152,6 +165,8 @@ const ImDrawData& Ui::end() {
     ImGui::Render();
     ++probe_.frames;
     if (settling_ > 0) --settling_;
+    if (focus_wanted_ != 0 && focus_wanted_ == focus_missed_) focus_wanted_ = 0;  // the widget is gone
+    focus_missed_ = focus_wanted_;
     if (!focus_path_.empty() && settling_ == 0) focus_path_.clear();  // there is no such widget
     if (!wants_frame() && !frames_.pending()) ++probe_.settled;
     return *ImGui::GetDrawData();
@@ -168,26 +183,27 @@ ImVec2 Ui::size() const {
 // --- Input
 
 bool Ui::pressed(Key key, bool repeat) const {
-    return std::ranges::any_of(
-        input_.keys, [&](const InputFrame::Press& one) { return one.label == key && one.down && (repeat || !one.repeated); });
+    return std::ranges::any_of(input_.keys, [&](const InputFrame::Press& one) {
+        return one.label == key && one.down && (repeat || !one.repeated);
+    });
 }
 
 bool Ui::shortcut(Key label, Modifiers modifiers) const {
     const bool plain = !modifiers.control && !modifiers.alt && !modifiers.super;
     if (wants_text()) {
-        constexpr Key editing[] = {Key::a, Key::c, Key::v, Key::x, Key::y, Key::z, Key::left, Key::right, Key::backspace, Key::delete_key};
+        constexpr Key editing[] = {Key::a, Key::c,    Key::v,     Key::x,         Key::y,
+                                   Key::z, Key::left, Key::right, Key::backspace, Key::delete_key};
         const bool function = label >= Key::f1 && label <= Key::f12;
         if ((plain && !function) || std::ranges::find(editing, label) != std::end(editing)) return false;
     }
     if (plain && focus_is_visible()) {
-        constexpr Key steering[] = {Key::space, Key::enter,   Key::pad_enter, Key::left, Key::right,
-                                    Key::up,    Key::down,    Key::home,      Key::end,  Key::page_up,
-                                    Key::page_down};
-        const bool released = label == Key::space && released_space_;
+        constexpr Key steering[] = {Key::space, Key::enter, Key::pad_enter, Key::left,    Key::right,    Key::up,
+                                    Key::down,  Key::home,  Key::end,       Key::page_up, Key::page_down};
+        const bool released = label == Key::space && (released_space_ || releases_space_);
         if (!released && std::ranges::find(steering, label) != std::end(steering)) return false;
         const bool digit = (label >= Key::digit_0 && label <= Key::digit_9) || label == Key::minus ||
                            label == Key::period || (label >= Key::pad_0 && label <= Key::pad_add);
-        if (kept_digits_ && digit) return false;
+        if ((kept_digits_ || keeps_digits_) && digit) return false;
     }
     return std::ranges::any_of(input_.keys, [&](const InputFrame::Press& one) {
         return one.label == label && one.down && !one.repeated && one.modifiers == modifiers;
@@ -199,7 +215,7 @@ bool Ui::wants_pointer() const {
 }
 
 bool Ui::wants_text() const {
-    return context_->IO.WantTextInput;
+    return gesture.typing || (context_->IO.WantTextInput && context_->ActiveId != 0);
 }
 
 // --- When to draw again
@@ -256,7 +272,8 @@ Item Ui::place_at(std::string_view name, const ImRect& box, std::string_view val
     item.id = id_of(name);
     // Widgets that are scrolled out of sight can get the keyboard, and are then scrolled into view.
     const bool enabled = (GImGui->CurrentItemFlags & ImGuiItemFlags_Disabled) == 0;
-    const bool wanted = (focus_wanted_ == item.id || (!focus_path_.empty() && focus_path_ == probe_.path(name))) && enabled;
+    const bool wanted =
+        (focus_wanted_ == item.id || (!focus_path_.empty() && focus_path_ == probe_.path(name))) && enabled;
     item.visible = ImGui::ItemAdd(box, item.id);
     if (reachable && enabled) stops_.push_back({item.id, window});
     if (wanted) {
@@ -290,8 +307,7 @@ void Ui::focus_next(bool forward, bool typing) {
     const std::vector<Stop>& stops = last_stops_;
     const ImGuiID now = context_->ActiveId != 0 ? context_->ActiveId : context_->NavId;
     // An open popup keeps the keyboard.
-    const ImGuiWindow* popup =
-        context_->OpenPopupStack.Size > 0 ? context_->OpenPopupStack.back().Window : nullptr;
+    const ImGuiWindow* popup = context_->OpenPopupStack.Size > 0 ? context_->OpenPopupStack.back().Window : nullptr;
     std::vector<ImGuiID> order;
     for (const Stop& stop : stops)
         if (!popup || (stop.window && stop.window->RootWindow == popup)) order.push_back(stop.id);

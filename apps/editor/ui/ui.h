@@ -134,12 +134,13 @@ class Ui {
     /// The state of the widget that is in a gesture.
     struct Gesture {
         ImGuiID id = 0;
-        bool typing = false;  ///< into a field
-        bool opened = false;  ///< the field has got the keyboard
-        bool at_end = false;  ///< the cursor begins at the end; otherwise all is selected
-        bool keys = false;    ///< by arrow keys
-        bool moved = false;   ///< the value has changed
-        double start = 0;     ///< value before
+        bool typing = false;     ///< into a field
+        bool opened = false;     ///< the field has got the keyboard
+        bool at_end = false;     ///< the cursor begins at the end; otherwise all is selected
+        bool took_text = false;  ///< the text has what was typed in the frame in which it began
+        bool keys = false;       ///< by arrow keys
+        bool moved = false;      ///< the value has changed
+        double start = 0;        ///< value before
         double position = 0, pointer = 0, span = 0;
         std::string text;  ///< being typed
     } gesture;
@@ -161,8 +162,8 @@ class Ui {
     bool new_theme_ = true, new_fonts_ = false;
 
     std::atomic<bool> asked_{true};
-    int settling_ = 2;        // frames until what follows from the last input is shown
-    double due_ = 0;          // s: time of a requested frame; infinity: none
+    int settling_ = 2;                                 // frames until what follows from the last input is shown
+    double due_ = 0;                                   // s: time of a requested frame; infinity: none
     bool keeps_digits_ = false, kept_digits_ = false;  // in this frame, in the last one
     bool releases_space_ = false, released_space_ = false;
 
@@ -171,7 +172,7 @@ class Ui {
         ImGuiWindow* window = nullptr;
     };
     std::vector<Stop> stops_, last_stops_;
-    ImGuiID focus_wanted_ = 0;
+    ImGuiID focus_wanted_ = 0, focus_missed_ = 0;  // missed: in the last frame
     std::string focus_path_;
     bool focus_typing_ = false;
     ImGuiID tip_ = 0;

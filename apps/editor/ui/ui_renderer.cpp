@@ -59,7 +59,8 @@ VkRect2D pixels_of(const ImVec4& clip, ImVec2 origin, VkExtent2D extent) {
     };
     const std::int32_t x0 = clamped(clip.x - origin.x, extent.width), x1 = clamped(clip.z - origin.x, extent.width),
                        y0 = clamped(clip.y - origin.y, extent.height), y1 = clamped(clip.w - origin.y, extent.height);
-    return {{x0, y0}, {static_cast<std::uint32_t>(std::max(0, x1 - x0)), static_cast<std::uint32_t>(std::max(0, y1 - y0))}};
+    return {{x0, y0},
+            {static_cast<std::uint32_t>(std::max(0, x1 - x0)), static_cast<std::uint32_t>(std::max(0, y1 - y0))}};
 }
 
 }  // namespace
@@ -84,9 +85,7 @@ struct UiRenderer::Impl {
 
     ~Impl() { (void)wait_for_all(); }
 
-    Result<void> wait_for_all() {
-        return device->submitted() > 0 ? device->wait(device->submitted()) : Result<void>();
-    }
+    Result<void> wait_for_all() { return device->submitted() > 0 ? device->wait(device->submitted()) : Result<void>(); }
     Result<void> wait_for_slot() {
         const std::uint64_t before = slots[next_slot].submitted;
         return before > 0 ? device->wait(before) : Result<void>();
@@ -123,7 +122,8 @@ Result<Way*> UiRenderer::Impl::way_to(VkFormat format, VkImageLayout after) {
     return ways.back().get();
 }
 
-// Writes the content to the staging buffer of the next frame, which copies it. Makes the image again if its size is new.
+// Writes the content to the staging buffer of the next frame, which copies it. Makes the image again if its size is
+// new.
 Result<void> UiRenderer::Impl::put(UiImage id, VkFormat format, std::uint32_t width, std::uint32_t height,
                                    std::span<const std::uint8_t> bytes) {
     Texture& texture = textures[id];
@@ -270,8 +270,7 @@ UiRenderer& UiRenderer::operator=(UiRenderer&&) noexcept = default;
 UiRenderer::~UiRenderer() = default;
 
 Result<UiRenderer> UiRenderer::create(std::shared_ptr<gpu::Device> device) {
-    if (!device->draws())
-        return Error::of_machine(device->info().name, "has no graphics queue; choose another device");
+    if (!device->draws()) return Error::of_machine(device->info().name, "has no graphics queue; choose another device");
     auto impl = std::make_unique<Impl>();
     impl->device = std::move(device);
     auto sampler = gpu::Sampler::create(*impl->device, {.address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
@@ -328,13 +327,13 @@ Result<Image8> UiRenderer::picture(const ImDrawData& data, ImVec4 background) {
     const std::uint64_t bytes = std::uint64_t{width} * height * 4;
     if (!self.own || self.own.desc().width != width || self.own.desc().height != height) {
         if (auto idle = self.wait_for_all(); !idle) return idle.errors();
-        auto image = gpu::Image::create(
-            *self.device,
-            {.width = width,
-             .height = height,
-             .format = VK_FORMAT_R8G8B8A8_UNORM,
-             .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
-            "picture of the user interface");
+        auto image =
+            gpu::Image::create(*self.device,
+                               {.width = width,
+                                .height = height,
+                                .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+                               "picture of the user interface");
         if (!image) return image.errors();
         auto buffer = self.device->memory().buffer(bytes, gpu::MemoryKind::readback, "picture of the user interface");
         if (!buffer) return buffer.errors();

@@ -62,7 +62,8 @@ class Script {
 /// Runs frames of one function.
 class Stage {
   public:
-    explicit Stage(std::function<void(Ui&)> content, UiOptions options = {}) : ui(std::move(options)), content_(std::move(content)) {
+    explicit Stage(std::function<void(Ui&)> content, UiOptions options = {})
+        : ui(std::move(options)), content_(std::move(content)) {
         settle();
     }
     /// One frame.
@@ -80,9 +81,10 @@ class Stage {
     /// All events of the script at once, then frames until nothing is left: as slow as the user interface can be.
     void settle() {
         ui.add(script.take());
+        int frames = 0;
         do {
             frame();
-        } while (ui.wants_frame());
+        } while (ui.wants_frame() && ++frames < 1000);
     }
     /// The middle of a widget.
     Vec2 middle(std::string_view path) const {

@@ -22,14 +22,20 @@ double ms_since(std::chrono::steady_clock::time_point start) {
 
 render::CursorShape shape_of(ImGuiMouseCursor cursor) {
     switch (cursor) {
-        case ImGuiMouseCursor_TextInput: return render::CursorShape::text;
-        case ImGuiMouseCursor_Hand: return render::CursorShape::hand;
-        case ImGuiMouseCursor_ResizeEW: return render::CursorShape::resize_x;
-        case ImGuiMouseCursor_ResizeNS: return render::CursorShape::resize_y;
+        case ImGuiMouseCursor_TextInput:
+            return render::CursorShape::text;
+        case ImGuiMouseCursor_Hand:
+            return render::CursorShape::hand;
+        case ImGuiMouseCursor_ResizeEW:
+            return render::CursorShape::resize_x;
+        case ImGuiMouseCursor_ResizeNS:
+            return render::CursorShape::resize_y;
         case ImGuiMouseCursor_ResizeAll:
         case ImGuiMouseCursor_ResizeNESW:
-        case ImGuiMouseCursor_ResizeNWSE: return render::CursorShape::resize_both;
-        default: return render::CursorShape::arrow;
+        case ImGuiMouseCursor_ResizeNWSE:
+            return render::CursorShape::resize_both;
+        default:
+            return render::CursorShape::arrow;
     }
 }
 
@@ -74,9 +80,9 @@ struct UiWindow::Impl {
     std::unique_ptr<Ui> ui;
     Statistics statistics;
     bool close_requested = false, exposed = true;
-    std::uint64_t shown = 0;       // hash of the frame in the window
-    std::uint64_t images = 0;      // version of the images in it
-    double begun = -1;             // s: of the last frame
+    std::uint64_t shown = 0;   // hash of the frame in the window
+    std::uint64_t images = 0;  // version of the images in it
+    double begun = -1;         // s: of the last frame
     ImGuiMouseCursor cursor = ImGuiMouseCursor_COUNT;
 
     Result<void> open();
@@ -110,11 +116,11 @@ Result<void> UiWindow::Impl::open() {
     auto made = UiRenderer::create(device);
     if (!made) return made.errors();
     renderer = std::make_unique<UiRenderer>(std::move(*made));
-    ui = std::make_unique<Ui>(UiOptions{
-        .appearance = options.appearance,
-        .scale = options.scale > 0 ? options.scale : window->content_scale(),
-        .clipboard = [this] { return window->clipboard(); },
-        .set_clipboard = [this](const std::string& text) { window->set_clipboard(text); }});
+    ui = std::make_unique<Ui>(
+        UiOptions{.appearance = options.appearance,
+                  .scale = options.scale > 0 ? options.scale : window->content_scale(),
+                  .clipboard = [this] { return window->clipboard(); },
+                  .set_clipboard = [this](const std::string& text) { window->set_clipboard(text); }});
     ui->on_redraw = [shared = display] { shared->wake(); };
     return {};
 }
@@ -167,7 +173,8 @@ Result<void> UiWindow::Impl::run_frame(const Frame& frame) {
     const VkExtent2D extent = window->extent();
     const bool hidden = extent.width == 0 || extent.height == 0;
     // While the window is minimized, frames go on with the last size.
-    const ImVec2 size = hidden ? ui->size() : ImVec2(static_cast<float>(extent.width), static_cast<float>(extent.height));
+    const ImVec2 size =
+        hidden ? ui->size() : ImVec2(static_cast<float>(extent.width), static_cast<float>(extent.height));
     ui->begin(size.x, size.y, begun);
     if (ui->take_new_fonts()) {
         if (auto uploaded = renderer->set_fonts(*ImGui::GetIO().Fonts); !uploaded) {

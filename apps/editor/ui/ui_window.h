@@ -17,7 +17,7 @@ struct UiWindowOptions {
     std::uint32_t width = 1280, height = 720;
     std::string device = {};  ///< part of a Vulkan device's name; empty: the best that can show images
     Appearance appearance = Appearance::dark;
-    float scale = 0;  ///< of the user interface; 0: as the system asks
+    float scale = 0;                   ///< of the user interface; 0: as the system asks
     std::filesystem::path probe = {};  ///< file that each frame writes the places of widgets to; empty: none
     double most_rate = 60;             ///< frames/s, of animations and of movements of the pointer
     double least_frame = 0;            ///< s: makes each frame take at least so long, for tests
@@ -52,8 +52,8 @@ class UiWindow {
     void redraw();
 
     struct Statistics {
-        std::uint64_t frames = 0;     ///< built
-        std::uint64_t presented = 0;  ///< drawn, because they differed from the one before
+        std::uint64_t frames = 0;          ///< built
+        std::uint64_t presented = 0;       ///< drawn, because they differed from the one before
         double build_ms = 0, draw_ms = 0;  ///< of the last frame
     };
     const Statistics& statistics() const;

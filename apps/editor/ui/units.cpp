@@ -17,9 +17,9 @@ struct NamedUnit {
 constexpr double degree = std::numbers::pi / 180;
 
 constexpr NamedUnit named_units[] = {
-    {"m", 1, {1, 0, 0, 0}, true},       {"g", 1e-3, {0, 1, 0, 0}, true},   {"s", 1, {0, 0, 1, 0}, true},
-    {"N", 1, {1, 1, -2, 0}, true},      {"Pa", 1, {-1, 1, -2, 0}, true},   {"J", 1, {2, 1, -2, 0}, true},
-    {"W", 1, {2, 1, -3, 0}, true},      {"Hz", 1, {0, 0, -1, 0}, true},    {"rad", 1, {0, 0, 0, 1}, true},
+    {"m", 1, {1, 0, 0, 0}, true},       {"g", 1e-3, {0, 1, 0, 0}, true},      {"s", 1, {0, 0, 1, 0}, true},
+    {"N", 1, {1, 1, -2, 0}, true},      {"Pa", 1, {-1, 1, -2, 0}, true},      {"J", 1, {2, 1, -2, 0}, true},
+    {"W", 1, {2, 1, -3, 0}, true},      {"Hz", 1, {0, 0, -1, 0}, true},       {"rad", 1, {0, 0, 0, 1}, true},
     {"°", degree, {0, 0, 0, 1}, false}, {"deg", degree, {0, 0, 0, 1}, false}, {"min", 60, {0, 0, 1, 0}, false},
     {"h", 3600, {0, 0, 1, 0}, false},   {"in", 0.0254, {1, 0, 0, 0}, false},  {"%", 0.01, {}, false},
     {"frames", 1, {}, false},           {"t", 1000, {0, 1, 0, 0}, false},
@@ -29,8 +29,8 @@ struct Prefix {
     std::string_view name;
     double factor;
 };
-constexpr Prefix prefixes[] = {{"", 1},      {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"μ", 1e-6},
-                               {"m", 1e-3},  {"c", 1e-2}, {"d", 1e-1}, {"k", 1e3},  {"M", 1e6}};
+constexpr Prefix prefixes[] = {{"", 1},     {"n", 1e-9}, {"u", 1e-6}, {"µ", 1e-6}, {"μ", 1e-6},
+                               {"m", 1e-3}, {"c", 1e-2}, {"d", 1e-1}, {"k", 1e3},  {"M", 1e6}};
 
 std::optional<Unit> unit_by_name(std::string_view name) {
     for (const Prefix& prefix : prefixes) {
@@ -74,7 +74,8 @@ std::optional<Unit> parse_unit(std::string_view rest) {
     Unit whole;
     int sign = 1;
     while (true) {
-        while (skip(rest, " ")) {}
+        while (skip(rest, " ")) {
+        }
         if (sign == 1 && rest.starts_with("1/")) {
             rest.remove_prefix(1);
         } else {
@@ -87,7 +88,8 @@ std::optional<Unit> parse_unit(std::string_view rest) {
             whole.factor *= std::pow(unit->factor, power);
             for (std::size_t i = 0; i < 4; ++i) whole.powers[i] += power * unit->powers[i];
         }
-        while (skip(rest, " ")) {}
+        while (skip(rest, " ")) {
+        }
         if (rest.empty()) return whole;
         if (skip(rest, "/")) {
             sign = -1;  // "J/kg·m" divides by both

@@ -22,7 +22,8 @@ struct WidgetPage {
     std::array<double, 2> uv{1, 1};
     std::array<double, 4> row4{0, 0.25, 0.5, 1};
     long long substeps = 12;
-    bool self_collision = true, hidden = false, playing = true, fabric_open = true, place_open = true, more_open = false;
+    bool self_collision = true, hidden = false, playing = true, fabric_open = true, place_open = true,
+         more_open = false;
     std::size_t model = 1, layer = 0;
     std::string name = "tablecloth", path;
     Vec3 tint{0.5f, 0.05f, 0.03f};
@@ -100,8 +101,12 @@ struct WidgetPage {
                           ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
         {
             const Ui::Scope scope(ui, "toolbar");
-            if (button(ui, "play", {.icon = playing ? Icon::pause : Icon::play, .text = playing ? "Pause" : "Play",
-                                    .what = "Run the simulation", .shortcut = "Space", .primary = true}))
+            if (button(ui, "play",
+                       {.icon = playing ? Icon::pause : Icon::play,
+                        .text = playing ? "Pause" : "Play",
+                        .what = "Run the simulation",
+                        .shortcut = "Space",
+                        .primary = true}))
                 playing = !playing;
             ImGui::SameLine();
             button(ui, "step", {.icon = Icon::step, .what = "One frame", .shortcut = "."});
@@ -110,12 +115,14 @@ struct WidgetPage {
             ImGui::SameLine(0, theme.px(16));
             button(ui, "undo", {.icon = Icon::undo, .what = "Undo", .shortcut = "Ctrl+Z", .flat = true});
             ImGui::SameLine();
-            button(ui, "redo", {.icon = Icon::redo, .what = "Redo", .shortcut = "Ctrl+Shift+Z", .flat = true, .enabled = false});
+            button(ui, "redo",
+                   {.icon = Icon::redo, .what = "Redo", .shortcut = "Ctrl+Shift+Z", .flat = true, .enabled = false});
             ImGui::SameLine(0, theme.px(16));
             if (button(ui, "add", {.icon = Icon::add, .text = "Add", .what = "Add an object"})) ++added;
             ImGui::SameLine();
             button(ui, "move", {.icon = Icon::move, .what = "Move", .shortcut = "G", .chosen = true});
-            for (const Icon tool : {Icon::rotate, Icon::scale, Icon::hand, Icon::pin, Icon::brush, Icon::cut, Icon::lasso}) {
+            for (const Icon tool :
+                 {Icon::rotate, Icon::scale, Icon::hand, Icon::pin, Icon::brush, Icon::cut, Icon::lasso}) {
                 ImGui::SameLine();
                 button(ui, name_of(tool), {.icon = tool, .what = name_of(tool), .flat = true});
             }
@@ -163,23 +170,31 @@ struct WidgetPage {
             const Ui::Scope scope(ui, "fabric");
             tell("density", number(ui, {.name = "density", .label = "Density", .what = "Mass per area"}, density,
                                    {.min = 0, .max = 10, .min_excluded = true, .unit = "kg/m²", .usual = 0.15}));
-            tell("stretch", number(ui, {.name = "stretch", .label = "Stretch stiffness", .what = "Force per strain and width"},
-                                   stretch, {.min = 0, .max = 1e6, .unit = "N/m", .usual = 8000.0}));
-            tell("damping", number(ui, {.name = "damping", .label = "Damping"}, damping, {.min = 0, .max = 1, .usual = 0.1}));
+            tell("stretch",
+                 number(ui, {.name = "stretch", .label = "Stretch stiffness", .what = "Force per strain and width"},
+                        stretch, {.min = 0, .max = 1e6, .unit = "N/m", .usual = 8000.0}));
+            tell("damping",
+                 number(ui, {.name = "damping", .label = "Damping"}, damping, {.min = 0, .max = 1, .usual = 0.1}));
             constexpr std::string_view models[] = {"dihedral", "plate", "distance"};
-            tell("model", choice(ui, {.name = "model", .label = "Bending model", .what = "How folds resist"}, model, models, 0));
-            tell("collide", flag(ui, {.name = "self_collision", .label = "Self-collision", .what = "Exact contact"}, self_collision, false));
+            tell("model",
+                 choice(ui, {.name = "model", .label = "Bending model", .what = "How folds resist"}, model, models, 0));
+            tell("collide", flag(ui, {.name = "self_collision", .label = "Self-collision", .what = "Exact contact"},
+                                 self_collision, false));
         }
         if (section(ui, "place", "Place", place_open, Icon::move)) {
             const Ui::Scope scope(ui, "place");
             const double zeros[] = {0, 0, 0};
-            tell("position", vector(ui, {.name = "position", .label = "Position", .what = "Of the center"}, position, {.unit = "m"}, zeros));
-            tell("turn", angle(ui, {.name = "turn", .label = "Rotation"}, turn, {.min = -180, .max = 180, .usual = 0.0}));
+            tell("position", vector(ui, {.name = "position", .label = "Position", .what = "Of the center"}, position,
+                                    {.unit = "m"}, zeros));
+            tell("turn",
+                 angle(ui, {.name = "turn", .label = "Rotation"}, turn, {.min = -180, .max = 180, .usual = 0.0}));
             tell("wind", vector(ui, {.name = "wind", .label = "Wind"}, wind, {.min = -50, .max = 50, .unit = "m/s"}));
             tell("uv", vector(ui, {.name = "uv", .label = "UV tiling"}, uv, {.min = 0, .max = 100}));
             tell("row4", vector(ui, {.name = "row4", .label = "Four"}, row4, {}));
-            tell("substeps", integer(ui, {.name = "substeps", .label = "Substeps"}, substeps, {.min = 1, .max = 64, .usual = 12.0}));
-            tell("tint", color(ui, {.name = "tint", .label = "Color", .what = "Of the cloth in white light"}, tint, Vec3{0.5f, 0.5f, 0.5f}));
+            tell("substeps", integer(ui, {.name = "substeps", .label = "Substeps"}, substeps,
+                                     {.min = 1, .max = 64, .usual = 12.0}));
+            tell("tint", color(ui, {.name = "tint", .label = "Color", .what = "Of the cloth in white light"}, tint,
+                               Vec3{0.5f, 0.5f, 0.5f}));
         }
         section(ui, "more", "More", more_open);
         ImGui::BeginDisabled();
@@ -195,7 +210,8 @@ struct WidgetPage {
         ImGui::ItemSize(box, 0);
         ImGui::GetWindowDrawList()->AddRectFilled(box.Min, box.Max, theme.color(theme.colors.header));
         clipped_text(ImRect(box.Min + ImVec2(theme.px(10), 0), box.Max),
-                     "4.2 ms per step · 16 641 particles · cpu, 2 threads · 60 frames/s", theme.color(theme.colors.muted));
+                     "4.2 ms per step · 16 641 particles · cpu, 2 threads · 60 frames/s",
+                     theme.color(theme.colors.muted));
         ui.note("status", box);
     }
 };

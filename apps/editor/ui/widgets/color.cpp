@@ -83,15 +83,14 @@ Change color(Ui& ui, const Field& field, Vec3& linear, std::optional<Vec3> usual
         linear = *usual;
         return Change::finished;
     }
-    if (clicked || (item.focused && (ui.pressed(Key::space) || ui.pressed(Key::enter)))) {
-        ImGui::OpenPopup(list.c_str());
-        ui.redraw();
-    }
+    const bool opens_picker = clicked || (item.focused && (ui.pressed(Key::space) || ui.pressed(Key::enter)));
+    if (opens_picker) ui.redraw();
     if (item.visible) {
         ImDrawList* draw = ImGui::GetWindowDrawList();
         const ImVec4 shown(encoded(linear.x), encoded(linear.y), encoded(linear.z), 1);
         draw->AddRectFilled(swatch.Min, swatch.Max, theme.color(shown), ImGui::GetStyle().FrameRounding);
-        draw->AddRect(swatch.Min, swatch.Max, theme.color(theme.colors.line), ImGui::GetStyle().FrameRounding, 0, theme.px(1));
+        draw->AddRect(swatch.Min, swatch.Max, theme.color(theme.colors.line), ImGui::GetStyle().FrameRounding, 0,
+                      theme.px(1));
     }
     ui.draw_focus(item);
     field_tooltip(ui, item, whole);
@@ -99,6 +98,7 @@ Change color(Ui& ui, const Field& field, Vec3& linear, std::optional<Vec3> usual
     Change change = Change::none;
     {
         const Ui::Scope scope(ui, field.name);
+        if (opens_picker) ImGui::OpenPopup(list.c_str());
         change = pick(ui, list.c_str(), linear);
     }
     // The value as text beside the swatch.
@@ -114,7 +114,11 @@ Change color(Ui& ui, const Field& field, Vec3& linear, std::optional<Vec3> usual
     }
     const bool opens = (typed_item.hovered && io.MouseClicked[0]) || ui.takes_typing(typed_item) ||
                        (typed_item.focused && (ui.pressed(Key::enter) || ui.pressed(Key::f2)));
-    if (opens) begin_typing(ui, typed_item, hex_of(linear));
+    if (opens) {
+        begin_typing(ui, typed_item, hex_of(linear));
+        (void)type_into(ui, typed_item, name, box);
+        return change;
+    }
     if (typed_item.visible) {
         draw_field(ui, typed_item, false);
         const ImRect inner(box.Min + ImVec2(theme.px(6), 0), box.Max);

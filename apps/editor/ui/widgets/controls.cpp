@@ -30,19 +30,6 @@ bool differs(std::optional<bool> usual, bool value) {
     return usual && *usual != value;
 }
 
-void draw_icon_at(const Theme& theme, Icon icon, ImVec2 at, ImU32 color, float side) {
-    ImGui::GetWindowDrawList()->AddText(theme.body, theme.body->FontSize * side / theme.icon_side,
-                                        ImVec2(std::floor(at.x), std::floor(at.y)), color, text_of(icon).c_str());
-}
-
-// The icon in the middle of a square.
-void draw_icon_in(const Theme& theme, Icon icon, const ImRect& box, ImU32 color) {
-    // A glyph of an icon is as wide as high, in the middle of its line.
-    const ImVec2 size(theme.icon_side, theme.body->FontSize);
-    const ImVec2 at = box.Min + (box.GetSize() - size) * 0.5f;
-    draw_icon_at(theme, icon, at, color, theme.icon_side);
-}
-
 }  // namespace
 
 // --- Buttons
@@ -69,7 +56,8 @@ bool button(Ui& ui, std::string_view name, const ButtonStyle& style) {
         const bool filled = style.primary || style.chosen;
         ImVec4 ground = filled ? colors.accent : colors.field;
         if (held) ground = filled ? between(colors.accent, colors.background, 0.25f) : colors.field_active;
-        if (item.hovered && !held) ground = filled ? between(colors.accent, colors.background, 0.12f) : colors.field_hovered;
+        if (item.hovered && !held)
+            ground = filled ? between(colors.accent, colors.background, 0.12f) : colors.field_hovered;
         if (!style.flat || filled || item.hovered || held)
             list->AddRectFilled(item.box.Min, item.box.Max, theme.color(ground), round);
         const ImU32 color = theme.color(filled ? colors.on_accent : colors.text);
@@ -82,9 +70,9 @@ bool button(Ui& ui, std::string_view name, const ButtonStyle& style) {
         const bool has_icon = style.icon != Icon::none;
         const float content = (has_icon ? theme.icon_side + (style.text.empty() ? 0 : theme.px(icon_gap)) : 0) + text;
         float x = std::floor(item.box.Min.x + std::max(0.0f, (item.box.GetWidth() - content) / 2));
-        const float y = item.box.Min.y + (item.box.GetHeight() - theme.body->FontSize) / 2;
         if (has_icon) {
-            draw_icon_at(theme, style.icon, ImVec2(x, y), color, theme.icon_side);
+            draw_icon(theme, style.icon, ImRect(ImVec2(x, item.box.Min.y), ImVec2(x + theme.icon_side, item.box.Max.y)),
+                      color);
             x += theme.icon_side + theme.px(icon_gap);
         }
         if (!style.text.empty())
@@ -131,7 +119,7 @@ Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual) 
         const ImVec4 ground = value ? colors.accent : item.hovered ? colors.field_hovered : colors.field;
         list->AddRectFilled(square.Min, square.Max, theme.color(ground), theme.px(4));
         if (!value) list->AddRect(square.Min, square.Max, theme.color(colors.line), theme.px(4), 0, theme.px(1));
-        if (value) draw_icon_in(theme, Icon::check, square, theme.color(colors.on_accent));
+        if (value) draw_icon(theme, Icon::check, square, theme.color(colors.on_accent));
         const ImRect text(ImVec2(square.Max.x + theme.px(icon_gap), row.control.Min.y), row.control.Max);
         clipped_text(text, state, ImGui::GetColorU32(ImGuiCol_Text));
     }
@@ -157,26 +145,28 @@ std::optional<std::size_t> choice_list(Ui& ui, std::string_view name, const ImRe
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(4), theme.px(4)));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
     if (ImGui::BeginPopup(Ui::label_of(std::string(name) + ".list").c_str(), ImGuiWindowFlags_NoMove)) {
-        const Ui::Scope scope(ui, name);
-        float widest = field.GetWidth() - theme.px(8);
-        for (const std::string_view one : names)
-            widest = std::max(widest, ImGui::CalcTextSize(one.data(), one.data() + one.size()).x + theme.icon_side + theme.px(24));
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            const Item item = ui.place(names[i], ImVec2(widest, ImGui::GetFrameHeight()), i == value ? "chosen" : "");
-            bool held = false;
-            if (press(ui, item, held)) chosen = i;
-            if (i == value && ImGui::IsWindowAppearing()) {
-                ImGui::SetFocusID(item.id, ImGui::GetCurrentWindow());
-                GImGui->NavDisableHighlight = false;
+        {
+            const Ui::Scope scope(ui, name);
+            float widest = field.GetWidth() - theme.px(8);
+            for (const std::string_view one : names)
+                widest = std::max(widest, ImGui::CalcTextSize(one.data(), one.data() + one.size()).x + theme.icon_side +
+                                              theme.px(24));
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                const Item item =
+                    ui.place(names[i], ImVec2(widest, ImGui::GetFrameHeight()), i == value ? "chosen" : "");
+                bool held = false;
+                if (press(ui, item, held)) chosen = i;
+                if (i == value) ImGui::SetItemDefaultFocus();
+                if (item.hovered || item.focused || held) draw_field(ui, item, held);
+                if (i == value) {
+                    const ImRect mark(item.box.Min,
+                                      ImVec2(item.box.Min.x + theme.icon_side + theme.px(8), item.box.Max.y));
+                    draw_icon(theme, Icon::check, mark, theme.color(theme.colors.accent_text));
+                }
+                const ImRect text(item.box.Min + ImVec2(theme.icon_side + theme.px(12), 0), item.box.Max);
+                clipped_text(text, names[i], ImGui::GetColorU32(ImGuiCol_Text));
+                ui.draw_focus(item);
             }
-            if (item.hovered || item.focused || held) draw_field(ui, item, held);
-            if (i == value) {
-                const ImRect mark(item.box.Min, ImVec2(item.box.Min.x + theme.icon_side + theme.px(8), item.box.Max.y));
-                draw_icon_in(theme, Icon::check, mark, theme.color(theme.colors.accent_text));
-            }
-            const ImRect text(item.box.Min + ImVec2(theme.icon_side + theme.px(12), 0), item.box.Max);
-            clipped_text(text, names[i], ImGui::GetColorU32(ImGuiCol_Text));
-            ui.draw_focus(item);
         }
         if (chosen || ui.pressed(Key::escape)) ImGui::CloseCurrentPopup();
         ImGui::EndPopup();
@@ -220,7 +210,7 @@ Change choice(Ui& ui, const Field& field, std::size_t& value, std::span<const st
         ImRect text(item.box.Min + ImVec2(theme.px(8), 0), item.box.Max - ImVec2(side, 0));
         clipped_text(text, shown, ImGui::GetColorU32(ImGuiCol_Text));
         const ImRect arrow(ImVec2(item.box.Max.x - side, item.box.Min.y), item.box.Max);
-        draw_icon_in(theme, Icon::down, arrow, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+        draw_icon(theme, Icon::down, arrow, ImGui::GetColorU32(ImGuiCol_TextDisabled));
     }
     ui.draw_focus(item);
     if (!open) field_tooltip(ui, item, whole);
@@ -248,14 +238,11 @@ Change text(Ui& ui, const Field& field, std::string& value, std::string_view hin
     const bool clicked = item.hovered && ImGui::GetIO().MouseClicked[0];
     const bool by_key = item.focused && (ui.pressed(Key::enter) || ui.pressed(Key::pad_enter) || ui.pressed(Key::f2));
     if (clicked || by_key || ui.takes_typing(item)) begin_typing(ui, item, value);
-    if (item.focused && !ui.input().text.empty() && ui.input().text[0] > U' ') {
-        std::string typed;
-        for (const char32_t c : ui.input().text) {
-            char utf8[5]{};
-            ImTextCharToUtf8(utf8, static_cast<unsigned>(c));
-            typed += utf8;
-        }
-        begin_typing(ui, item, typed, true);
+    if (item.focused && !ui.input().text.empty() && ui.input().text[0] > U' ' && !is_typing(ui, item))
+        begin_typing_over(ui, item);
+    if (is_typing(ui, item)) {
+        (void)type_into(ui, item, field.name, row.control, hint);
+        return Change::none;
     }
     if (item.hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
     if (item.visible) {
@@ -290,11 +277,11 @@ bool section(Ui& ui, std::string_view name, std::string_view label, bool& open, 
                                                   ImGui::GetStyle().FrameRounding);
         const float side = ImGui::GetFrameHeight();
         ImRect arrow(item.box.Min, item.box.Min + ImVec2(side, side));
-        draw_icon_in(theme, open ? Icon::down : Icon::right, arrow, theme.color(colors.muted));
+        draw_icon(theme, open ? Icon::down : Icon::right, arrow, theme.color(colors.muted));
         float x = arrow.Max.x + theme.px(2);
         if (icon != Icon::none) {
-            draw_icon_in(theme, icon, ImRect(ImVec2(x, arrow.Min.y), ImVec2(x + theme.icon_side, arrow.Max.y)),
-                         theme.color(colors.text));
+            draw_icon(theme, icon, ImRect(ImVec2(x, arrow.Min.y), ImVec2(x + theme.icon_side, arrow.Max.y)),
+                      theme.color(colors.text));
             x += theme.icon_side + theme.px(icon_gap);
         }
         ImGui::PushFont(theme.strong);
@@ -326,7 +313,7 @@ void note(Ui& ui, std::string_view name, Note kind, std::string_view text) {
     ImGui::ItemSize(box);
     ui.note(name, box, text);
     if (!ImGui::ItemAdd(box, 0)) return;
-    draw_icon_at(theme, icon, from, theme.color(color), theme.icon_side);
+    draw_icon(theme, icon, ImRect(from, from + ImVec2(theme.icon_side, theme.body->FontSize)), theme.color(color));
     ImGui::GetWindowDrawList()->AddText(theme.body, theme.body->FontSize, from + ImVec2(indent, 0),
                                         theme.color(colors.text), begin, end, width);
 }
@@ -359,7 +346,8 @@ bool progress(Ui& ui, std::string_view name, float done, std::string_view text, 
                                 std::min(round, (right - left) / 2));
         const float wide = ImGui::CalcTextSize(share.c_str()).x;
         const ImRect inner(box.Min + ImVec2(theme.px(8), 0), box.Max - ImVec2(theme.px(8), 0));
-        clipped_text(ImRect(inner.Min, inner.Max - ImVec2(wide + theme.px(6), 0)), text, ImGui::GetColorU32(ImGuiCol_Text));
+        clipped_text(ImRect(inner.Min, inner.Max - ImVec2(wide + theme.px(6), 0)), text,
+                     ImGui::GetColorU32(ImGuiCol_Text));
         clipped_text(inner, share, ImGui::GetColorU32(ImGuiCol_Text), 1);
     }
     if (!can_cancel) return false;

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace weft::editor {
 
 void clipped_text(const ImRect& box, std::string_view text, ImU32 color, float align) {
+    if (text.empty()) return;
     const char* begin = text.data();
     const char* end = begin + text.size();
     const ImVec2 size = ImGui::CalcTextSize(begin, end);
@@ -26,6 +28,13 @@ void clipped_text(const ImRect& box, std::string_view text, ImU32 color, float a
     list->AddText(ImVec2(box.Min.x, y), color, begin, fits);
     const float width = ImGui::CalcTextSize(begin, fits).x;
     list->AddText(ImVec2(std::floor(box.Min.x + width), y), color, "…");
+}
+
+void draw_icon(const Theme& theme, Icon icon, const ImRect& box, ImU32 color) {
+    // The glyph of an icon is as wide as high, at the top of its line.
+    const ImVec2 at = box.Min + (box.GetSize() - ImVec2(theme.icon_side, theme.icon_side)) * 0.5f;
+    ImGui::GetWindowDrawList()->AddText(theme.body, theme.body->FontSize, ImVec2(std::round(at.x), std::round(at.y)),
+                                        color, text_of(icon).c_str());
 }
 
 void muted_text(const Ui& ui, std::string_view text) {
@@ -46,7 +55,8 @@ void field_tooltip(Ui& ui, const Item& item, const Field& field) {
     ui.tooltip(item, [&] {
         if (!field.what.empty()) ImGui::TextUnformatted(field.what.data(), field.what.data() + field.what.size());
         if (!field.range.empty()) muted_text(ui, field.range);
-        if (!field.usual.empty()) muted_text(ui, "Default " + field.usual + (field.differs ? " (double click resets)" : ""));
+        if (!field.usual.empty())
+            muted_text(ui, "Default " + field.usual + (field.differs ? " (double click resets)" : ""));
     });
 }
 
@@ -77,13 +87,7 @@ Row begin_row(Ui& ui, const Field& field) {
         item.focused = false;
         if (item.hovered && ImGui::GetIO().MouseClicked[0]) row.reset = true;
         const ImVec4 color = item.hovered ? theme.colors.text : theme.colors.accent_text;
-        ImGui::PushFont(theme.small);
-        ImGui::PopFont();
-        const float side = std::min(theme.icon_side, box.GetWidth() - theme.px(4));
-        const ImVec2 place(std::floor(box.Min.x + (box.GetWidth() - side) / 2 + theme.px(2)),
-                           std::floor(box.Min.y + (box.GetHeight() - side) / 2));
-        ImGui::GetWindowDrawList()->AddText(theme.body, theme.body->FontSize * side / theme.icon_side, place,
-                                            theme.color(color), text_of(Icon::to_default).c_str());
+        draw_icon(theme, Icon::to_default, box, theme.color(color));
         ui.tooltip(item, [&] {
             ImGui::TextUnformatted(field.usual.empty() ? "Reset to the default" : "Reset to the default:");
             if (!field.usual.empty()) muted_text(ui, field.usual);
@@ -103,6 +107,25 @@ void begin_typing(Ui& ui, const Item& item, std::string text, bool at_end) {
     ui.redraw();
 }
 
+namespace {
+
+std::string utf8(std::u32string_view text) {
+    std::string out;
+    for (const char32_t character : text) {
+        char bytes[5]{};
+        ImTextCharToUtf8(bytes, static_cast<unsigned>(character));
+        out += bytes;
+    }
+    return out;
+}
+
+}  // namespace
+
+void begin_typing_over(Ui& ui, const Item& item) {
+    begin_typing(ui, item, utf8(ui.input().text), true);
+    ui.gesture.took_text = true;
+}
+
 bool is_typing(const Ui& ui, const Item& item) {
     return ui.gesture.id == item.id && ui.gesture.typing;
 }
@@ -111,13 +134,18 @@ Typed type_into(Ui& ui, const Item& item, std::string_view name, const ImRect& b
     constexpr std::size_t most = 1024;
     std::array<char, most> buffer{};
     Ui::Gesture& gesture = ui.gesture;
+    const bool opening = !std::exchange(gesture.opened, true);
+    // ImGui ignores text in the frame in which a field opens.
+    if (opening && !gesture.took_text && !ui.input().text.empty()) {
+        gesture.text = (gesture.at_end ? gesture.text : "") + utf8(ui.input().text);
+        gesture.at_end = true;
+    }
     std::memcpy(buffer.data(), gesture.text.data(), std::min(gesture.text.size(), most - 1));
     ImGuiWindow* window = ImGui::GetCurrentWindow();
     ImGuiWindowTempData& place = window->DC;
     const ImVec2 cursor = place.CursorPos, previous = place.CursorPosPrevLine, furthest = place.CursorMaxPos,
                  line = place.CurrLineSize, line_before = place.PrevLineSize;
     const float offset = place.CurrLineTextBaseOffset, offset_before = place.PrevLineTextBaseOffset;
-    const bool opening = !std::exchange(gesture.opened, true);
     if (opening) {
         ImGui::FocusWindow(window);
         compat::request_text_input(item.id);
@@ -148,6 +176,11 @@ Typed type_into(Ui& ui, const Item& item, std::string_view name, const ImRect& b
     }
     ImGui::GetWindowDrawList()->AddRect(box.Min, box.Max, ui.theme().color(ui.theme().colors.focus),
                                         ImGui::GetStyle().FrameRounding, 0, ui.theme().px(1.5f));
+    if (opening) {
+        typed.active = true;
+        ui.redraw();
+        return typed;
+    }
     const bool tab = ui.pressed(Key::tab);
     typed.active = ImGui::TempInputIsActive(item.id) && !tab;
     if (typed.active) return typed;

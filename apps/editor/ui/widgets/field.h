@@ -34,6 +34,9 @@ void field_tooltip(Ui& ui, const Item& item, const Field& field);
 /// Text that ends in … where it does not fit.
 void clipped_text(const ImRect& box, std::string_view text, ImU32 color, float align = 0);
 
+/// An icon in the middle of the box.
+void draw_icon(const Theme& theme, Icon icon, const ImRect& box, ImU32 color);
+
 /// The background of something that can be edited or pressed, brighter under the pointer.
 void draw_field(const Ui& ui, const Item& item, bool active);
 
@@ -50,8 +53,10 @@ struct Typed {
     bool cancelled = false;  ///< Esc
     std::string text;
 };
-/// Opens the item for typing, from its next frame on. `at_end`: does not select the text.
+/// Opens the item for typing; type_into() must follow in the same frame. `at_end`: does not select the text.
 void begin_typing(Ui& ui, const Item& item, std::string text, bool at_end = false);
+/// The same with what was typed in this frame as text.
+void begin_typing_over(Ui& ui, const Item& item);
 bool is_typing(const Ui& ui, const Item& item);
 /// The field while it is typed into. On Tab, moves on to the next widget.
 Typed type_into(Ui& ui, const Item& item, std::string_view name, const ImRect& box, std::string_view hint = {});

@@ -25,7 +25,7 @@ class NumberField {
         if (item_.focused) change = obey_keys();
         if (change == Change::none) change = obey_pointer();
         if (change == Change::none) change = end_of_keys();
-        if (is_typing(ui_, item_)) return change;
+        if (is_typing(ui_, item_)) return type();
         draw();
         if (ImGui::GetActiveID() != item_.id) field_tooltip(ui_, item_, tip_);
         return change;
@@ -55,14 +55,12 @@ class NumberField {
         const std::u32string& typed = ui_.input().text;
         constexpr std::u32string_view first = U"0123456789.,-+(*/";
         if (!typed.empty() && first.find(typed[0]) != std::u32string_view::npos) {
-            std::string text;
-            for (const char32_t c : typed)
-                if (c < 128) text += static_cast<char>(c);
-            begin_typing(ui_, item_, text, true);
+            begin_typing_over(ui_, item_);
             return Change::none;
         }
         if (ui_.pressed(Key::delete_key) || ui_.pressed(Key::backspace)) return reset();
-        const int steps = static_cast<int>(ui_.pressed(Key::right, true)) - static_cast<int>(ui_.pressed(Key::left, true));
+        const int steps =
+            static_cast<int>(ui_.pressed(Key::right, true)) - static_cast<int>(ui_.pressed(Key::left, true));
         if (steps == 0) return Change::none;
         Ui::Gesture& gesture = ui_.gesture;
         if (gesture.id != item_.id || !gesture.keys) {
@@ -113,31 +111,35 @@ class NumberField {
             gesture.pointer = static_cast<double>(io.MousePos.x);
             return Change::none;
         }
-        if (ImGui::GetActiveID() != item_.id || gesture.id != item_.id) return Change::none;
+        if (gesture.id != item_.id || gesture.keys || gesture.typing) return Change::none;
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
         if (ui_.pressed(Key::escape)) {
             const bool moved = gesture.moved;
             value_ = gesture.start;
             gesture = {};
-            ImGui::ClearActiveID();
+            if (ImGui::GetActiveID() == item_.id) ImGui::ClearActiveID();
+            ui_.redraw();
             return moved ? Change::cancelled : Change::none;
         }
-        if (!io.MouseDown[0]) return release();
+        if (!io.MouseDown[0] || ImGui::GetActiveID() != item_.id) return release();
         return drag();
     }
 
     Change drag() {
         const ImGuiIO& io = ImGui::GetIO();
         Ui::Gesture& gesture = ui_.gesture;
-        const double by = static_cast<double>(io.MousePos.x) - gesture.pointer, width = static_cast<double>(box_.GetWidth());
-        if (by == 0 || (!gesture.moved && std::abs(by) < static_cast<double>(io.MouseDragThreshold))) return Change::none;
+        const double by = static_cast<double>(io.MousePos.x) - gesture.pointer,
+                     width = static_cast<double>(box_.GetWidth());
+        if (by == 0 || (!gesture.moved && std::abs(by) < static_cast<double>(io.MouseDragThreshold)))
+            return Change::none;
         gesture.moved = true;
         gesture.pointer += by;
         gesture.position += by / width * (io.KeyShift ? fine : 1);
         const Track track(range_, gesture.start);
         double to = track.value(gesture.position);
         if (io.KeyCtrl) {
-            const double step = range_.snap > 0 ? range_.snap : std::pow(10, std::floor(std::log10(std::max(1e-9, std::abs(to)))));
+            const double step =
+                range_.snap > 0 ? range_.snap : std::pow(10, std::floor(std::log10(std::max(1e-9, std::abs(to)))));
             return set(std::round(to / step) * step, Change::in_progress);
         }
         return set(track.rounded(to, io.KeyShift ? width / fine : width), Change::in_progress);
@@ -146,9 +148,11 @@ class NumberField {
     Change release() {
         const bool moved = ui_.gesture.moved;
         ui_.gesture = {};
-        ImGui::ClearActiveID();
+        if (ImGui::GetActiveID() == item_.id) ImGui::ClearActiveID();
         if (moved) return Change::finished;
         GImGui->NavDisableHighlight = false;  // after a click keys go here
+        ui_.keep_digits();
+        ui_.release_space();
         ui_.redraw();
         return Change::none;
     }
@@ -164,8 +168,10 @@ class NumberField {
         if (typed.cancelled || typed.text.empty()) return Change::none;
         if (!result) {
             // Enter on what cannot be understood goes on typing; the note says why.
-            if (typed.entered) begin_typing(ui_, item_, typed.text, true);
-            return Change::none;
+            if (!typed.entered) return Change::none;
+            begin_typing(ui_, item_, typed.text, true);
+            ui_.gesture.took_text = true;
+            return type();
         }
         const double before = value_;
         set(*result, Change::finished);
@@ -204,23 +210,26 @@ class NumberField {
         const Theme& theme = ui_.theme();
         draw_field(ui_, item_, ImGui::GetActiveID() == item_.id);
         draw_bar();
-        const std::string number = format_number(value_);
+        std::string number = format_number(value_);
         const bool close = range_.unit == "°" || range_.unit == "%";  // no space before these
         const std::string unit = range_.unit.empty() ? "" : (close ? "" : " ") + std::string(range_.unit);
         const float padding = theme.px(prefix_.empty() ? 6 : 4);
         ImRect inner(box_.Min + ImVec2(padding, 0), box_.Max - ImVec2(padding, 0));
         const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text), muted = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-        if (!prefix_.empty()) {
+        const float named =
+            prefix_.empty() ? 0 : ImGui::CalcTextSize(prefix_.data(), prefix_.data() + prefix_.size()).x + theme.px(3);
+        if (named > 0 && ImGui::CalcTextSize(number.c_str()).x <= inner.GetWidth() - named) {
             clipped_text(inner, prefix_, muted);
-            inner.Min.x += ImGui::CalcTextSize(prefix_.data(), prefix_.data() + prefix_.size()).x + theme.px(3);
+            inner.Min.x += named;
         }
+        for (int digits = 3; digits > 1 && ImGui::CalcTextSize(number.c_str()).x > inner.GetWidth(); --digits)
+            number = format_number(value_, digits);
         const float wide = ImGui::CalcTextSize(number.c_str()).x, whole = wide + ImGui::CalcTextSize(unit.c_str()).x;
-        if (whole > inner.GetWidth()) {
-            clipped_text(inner, number, text, 0.5f);
+        if (whole > inner.GetWidth() || !prefix_.empty()) {  // the label of a vector has its unit
+            clipped_text(inner, number, text, prefix_.empty() ? 0.5f : 1.0f);
             return;
         }
-        // Numbers end where the column ends, so that they do not move while they change.
-        const float x = std::floor(inner.Min.x + (prefix_.empty() ? 0.5f : 1.0f) * (inner.GetWidth() - whole));
+        const float x = std::floor(inner.Min.x + 0.5f * (inner.GetWidth() - whole));
         const float y = std::floor(box_.Min.y + (box_.GetHeight() - ImGui::GetFontSize()) / 2);
         ImDrawList* list = ImGui::GetWindowDrawList();
         list->AddText(ImVec2(x, y), text, number.c_str());
@@ -236,7 +245,8 @@ class NumberField {
             return;
         }
         const auto at = [&](double value) {
-            return std::floor(box_.Min.x + static_cast<float>(std::clamp(track.position(value), 0.0, 1.0)) * box_.GetWidth());
+            return std::floor(box_.Min.x +
+                              static_cast<float>(std::clamp(track.position(value), 0.0, 1.0)) * box_.GetWidth());
         };
         const double zero = std::clamp(0.0, range_.min, std::max(range_.min, range_.max));
         const float from = std::min(at(zero), at(value_)), to = std::max(at(zero), at(value_));
@@ -252,9 +262,12 @@ class NumberField {
             list->AddRectFilled(ImVec2(from, box_.Min.y), ImVec2(to, box_.Max.y), ui_.theme().color(colors.fill),
                                 to - from > 2 * round ? round : 0, corners);
         }
-        const float line = ui_.theme().px(2), x = std::clamp(at(value_) - line / 2, box_.Min.x + line, box_.Max.x - 2 * line);
-        list->AddRectFilled(ImVec2(x, box_.Min.y + 2 * line), ImVec2(x + line, box_.Max.y - 2 * line),
-                            ui_.theme().color(colors.accent_text));
+        const float line = ui_.theme().px(2),
+                    x = std::clamp(at(value_) - line / 2, box_.Min.x + line, box_.Max.x - 2 * line);
+        // Two notches, so that no line crosses the number.
+        const ImU32 notch = ui_.theme().color(colors.accent_text);
+        list->AddRectFilled(ImVec2(x, box_.Min.y), ImVec2(x + line, box_.Min.y + 2.5f * line), notch);
+        list->AddRectFilled(ImVec2(x, box_.Max.y - 2.5f * line), ImVec2(x + line, box_.Max.y), notch);
         ui_.draw_focus(item_);
     }
 
@@ -319,6 +332,9 @@ Change vector(Ui& ui, const Field& field, std::span<double> values, const Number
         for (const double one : usual) whole.usual += (whole.usual.empty() ? "" : ", ") + format_number(one);
         if (!range.unit.empty()) whole.usual += " " + std::string(range.unit);
     }
+    const std::string label =
+        std::string(field.label) + (range.unit.empty() ? "" : " (" + std::string(range.unit) + ")");
+    whole.label = label;
     const Row row = begin_row(ui, whole);
     if (row.reset && whole.differs) {
         std::ranges::copy(usual, values.begin());

@@ -19,7 +19,8 @@ bool splitter(Ui& ui, std::string_view name, SplitAxis axis, float length, float
     const Theme& theme = ui.theme();
     const bool x = axis == SplitAxis::x;
     const float thick = splitter_width(ui), before = size;
-    const Item item = ui.place(name, x ? ImVec2(thick, length) : ImVec2(length, thick), format_number(static_cast<double>(size)));
+    const Item item =
+        ui.place(name, x ? ImVec2(thick, length) : ImVec2(length, thick), format_number(static_cast<double>(size)));
     const ImGuiIO& io = ImGui::GetIO();
     if (item.hovered && io.MouseClicked[0]) {
         ImGui::SetActiveID(item.id, ImGui::GetCurrentWindow());
@@ -49,12 +50,14 @@ bool splitter(Ui& ui, std::string_view name, SplitAxis axis, float length, float
     size = std::clamp(size, least, std::max(least, most));
     const Palette& colors = theme.colors;
     ImDrawList* list = ImGui::GetWindowDrawList();
-    list->AddRectFilled(item.box.Min, item.box.Max, theme.color(active || item.hovered ? colors.field_active : colors.background));
+    list->AddRectFilled(item.box.Min, item.box.Max,
+                        theme.color(active || item.hovered ? colors.field_active : colors.background));
     // Three dots in the middle.
     for (const float step : {-1.0f, 0.0f, 1.0f}) {
         const ImVec2 middle = item.box.GetCenter();
         const float away = step * theme.px(6);
-        list->AddCircleFilled(middle + (x ? ImVec2(0, away) : ImVec2(away, 0)), theme.px(1.5f), theme.color(colors.line), 8);
+        list->AddCircleFilled(middle + (x ? ImVec2(0, away) : ImVec2(away, 0)), theme.px(1.5f),
+                              theme.color(colors.line), 8);
     }
     ui.draw_focus(item);
     if (size != before) ui.redraw();
@@ -128,7 +131,8 @@ void plot(Ui& ui, std::string_view name, std::span<const float> values, const Pl
     ImRect inner(field.Min + ImVec2(padding, padding), field.Max - ImVec2(padding, padding));
     // The extremes, in small letters at the left.
     ImGui::PushFont(theme.small);
-    const std::string high = format_number(static_cast<double>(shown.high), 3), low = format_number(static_cast<double>(shown.low), 3);
+    const std::string high = format_number(static_cast<double>(shown.high), 3),
+                      low = format_number(static_cast<double>(shown.low), 3);
     const float scale = std::max(ImGui::CalcTextSize(high.c_str()).x, ImGui::CalcTextSize(low.c_str()).x);
     const ImRect numbers(inner.Min, ImVec2(inner.Min.x + scale, inner.Max.y));
     const float small = ImGui::GetFontSize();
@@ -136,12 +140,16 @@ void plot(Ui& ui, std::string_view name, std::span<const float> values, const Pl
     clipped_text(ImRect(ImVec2(numbers.Min.x, numbers.Max.y - small), numbers.Max), low, theme.color(colors.muted), 1);
     ImGui::PopFont();
     inner.Min.x += scale + padding;
+    ImGui::PushClipRect(field.Min, field.Max, true);  // corners of steep lines reach further than their points
     draw_line(values, inner, shown, theme.color(colors.accent_text), theme.px(1.5f));
+    ImGui::PopClipRect();
     // The value under the pointer.
     if (!item.hovered || values.size() < 2) return;
-    const float share = std::clamp((ImGui::GetIO().MousePos.x - inner.Min.x) / std::max(1.0f, inner.GetWidth()), 0.0f, 1.0f);
+    const float share =
+        std::clamp((ImGui::GetIO().MousePos.x - inner.Min.x) / std::max(1.0f, inner.GetWidth()), 0.0f, 1.0f);
     const auto index = static_cast<std::size_t>(std::lround(share * static_cast<float>(values.size() - 1)));
-    const float x = std::floor(inner.Min.x + inner.GetWidth() * static_cast<float>(index) / static_cast<float>(values.size() - 1));
+    const float x =
+        std::floor(inner.Min.x + inner.GetWidth() * static_cast<float>(index) / static_cast<float>(values.size() - 1));
     list->AddLine(ImVec2(x, field.Min.y), ImVec2(x, field.Max.y), theme.color(colors.line), theme.px(1));
     if (!std::isfinite(values[index])) return;
     ImGui::BeginTooltip();

@@ -22,7 +22,7 @@ float splitter_width(const Ui& ui);
 
 struct PlotStyle {
     std::string_view label = {}, unit = {};
-    float height = 48;  ///< pixels at 100 %
+    float height = 48;   ///< pixels at 100 %
     double seconds = 0;  ///< that the values span; 0: not told
     bool from_zero = true;
 };

@@ -36,8 +36,8 @@ std::string describe(const NumberRange& range) {
     const std::string unit = range.unit.empty() ? "" : " " + std::string(range.unit);
     const std::string zero = range.zero_too && range.min > 0 ? ", or 0" : "";
     if (lower && upper) {
-        return (range.min_excluded ? "over " : "") + format_number(range.min) + " … " + format_number(range.max) + unit +
-               zero;
+        return (range.min_excluded ? "over " : "") + format_number(range.min) + " … " + format_number(range.max) +
+               unit + zero;
     }
     if (lower) return (range.min_excluded ? "> " : "≥ ") + format_number(range.min) + unit + zero;
     if (upper) return "≤ " + format_number(range.max) + unit;
@@ -65,8 +65,9 @@ Track::Track(const NumberRange& range, double value) : integer_(range.integer) {
         if (std::abs(max_) > far_away && !upper) max_ = std::max(std::abs(value), far_away);
         // Where the interesting values are: around the default.
         const double least = min_ > 0 ? min_ : usual > min_ ? (usual - min_) / 100 : (max_ - min_) / 1e4;
-        const bool wide = min_ > 0 ? max_ / min_ >= decades
-                                   : (!upper || (usual > min_ && max_ - min_ > 100 * (usual - min_)) || max_ - min_ > 2e3);
+        const bool wide = min_ > 0
+                              ? max_ / min_ >= decades
+                              : (!upper || (usual > min_ && max_ - min_ > 100 * (usual - min_)) || max_ - min_ > 2e3);
         if (wide && !(integer_ && max_ - min_ < decades)) knee_ = least;
         return;
     }
