@@ -39,8 +39,8 @@ const Layers layers = {
 };
 
 // Public headers that every layer may use; the rest of include/weft is for src/weft, src/files and the apps.
-const std::set<std::string> vocabulary = {"bounds.h", "contact_forces.h", "ids.h",   "mesh.h",
-                                          "result.h", "scene.h",          "vector.h"};
+const std::set<std::string> vocabulary = {"bounds.h", "contact_forces.h", "grab.h",  "ids.h",
+                                          "mesh.h",   "result.h",         "scene.h", "vector.h"};
 
 // A library of its own: scene text is read and written without mesh import and exports.
 const std::regex scenes_may_include(

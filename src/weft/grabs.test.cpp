@@ -29,7 +29,7 @@ std::string first_message(const Result<T>& result) {
     return result ? "" : result.errors().front().message();
 }
 
-float distance(Vec3 a, Vec3 b) {
+float length_between(Vec3 a, Vec3 b) {
     return length(a - b);
 }
 
@@ -41,11 +41,11 @@ TEST(Grabs, pull_move_and_let_go) {
     ASSERT_TRUE(grab.ok()) << first_message(grab);
     EXPECT_THAT(simulation.grabs(), ElementsAre(*grab));
     for (int i = 0; i < 120; ++i) simulation.step();
-    EXPECT_LT(distance(simulation.grab_position(*grab), {0, 0.2f, 0}), 1e-3f);
+    EXPECT_LT(length_between(simulation.grab_position(*grab), {0, 0.2f, 0}), 1e-3f);
     EXPECT_GT(simulation.grab_force(*grab).y, 0.1f);
     ASSERT_TRUE(simulation.move_grab(*grab, {0.1f, 0.2f, 0}).ok());
     for (int i = 0; i < 60; ++i) simulation.step();
-    EXPECT_LT(distance(simulation.grab_position(*grab), {0.1f, 0.2f, 0}), 1e-3f);
+    EXPECT_LT(length_between(simulation.grab_position(*grab), {0.1f, 0.2f, 0}), 1e-3f);
     ASSERT_TRUE(simulation.release(*grab).ok());
     for (int i = 0; i < 60; ++i) simulation.step();
     EXPECT_LT(simulation.surface(*cloth).positions[40].y, -2.0f) << "it falls";
@@ -113,7 +113,7 @@ TEST(Grabs, stay_through_changes_cuts_and_saved_states) {
     for (int i = 0; i < 10; ++i) simulation.step();
     const auto check = [&](const char* after) {
         for (int i = 0; i < 40; ++i) simulation.step();
-        EXPECT_LT(distance(simulation.grab_position(*grab), {0, 0, 0}), 1e-3f) << after;
+        EXPECT_LT(length_between(simulation.grab_position(*grab), {0, 0, 0}), 1e-3f) << after;
         EXPECT_THAT(simulation.reports(), testing::IsEmpty()) << after;
     };
     ASSERT_TRUE(simulation.set_fabric(*cloth, FabricDesc("denim")).ok());
@@ -142,7 +142,7 @@ TEST(Grabs, tear_cloth_and_end_with_their_triangle) {
     ClothDesc desc = grid_of(17);
     desc.tearing = Tearing::erode;
     desc.fabric = FabricDesc("cotton").set("tear_ratio", 1.3);
-    desc.pins = {{.select = BoxPins{{-1, -1, -1}, {1, 1, -0.24f}}}};
+    desc.pins = {{.select = BoxPins{{{-1, -1, -1}, {1, 1, -0.24f}}}}};
     const auto cloth = simulation.add(desc);
     ASSERT_TRUE(cloth.ok()) << first_message(cloth);
     const auto grab =
