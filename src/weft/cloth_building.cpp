@@ -171,7 +171,7 @@ Result<std::uint32_t> find_triangle(std::uint32_t number, const ClothModel& mode
         return Error{"/triangle", "must be a triangle of the mesh, 0 to " + std::to_string(triangles.size() - 1) +
                                       ", got " + std::to_string(number)};
     Triangle corners = triangles[number];
-    for (std::uint32_t& corner : corners) corner = source.numbers.of_vertex[corner];
+    for (std::uint32_t& corner : corners) corner = source.numbers->of_vertex[corner];
     // Triangles keep their order. Those that are left out move the later ones to lower numbers.
     const auto left_out = static_cast<std::uint32_t>(triangles.size()) - model.triangle_count;
     const std::uint32_t last = std::min(number, model.triangle_count - 1);

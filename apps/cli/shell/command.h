@@ -44,6 +44,7 @@ Result<void> check_step(const Frame& frame, bool& warned);
 using Command = std::function<int()>;
 Command add_run(Program& program);
 Command add_render(Program& program);
+Command add_edit(Program& program);
 Command add_check(Program& program);
 Command add_convert(Program& program);
 Command add_bench(Program& program);

@@ -26,6 +26,7 @@ int run_program(int argc, char** argv) {
         "  weft run scenes/sheet_on_sphere.json --seconds 3 --out sheet.glb\n"
         "  weft run scenes/hanging_sheet.json --frames 120 --out frames/%04d.obj --stats stats.json\n"
         "  weft render scenes/hanging_bunny.json --out bunny.mp4\n"
+        "  weft edit scenes/flag.json\n"
         "  weft bench --json before.json\n"
         "  weft check scenes/hanging_bunny.json\n"
         "  weft convert scenes/hanging_bunny.json --out bunny.json\n"
@@ -35,6 +36,7 @@ int run_program(int argc, char** argv) {
     std::map<std::string, Command> commands;
     commands["run"] = add_run(program);
     commands["render"] = add_render(program);
+    commands["edit"] = add_edit(program);
     commands["bench"] = add_bench(program);
     commands["check"] = add_check(program);
     commands["convert"] = add_convert(program);

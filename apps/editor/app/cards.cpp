@@ -37,12 +37,14 @@ void Cards::add_buttons(Ui& ui, const std::function<void(std::string_view)>& add
         if (!one.primary && !more_) continue;
         if (column++ % 2 == 1) ImGui::SameLine();
         const std::string what = "Add " + std::string(one.what);
-        if (button(ui, one.name, {.icon = one.icon, .text = one.label, .what = what, .width = width})) add(one.name);
+        if (button(ui, one.name, {.icon = one.icon, .text = one.label, .what = what, .left = true, .width = width}))
+            add(one.name);
     }
-    if (button(ui, "more", {.icon = more_ ? Icon::up : Icon::down,
-                            .text = more_ ? "Fewer" : "More",
-                            .what = "Show or hide further kinds of object",
-                            .flat = true}))
+    if (button(ui, "more",
+               {.icon = more_ ? Icon::up : Icon::down,
+                .text = more_ ? "Fewer" : "More",
+                .what = "Show or hide further kinds of object",
+                .flat = true}))
         more_ = !more_;
 }
 
@@ -74,26 +76,29 @@ void Cards::card(Ui& ui, Session& session, ViewMarks* marks, const std::string& 
         if (change == Change::finished || change == Change::cancelled) renaming_.clear();
         return;
     }
-    if (button(ui, "select", {.icon = icon_of(*document, place),
-                              .text = label,
-                              .what = "Show the properties of this object",
-                              .chosen = chosen,
-                              .flat = true,
-                              .width = room}))
+    if (button(ui, "select",
+               {.icon = icon_of(*document, place),
+                .text = label,
+                .what = "Show the properties of this object",
+                .chosen = chosen,
+                .flat = true,
+                .width = room}))
         session.select(place);
     if (!has_marks) return;
     const bool hidden = marks->hidden.contains(label), locked = marks->locked.contains(label);
     ImGui::SameLine();
-    if (button(ui, "hide", {.icon = hidden ? Icon::eye_off : Icon::eye,
-                            .what = hidden ? "Show in the view" : "Hide in the view",
-                            .flat = true,
-                            .width = side}))
+    if (button(ui, "hide",
+               {.icon = hidden ? Icon::eye_off : Icon::eye,
+                .what = hidden ? "Show in the view" : "Hide in the view",
+                .flat = true,
+                .width = side}))
         toggle(marks->hidden, label);
     ImGui::SameLine();
-    if (button(ui, "lock", {.icon = locked ? Icon::lock : Icon::unlock,
-                            .what = locked ? "Let the pointer pick it" : "Protect from the pointer",
-                            .flat = true,
-                            .width = side}))
+    if (button(ui, "lock",
+               {.icon = locked ? Icon::lock : Icon::unlock,
+                .what = locked ? "Let the pointer pick it" : "Protect from the pointer",
+                .flat = true,
+                .width = side}))
         toggle(marks->locked, label);
 }
 

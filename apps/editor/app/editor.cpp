@@ -46,7 +46,8 @@ unsigned editor_threads(const Options& options) {
 
 Editor::Editor(EditorOptions options) : options_(std::move(options)) {
     options_.simulation.threads = editor_threads(options_.simulation);
-    if (options_.simulation.backend == "auto" && options_.simulation.device.empty()) options_.simulation.backend = "cpu";
+    if (options_.simulation.backend == "auto" && options_.simulation.device.empty())
+        options_.simulation.backend = "cpu";
 }
 
 Editor::~Editor() {
@@ -122,8 +123,10 @@ void Editor::set_stage(Stage stage) {
     if (!log_file_.empty()) {
         const Options& with = stage.options();
         auto made = ActionLog::create(log_file_, {stage.document(), with.backend, with.threads});
-        if (made) log = std::move(*made);
-        else problem = made.error().message() + ": after a crash this session cannot be recovered";
+        if (made)
+            log = std::move(*made);
+        else
+            problem = made.error().message() + ": after a crash this session cannot be recovered";
     }
     photographer_ = std::make_shared<Photographer>();
     const DocumentPtr document = stage.document();
@@ -153,13 +156,17 @@ void Editor::open_later(const std::filesystem::path& file, DocumentPtr document)
         DocumentPtr from = document;
         if (!from) {
             auto read = open_document(file);
-            if (!read) opened.errors = read.errors();
-            else from = *read;
+            if (!read)
+                opened.errors = read.errors();
+            else
+                from = *read;
         }
         if (from) {
             auto stage = Stage::open(from, {.simulation = simulation});
-            if (!stage) opened.errors = stage.errors();
-            else opened.stage.emplace(std::move(*stage));
+            if (!stage)
+                opened.errors = stage.errors();
+            else
+                opened.stage.emplace(std::move(*stage));
         }
         window_->redraw();
         return opened;
@@ -262,7 +269,8 @@ void Editor::layout(Ui& ui) {
     const float height = std::max(least, size.y - ImGui::GetCursorPosY() - status);
     // Narrow windows show less at the sides.
     const float room = std::max(0.0f, size.x - 2 * bar - theme.px(140));
-    const float left = std::min(theme.px(settings_.left), room * 0.4f), right = std::min(theme.px(settings_.right), room * 0.55f);
+    const float left = std::min(theme.px(settings_.left), room * 0.4f),
+                right = std::min(theme.px(settings_.right), room * 0.55f);
     const ImVec2 padding(theme.px(10), theme.px(8));
     panel(ui, "objects", ImVec2(left, height), theme.colors.panel, padding, [&] {
         cards_.show(ui, *session_, marks_, [&](std::string_view name) { add_object(name); });

@@ -78,6 +78,7 @@ class Editor {
     void view_overlay(Ui& ui);
     void timeline(Ui& ui);
     void status_line(Ui& ui);
+    void status_texts(Ui& ui);
     void messages(Ui& ui);
     void hints(Ui& ui);
     void dialogs(Ui& ui);

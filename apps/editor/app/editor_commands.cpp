@@ -80,9 +80,10 @@ void Editor::make_commands() {
          [this] {
              const Camera& c = view_.camera;
              const auto json = [](Vec3 v) { return Json{number(v.x), number(v.y), number(v.z)}; };
-             session_->change("Camera", {{"/camera", Json{{"position", json(c.position)},
-                                                          {"target", json(c.target)},
-                                                          {"fov", number(c.fov)}}}});
+             session_->change(
+                 "Camera",
+                 {{"/camera",
+                   Json{{"position", json(c.position)}, {"target", json(c.target)}, {"fov", number(c.fov)}}}});
          }},
         {"go_to_camera", "View from the scene's camera", "As images and videos show it", Icon::video, Key::pad_0, plain,
          [this] { view_.camera = *session_->document()->scene.camera; },
@@ -106,8 +107,10 @@ void Editor::run_command(const Command& one) {
 void Editor::keys(Ui& ui) {
     const bool dialog = panel_ != Panel::none || file_dialog_.is_open();
     if (ui.shortcut(Key::escape)) {
-        if (panel_ != Panel::none && panel_ != Panel::unsaved) panel_ = Panel::none;
-        else if (!file_dialog_.is_open() && !view_.cancel(*session_)) session_->select({});
+        if (panel_ != Panel::none && panel_ != Panel::unsaved)
+            panel_ = Panel::none;
+        else if (!file_dialog_.is_open() && !view_.cancel(*session_))
+            session_->select({});
         return;
     }
     if (dialog) return;
@@ -127,13 +130,12 @@ void Editor::add_object(std::string_view name) {
         session_->select(added->place);
     };
     if (name != "mesh" && name != "solid") return add(name, {});
-    file_dialog_.ask({.title = name == "mesh" ? "Add a cloth from a mesh" : "Add a solid mesh",
-                      .action = "Add",
-                      .endings = {".obj", ".ply", ".glb", ".gltf", ".fbx", ".stl", ".3ds"},
-                      .start = session_->document()->folder / "",
-                      .chosen = [add, kind = std::string(name)](const std::filesystem::path& file) {
-                          add(kind, file.string());
-                      }});
+    file_dialog_.ask(
+        {.title = name == "mesh" ? "Add a cloth from a mesh" : "Add a solid mesh",
+         .action = "Add",
+         .endings = {".obj", ".ply", ".glb", ".gltf", ".fbx", ".stl", ".3ds"},
+         .start = session_->document()->folder / "",
+         .chosen = [add, kind = std::string(name)](const std::filesystem::path& file) { add(kind, file.string()); }});
 }
 
 void Editor::remove_selected() {
@@ -175,8 +177,10 @@ void Editor::key_selected() {
                {"position", transform.value("position", zero)},
                {"rotation", transform.value("rotation", zero)}};
     const auto at = std::ranges::find_if(keys, [&](const Json& key) { return key.value("time", 0.0f) >= time; });
-    if (at != keys.end() && at->value("time", 0.0f) == time) *at = fresh;
-    else keys.insert(at, fresh);
+    if (at != keys.end() && at->value("time", 0.0f) == time)
+        *at = fresh;
+    else
+        keys.insert(at, fresh);
     session_->change("Key of " + session_->selected_name(), {{place + "/motion", Json{{"keys", keys}}}});
 }
 
@@ -253,10 +257,11 @@ void Editor::toggle_overlay(const Overlay* overlay) {
     const auto need = [&](OverlayNeeds what) {
         return std::ranges::find(overlays_, what, &Overlay::needs) != overlays_.end();
     };
-    simulator_->run([forces = need(OverlayNeeds::contact_forces), marks = need(OverlayNeeds::contact_marks)](Stage& stage) {
-        stage.world().set_contact_forces(forces);
-        stage.world().set_contact_marks(marks);
-    });
+    simulator_->run(
+        [forces = need(OverlayNeeds::contact_forces), marks = need(OverlayNeeds::contact_marks)](Stage& stage) {
+            stage.world().set_contact_forces(forces);
+            stage.world().set_contact_marks(marks);
+        });
 }
 
 }  // namespace weft::editor

@@ -29,13 +29,15 @@ void Editor::dialogs(Ui& ui) {
             return preferences(ui);
         case Panel::unsaved: {
             const Theme& theme = ui.theme();
-            Dialog dialog(ui, "unsaved", "The scene has changes that are not saved", ImVec2(theme.px(440), theme.px(120)));
+            Dialog dialog(ui, "unsaved", "The scene has changes that are not saved",
+                          ImVec2(theme.px(440), theme.px(120)));
             ImGui::Dummy(ImVec2(0, theme.px(6)));
             const auto go_on = [&] {
                 panel_ = Panel::none;
                 if (auto after = std::exchange(after_unsaved_, {})) after();
             };
-            if (button(ui, "save", {.icon = Icon::save, .text = "Save", .primary = true})) panel_ = Panel::none, save(false);
+            if (button(ui, "save", {.icon = Icon::save, .text = "Save", .primary = true}))
+                panel_ = Panel::none, save(false);
             ImGui::SameLine();
             if (button(ui, "discard", {.icon = Icon::trash, .text = "Discard them"})) go_on();
             ImGui::SameLine();
@@ -46,7 +48,8 @@ void Editor::dialogs(Ui& ui) {
             const Theme& theme = ui.theme();
             Dialog dialog(ui, "recovery", "A session has ended unexpectedly", ImVec2(theme.px(520), theme.px(150)));
             ImGui::TextWrapped("Its actions can be played again, except the last one if it was not written.");
-            if (button(ui, "recover", {.icon = Icon::to_default, .text = "Recover it", .primary = true})) recover(abandoned_.front());
+            if (button(ui, "recover", {.icon = Icon::to_default, .text = "Recover it", .primary = true}))
+                recover(abandoned_.front());
             ImGui::SameLine();
             if (button(ui, "discard", {.icon = Icon::trash, .text = "Discard it"})) {
                 std::error_code ignored;
@@ -68,7 +71,8 @@ void Editor::gallery_dialog(Ui& ui) {
     const float width = (ImGui::GetContentRegionAvail().x - theme.px(24)) / 3;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         if (i % 3 != 0) ImGui::SameLine();
-        if (!button(ui, scenes[i].name, {.icon = Icon::cloth, .text = scenes[i].name, .what = scenes[i].file.string(), .width = width}))
+        if (!button(ui, scenes[i].name,
+                    {.icon = Icon::cloth, .text = scenes[i].name, .what = scenes[i].file.string(), .width = width}))
             continue;
         panel_ = Panel::none;
         unless_changed([this, file = scenes[i].file] { open_later(file, {}); });
@@ -112,12 +116,15 @@ void Editor::preferences(Ui& ui) {
     settings_.appearance = appearance == 1 ? Appearance::light : Appearance::dark;
     double percent = static_cast<double>(theme.scale) * 100;
     const NumberRange range{.min = 75, .max = 300, .unit = "%"};
-    const Change scaled = number(ui, {.name = "scale", .label = "Scale", .what = "Size of text and widgets"}, percent, range);
+    const Change scaled =
+        number(ui, {.name = "scale", .label = "Scale", .what = "Size of text and widgets"}, percent, range);
     if (scaled == Change::finished) settings_.scale = static_cast<float>(percent / 100), changed = true;
     if (changed) ui.set_theme(settings_.appearance, settings_.scale > 0 ? settings_.scale : theme.scale);
     std::size_t keys = settings_.keys == FlyKeys::source ? 1 : 0;
-    constexpr std::array<std::string_view, 2> maps{"W S forward, back; Q E down, up", "W S up, down; Q E back, forward"};
-    if (choice(ui, {.name = "keys", .label = "Flight keys", .what = "With the right button held"}, keys, maps) != Change::none)
+    constexpr std::array<std::string_view, 2> maps{"W S forward, back; Q E down, up",
+                                                   "W S up, down; Q E back, forward"};
+    if (choice(ui, {.name = "keys", .label = "Flight keys", .what = "With the right button held"}, keys, maps) !=
+        Change::none)
         view_.settings.keys = settings_.keys = keys == 1 ? FlyKeys::source : FlyKeys::usual;
     double force = static_cast<double>(settings_.pull_force);
     if (number(ui, {.name = "pull_force", .label = "Pull", .what = "Largest force of the hand"}, force,
@@ -126,10 +133,12 @@ void Editor::preferences(Ui& ui) {
     const Published& now = session_->now();
     std::size_t backend = now.backend == "vulkan" ? 1 : 0;
     constexpr std::array<std::string_view, 2> backends{"cpu", "vulkan"};
-    if (choice(ui, {.name = "backend", .label = "Backend", .what = "Where the running scene is simulated"}, backend, backends) == Change::finished)
+    if (choice(ui, {.name = "backend", .label = "Backend", .what = "Where the running scene is simulated"}, backend,
+               backends) == Change::finished)
         session_->post(UseBackend{std::string(backends[backend]), now.threads});
     long long threads = now.threads;
-    if (integer(ui, {.name = "threads", .label = "Threads"}, threads, {.min = 1, .max = 256, .integer = true}) == Change::finished)
+    if (integer(ui, {.name = "threads", .label = "Threads"}, threads, {.min = 1, .max = 256, .integer = true}) ==
+        Change::finished)
         session_->post(UseBackend{now.backend, static_cast<std::uint32_t>(threads)});
     if (button(ui, "close", {.text = "Close", .primary = true})) panel_ = Panel::none;
 }

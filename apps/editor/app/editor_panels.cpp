@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 namespace weft::editor {
 namespace {
@@ -27,19 +28,27 @@ std::string shortcut_text(const Command& command) {
     if (command.modifiers.control) text += "Ctrl+";
     if (command.modifiers.shift) text += "Shift+";
     const auto key = static_cast<int>(command.key);
-    if (command.key >= Key::a && command.key <= Key::z) return text + static_cast<char>('A' + key - static_cast<int>(Key::a));
+    if (command.key >= Key::a && command.key <= Key::z)
+        return text + static_cast<char>('A' + key - static_cast<int>(Key::a));
     if (command.key >= Key::digit_0 && command.key <= Key::digit_9)
         return text + static_cast<char>('0' + key - static_cast<int>(Key::digit_0));
-    if (command.key >= Key::f1 && command.key <= Key::f12) return text + "F" + std::to_string(key - static_cast<int>(Key::f1) + 1);
+    if (command.key >= Key::f1 && command.key <= Key::f12)
+        return text + "F" + std::to_string(key - static_cast<int>(Key::f1) + 1);
     if (command.key >= Key::pad_0 && command.key <= Key::pad_9)
         return text + "Keypad " + std::to_string(key - static_cast<int>(Key::pad_0));
     switch (command.key) {
-        case Key::space: return text + "Space";
-        case Key::period: return text + ".";
-        case Key::comma: return text + ",";
-        case Key::delete_key: return text + "Del";
-        case Key::home: return text + "Home";
-        default: return text;
+        case Key::space:
+            return text + "Space";
+        case Key::period:
+            return text + ".";
+        case Key::comma:
+            return text + ",";
+        case Key::delete_key:
+            return text + "Del";
+        case Key::home:
+            return text + "Home";
+        default:
+            return text;
     }
 }
 
@@ -62,12 +71,14 @@ void Editor::menu(Ui& ui, const char* name, const char* label, std::initializer_
             const std::string keys = shortcut_text(known);
             const bool enabled = !known.enabled || known.enabled();
             const ImVec2 corner = ImGui::GetCursorScreenPos();
-            const bool pressed = button(ui, known.name, {.icon = known.icon,
-                                                         .text = known.label,
-                                                         .what = known.what,
-                                                         .flat = true,
-                                                         .enabled = enabled,
-                                                         .width = width});
+            const bool pressed = button(ui, known.name,
+                                        {.icon = known.icon,
+                                         .text = known.label,
+                                         .what = known.what,
+                                         .flat = true,
+                                         .left = true,
+                                         .enabled = enabled,
+                                         .width = width});
             const float wide = ImGui::CalcTextSize(keys.c_str()).x;
             ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x + width - wide - theme.px(8), corner.y + theme.px(5)),
                                                 theme.color(theme.colors.muted), keys.c_str());
@@ -78,12 +89,14 @@ void Editor::menu(Ui& ui, const char* name, const char* label, std::initializer_
         if (std::string_view(name) == "overlays") {
             for (const Overlay& overlay : weft::overlays()) {
                 const bool on = std::ranges::find(overlays_, &overlay) != overlays_.end();
-                if (button(ui, overlay.name, {.icon = on ? Icon::check : Icon::overlay,
-                                              .text = overlay.name,
-                                              .what = overlay.what,
-                                              .chosen = on,
-                                              .flat = true,
-                                              .width = width}))
+                if (button(ui, overlay.name,
+                           {.icon = on ? Icon::check : Icon::overlay,
+                            .text = overlay.name,
+                            .what = overlay.what,
+                            .chosen = on,
+                            .flat = true,
+                            .left = true,
+                            .width = width}))
                     toggle_overlay(&overlay);
             }
         }
@@ -102,35 +115,44 @@ void Editor::toolbar(Ui& ui) {
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
     {
         const Ui::Scope scope(ui, "toolbar");
-        menu(ui, "file", "File", {"new", "open", "gallery", "", "save", "save_as", "", "export", "screenshot", "", "quit"});
-        menu(ui, "edit", "Edit", {"undo", "redo", "history", "", "duplicate", "rename", "delete", "", "pin", "unpin", "key", "", "preferences"});
-        menu(ui, "view_menu", "View", {"frame", "frame_all", "", "from_front", "from_back", "from_left", "from_right", "from_top", "from_bottom", "", "go_to_camera", "use_camera", "", "axes", "through"});
+        menu(ui, "file", "File",
+             {"new", "open", "gallery", "", "save", "save_as", "", "export", "screenshot", "", "quit"});
+        menu(ui, "edit", "Edit",
+             {"undo", "redo", "history", "", "duplicate", "rename", "delete", "", "pin", "unpin", "key", "",
+              "preferences"});
+        menu(ui, "view_menu", "View",
+             {"frame", "frame_all", "", "from_front", "from_back", "from_left", "from_right", "from_top", "from_bottom",
+              "", "go_to_camera", "use_camera", "", "axes", "through"});
         menu(ui, "overlays", "Overlays", {});
         menu(ui, "help_menu", "Help", {"help"});
         ImGui::SameLine(0, theme.px(14));
         const bool playing = session_->now().playing;
-        if (button(ui, "play", {.icon = playing ? Icon::pause : Icon::play,
-                                .text = playing ? "Pause" : "Play",
-                                .what = "Run the simulation",
-                                .shortcut = "Space",
-                                .primary = true,
-                                .width = theme.px(92)}))
+        if (button(ui, "play",
+                   {.icon = playing ? Icon::pause : Icon::play,
+                    .text = playing ? "Pause" : "Play",
+                    .what = "Run the simulation",
+                    .shortcut = "Space",
+                    .primary = true,
+                    .width = theme.px(92)}))
             toggle_play();
-        for (const char* name : {"step", "reset", "", "undo", "redo", "", "hand", "select", "move", "turn", "scale", "cut"}) {
+        float gap = theme.px(14);
+        for (const char* name :
+             {"step", "reset", "", "undo", "redo", "", "hand", "select", "move", "turn", "scale", "cut"}) {
             if (!*name) {
-                ImGui::SameLine(0, theme.px(14));
+                gap = theme.px(14);
                 continue;
             }
-            if (ImGui::GetCursorPosX() > theme.px(9)) ImGui::SameLine();
+            ImGui::SameLine(0, std::exchange(gap, theme.px(4)));
             const Command& one = *command(name);
             const bool chosen = name_of(view_.settings.tool) == one.name;
             const std::string keys = shortcut_text(one);
-            if (button(ui, one.name, {.icon = one.icon,
-                                      .what = one.what,
-                                      .shortcut = keys,
-                                      .chosen = chosen,
-                                      .flat = true,
-                                      .enabled = !one.enabled || one.enabled()}))
+            if (button(ui, one.name,
+                       {.icon = one.icon,
+                        .what = one.what,
+                        .shortcut = keys,
+                        .chosen = chosen,
+                        .flat = true,
+                        .enabled = !one.enabled || one.enabled()}))
                 run_command(one);
         }
     }
@@ -160,17 +182,28 @@ void Editor::tool_row(Ui& ui) {
     if (view_.settings.tool == Tool::select) {
         const std::size_t count = view_.chosen().size();
         const std::string pin = "Pin " + std::to_string(count), unpin = "Unpin";
-        if (button(ui, "pin", {.icon = Icon::pin, .text = pin, .what = "Hold the chosen vertices", .shortcut = "P", .enabled = count > 0}))
+        if (button(ui, "pin",
+                   {.icon = Icon::pin,
+                    .text = pin,
+                    .what = "Hold the chosen vertices",
+                    .shortcut = "P",
+                    .enabled = count > 0}))
             view_.pin_chosen(*session_);
         ImGui::SameLine();
-        if (button(ui, "unpin", {.icon = Icon::unpin, .text = unpin, .what = "Let go of them", .shortcut = "Shift+P", .enabled = count > 0}))
+        if (button(ui, "unpin",
+                   {.icon = Icon::unpin,
+                    .text = unpin,
+                    .what = "Let go of them",
+                    .shortcut = "Shift+P",
+                    .enabled = count > 0}))
             view_.unpin_chosen(*session_);
         ImGui::SameLine();
-        if (button(ui, "through", {.icon = view_.settings.through ? Icon::eye : Icon::eye_off,
-                                   .text = "Hidden too",
-                                   .what = "Choose vertices that cloth or colliders hide",
-                                   .shortcut = "T",
-                                   .chosen = view_.settings.through}))
+        if (button(ui, "through",
+                   {.icon = view_.settings.through ? Icon::eye : Icon::eye_off,
+                    .text = "Hidden too",
+                    .what = "Choose vertices that cloth or colliders hide",
+                    .shortcut = "T",
+                    .chosen = view_.settings.through}))
             view_.settings.through = !view_.settings.through;
     }
 }
@@ -210,8 +243,10 @@ void Editor::messages(Ui& ui) {
     } else {
         const std::string problem = export_->problem(), file = export_->file().string();
         export_.reset();
-        if (problem.empty()) session_->say("Exported " + file);
-        else session_->say("Export of " + name, {Error{"", problem}});
+        if (problem.empty())
+            session_->say("Exported " + file);
+        else
+            session_->say("Export of " + name, {Error{"", problem}});
     }
 }
 
@@ -240,19 +275,29 @@ void Editor::hints(Ui& ui) {
 
 void Editor::status_line(Ui& ui) {
     const Theme& theme = ui.theme();
-    const Published& now = session_->now();
     ImGui::PushStyleColor(ImGuiCol_ChildBg, theme.colors.header);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(10), theme.px(4)));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(10), theme.px(5)));
     ImGui::BeginChild("status", ImVec2(ui.size().x, theme.px(26)), false,
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
+    status_texts(ui);
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+}
+
+void Editor::status_texts(Ui& ui) {
+    const Theme& theme = ui.theme();
+    const Published& now = session_->now();
     const Ui::Scope scope(ui, "status");
     std::array<char, 64> time{};
     std::snprintf(time.data(), time.size(), "%.2f s", now.time);
-    std::string text = "Frame " + std::to_string(now.frame) + " (" + time.data() + ")   Step " + milliseconds(now.step_ms);
+    std::string text =
+        "Frame " + std::to_string(now.frame) + " (" + time.data() + ")   Step " + milliseconds(now.step_ms);
     if (now.playing) text += "   " + format_number(now.real_time_factor, 2) + " × real time";
     text += "   " + std::to_string(now.particles) + " particles   " + now.backend;
     if (now.threads > 1) text += ", " + std::to_string(now.threads) + " threads";
-    if (view_image_) text += "   View " + milliseconds(view_image_->ms) + " at " + std::to_string(view_image_->percent) + " %";
+    if (view_image_)
+        text += "   View " + milliseconds(view_image_->ms) + " at " + std::to_string(view_image_->percent) + " %";
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushStyleColor(ImGuiCol_Text, theme.colors.muted);
     ImGui::TextUnformatted(text.c_str());
@@ -265,7 +310,8 @@ void Editor::status_line(Ui& ui) {
         ImGui::BeginTooltip();
         for (std::size_t i = 0; i < now.stage_ms.size(); ++i)
             if (now.stage_ms[i] > 0)
-                ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<std::uint32_t>(i))).c_str(), now.stage_ms[i]);
+                ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<std::uint32_t>(i))).c_str(),
+                            now.stage_ms[i]);
         ImGui::EndTooltip();
     }
     for (const std::string_view report : now.reports) {
@@ -274,9 +320,6 @@ void Editor::status_line(Ui& ui) {
         ImGui::TextUnformatted((text_of(Icon::warning) + " " + std::string(report)).c_str());
         ImGui::PopStyleColor();
     }
-    ImGui::EndChild();
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
 }
 
 void Editor::history(Ui& ui) {
@@ -289,11 +332,18 @@ void Editor::history(Ui& ui) {
     for (std::size_t i = 0; i < now.done.size(); ++i) {
         const StepLabel& step = now.done[i];
         const Ui::Scope one(ui, std::to_string(i));
-        if (button(ui, "undo_setting", {.icon = Icon::undo, .what = "Take back this setting alone; the cloth stays", .flat = true}))
+        if (button(ui, "undo_setting",
+                   {.icon = Icon::undo, .what = "Take back this setting alone; the cloth stays", .flat = true}))
             session_->post(UndoSetting{step.number});
         ImGui::SameLine();
-        const std::string label = step.label + " (frame " + std::to_string(step.frame) + ")" + (step.cloth_returns ? "" : ", scene only");
-        if (button(ui, "go", {.text = label, .what = "Go back to before this step", .flat = true, .width = width - ImGui::GetFrameHeight() - ui.theme().px(6)}))
+        const std::string label =
+            step.label + " (frame " + std::to_string(step.frame) + ")" + (step.cloth_returns ? "" : ", scene only");
+        if (button(ui, "go",
+                   {.text = label,
+                    .what = "Go back to before this step",
+                    .flat = true,
+                    .left = true,
+                    .width = width - ImGui::GetFrameHeight() - ui.theme().px(6)}))
             for (std::size_t k = i; k < now.done.size(); ++k) session_->undo();
     }
     for (std::size_t i = now.undone.size(); i-- > 0;) muted_text(ui, "(undone) " + now.undone[i]);

@@ -39,8 +39,10 @@ std::vector<std::string> environment_with(const std::filesystem::path& folder) {
     std::string assets = "WEFT_ASSETS=" + (folder.empty() ? "." : std::filesystem::absolute(folder).string());
     for (char** one = environ; *one; ++one) {
         const std::string text = *one;
-        if (text.starts_with("WEFT_ASSETS=")) assets += ":" + text.substr(12);
-        else all.push_back(text);
+        if (text.starts_with("WEFT_ASSETS="))
+            assets += ":" + text.substr(12);
+        else
+            all.push_back(text);
     }
     all.push_back(assets);
     return all;
@@ -66,14 +68,17 @@ Result<ExportJob> ExportJob::start(const Document& document, const ExportOptions
     std::error_code failed;
     ExportJob job;
     job.options_ = options;
-    job.scene_ = std::filesystem::temp_directory_path(failed) / ("weft-export-" + std::to_string(::getpid()) + "-" +
-                                                                 std::to_string(::random()) + ".json");
+    job.scene_ = std::filesystem::temp_directory_path(failed) /
+                 ("weft-export-" + std::to_string(::getpid()) + "-" + std::to_string(::random()) + ".json");
     auto written = write_atomically(job.scene_, [&](AtomicFile& out) { return out.write(*text); });
     if (!written) return written.errors();
-    std::vector<std::string> arguments{
-        options.program.empty() ? "/proc/self/exe" : options.program.string(),
-        is_image(options.file) ? "render" : "run", job.scene_.string(), "--frames",
-        std::to_string(options.frames), "--out", std::filesystem::absolute(options.file).string()};
+    std::vector<std::string> arguments{options.program.empty() ? "/proc/self/exe" : options.program.string(),
+                                       is_image(options.file) ? "render" : "run",
+                                       job.scene_.string(),
+                                       "--frames",
+                                       std::to_string(options.frames),
+                                       "--out",
+                                       std::filesystem::absolute(options.file).string()};
     std::vector<std::string> environment = environment_with(document.folder);
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) return Error::of_machine("export", system_reason(errno));

@@ -94,19 +94,31 @@ void FileDialog::show(Ui& ui) {
         const float width = ImGui::GetContentRegionAvail().x;
         std::filesystem::path go;
         for (const std::string& recent : question_.recent)
-            if (button(ui, "recent " + recent, {.icon = Icon::file, .text = recent, .what = "Used recently", .flat = true, .width = width}))
+            if (button(ui, "recent " + recent,
+                       {.icon = Icon::file,
+                        .text = recent,
+                        .what = "Used recently",
+                        .flat = true,
+                        .left = true,
+                        .width = width}))
                 path_ = recent, finish();
-        if (button(ui, "..", {.icon = Icon::up, .text = "Folder above", .flat = true, .width = width})) go = folder_ / "..";
+        if (button(ui, "..", {.icon = Icon::up, .text = "Folder above", .flat = true, .left = true, .width = width}))
+            go = folder_ / "..";
         for (const Entry& entry : entries_) {
-            if (!button(ui, entry.name, {.icon = entry.is_folder ? Icon::folder : Icon::file,
-                                         .text = entry.name,
-                                         .chosen = path_ == entry.name,
-                                         .flat = true,
-                                         .width = width}))
+            if (!button(ui, entry.name,
+                        {.icon = entry.is_folder ? Icon::folder : Icon::file,
+                         .text = entry.name,
+                         .chosen = path_ == entry.name,
+                         .flat = true,
+                         .left = true,
+                         .width = width}))
                 continue;
-            if (entry.is_folder) go = folder_ / entry.name;
-            else if (!question_.for_writing && path_ == entry.name) finish();
-            else path_ = entry.name;
+            if (entry.is_folder)
+                go = folder_ / entry.name;
+            else if (!question_.for_writing && path_ == entry.name)
+                finish();
+            else
+                path_ = entry.name;
         }
         if (!go.empty()) enter(go);
     }

@@ -12,8 +12,8 @@ namespace weft::editor {
 
 struct FileQuestion {
     std::string title;
-    std::string action = "Open";        ///< text of the button
-    std::vector<std::string> endings;   ///< `.json`; empty: all files
+    std::string action = "Open";       ///< text of the button
+    std::vector<std::string> endings;  ///< `.json`; empty: all files
     std::vector<std::string> recent = {};
     bool for_writing = false;  ///< asks before a file is overwritten, and adds the first ending if there is none
     std::filesystem::path start = {};

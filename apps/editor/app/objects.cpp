@@ -55,8 +55,7 @@ Result<Addition> addition(const Document& document, std::string_view name, const
     if (name == "mesh" || name == "solid") {
         if (file.empty()) return Error{"mesh", "needs the name of a mesh file"};
         const std::string called = free_name(document, name_of_file(file));
-        if (name == "mesh")
-            return append(document, "/cloths", Json{{"name", called}, {"mesh", {{"file", file}}}});
+        if (name == "mesh") return append(document, "/cloths", Json{{"name", called}, {"mesh", {{"file", file}}}});
         return append(document, "/colliders", Json{{"name", called}, {"mesh", {{"file", file}}}});
     }
     if (name == "box")
@@ -68,8 +67,7 @@ Result<Addition> addition(const Document& document, std::string_view name, const
         return append(document, "/colliders",
                       collider(document, "capsule", "capsule", Json{{"radius", 0.1}, {"half_height", 0.2}}, 0.3f));
     if (name == "plane")
-        return append(document, "/colliders",
-                      Json{{"name", free_name(document, "floor")}, {"plane", Json::object()}});
+        return append(document, "/colliders", Json{{"name", free_name(document, "floor")}, {"plane", Json::object()}});
     if (name == "wind") return append(document, "/air/wind", Json{{"velocity", {3, 0, 0}}});
     if (name == "stitch") {
         const auto stitch = new_element(document, "/stitches");

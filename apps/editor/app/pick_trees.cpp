@@ -27,8 +27,8 @@ PickScene PickTrees::scene(const Picture& picture, const ViewMarks& marks) {
         if (skipped(name)) continue;
         const ClothFrame& frame = world.frame().cloths[i];
         // Another cloth may have got the name: its id makes another version.
-        const std::uint64_t version = frame.topology_version * 1'000'003 + world.cloth_id(i).generation * 8191 +
-                                      world.cloth_id(i).index;
+        const std::uint64_t version =
+            frame.topology_version * 1'000'003 + world.cloth_id(i).generation * 8191 + world.cloth_id(i).index;
         cloths_[i].tree = &cloth_trees_[name].of(mesh_of_cloth(picture, i), version, picture.serial);
     }
     colliders_.assign(world.colliders().size(), {});

@@ -23,7 +23,7 @@ struct PulledPoint {
 struct Picture {
     std::uint64_t serial = 0;  ///< another picture has another one
     std::shared_ptr<const WorldFrameCopy> world;
-    std::shared_ptr<const SceneDesc> scene;                        ///< that the world follows
+    std::shared_ptr<const SceneDesc> scene;                       ///< that the world follows
     std::vector<std::shared_ptr<const ParticleNumbers>> numbers;  ///< per cloth
     std::vector<PulledPoint> pulls;
 };
@@ -42,8 +42,8 @@ class Photographer {
         for (std::size_t i = 0; i < from.scene().cloths.size(); ++i) picture->numbers.push_back(from.numbers(i));
         World& world = from.world();
         for (const weft::Grab& grab : world.grabs())
-            picture->pulls.push_back({world.grab_position(grab.id), grab.step.to, grab.force,
-                                      grab.step.spring.max_force});
+            picture->pulls.push_back(
+                {world.grab_position(grab.id), grab.step.to, grab.force, grab.step.spring.max_force});
         return picture;
     }
 

@@ -14,8 +14,8 @@ class Dialog {
     Dialog(Ui& ui, const char* name, const char* title, ImVec2 size) : scope_(ui, name) {
         const ImVec2 window = ui.size();
         // A window of its own catches clicks beside the dialog.
-        constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                           ImGuiWindowFlags_NoSavedSettings;
+        constexpr ImGuiWindowFlags fixed =
+            ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
         ImGui::SetNextWindowPos(ImVec2(0, 0));
         ImGui::SetNextWindowSize(window);
         ImGui::SetNextWindowFocus();

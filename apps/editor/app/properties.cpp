@@ -105,8 +105,8 @@ class PropertyRow {
             Vec3 linear{static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
             std::optional<Vec3> usual_color;
             if (usual.size() == 3)
-                usual_color = Vec3{static_cast<float>(usual[0]), static_cast<float>(usual[1]),
-                                   static_cast<float>(usual[2])};
+                usual_color =
+                    Vec3{static_cast<float>(usual[0]), static_cast<float>(usual[1]), static_cast<float>(usual[2])};
             change = color(ui_, field_, linear, usual_color);
             values = {linear.x, linear.y, linear.z};
         } else {
@@ -255,7 +255,8 @@ void Properties::list(Ui& ui, Session& session, const std::string& place, const 
             return session.change("Remove " + label_of_key(last_part(place)), {{one, {}}});
         ImGui::SameLine();
         const auto [known, added] = open_.try_emplace(one, count == 1);
-        if (section(ui, "section", label + " " + std::to_string(i + 1), known->second)) object(ui, session, one, depth + 1);
+        if (section(ui, "section", label + " " + std::to_string(i + 1), known->second))
+            object(ui, session, one, depth + 1);
     }
     const auto fresh = new_element(*session.document(), place);
     if (fresh && button(ui, "add", {.icon = Icon::add, .text = "Add", .what = "Add one", .flat = true}))

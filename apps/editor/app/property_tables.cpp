@@ -68,8 +68,7 @@ const Material* preset_material(const Document& document, const std::string& pla
         if (index < document.scene.cloths.size()) return &default_material(document.scene.cloths[index]).material;
     } else if (place.starts_with("/colliders/")) {
         const std::size_t index = index_in(place, "/colliders/");
-        if (index < document.scene.colliders.size())
-            return &default_material(document.scene.colliders[index]).material;
+        if (index < document.scene.colliders.size()) return &default_material(document.scene.colliders[index]).material;
     }
     return &find_material("matte")->material;
 }
@@ -100,7 +99,7 @@ bool is_of_another_wind(const Json* object, const SceneTable& table) {
     const std::vector<std::string_view> names = choice_names(kind);
     const std::string chosen = object && object->is_object() ? object->value("kind", std::string(names[0])) : "";
     std::size_t number = 0;
-#define WEFT_WIND(name, Name)                                                                        \
+#define WEFT_WIND(name, Name)                                                                     \
     if (table.keys.data() == std::span(name##_parameters).data()) return names[number] != chosen; \
     ++number;
 #include "physics/air/winds.def"
@@ -111,11 +110,6 @@ bool is_of_another_wind(const Json* object, const SceneTable& table) {
 Json element_json(const Parameter& p, const void* base, std::size_t i) {
     return p.kind == ParameterKind::integer ? Json(element<std::uint32_t>(p, base, i))
                                             : number(element<float>(p, base, i));
-}
-
-/// Lists of values that a panel does not show one by one.
-bool is_plain_list(std::string_view key) {
-    return key == "vertices" || key == "points";
 }
 
 }  // namespace
@@ -235,9 +229,7 @@ std::vector<std::string> names_for(const Document& document, const std::string& 
 std::optional<Json> new_element(const Document& document, const std::string& list) {
     const std::string pattern = pattern_of(list);
     const Json* all = find(document.json, list);
-    const auto next_time = [&] {
-        return all && !all->empty() ? all->back().value("time", 0.0) + 1 : 0.0;
-    };
+    const auto next_time = [&] { return all && !all->empty() ? all->back().value("time", 0.0) + 1 : 0.0; };
     if (pattern == "/cloths/*/pins") return Json{{"vertices", {0}}};
     if (pattern == "/cloths/*/cuts") return Json{{"plane", {{"normal", {1, 0, 0}}}}};
     if (pattern == "/cloths/*/seams") return Json{{"strength", 100}, {"plane", {{"normal", {1, 0, 0}}}}};

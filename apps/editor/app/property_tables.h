@@ -1,4 +1,5 @@
-// What the parameter tables say about a place in a scene: its values with units, ranges and defaults, and what lies below.
+// What the parameter tables say about a place in a scene: its values with units, ranges and defaults, and what lies
+// below.
 #pragma once
 
 #include "base/parameter.h"

@@ -13,13 +13,14 @@ namespace {
 constexpr const char* first_scene = R"({
     "weft": 1,
     "name": "silk over a ball",
-    "air": {"wind": [{"velocity": [0.8, 0, 0.5], "gust": {"amplitude": 0.6, "frequency": 0.4},
-                      "turbulence": {"strength": 0.4, "scale": 0.6}}]},
-    "cloths": [{"name": "sheet", "mesh": {"grid": {"size": [1.2, 1.2], "resolution": [64, 64]}},
-                "transform": {"position": [0, 0.9, 0]}, "fabric": "silk", "material": "silk",
+    "air": {"wind": [{"velocity": [0.5, 0, 0.3], "gust": {"amplitude": 0.8, "frequency": 0.4},
+                      "turbulence": {"strength": 0.5, "scale": 0.6}}]},
+    "cloths": [{"name": "sheet", "mesh": {"grid": {"size": [1.3, 1.3], "resolution": [64, 64]}},
+                "transform": {"position": [0, 0.95, 0]}, "fabric": "silk", "material": "silk",
                 "self_collision": "fast", "tearing": "cuts"}],
     "colliders": [{"name": "floor", "plane": {}},
-                  {"name": "ball", "sphere": {"radius": 0.25}, "transform": {"position": [0, 0.4, 0]}}],
+                  {"name": "ball", "sphere": {"radius": 0.3}, "transform": {"position": [0, 0.5, 0]},
+                   "friction": [0.7, 0.6]}],
     "camera": {"position": [1.35, 1.15, 1.75], "target": [0, 0.45, 0], "fov": 36}
 })";
 

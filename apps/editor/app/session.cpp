@@ -115,9 +115,8 @@ void Session::keep_selection(const Document& before) {
 
 void Session::say(Message message) {
     message.since = now_;
-    const auto same = std::ranges::find_if(messages_, [&](const Message& one) {
-        return one.title == message.title && one.lines == message.lines;
-    });
+    const auto same = std::ranges::find_if(
+        messages_, [&](const Message& one) { return one.title == message.title && one.lines == message.lines; });
     if (same != messages_.end()) messages_.erase(same);
     messages_.push_back(std::move(message));
     if (messages_.size() > most_messages) messages_.erase(messages_.begin());

@@ -15,7 +15,7 @@ namespace weft::editor {
 
 struct Settings {
     Appearance appearance = Appearance::dark;
-    float scale = 0;  ///< of the user interface; 0: as the system asks
+    float scale = 0;                ///< of the user interface; 0: as the system asks
     float left = 230, right = 340;  ///< widths of the panels, pixels at 100 %
     FlyKeys keys = FlyKeys::usual;
     float pull_force = 5;             ///< N

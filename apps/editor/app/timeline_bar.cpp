@@ -90,7 +90,8 @@ void show_timeline(Ui& ui, Session& session) {
     bool hovered = false, held = false;
     ImGui::ButtonBehavior(item.box, item.id, &hovered, &held, ImGuiButtonFlags_PressedOnClick);
     if (held) {
-        const float fraction = std::clamp((ImGui::GetIO().MousePos.x - left) / std::max(1.0f, right - left), 0.0f, 1.0f);
+        const float fraction =
+            std::clamp((ImGui::GetIO().MousePos.x - left) / std::max(1.0f, right - left), 0.0f, 1.0f);
         const auto wanted = static_cast<std::uint64_t>(std::lround(fraction * static_cast<float>(last)));
         const std::uint64_t frame = nearest_recorded(now, wanted);
         static std::uint64_t asked = ~std::uint64_t{0};
@@ -112,7 +113,8 @@ void show_timeline(Ui& ui, Session& session) {
         ImGui::TextUnformatted("Recorded frames. Drag to show one; play continues from there.");
         const double megabytes = static_cast<double>(now.memory_bytes) / 1e6;
         muted_text(ui, format_number(megabytes, 3) + " MB in memory, " +
-                           format_number(static_cast<double>(now.disk_bytes) / 1e6, 3) + " MB on disk. Hatched: from before a change.");
+                           format_number(static_cast<double>(now.disk_bytes) / 1e6, 3) +
+                           " MB on disk. Hatched: from before a change.");
     });
 }
 

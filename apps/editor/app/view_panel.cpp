@@ -2,6 +2,8 @@
 
 #include "editor/app/objects.h"
 #include "editor/app/property_tables.h"
+#include "editor/tools/stroke_cut.h"
+#include "editor/tools/vertex_selection.h"
 #include "view/collider_mesh.h"
 #include "view/framing.h"
 
@@ -90,8 +92,10 @@ void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage i
     if (transition_) {
         const auto seconds = static_cast<float>(now - transition_since_);
         camera = transition_->at(seconds);
-        if (transition_->done(seconds)) transition_.reset();
-        else ui.redraw();
+        if (transition_->done(seconds))
+            transition_.reset();
+        else
+            ui.redraw();
     }
     Input input{.pointer = {io.MousePos.x - origin_.x, io.MousePos.y - origin_.y},
                 .moved = {io.MouseDelta.x, io.MouseDelta.y},
@@ -105,9 +109,12 @@ void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage i
             const bool orbit = input.modifiers.alt;
             start_ = input.pointer;
             clicked_ = true;
-            if (was_pressed(0)) orbit ? (void)(gesture_ = Gesture::orbit) : begin_left(session, marks, input);
-            else if (was_pressed(1)) gesture_ = Gesture::look;
-            else if (was_pressed(2)) gesture_ = input.modifiers.shift ? Gesture::orbit : Gesture::pan;
+            if (was_pressed(0))
+                orbit ? (void)(gesture_ = Gesture::orbit) : begin_left(session, marks, input);
+            else if (was_pressed(1))
+                gesture_ = Gesture::look;
+            else if (was_pressed(2))
+                gesture_ = input.modifiers.shift ? Gesture::orbit : Gesture::pan;
         }
         if (length(Vec3{input.pointer.x - start_.x, input.pointer.y - start_.y, 0}) > click_way) clicked_ = false;
         move_camera(ui, input);
@@ -173,8 +180,8 @@ void ViewPanel::begin_left(Session& session, const ViewMarks& marks, const Input
     pick_ = pick_at(input.view, input.pointer, trees_.scene(picture, marks));
     picked_place_ = place_of_pick(session, pick_);
     gesture_ = Gesture::orbit;
-    const bool is_plane = pick_.kind == PickKind::collider &&
-                          picture.world->colliders()[pick_.index].shape == ShapeKind::plane;
+    const bool is_plane =
+        pick_.kind == PickKind::collider && picture.world->colliders()[pick_.index].shape == ShapeKind::plane;
     if (settings.tool != Tool::hand || pick_.kind == PickKind::nothing || is_plane) return;
     plane_ = grab(input.view, pick_.point, input.pointer);
     if (!plane_) return;
@@ -213,8 +220,8 @@ void ViewPanel::drag(Session& session, const Input& input) {
 void ViewPanel::end(Session& session, const ViewMarks& marks, const Input& input) {
     switch (gesture_) {
         case Gesture::gizmo:
-            change_place(session, gizmo_drag_->at(input.pointer, input.modifiers.control ? GizmoSnap{}
-                                                                                         : GizmoSnap{0, 0, 0}),
+            change_place(session,
+                         gizmo_drag_->at(input.pointer, input.modifiers.control ? GizmoSnap{} : GizmoSnap{0, 0, 0}),
                          Change::finished);
             gizmo_drag_.reset();
             return;
@@ -222,7 +229,8 @@ void ViewPanel::end(Session& session, const ViewMarks& marks, const Input& input
             session.post(Release{});
             break;
         case Gesture::carry:
-            if (!clicked_) session.change("Move " + describe_object(*session.document(), picked_place_), {}, Change::finished);
+            if (!clicked_)
+                session.change("Move " + describe_object(*session.document(), picked_place_), {}, Change::finished);
             break;
         case Gesture::box:
             return choose(session, marks, input);
@@ -278,8 +286,8 @@ void ViewPanel::cut(Session& session, const ViewMarks& marks, const Input& input
         std::vector<PickSurface> others(scene.cloths.begin(), scene.cloths.end());
         others[i] = {};
         const std::string name = PickTrees::name_of_cloth(picture, i);
-        for (const PathCut& path : cuts_of_stroke(input.view, stroke_, {mesh, tree, &distance},
-                                                  {others, scene.colliders, {}})) {
+        for (const PathCut& path :
+             cuts_of_stroke(input.view, stroke_, {mesh, tree, &distance}, {others, scene.colliders, {}})) {
             ++parts;
             const std::string place = place_of_named(*session.document(), "/cloths", name);
             if (session.document()->scene.cloths[std::stoul(place.substr(8))].tearing == Tearing::off)
@@ -383,7 +391,9 @@ std::optional<Gizmo> ViewPanel::gizmo(const Session& session, const Projection& 
     if (tool != Tool::move && tool != Tool::turn && tool != Tool::scale) return {};
     const auto place = place_of_selected(session);
     if (!place) return {};
-    const GizmoKind kind = tool == Tool::move ? GizmoKind::move : tool == Tool::turn ? GizmoKind::turn : GizmoKind::scale;
+    const GizmoKind kind = tool == Tool::move   ? GizmoKind::move
+                           : tool == Tool::turn ? GizmoKind::turn
+                                                : GizmoKind::scale;
     return Gizmo(view, *place, kind, settings.axes);
 }
 
@@ -401,12 +411,17 @@ void ViewPanel::change_place(Session& session, const GizmoChange& change, Change
         const auto ratio = [&](float now, float before) { return now / before; };
         const Vec3 by{ratio(change.scale.x, scale_start_.x), ratio(change.scale.y, scale_start_.y),
                       ratio(change.scale.z, scale_start_.z)};
-        for (const auto& [key, count] : {std::pair{"/sphere/radius", 1}, {"/capsule/radius", 1}, {"/capsule/half_height", 1},
-                                         {"/box/half_extents", 3}, {"/mesh/scale", 1}, {"/mesh/grid/size", 2}}) {
+        for (const auto& [key, count] : {std::pair{"/sphere/radius", 1},
+                                         {"/capsule/radius", 1},
+                                         {"/capsule/half_height", 1},
+                                         {"/box/half_extents", 3},
+                                         {"/mesh/scale", 1},
+                                         {"/mesh/grid/size", 2}}) {
             const std::string whole = place + key;
             const std::string owner = whole.substr(0, whole.rfind('/'));
             if (!find(session.document()->json, owner)) continue;
-            if (std::string_view(key) == "/mesh/scale" && !find(session.document()->json, place + "/mesh/file")) continue;
+            if (std::string_view(key) == "/mesh/scale" && !find(session.document()->json, place + "/mesh/file"))
+                continue;
             for (const Property& property : properties_of(*session.document(), owner).values) {
                 if (property.key() != std::string_view(key).substr(std::string_view(key).rfind('/') + 1)) continue;
                 Json value = *value_of(*session.document(), owner, property);
@@ -446,19 +461,22 @@ void ViewPanel::draw_gizmo(Ui& ui, const Session& session, const Input& input) {
         ImU32 color = colors[shape.axis];
         if (shape.faint) color = (color & 0x00FFFFFF) | 0x50000000;
         const float width = theme.px(shape.highlighted ? 4 : 2.5f);
-        if (shape.filled) draw.AddConvexPolyFilled(points.data(), static_cast<int>(points.size()), color);
-        else draw.AddPolyline(points.data(), static_cast<int>(points.size()), color,
-                              shape.closed ? ImDrawFlags_Closed : ImDrawFlags_None, width);
+        if (shape.filled)
+            draw.AddConvexPolyFilled(points.data(), static_cast<int>(points.size()), color);
+        else
+            draw.AddPolyline(points.data(), static_cast<int>(points.size()), color,
+                             shape.closed ? ImDrawFlags_Closed : ImDrawFlags_None, width);
         // The axes have letters, so that they are not told by color alone.
         const bool arrow = shape.handle >= GizmoHandle::move_x && shape.handle <= GizmoHandle::move_z;
         if (arrow && !shape.filled && shape.axis < 3 && !points.empty())
-            draw.AddText(ImVec2(points.back().x + theme.px(8), points.back().y - theme.px(8)), color, letters[shape.axis]);
+            draw.AddText(ImVec2(points.back().x + theme.px(8), points.back().y - theme.px(8)), color,
+                         letters[shape.axis]);
     }
     // The middle of each handle, for tests that drag it.
     constexpr std::pair<GizmoHandle, const char*> named[] = {
-        {GizmoHandle::move_x, "move_x"}, {GizmoHandle::move_y, "move_y"},   {GizmoHandle::move_z, "move_z"},
-        {GizmoHandle::turn_x, "turn_x"}, {GizmoHandle::turn_y, "turn_y"},   {GizmoHandle::turn_z, "turn_z"},
-        {GizmoHandle::scale_x, "scale_x"}, {GizmoHandle::scale_y, "scale_y"}, {GizmoHandle::scale_z, "scale_z"},
+        {GizmoHandle::move_x, "move_x"},      {GizmoHandle::move_y, "move_y"},   {GizmoHandle::move_z, "move_z"},
+        {GizmoHandle::turn_x, "turn_x"},      {GizmoHandle::turn_y, "turn_y"},   {GizmoHandle::turn_z, "turn_z"},
+        {GizmoHandle::scale_x, "scale_x"},    {GizmoHandle::scale_y, "scale_y"}, {GizmoHandle::scale_z, "scale_z"},
         {GizmoHandle::scale_all, "scale_all"}};
     const Ui::Scope scope(ui, "gizmo");
     for (const auto& [handle, name] : named) {
@@ -511,14 +529,16 @@ void ViewPanel::draw_marks(Ui& ui, const Session& session, const Input& input) {
         }
     }
     if (gesture_ == Gesture::box && !clicked_) {
-        const ImVec2 a(origin_.x + start_.x, origin_.y + start_.y), b(origin_.x + input.pointer.x, origin_.y + input.pointer.y);
+        const ImVec2 a(origin_.x + start_.x, origin_.y + start_.y),
+            b(origin_.x + input.pointer.x, origin_.y + input.pointer.y);
         draw.AddRectFilled(a, b, IM_COL32(255, 200, 80, 40));
         draw.AddRect(a, b, IM_COL32(255, 200, 80, 255));
     }
     if (gesture_ == Gesture::stroke) {
         for (std::size_t i = 1; i < stroke_.size(); ++i)
             draw.AddLine(ImVec2(origin_.x + stroke_[i - 1].x, origin_.y + stroke_[i - 1].y),
-                         ImVec2(origin_.x + stroke_[i].x, origin_.y + stroke_[i].y), IM_COL32(255, 80, 80, 255), theme.px(2));
+                         ImVec2(origin_.x + stroke_[i].x, origin_.y + stroke_[i].y), IM_COL32(255, 80, 80, 255),
+                         theme.px(2));
     }
 }
 

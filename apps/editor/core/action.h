@@ -84,8 +84,8 @@ struct Advance {
     friend bool operator==(const Advance&, const Advance&) = default;
 };
 
-using Action = std::variant<ChangeScene, Rename, Cut, Grab, MoveGrab, Release, Reset, Seek, Undo, Redo,
-                            UndoSetting, UseBackend, Advance>;
+using Action = std::variant<ChangeScene, Rename, Cut, Grab, MoveGrab, Release, Reset, Seek, Undo, Redo, UndoSetting,
+                            UseBackend, Advance>;
 
 /// An action and the frame at which it acts: before the next frame, when so many frames are done.
 struct TimedAction {

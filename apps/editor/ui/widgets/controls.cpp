@@ -69,7 +69,8 @@ bool button(Ui& ui, std::string_view name, const ButtonStyle& style) {
         const float text = ImGui::CalcTextSize(style.text.data(), style.text.data() + style.text.size()).x;
         const bool has_icon = style.icon != Icon::none;
         const float content = (has_icon ? theme.icon_side + (style.text.empty() ? 0 : theme.px(icon_gap)) : 0) + text;
-        float x = std::floor(item.box.Min.x + std::max(0.0f, (item.box.GetWidth() - content) / 2));
+        const float middle = std::max(0.0f, (item.box.GetWidth() - content) / 2);
+        float x = std::floor(item.box.Min.x + (style.left ? std::min(middle, theme.px(8)) : middle));
         if (has_icon) {
             draw_icon(theme, style.icon, ImRect(ImVec2(x, item.box.Min.y), ImVec2(x + theme.icon_side, item.box.Max.y)),
                       color);

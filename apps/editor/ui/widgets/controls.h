@@ -18,6 +18,7 @@ struct ButtonStyle {
     bool chosen = false;             ///< what it stands for is on: filled, and with a line below
     bool primary = false;            ///< the action that most users want
     bool flat = false;               ///< no background until the pointer is on it
+    bool left = false;               ///< content at the left end: a row of a list
     bool enabled = true;
     float width = 0;  ///< pixels; 0: as the content needs
 };
