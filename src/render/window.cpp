@@ -195,11 +195,8 @@ void Window::Impl::moved(double x, double y) {
 void Window::Impl::clicked(int button, int action, int modifiers) {
     if (button <= GLFW_MOUSE_BUTTON_MIDDLE) buttons[button] = action == GLFW_PRESS;
     if (button > GLFW_MOUSE_BUTTON_5) return;
-    double x = 0, y = 0;
-    glfwGetCursorPos(window, &x, &y);
-    tell(ButtonChanged{static_cast<PointerButton>(button),
-                       action == GLFW_PRESS,
-                       {static_cast<float>(x), static_cast<float>(y)},
+    // Not glfwGetCursorPos(): on X11 it asks where the pointer is now, which may be elsewhere.
+    tell(ButtonChanged{static_cast<PointerButton>(button), action == GLFW_PRESS, input.pointer,
                        modifiers_of(modifiers)});
 }
 

@@ -82,6 +82,7 @@ void Cards::card(Ui& ui, Session& session, ViewMarks* marks, const std::string& 
                 .what = "Show the properties of this object",
                 .chosen = chosen,
                 .flat = true,
+                .left = true,
                 .width = room}))
         session.select(place);
     if (!has_marks) return;

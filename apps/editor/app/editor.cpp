@@ -143,7 +143,6 @@ void Editor::set_stage(Stage stage) {
     view_.choose_none();
     const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
     view_.camera = document->scene.camera.value_or(framing(subject_of(*picture->world).all, 1.6f));
-    if (!document->scene.cloths.empty()) session_->select("/cloths/0");
 }
 
 // --- Opening

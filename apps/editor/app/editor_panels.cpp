@@ -16,6 +16,13 @@
 namespace weft::editor {
 namespace {
 
+/// Substeps that leave a thousandth unsolved: the rest falls with their square.
+std::uint32_t substeps_for(const Published& now) {
+    constexpr double good = 1e-3;
+    const double factor = std::sqrt(std::max(now.mean_residual, good) / good);
+    return static_cast<std::uint32_t>(std::ceil(now.document->scene.solver.substeps * factor));
+}
+
 std::string milliseconds(double ms) {
     return format_number(ms, ms < 1 ? 2 : 3) + " ms";
 }
@@ -256,9 +263,13 @@ void Editor::hints(Ui& ui) {
                                                            {"space", "Space pauses"},
                                                            {"drop", "Drop a mesh or a scene on the window"},
                                                            {"help", "H shows keys and mouse"}};
+    // As many as fit.
+    const float room = view_.size().x - ui.theme().px(30);
     std::string line;
-    for (const auto& [hint, text] : all)
-        if (!settings_.hints_done.contains(hint)) line += (line.empty() ? "" : "  ·  ") + std::string(text);
+    for (const auto& [hint, text] : all) {
+        const std::string longer = line + (line.empty() ? "" : "  ·  ") + text;
+        if (!settings_.hints_done.contains(hint) && ImGui::CalcTextSize(longer.c_str()).x < room) line = longer;
+    }
     const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
     if (picture && !picture->pulls.empty()) did("pull");
     if (line.empty()) return;
@@ -294,6 +305,10 @@ void Editor::status_texts(Ui& ui) {
     std::string text =
         "Frame " + std::to_string(now.frame) + " (" + time.data() + ")   Step " + milliseconds(now.step_ms);
     if (now.playing) text += "   " + format_number(now.real_time_factor, 2) + " × real time";
+    if (now.particles > 0) {
+        text += "   Stretch " + format_number(100 * now.mean_stretch, 2) + " %, unsolved " +
+                format_number(100 * now.mean_residual, 2) + " %";
+    }
     text += "   " + std::to_string(now.particles) + " particles   " + now.backend;
     if (now.threads > 1) text += ", " + std::to_string(now.threads) + " threads";
     if (view_image_)
@@ -308,6 +323,8 @@ void Editor::status_texts(Ui& ui) {
     ui.note("acknowledged", box, std::to_string(now.acknowledged));
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
+        if (const auto cure = substeps_for(now); cure > now.document->scene.solver.substeps)
+            ImGui::Text("About %u substeps leave 0.1 %% of the stretch unsolved.", cure);
         for (std::size_t i = 0; i < now.stage_ms.size(); ++i)
             if (now.stage_ms[i] > 0)
                 ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<std::uint32_t>(i))).c_str(),

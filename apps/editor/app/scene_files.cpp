@@ -13,10 +13,10 @@ namespace {
 constexpr const char* first_scene = R"({
     "weft": 1,
     "name": "silk over a ball",
-    "air": {"wind": [{"velocity": [0.5, 0, 0.3], "gust": {"amplitude": 0.8, "frequency": 0.4},
+    "air": {"wind": [{"velocity": [0.4, 0, 0.2], "gust": {"amplitude": 0.8, "frequency": 0.4},
                       "turbulence": {"strength": 0.5, "scale": 0.6}}]},
     "cloths": [{"name": "sheet", "mesh": {"grid": {"size": [1.3, 1.3], "resolution": [64, 64]}},
-                "transform": {"position": [0, 0.95, 0]}, "fabric": "silk", "material": "silk",
+                "transform": {"position": [0, 0.95, 0]}, "fabric": {"preset": "silk", "friction": [0.9, 0.8]}, "material": "silk",
                 "self_collision": "fast", "tearing": "cuts"}],
     "colliders": [{"name": "floor", "plane": {}},
                   {"name": "ball", "sphere": {"radius": 0.3}, "transform": {"position": [0, 0.5, 0]},

@@ -16,6 +16,7 @@ double seconds_now() {
 
 constexpr double most_lag = 0.05;        // s: a run that is later than this does not catch up
 constexpr double smoothing = 0.1;        // of the step time
+constexpr double measure_interval = 0.25;  // s
 constexpr double progress_window = 1.0;  // s
 
 /// Whether the second command makes the first one needless: only the last place of the pointer, and the last value of
@@ -217,6 +218,15 @@ void Simulator::publish() {
     next->stage_ms = frame.stage_ms;
     next->reports = report_names(frame.reports);
     next->grabs = stage_.grabs();
+    // Measuring takes as long as a substep.
+    if (seconds_now() - measured_at_ > measure_interval) {
+        const ClothMeasures measures = world.measure();
+        mean_stretch_ = measures.stretch.mean;
+        mean_residual_ = measures.residual.mean;
+        measured_at_ = seconds_now();
+    }
+    next->mean_stretch = mean_stretch_;
+    next->mean_residual = mean_residual_;
     progress_.emplace_back(seconds_now(), frame.time);
     while (progress_.back().first - progress_.front().first > progress_window) progress_.pop_front();
     const double clock = progress_.back().first - progress_.front().first;

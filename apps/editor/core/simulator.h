@@ -52,6 +52,9 @@ struct Published {
     std::array<double, stage_count> stage_ms{};
     std::vector<std::string_view> reports;  ///< of the last frame
     bool grabs = false;
+    /// Of all cloths, measured a few times per second: |ℓ/ℓ₀ − 1| along warp and weft, and the part of it that the
+    /// solver has left unsolved.
+    double mean_stretch = 0, mean_residual = 0;
 };
 using PublishedPtr = std::shared_ptr<const Published>;
 
@@ -125,6 +128,8 @@ class Simulator {
     // Of the simulating thread.
     std::uint64_t serial_ = 0, acknowledged_ = 0;
     double step_ms_ = 0;
+    double measured_at_ = -1;  ///< s
+    double mean_stretch_ = 0, mean_residual_ = 0;
     std::deque<std::pair<double, double>> progress_;  ///< clock time and simulated time of the last second
     std::thread thread_;                              // last member
 };

@@ -5,6 +5,12 @@
 
 namespace weft::editor::compat {
 
+#if IMGUI_VERSION_NUM >= 18700
+inline constexpr ImGuiKey pad_enter = ImGuiKey_KeypadEnter;
+#else
+inline constexpr ImGuiKey_ pad_enter = ImGuiKey_KeyPadEnter;
+#endif
+
 inline bool hoverable(const ImRect& box, ImGuiID id) {
 #if IMGUI_VERSION_NUM >= 18950
     return ImGui::ItemHoverable(box, id, GImGui->LastItemData.InFlags);

@@ -85,6 +85,7 @@ void align_digits(ImFont* font) {
 void set_lengths(ImGuiStyle& style, const Theme& theme) {
     const auto px = [&](float length) { return theme.px(length); };
     style = ImGuiStyle();
+    style.AntiAliasedLinesUseTex = false;
     style.WindowPadding = ImVec2(px(10), px(8));
     style.FramePadding = ImVec2(px(7), px(4));
     style.ItemSpacing = ImVec2(px(6), px(5));
@@ -153,6 +154,7 @@ Theme make_theme(ImGuiContext& context, Appearance appearance, float scale) {
     ImGuiIO& io = context.IO;
     ImFontAtlas& atlas = *io.Fonts;
     atlas.Clear();
+    atlas.Flags |= ImFontAtlasFlags_NoBakedLines;  // these would need a sampler that interpolates
     atlas.TexGlyphPadding = 1;
     const float em = em_at_100 * theme.scale;
     const int side = static_cast<int>(std::round(1.2f * em));

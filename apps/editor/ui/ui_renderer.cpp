@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,10 @@ static_assert(sizeof(ImDrawVert) == 20, "ui.vert reads ImGui's own layout");
 
 constexpr UiImage font_image{1};
 
+const gpu::Shader& shader_named(std::string_view name) {
+    return *std::ranges::find(ui_shader_table, name, &gpu::Shader::name);
+}
+
 bool encodes(VkFormat format) {
     return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB ||
            format == VK_FORMAT_A8B8G8R8_SRGB_PACK32;
@@ -41,7 +46,24 @@ struct Way {
     VkFormat format{};
     VkImageLayout after{};
     gpu::RenderPass pass;
-    gpu::GraphicsPipeline colors, coverage;
+    std::array<gpu::GraphicsPipeline, 5> pipelines;  // by Fill
+};
+
+/// How pixels get their color. A software device takes half the time for large areas without texture and blending.
+enum class Fill : std::uint8_t {
+    image,
+    opaque_image,
+    coverage,  // letters, and everything small
+    solid,
+    opaque_solid,
+};
+
+/// Triangles that are drawn by one command.
+struct Piece {
+    Fill fill{};
+    UiImage image{};
+    VkRect2D clip{};
+    std::uint32_t first = 0, count = 0;  // indices
 };
 
 struct Texture {
@@ -50,6 +72,7 @@ struct Texture {
     std::array<gpu::Buffer, 2> staging;  // by slot
     bool fresh = false;                  // the staging buffer of the next slot has new content
     bool shown = false;                  // has content
+    bool opaque = false;
 };
 
 /// Pixels of a clip rectangle within the target.
@@ -71,7 +94,7 @@ ImTextureID texture_id(UiImage image) {
 
 struct UiRenderer::Impl {
     std::shared_ptr<gpu::Device> device;
-    gpu::Sampler sampler;
+    gpu::Sampler smooth, exact;
     std::vector<std::unique_ptr<Way>> ways;
     std::map<UiImage, Texture> textures;
     std::uint32_t last_image = static_cast<std::uint32_t>(font_image);
@@ -80,6 +103,8 @@ struct UiRenderer::Impl {
     std::uint64_t version = 0;
     std::vector<ImDrawVert> vertices;
     std::vector<std::uint32_t> indices;
+    std::vector<Piece> pieces;
+    ImVec2 white;    // the place in the atlas whose coverage is 1
     gpu::Image own;  // of picture()
     gpu::Buffer read_back;
 
@@ -93,7 +118,9 @@ struct UiRenderer::Impl {
     Result<Way*> way_to(VkFormat format, VkImageLayout after);
     Result<void> put(UiImage id, VkFormat format, std::uint32_t width, std::uint32_t height,
                      std::span<const std::uint8_t> bytes);
-    void gather(const ImDrawData& data);
+    void gather(const ImDrawData& data, VkExtent2D extent);
+    Fill fill_of(UiImage id, const Texture& texture, const std::uint32_t (&corners)[3]) const;
+    void add_triangle(const std::uint32_t (&corners)[3], Fill fill, UiImage id, const VkRect2D& clip);
     void record_uploads(gpu::Commands& commands);
     void record_lists(gpu::Commands& commands, const ImDrawData& data, const Way& way, VkExtent2D extent,
                       std::uint64_t vertices_at, std::uint64_t indices_at);
@@ -111,12 +138,16 @@ Result<Way*> UiRenderer::Impl::way_to(VkFormat format, VkImageLayout after) {
     auto pass = gpu::RenderPass::create(*device, {&attachment, 1}, "user interface");
     if (!pass) return pass.errors();
     way->pass = std::move(*pass);
-    for (const bool coverage : {false, true}) {
-        const std::uint32_t constants[] = {coverage, encodes(format)};
-        auto made = gpu::GraphicsPipeline::create(*device, way->pass, {ui_shader_table[0], ui_shader_table[1]},
-                                                  {.blend = gpu::Blend::over}, constants);
+    for (const Fill fill : {Fill::image, Fill::opaque_image, Fill::coverage, Fill::solid, Fill::opaque_solid}) {
+        const bool opaque = fill == Fill::opaque_image || fill == Fill::opaque_solid;
+        const bool solid = fill == Fill::solid || fill == Fill::opaque_solid;
+        const std::uint32_t constants[] = {encodes(format), fill == Fill::coverage};
+        auto made = gpu::GraphicsPipeline::create(
+            *device, way->pass,
+            {shader_named(solid ? "ui_solid_vert" : "ui_vert"), shader_named(solid ? "ui_solid_frag" : "ui_frag")},
+            {.blend = opaque ? gpu::Blend::none : gpu::Blend::over}, constants);
         if (!made) return made.errors();
-        (coverage ? way->coverage : way->colors) = std::move(*made);
+        way->pipelines[static_cast<std::size_t>(fill)] = std::move(*made);
     }
     ways.push_back(std::move(way));
     return ways.back().get();
@@ -141,8 +172,9 @@ Result<void> UiRenderer::Impl::put(UiImage id, VkFormat format, std::uint32_t wi
                                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT},
                                         "user interface");
         if (!image) return image.errors();
-        const gpu::BoundImage bound{0, image->view(), sampler.handle()};
-        auto set = gpu::DescriptorSet::create(*device, (*way)->colors.set_layout(0), {&bound, 1});
+        // Letters lie on whole pixels, and a software device takes less time for one texel than for four.
+        const gpu::BoundImage bound{0, image->view(), (id == font_image ? exact : smooth).handle()};
+        auto set = gpu::DescriptorSet::create(*device, (*way)->pipelines.front().set_layout(0), {&bound, 1});
         if (!set) return set.errors();
         texture.image = std::move(*image);
         texture.set = std::move(*set);
@@ -160,10 +192,11 @@ Result<void> UiRenderer::Impl::put(UiImage id, VkFormat format, std::uint32_t wi
     return {};
 }
 
-// One vertex array and one array of 32-bit indices for all lists.
-void UiRenderer::Impl::gather(const ImDrawData& data) {
+// One vertex array and one array of 32-bit indices for all lists, divided into pieces.
+void UiRenderer::Impl::gather(const ImDrawData& data, VkExtent2D extent) {
     vertices.clear();
     indices.clear();
+    pieces.clear();
     vertices.reserve(static_cast<std::size_t>(data.TotalVtxCount));
     indices.reserve(static_cast<std::size_t>(data.TotalIdxCount));
     for (int i = 0; i < data.CmdListsCount; ++i) {
@@ -171,11 +204,45 @@ void UiRenderer::Impl::gather(const ImDrawData& data) {
         const auto base = static_cast<std::uint32_t>(vertices.size());
         vertices.insert(vertices.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
         for (const ImDrawCmd& command : list.CmdBuffer) {
-            const std::uint32_t first = base + command.VtxOffset;
+            if (command.UserCallback || command.ElemCount == 0) continue;
+            const VkRect2D clip = pixels_of(command.ClipRect, data.DisplayPos, extent);
+            const auto id = static_cast<UiImage>(reinterpret_cast<std::uintptr_t>(command.GetTexID()));
+            const auto texture = textures.find(id);
+            if (clip.extent.width == 0 || clip.extent.height == 0) continue;
+            if (texture == textures.end() || !(texture->second.shown || texture->second.fresh)) continue;
             const ImDrawIdx* from = list.IdxBuffer.Data + command.IdxOffset;
-            for (unsigned k = 0; k < command.ElemCount; ++k) indices.push_back(first + from[k]);
+            for (unsigned k = 0; k + 2 < command.ElemCount; k += 3) {
+                const std::uint32_t first = base + command.VtxOffset;
+                const std::uint32_t corners[] = {first + from[k], first + from[k + 1], first + from[k + 2]};
+                add_triangle(corners, fill_of(id, texture->second, corners), id, clip);
+            }
         }
     }
+}
+
+Fill UiRenderer::Impl::fill_of(UiImage id, const Texture& texture, const std::uint32_t (&corners)[3]) const {
+    const ImDrawVert &a = vertices[corners[0]], &b = vertices[corners[1]], &c = vertices[corners[2]];
+    const bool opaque = (a.col & b.col & c.col) >> IM_COL32_A_SHIFT == 255;
+    if (id != font_image) return opaque && texture.opaque ? Fill::opaque_image : Fill::image;
+    // Changing the pipeline takes as long as some thousand pixels.
+    constexpr float large = 4000;
+    const auto is_white = [&](const ImDrawVert& v) { return v.uv.x == white.x && v.uv.y == white.y; };
+    const float area =
+        std::abs((b.pos.x - a.pos.x) * (c.pos.y - a.pos.y) - (c.pos.x - a.pos.x) * (b.pos.y - a.pos.y)) / 2;
+    if (area < large || !is_white(a) || !is_white(b) || !is_white(c)) return Fill::coverage;
+    return opaque ? Fill::opaque_solid : Fill::solid;
+}
+
+void UiRenderer::Impl::add_triangle(const std::uint32_t (&corners)[3], Fill fill, UiImage id, const VkRect2D& clip) {
+    const auto same = [&](const Piece& last) {
+        return last.fill == fill && last.image == id && last.clip.offset.x == clip.offset.x &&
+               last.clip.offset.y == clip.offset.y && last.clip.extent.width == clip.extent.width &&
+               last.clip.extent.height == clip.extent.height;
+    };
+    if (pieces.empty() || !same(pieces.back()))
+        pieces.push_back({fill, id, clip, static_cast<std::uint32_t>(indices.size()), 0});
+    indices.insert(indices.end(), corners, corners + 3);
+    pieces.back().count += 3;
 }
 
 void UiRenderer::Impl::record_uploads(gpu::Commands& commands) {
@@ -202,31 +269,22 @@ void UiRenderer::Impl::record_lists(gpu::Commands& commands, const ImDrawData& d
     push.offset[0] = -1 - data.DisplayPos.x * push.scale[0];
     push.offset[1] = -1 - data.DisplayPos.y * push.scale[1];
     const gpu::GraphicsPipeline* bound = nullptr;
-    const Texture* shown = nullptr;
-    std::uint64_t index = 0;
-    for (int i = 0; i < data.CmdListsCount; ++i) {
-        for (const ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) {
-            const std::uint64_t first = std::exchange(index, index + command.ElemCount);
-            if (command.UserCallback || command.ElemCount == 0) continue;
-            const VkRect2D clip = pixels_of(command.ClipRect, data.DisplayPos, extent);
-            const auto id = static_cast<UiImage>(reinterpret_cast<std::uintptr_t>(command.GetTexID()));
-            const auto texture = textures.find(id);
-            if (clip.extent.width == 0 || clip.extent.height == 0) continue;
-            if (texture == textures.end() || !texture->second.shown) continue;
-            const gpu::GraphicsPipeline& pipeline = id == font_image ? way.coverage : way.colors;
-            if (bound != &pipeline) {
-                commands.bind(pipeline);
-                commands.push(std::as_bytes(std::span(&push, 1)));
-                shown = nullptr;
-            }
-            bound = &pipeline;
-            if (shown != &texture->second) commands.bind(0, texture->second.set);
-            shown = &texture->second;
-            commands.scissor(clip);
-            gpu::BufferRange range = slots[next_slot].range(indices_at);
-            range.offset += first * sizeof(std::uint32_t);
-            commands.draw_indexed(range, command.ElemCount);
+    UiImage shown = UiImage::none;
+    for (const Piece& piece : pieces) {
+        const gpu::GraphicsPipeline& pipeline = way.pipelines[static_cast<std::size_t>(piece.fill)];
+        if (bound != &pipeline) {
+            commands.bind(pipeline);
+            commands.push(std::as_bytes(std::span(&push, 1)));
+            shown = UiImage::none;
         }
+        bound = &pipeline;
+        const bool textured = piece.fill != Fill::solid && piece.fill != Fill::opaque_solid;
+        if (textured && std::exchange(shown, piece.image) != piece.image)
+            commands.bind(0, textures.at(piece.image).set);
+        commands.scissor(piece.clip);
+        gpu::BufferRange range = slots[next_slot].range(indices_at);
+        range.offset += piece.first * sizeof(std::uint32_t);
+        commands.draw_indexed(range, piece.count);
     }
 }
 
@@ -239,7 +297,7 @@ Result<std::uint64_t> UiRenderer::Impl::draw(const ImDrawData& data, const rende
     auto frame = gpu::Framebuffer::create(*device, (*way)->pass, {&target.view, 1}, target.width, target.height);
     if (!frame) return frame.errors();
     slot.target = std::move(*frame);
-    gather(data);
+    gather(data, {target.width, target.height});
     const std::uint64_t bytes = render::FrameSlot::room_for(vertices.size() * sizeof(ImDrawVert)) +
                                 render::FrameSlot::room_for(indices.size() * sizeof(std::uint32_t)) + 64;
     if (auto begun = slot.begin(*device, bytes, VK_BUFFER_USAGE_INDEX_BUFFER_BIT); !begun) return begun.errors();
@@ -273,10 +331,13 @@ Result<UiRenderer> UiRenderer::create(std::shared_ptr<gpu::Device> device) {
     if (!device->draws()) return Error::of_machine(device->info().name, "has no graphics queue; choose another device");
     auto impl = std::make_unique<Impl>();
     impl->device = std::move(device);
-    auto sampler = gpu::Sampler::create(*impl->device, {.address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                                        .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
-    if (!sampler) return sampler.errors();
-    impl->sampler = std::move(*sampler);
+    for (const VkFilter filter : {VK_FILTER_LINEAR, VK_FILTER_NEAREST}) {
+        auto sampler = gpu::Sampler::create(*impl->device, {.filter = filter,
+                                                            .address_u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                                            .address_v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
+        if (!sampler) return sampler.errors();
+        (filter == VK_FILTER_LINEAR ? impl->smooth : impl->exact) = std::move(*sampler);
+    }
     return UiRenderer(std::move(impl));
 }
 
@@ -289,6 +350,7 @@ Result<void> UiRenderer::set_fonts(ImFontAtlas& atlas) {
     int width = 0, height = 0;
     atlas.GetTexDataAsAlpha8(&pixels, &width, &height);
     atlas.SetTexID(texture_id(font_image));
+    impl_->white = atlas.TexUvWhitePixel;
     const auto bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     return impl_->put(font_image, VK_FORMAT_R8_UNORM, static_cast<std::uint32_t>(width),
                       static_cast<std::uint32_t>(height), {pixels, bytes});
@@ -302,7 +364,12 @@ UiImage UiRenderer::add_image() {
 
 Result<void> UiRenderer::update(UiImage image, const Image8& content) {
     if (!impl_->textures.contains(image) || content.width == 0 || content.height == 0) return {};
-    return impl_->put(image, VK_FORMAT_R8G8B8A8_UNORM, content.width, content.height, content.rgba);
+    auto done = impl_->put(image, VK_FORMAT_R8G8B8A8_UNORM, content.width, content.height, content.rgba);
+    if (!done) return done;
+    bool opaque = true;
+    for (std::size_t i = 3; i < content.rgba.size(); i += 4) opaque &= content.rgba[i] == 255;
+    impl_->textures[image].opaque = opaque;
+    return done;
 }
 
 std::uint64_t UiRenderer::version() const {

@@ -87,8 +87,9 @@ struct UiWindow::Impl {
 
     Result<void> open();
     Result<void> open_on(const std::shared_ptr<const gpu::Instance>& instance, const gpu::DeviceInfo& info);
+    bool must_show() const { return exposed && window->extent().width > 0; }
     void collect(double patience);
-    void wait(double patience);
+    bool wait(double patience);
     Result<void> run_frame(const Frame& frame);
     Result<void> draw(const ImDrawData& data);
 };
@@ -151,8 +152,9 @@ void UiWindow::Impl::collect(double patience) {
     ui->add(events, window->pixels_per_unit());
 }
 
-// Waits until a frame is due. Input of a fast mouse and animations make at most `most_rate` frames a second.
-void UiWindow::Impl::wait(double patience) {
+// Waits until a frame is due; false if none was in that time. Input of a fast mouse and animations make at most
+// `most_rate` frames a second.
+bool UiWindow::Impl::wait(double patience) {
     const double give_up = display->now() + patience;
     collect(0);
     while (!close_requested) {
@@ -160,11 +162,13 @@ void UiWindow::Impl::wait(double patience) {
         // What is left of earlier input follows at once.
         const double pace = ui->input_pending() ? 0 : 1 / options.most_rate;
         const double soonest = begun + std::max(options.least_frame, pace);
-        double due = exposed ? now : now + std::max(0.0, ui->due_in(now));
+        double due = must_show() ? now : now + std::max(0.0, ui->due_in(now));
         due = std::max(due, soonest);
-        if (due <= now || now >= give_up) return;
+        if (due <= now) return true;
+        if (now >= give_up) return false;
         collect(std::min(due, give_up) - now);
     }
+    return true;
 }
 
 Result<void> UiWindow::Impl::run_frame(const Frame& frame) {
@@ -262,9 +266,7 @@ Result<void> UiWindow::run(const Frame& frame) {
 }
 
 Result<void> UiWindow::turn(const Frame& frame, double patience) {
-    impl_->wait(patience);
-    const bool due = impl_->close_requested || impl_->exposed || impl_->ui->due_in(impl_->display->now()) <= 0;
-    if (!due) return {};
+    if (!impl_->wait(patience)) return {};
     auto done = impl_->run_frame(frame);
     impl_->close_requested = false;
     return done;

@@ -88,8 +88,8 @@ struct WidgetPage {
             const Ui::Scope scope(ui, name);
             content();
         }
+        ImGui::PopStyleVar(2);  // before EndChild(), which adds the spacing below
         ImGui::EndChild();
-        ImGui::PopStyleVar(2);
     }
 
     void toolbar(Ui& ui, float width) {
@@ -129,8 +129,8 @@ struct WidgetPage {
             ImGui::SameLine(0, theme.px(16));
             button(ui, "camera", {.icon = Icon::camera, .what = "Save an image", .shortcut = "F12", .flat = true});
         }
+        ImGui::PopStyleVar(2);  // before EndChild(), which adds the spacing below
         ImGui::EndChild();
-        ImGui::PopStyleVar(2);
         ImGui::PopStyleColor();
     }
 

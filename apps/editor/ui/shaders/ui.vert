@@ -12,12 +12,16 @@ layout(push_constant) uniform Push {
     vec2 scale, offset;
 } push;
 
+#ifndef WEFT_SOLID
 layout(location = 0) out vec2 uv;
+#endif
 layout(location = 1) out vec4 color;
 
 void main() {
     const Vertex vertex = push.vertices.at[gl_VertexIndex];
+#ifndef WEFT_SOLID
     uv = vec2(vertex.u, vertex.v);
+#endif
     color = unpackUnorm4x8(vertex.color);
     gl_Position = vec4(vec2(vertex.x, vertex.y) * push.scale + push.offset, 0.0, 1.0);
 }

@@ -25,8 +25,9 @@ void clipped_text(const ImRect& box, std::string_view text, ImU32 color, float a
     const char* fits = begin;
     ImFont* font = ImGui::GetFont();
     font->CalcTextSizeA(ImGui::GetFontSize(), std::max(0.0f, box.GetWidth() - dots), 0, begin, end, &fits);
-    list->AddText(ImVec2(box.Min.x, y), color, begin, fits);
-    const float width = ImGui::CalcTextSize(begin, fits).x;
+    while (fits > begin && (fits[-1] == '.' || fits[-1] == ' ')) --fits;
+    if (fits > begin) list->AddText(ImVec2(box.Min.x, y), color, begin, fits);
+    const float width = fits > begin ? ImGui::CalcTextSize(begin, fits).x : 0;
     list->AddText(ImVec2(std::floor(box.Min.x + width), y), color, "…");
 }
 

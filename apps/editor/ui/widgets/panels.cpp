@@ -19,8 +19,10 @@ bool splitter(Ui& ui, std::string_view name, SplitAxis axis, float length, float
     const Theme& theme = ui.theme();
     const bool x = axis == SplitAxis::x;
     const float thick = splitter_width(ui), before = size;
-    const Item item =
-        ui.place(name, x ? ImVec2(thick, length) : ImVec2(length, thick), format_number(static_cast<double>(size)));
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImRect box(from, from + (x ? ImVec2(thick, length) : ImVec2(length, thick)));
+    ImGui::ItemSize(box);  // without a line of text, which would make the row higher
+    const Item item = ui.place_at(name, box, format_number(static_cast<double>(size)));
     const ImGuiIO& io = ImGui::GetIO();
     if (item.hovered && io.MouseClicked[0]) {
         ImGui::SetActiveID(item.id, ImGui::GetCurrentWindow());

@@ -67,7 +67,7 @@ Track::Track(const NumberRange& range, double value) : integer_(range.integer) {
         const double least = min_ > 0 ? min_ : usual > min_ ? (usual - min_) / 100 : (max_ - min_) / 1e4;
         const bool wide = min_ > 0
                               ? max_ / min_ >= decades
-                              : (!upper || (usual > min_ && max_ - min_ > 100 * (usual - min_)) || max_ - min_ > 2e3);
+                              : (!upper || (usual > min_ && max_ - min_ > 30 * (usual - min_)) || max_ - min_ > 2e3);
         if (wide && !(integer_ && max_ - min_ < decades)) knee_ = least;
         return;
     }
