@@ -22,19 +22,22 @@ constexpr std::size_t plotted_steps = 120;
 
 /// One panel of the window.
 template <class Content>
-void panel(Ui& ui, const char* name, ImVec2 size, ImVec4 color, ImVec2 padding, Content&& content) {
+void panel(Ui& ui, const char* name, ImVec2 size, ImVec4 color, ImVec2 padding, Content&& content,
+           ImGuiWindowFlags more = 0) {
     const Theme& theme = ui.theme();
     ImGui::PushStyleColor(ImGuiCol_ChildBg, color);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(theme.px(6), theme.px(5)));
-    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_AlwaysUseWindowPadding | more);
+    ImGui::PopStyleVar();
     ImGui::PopStyleColor();
+    // Only inside: after the child, spacing would move the next panel.
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(theme.px(6), theme.px(5)));
     {
         const Ui::Scope scope(ui, name);
         content();
     }
+    ImGui::PopStyleVar();
     ImGui::EndChild();
-    ImGui::PopStyleVar(2);
 }
 
 unsigned editor_threads(const Options& options) {
@@ -279,13 +282,19 @@ void Editor::layout(Ui& ui) {
     splitter(ui, "split_left", SplitAxis::x, height, settings_.left, 120, 600);
     ImGui::SameLine(0, 0);
     const float middle = std::max(least, size.x - left - right - 2 * bar);
-    panel(ui, "middle", ImVec2(middle, height), theme.colors.background, ImVec2(0, 0), [&] {
+    constexpr ImGuiWindowFlags still = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    const auto middle_content = [&] {
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
         const float bottom = timeline_height(ui);
-        panel(ui, "view", ImVec2(middle, std::max(least, height - bottom)), theme.colors.background, ImVec2(0, 0),
-              [&] { view(ui); });
-        panel(ui, "timeline", ImVec2(middle, bottom), theme.colors.panel, ImVec2(theme.px(8), theme.px(6)),
-              [&] { show_timeline(ui, *session_); });
-    });
+        panel(
+            ui, "view", ImVec2(middle, std::max(least, height - bottom)), theme.colors.background, ImVec2(0, 0),
+            [&] { view(ui); }, still);
+        panel(
+            ui, "timeline", ImVec2(middle, bottom), theme.colors.panel, ImVec2(theme.px(8), theme.px(6)),
+            [&] { show_timeline(ui, *session_); }, still);
+        ImGui::PopStyleVar();
+    };
+    panel(ui, "middle", ImVec2(middle, height), theme.colors.background, ImVec2(0, 0), middle_content, still);
     ImGui::SameLine(0, 0);
     splitter(ui, "split_right", SplitAxis::x, height, settings_.right, 200, 800, true);
     ImGui::SameLine(0, 0);

@@ -73,6 +73,7 @@ class Editor {
     void toolbar(Ui& ui);
     void menus(Ui& ui);
     void menu(Ui& ui, const char* name, const char* label, std::initializer_list<const char*> commands);
+    void menu_entries(Ui& ui, const char* name, std::initializer_list<const char*> commands);
     void tool_row(Ui& ui);
     void view(Ui& ui);
     void view_overlay(Ui& ui);

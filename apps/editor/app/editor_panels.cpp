@@ -67,50 +67,53 @@ void Editor::menu(Ui& ui, const char* name, const char* label, std::initializer_
     const Theme& theme = ui.theme();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(6), theme.px(6)));
     if (ImGui::BeginPopup(name)) {
-        const Ui::Scope scope(ui, name);
-        const float width = theme.px(300);
-        for (const char* one : names) {
-            if (!*one) {
-                ImGui::Separator();
-                continue;
-            }
-            const Command& known = *command(one);
-            const std::string keys = shortcut_text(known);
-            const bool enabled = !known.enabled || known.enabled();
-            const ImVec2 corner = ImGui::GetCursorScreenPos();
-            const bool pressed = button(ui, known.name,
-                                        {.icon = known.icon,
-                                         .text = known.label,
-                                         .what = known.what,
-                                         .flat = true,
-                                         .left = true,
-                                         .enabled = enabled,
-                                         .width = width});
-            const float wide = ImGui::CalcTextSize(keys.c_str()).x;
-            ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x + width - wide - theme.px(8), corner.y + theme.px(5)),
-                                                theme.color(theme.colors.muted), keys.c_str());
-            if (!pressed) continue;
-            ImGui::CloseCurrentPopup();
-            run_command(known);
-        }
-        if (std::string_view(name) == "overlays") {
-            for (const Overlay& overlay : weft::overlays()) {
-                const bool on = std::ranges::find(overlays_, &overlay) != overlays_.end();
-                if (button(ui, overlay.name,
-                           {.icon = on ? Icon::check : Icon::overlay,
-                            .text = overlay.name,
-                            .what = overlay.what,
-                            .chosen = on,
-                            .flat = true,
-                            .left = true,
-                            .width = width}))
-                    toggle_overlay(&overlay);
-            }
-        }
+        menu_entries(ui, name, names);
         ImGui::EndPopup();
     }
     ImGui::PopStyleVar();
     ImGui::SameLine();
+}
+
+void Editor::menu_entries(Ui& ui, const char* name, std::initializer_list<const char*> names) {
+    const Theme& theme = ui.theme();
+    const Ui::Scope scope(ui, name);
+    const float width = theme.px(300);
+    for (const char* one : names) {
+        if (!*one) {
+            ImGui::Separator();
+            continue;
+        }
+        const Command& known = *command(one);
+        const std::string keys = shortcut_text(known);
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const bool pressed = button(ui, known.name,
+                                    {.icon = known.icon,
+                                     .text = known.label,
+                                     .what = known.what,
+                                     .flat = true,
+                                     .left = true,
+                                     .enabled = !known.enabled || known.enabled(),
+                                     .width = width});
+        const float wide = ImGui::CalcTextSize(keys.c_str()).x;
+        ImGui::GetWindowDrawList()->AddText(ImVec2(corner.x + width - wide - theme.px(8), corner.y + theme.px(5)),
+                                            theme.color(theme.colors.muted), keys.c_str());
+        if (!pressed) continue;
+        ImGui::CloseCurrentPopup();
+        run_command(known);
+    }
+    if (std::string_view(name) != "overlays") return;
+    for (const Overlay& overlay : weft::overlays()) {
+        const bool on = std::ranges::find(overlays_, &overlay) != overlays_.end();
+        if (button(ui, overlay.name,
+                   {.icon = on ? Icon::check : Icon::overlay,
+                    .text = overlay.name,
+                    .what = overlay.what,
+                    .chosen = on,
+                    .flat = true,
+                    .left = true,
+                    .width = width}))
+            toggle_overlay(&overlay);
+    }
 }
 
 void Editor::toolbar(Ui& ui) {

@@ -214,7 +214,9 @@ bool Properties::open(Ui& ui, const std::string& place, const std::string& label
 void Properties::show(Ui& ui, Session& session) {
     const std::string place = session.selected();
     if (place.empty()) {
+        ImGui::PushTextWrapPos();
         muted_text(ui, "Nothing is selected. Click an object in the view or in the list.");
+        ImGui::PopTextWrapPos();
         return;
     }
     const Ui::Scope scope(ui, place.substr(1));

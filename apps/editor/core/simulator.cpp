@@ -14,10 +14,10 @@ double seconds_now() {
     return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-constexpr double most_lag = 0.05;        // s: a run that is later than this does not catch up
-constexpr double smoothing = 0.1;        // of the step time
+constexpr double most_lag = 0.05;          // s: a run that is later than this does not catch up
+constexpr double smoothing = 0.1;          // of the step time
 constexpr double measure_interval = 0.25;  // s
-constexpr double progress_window = 1.0;  // s
+constexpr double progress_window = 1.0;    // s
 
 /// Whether the second command makes the first one needless: only the last place of the pointer, and the last value of
 /// a slider, counts.
@@ -221,7 +221,7 @@ void Simulator::publish() {
     // Measuring takes as long as a substep.
     if (seconds_now() - measured_at_ > measure_interval) {
         const ClothMeasures measures = world.measure();
-        mean_stretch_ = measures.stretch.mean;
+        mean_stretch_ = measures.strain.stretch.mean;
         mean_residual_ = measures.residual.mean;
         measured_at_ = seconds_now();
     }
