@@ -15,7 +15,7 @@ from pathlib import Path
 LINK = re.compile(r'(\]\(|src=")([^)"#\s]*)(#[^)"\s]*)?([)"])')
 
 SECTIONS = [
-    ("Start", [("README.md", "Home"), ("docs/cookbook.md", "Cookbook"), ("docs/troubleshooting.md", "Troubleshooting")]),
+    ("Start", [("README.md", "Home"), ("docs/editor.md", "Editor"), ("docs/cookbook.md", "Cookbook"), ("docs/troubleshooting.md", "Troubleshooting")]),
     ("Reference", [("docs/scene.md", "Scene file"), ("docs/exports.md", "Exports"), ("docs/rendering.md", "Images and videos"),
                    ("docs/overlays.md", "Overlays"), ("docs/contact-forces.md", "Contact forces")]),
     ("Programs", [("docs/embedding.md", "Embedding"), ("docs/vulkan.md", "Vulkan backend"), ("reference.md", "Headers")]),

@@ -116,6 +116,26 @@ TEST(Layers, public_headers_stand_on_the_standard_library_alone) {
     }
 }
 
+// Folders of the editor, by what each may include besides src.
+TEST(Layers, no_include_of_the_editor_leads_to_a_higher_folder) {
+    const Layers folders = {
+        {"core", {}}, {"ui", {}}, {"tools", {}}, {"view", {}}, {"app", {"core", "ui", "tools", "view"}}};
+    const std::regex quoted("^\\s*#\\s*include\\s+\"editor/([^/]+)/"), cli("^\\s*#\\s*include\\s+\"cli/");
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(WEFT_SOURCE_DIR) / "apps" / "editor")) {
+        if (!entry.is_regular_file() || !is_source(entry.path())) continue;
+        const std::string folder =
+            fs::relative(entry.path(), fs::path(WEFT_SOURCE_DIR) / "apps" / "editor").begin()->string();
+        ASSERT_TRUE(folders.count(folder)) << entry.path();
+        std::ifstream in(entry.path());
+        for (std::string line; std::getline(in, line);) {
+            std::smatch match;
+            EXPECT_FALSE(std::regex_search(line, cli)) << entry.path() << ": " << line;
+            if (!std::regex_search(line, match, quoted)) continue;
+            EXPECT_TRUE(match[1] == folder || folders.at(folder).count(match[1])) << entry.path() << ": " << line;
+        }
+    }
+}
+
 // Negative control: a forbidden include is found.
 TEST(Layers, a_wrong_include_is_found) {
     const fs::path root = fs::temp_directory_path() / ("weft_layers_" + std::to_string(::getpid()));
