@@ -85,6 +85,11 @@ bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
     return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&
            a.collision_mask == b.collision_mask && a.layer == b.layer;
 }
+bool differs_in_pins_alone(const SceneCloth& a, const SceneCloth& b) {
+    SceneCloth same = without_meshes(a);
+    same.pins = b.pins;
+    return same == without_meshes(b);
+}
 bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
     return a.shape == b.shape && (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));
 }
@@ -557,6 +562,10 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         scene_.cloths[place].material = wanted.material;
         if (*there == wanted) continue;
         const ClothId id = world_->cloth_id(place);
+        if (there->pins != wanted.pins && differs_in_pins_alone(*there, wanted)) {
+            if (auto set = set_pins(id, wanted.pins); !set) return placed_at(at("/cloths", i), set.errors());
+            continue;
+        }
         Pinned pinned{sources_[place].pins, world_->kinematic_targets(id)};
         std::vector<std::uint32_t> particles = world_->pinned(id);
         if (there->pins == wanted.pins && collides_alike(*there, wanted)) {
