@@ -60,7 +60,8 @@ class Commands {
     void begin_pass(const RenderPass& pass, const Framebuffer& into, std::span<const VkClearValue> clear);
     void end_pass();
     void bind(const GraphicsPipeline& pipeline);
-    void bind(std::uint32_t set, const DescriptorSet& images);
+    /// `offsets`: one per uniform buffer of the set, in the order of their bindings, in bytes.
+    void bind(std::uint32_t set, const DescriptorSet& descriptors, std::span<const std::uint32_t> offsets = {});
     void draw(std::uint32_t vertices, std::uint32_t instances = 1);
     /// `indices`: 32 bits each.
     void draw_indexed(const BufferRange& indices, std::uint32_t count);

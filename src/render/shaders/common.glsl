@@ -4,7 +4,6 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shading/frame.data.h"
 #include "render/shading/tone.h"
-#define frame push.frame.data
 
 // Less work per pixel, for images that must be ready soon (RendererOptions::draft).
 layout(constant_id = 2) const bool draft = false;

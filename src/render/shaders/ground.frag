@@ -1,6 +1,5 @@
 #version 460
 #include "render/shaders/common.glsl"
-#define object push.object.data
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

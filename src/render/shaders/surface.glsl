@@ -7,8 +7,6 @@ layout(set = 1, binding = 0) uniform sampler2D color_map;
 layout(set = 1, binding = 1) uniform sampler2D relief_map;
 layout(set = 1, binding = 2) uniform sampler2D relief_squares;
 
-#define material object.material.data
-
 struct Place {
     vec3 position, normal;  // turned to the eye
     vec3 u, v;              // along warp and weft
@@ -20,6 +18,7 @@ struct Place {
 };
 
 vec4 albedos(float cosine) {
+    if (draft) return material.table[table_size / 2u];
     float at = clamp(cosine, 0.0, 1.0) * float(table_size) - 0.5;
     int below = int(clamp(floor(at), 0.0, float(table_size) - 2.0));
     return mix(material.table[below], material.table[below + 1], clamp(at - float(below), 0.0, 1.0));
