@@ -60,7 +60,8 @@ class Commands {
     void begin_pass(const RenderPass& pass, const Framebuffer& into, std::span<const VkClearValue> clear);
     void end_pass();
     void bind(const GraphicsPipeline& pipeline);
-    void bind(std::uint32_t set, const DescriptorSet& images);
+    /// `offsets`: one per uniform buffer of the set, in the order of their bindings, in bytes.
+    void bind(std::uint32_t set, const DescriptorSet& descriptors, std::span<const std::uint32_t> offsets = {});
     /// Later drawing of this pass changes only these pixels, which must lie within the framebuffer.
     void scissor(const VkRect2D& pixels);
     void draw(std::uint32_t vertices, std::uint32_t instances = 1);

@@ -45,10 +45,10 @@ void Commands::bind(const GraphicsPipeline& pipeline) {
     stages_ = GraphicsPipeline::stages;
 }
 
-void Commands::bind(std::uint32_t set, const DescriptorSet& images) {
-    const VkDescriptorSet handle = images.handle();
-    device_->vk().vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, set, 1, &handle, 0,
-                                          nullptr);
+void Commands::bind(std::uint32_t set, const DescriptorSet& descriptors, std::span<const std::uint32_t> offsets) {
+    const VkDescriptorSet handle = descriptors.handle();
+    device_->vk().vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, set, 1, &handle,
+                                          static_cast<std::uint32_t>(offsets.size()), offsets.data());
 }
 
 void Commands::scissor(const VkRect2D& pixels) {

@@ -186,17 +186,22 @@ void GraphicsPipeline::swap(GraphicsPipeline& other) {
 }
 
 Result<DescriptorSet> DescriptorSet::create(const Device& device, VkDescriptorSetLayout layout,
-                                            std::span<const BoundImage> images) {
+                                            std::span<const BoundImage> images,
+                                            std::span<const BoundUniform> uniforms) {
     DescriptorSet self;
     self.device_ = &device;
     const auto& vk = device.vk();
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                    std::max(1u, static_cast<std::uint32_t>(images.size()))};
+    std::vector<VkDescriptorPoolSize> sizes;
+    const auto add_size = [&](VkDescriptorType type, std::size_t count) {
+        if (count > 0) sizes.push_back({type, static_cast<std::uint32_t>(count)});
+    };
+    add_size(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, images.size());
+    add_size(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, uniforms.size());
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
-    pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
+    pool.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool.pPoolSizes = sizes.data();
     VkResult result = vk.vkCreateDescriptorPool(device.handle(), &pool, nullptr, &self.pool_);
     VkDescriptorSetAllocateInfo allocate{};
     allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
@@ -204,21 +209,29 @@ Result<DescriptorSet> DescriptorSet::create(const Device& device, VkDescriptorSe
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     if (result == VK_SUCCESS) result = vk.vkAllocateDescriptorSets(device.handle(), &allocate, &self.set_);
-    if (result != VK_SUCCESS) return device.error("to bind images", result);
+    if (result != VK_SUCCESS) return device.error("to bind images and buffers", result);
 
-    std::vector<VkDescriptorImageInfo> infos;
-    infos.reserve(images.size());
+    std::vector<VkDescriptorImageInfo> image_infos;
+    std::vector<VkDescriptorBufferInfo> buffer_infos;
+    image_infos.reserve(images.size());
+    buffer_infos.reserve(uniforms.size());
     std::vector<VkWriteDescriptorSet> writes;
-    for (const BoundImage& image : images) {
-        infos.push_back({image.sampler, image.view, image.layout});
-        VkWriteDescriptorSet write{};
+    const auto add_write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
+        VkWriteDescriptorSet& write = writes.emplace_back();
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = self.set_;
-        write.dstBinding = image.binding;
+        write.dstBinding = binding;
         write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        write.pImageInfo = &infos.back();
-        writes.push_back(write);
+        write.descriptorType = type;
+        return write;
+    };
+    for (const BoundImage& image : images) {
+        image_infos.push_back({image.sampler, image.view, image.layout});
+        add_write(image.binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER).pImageInfo = &image_infos.back();
+    }
+    for (const BoundUniform& uniform : uniforms) {
+        buffer_infos.push_back({uniform.buffer, 0, uniform.size});
+        add_write(uniform.binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC).pBufferInfo = &buffer_infos.back();
     }
     vk.vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
     return self;

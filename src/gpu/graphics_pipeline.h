@@ -67,11 +67,19 @@ struct BoundImage {
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 };
 
-/// Images for the shaders. The images must not be replaced while the set is in use.
+/// A uniform buffer, of which the shaders read `size` bytes from an offset that each draw command chooses.
+struct BoundUniform {
+    std::uint32_t binding = 0;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    std::uint64_t size = 0;
+};
+
+/// Images and uniform buffers for the shaders. They must not be replaced while the set is in use.
 class DescriptorSet {
   public:
     static Result<DescriptorSet> create(const Device& device, VkDescriptorSetLayout layout,
-                                        std::span<const BoundImage> images);
+                                        std::span<const BoundImage> images,
+                                        std::span<const BoundUniform> uniforms = {});
     DescriptorSet() = default;
     DescriptorSet(DescriptorSet&& other) noexcept { swap(other); }
     DescriptorSet& operator=(DescriptorSet&& other) noexcept {

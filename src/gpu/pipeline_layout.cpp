@@ -22,8 +22,10 @@ Result<void> check_interface(const Device& device, const ShaderInterface& interf
     return {};
 }
 
-VkDescriptorType type_of(const ShaderBinding& binding) {
+// Drawing has one uniform buffer for a whole frame, and each draw command has its part of it.
+VkDescriptorType type_of(const ShaderBinding& binding, VkShaderStageFlags stages) {
     if (binding.image) return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    if (binding.uniform && (stages & VK_SHADER_STAGE_VERTEX_BIT)) return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
     return binding.uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
@@ -42,7 +44,7 @@ Result<PipelineLayout> PipelineLayout::create(const Device& device, const Shader
             if (one.set != set) continue;
             VkDescriptorSetLayoutBinding binding{};
             binding.binding = one.binding;
-            binding.descriptorType = type_of(one);
+            binding.descriptorType = type_of(one, stages);
             binding.descriptorCount = 1;
             binding.stageFlags = stages;
             bindings.push_back(binding);

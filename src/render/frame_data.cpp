@@ -67,7 +67,7 @@ FrameData frame_data(const Drawing& drawing, const Surroundings& around, const F
     return data;
 }
 
-ObjectData object_data(const Object& object, std::uint64_t material) {
+ObjectData object_data(const Object& object) {
     ObjectData data{};
     data.positions = object.surface.positions.address;
     data.normals = object.surface.normals.address;
@@ -75,7 +75,6 @@ ObjectData object_data(const Object& object, std::uint64_t material) {
     data.uvs = object.surface.uvs.address;
     data.rest = object.rest.address;
     data.scalars = object.scalars.values.address;
-    data.material = material;
     if (data.uvs != 0) data.flags |= object_has_uvs;
     if (data.tangents != 0) data.flags |= object_has_tangents;
     if (data.rest != 0) data.flags |= object_has_rest;
@@ -87,9 +86,8 @@ ObjectData object_data(const Object& object, std::uint64_t material) {
     return data;
 }
 
-ObjectData ground_data(const Ground& ground, const Camera& camera, std::uint64_t material) {
+ObjectData ground_data(const Ground& ground, const Camera& camera) {
     ObjectData data{};
-    data.material = material;
     data.flags = object_has_uvs | object_has_tangents | object_has_rest;
     const vec3 normal = normalize(as_glm(ground.normal)), target = as_glm(camera.target);
     const vec3 along = normalize(cross(std::abs(normal.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), normal));

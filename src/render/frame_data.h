@@ -15,9 +15,9 @@ struct FrameShape {
 };
 
 shading::FrameData frame_data(const Drawing& drawing, const Surroundings& around, const FrameShape& shape);
-shading::ObjectData object_data(const Object& object, std::uint64_t material);
+shading::ObjectData object_data(const Object& object);
 /// A square of the ground plane around the camera's target.
-shading::ObjectData ground_data(const Ground& ground, const Camera& camera, std::uint64_t material);
+shading::ObjectData ground_data(const Ground& ground, const Camera& camera);
 
 /// Evenly distributed offsets in a pixel, each in -0.5…0.5.
 glm::vec2 jitter_of(std::uint32_t number, std::uint32_t count);

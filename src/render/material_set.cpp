@@ -85,8 +85,7 @@ Result<const MaterialSet::Tile*> MaterialSet::tile_of(Weave weave) {
 
 void MaterialSet::write(const Material& material, const Tile& tile, Entry& entry) {
     const bool mapped = static_cast<bool>(entry.own.first), colored = static_cast<bool>(entry.color);
-    const auto data = data_of(material, tile.threads, mapped ? 1.0f : tile.warp, mapped, colored);
-    std::memcpy(entry.data.mapped().data(), &data, sizeof data);
+    entry.data = data_of(material, tile.threads, mapped ? 1.0f : tile.warp, mapped, colored);
     entry.sheer = material.coverage < 1;
 }
 
@@ -113,9 +112,6 @@ Result<std::uint32_t> MaterialSet::add(const Material& material, const MaterialM
         if (!own) return own.errors();
         entry.own = std::move(*own);
     }
-    auto buffer = device_.memory().buffer(sizeof(shading::MaterialData), gpu::MemoryKind::upload, "material");
-    if (!buffer) return buffer.errors();
-    entry.data = std::move(*buffer);
     write(material, **tile, entry);
 
     const ReliefImages& relief = maps.normal ? entry.own : (*tile)->images;

@@ -30,7 +30,7 @@ class MaterialSet {
     Result<void> change(std::uint32_t id, const Material& material);
     /// Frees the material. add() reuses its number.
     void remove(std::uint32_t id);
-    std::uint64_t address(std::uint32_t id) const { return entries_[id].data.address(); }
+    const shading::MaterialData& data(std::uint32_t id) const { return entries_[id].data; }
     const gpu::DescriptorSet& images(std::uint32_t id) const { return entries_[id].images; }
     bool sheer(std::uint32_t id) const { return entries_[id].sheer; }
     std::size_t size() const { return entries_.size(); }
@@ -40,7 +40,7 @@ class MaterialSet {
         gpu::Image first, second;
     };
     struct Entry {
-        gpu::Buffer data;
+        shading::MaterialData data{};
         gpu::Image color;
         ReliefImages own;  // from the normal map
         gpu::DescriptorSet images;

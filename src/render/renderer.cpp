@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -23,9 +24,10 @@ constexpr VkClearValue clear_nothing{};
 
 // Same layout as in shaders (frame.data.h).
 struct Push {
-    std::uint64_t frame = 0, object = 0;
+    std::uint64_t items = 0, unused = 0;
     glm::vec4 numbers{0};
 };
+constexpr std::uint32_t uniform_set = 2;
 struct BoundsPush {
     std::uint64_t object = 0, bounds = 0;
     std::uint32_t count = 0, unused = 0;
@@ -54,10 +56,15 @@ Result<void> take(Result<Value> made, Value& into) {
     return {};
 }
 
-/// Device addresses of a drawing's data.
+/// Offsets of what a draw command reads.
+struct Uniforms {
+    std::uint32_t object = 0, material = 0;
+};
+
+/// Where a drawing's data is: offsets of uniform data, device addresses of the rest.
 struct Placed {
-    std::vector<std::uint64_t> frames;  // one per pass, and one for lines and points on top
-    std::vector<std::uint64_t> objects, grounds;
+    std::vector<std::uint32_t> frames;  // one per pass, and one for lines and points on top
+    std::vector<Uniforms> objects, grounds;
     std::uint64_t lines = 0, lines_on_top = 0, points = 0, flat = 0;
 };
 
@@ -74,10 +81,13 @@ std::vector<shading::LineData> line_data(std::span<const Line> lines) {
 
 std::uint64_t room_for(const Drawing& drawing, std::uint32_t passes) {
     using shading::FlatData, shading::FrameData, shading::LineData, shading::ObjectData, shading::PointData;
-    return (passes + std::uint64_t{1}) * FrameSlot::room_for(sizeof(FrameData)) +
-           (drawing.objects.size() + drawing.grounds.size()) * FrameSlot::room_for(sizeof(ObjectData)) +
+    // Each object may have a material of its own, and offset 0 must have room for any of them.
+    const std::uint64_t of_object =
+        FrameSlot::room_for_uniform<ObjectData>() + FrameSlot::room_for_uniform<shading::MaterialData>();
+    return (passes + std::uint64_t{1}) * FrameSlot::room_for_uniform<FrameData>() +
+           (drawing.objects.size() + drawing.grounds.size() + 1) * of_object +
            (drawing.lines.size() + drawing.lines_on_top.size()) * sizeof(LineData) +
-           drawing.points.size() * sizeof(PointData) + drawing.flat.size() * sizeof(FlatData) + 64;
+           drawing.points.size() * sizeof(PointData) + drawing.flat.size() * sizeof(FlatData) + 128;
 }
 
 /// The last pass and its pipeline, by format and layout of the target.
@@ -129,7 +139,9 @@ struct Renderer::Impl {
     Result<const Presenting*> presenting_for(const Target& target, bool straight);
 
     Placed place(FrameSlot& slot, const Drawing& drawing);
-    void push(gpu::Commands& commands, std::uint64_t frame, std::uint64_t object, glm::vec4 numbers = glm::vec4(0));
+    void push(gpu::Commands& commands, std::uint32_t frame, Uniforms of = {});
+    void push(gpu::Commands& commands, std::uint32_t frame, std::uint64_t items, glm::vec4 numbers);
+    Result<void> bind_uniforms(FrameSlot& slot);
     void record_sun(gpu::Commands& commands, const Drawing& drawing, const Placed& placed);
     void record_shadow(gpu::Commands& commands, const Drawing& drawing, const Placed& placed);
     void record_occlusion(gpu::Commands& commands, const Drawing& drawing, const Placed& placed, std::size_t pass);
@@ -184,7 +196,9 @@ Result<void> Renderer::Impl::make_fixed() {
     if (auto made = take(std::move(frame), shadow_frame); !made) return made;
     gpu::Memory& memory = device->memory();
     if (auto made = take(memory.buffer(32, gpu::MemoryKind::device, "bounds"), bounds); !made) return made;
-    return take(memory.buffer(sizeof(shading::LightData), gpu::MemoryKind::device, "sun"), light);
+    return take(
+        memory.buffer(sizeof(shading::LightData), gpu::MemoryKind::device, "sun", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT),
+        light);
 }
 
 // --- Dependent on the image's size
@@ -257,14 +271,18 @@ Placed Renderer::Impl::place(FrameSlot& slot, const Drawing& drawing) {
     for (std::uint32_t pass = 0; pass <= repeats; ++pass) {
         shape.number = pass;
         shape.jitter = pass < repeats ? jitter_of(pass, repeats) : glm::vec2(0);
-        shading::FrameData data = frame_data(drawing, surroundings, shape);
-        data.shadow = light.address();
-        placed.frames.push_back(slot.put(data));
+        placed.frames.push_back(slot.put_uniform(frame_data(drawing, surroundings, shape)));
     }
+    std::map<MaterialId, std::uint32_t> placed_materials;
+    const auto material = [&](MaterialId id) {
+        const auto [entry, is_new] = placed_materials.try_emplace(id);
+        if (is_new) entry->second = slot.put_uniform(materials.data(id));
+        return entry->second;
+    };
     for (const Object& object : drawing.objects)
-        placed.objects.push_back(slot.put(object_data(object, materials.address(object.material))));
+        placed.objects.push_back({slot.put_uniform(object_data(object)), material(object.material)});
     for (const Ground& ground : drawing.grounds)
-        placed.grounds.push_back(slot.put(ground_data(ground, drawing.camera, materials.address(ground.material))));
+        placed.grounds.push_back({slot.put_uniform(ground_data(ground, drawing.camera)), material(ground.material)});
     placed.lines = slot.put(std::span<const shading::LineData>(line_data(drawing.lines)));
     placed.lines_on_top = slot.put(std::span<const shading::LineData>(line_data(drawing.lines_on_top)));
     std::vector<shading::PointData> points;
@@ -280,8 +298,24 @@ Placed Renderer::Impl::place(FrameSlot& slot, const Drawing& drawing) {
     return placed;
 }
 
-void Renderer::Impl::push(gpu::Commands& commands, std::uint64_t frame, std::uint64_t object, glm::vec4 numbers) {
-    const Push values{frame, object, numbers};
+Result<void> Renderer::Impl::bind_uniforms(FrameSlot& slot) {
+    const VkBuffer buffer = slot.buffer().handle();
+    const gpu::BoundUniform uniforms[] = {{0, buffer, sizeof(shading::FrameData)},
+                                          {1, buffer, sizeof(shading::ObjectData)},
+                                          {2, buffer, sizeof(shading::MaterialData)},
+                                          {3, light.handle(), sizeof(shading::LightData)}};
+    return take(gpu::DescriptorSet::create(*device, pipelines.lit[0].set_layout(uniform_set), {}, uniforms),
+                slot.uniforms);
+}
+
+void Renderer::Impl::push(gpu::Commands& commands, std::uint32_t frame, Uniforms of) {
+    const std::uint32_t offsets[] = {frame, of.object, of.material, 0};
+    commands.bind(uniform_set, slots[next_slot].uniforms, offsets);
+}
+
+void Renderer::Impl::push(gpu::Commands& commands, std::uint32_t frame, std::uint64_t items, glm::vec4 numbers) {
+    push(commands, frame);
+    const Push values{items, 0, numbers};
     commands.push(std::as_bytes(std::span(&values, 1)));
 }
 
@@ -291,6 +325,7 @@ void Renderer::Impl::draw_surface(gpu::Commands& commands, const Object& object)
 
 // The bounds of all shadow casters are computed on the device, because the host may not have the positions.
 void Renderer::Impl::record_sun(gpu::Commands& commands, const Drawing& drawing, const Placed& placed) {
+    const std::uint64_t uniforms = slots[next_slot].buffer().address();
     commands.drawing_barrier();
     commands.fill(bounds, 0xffffffffu, 12, 0);
     commands.fill(bounds, 0, 12, 12);
@@ -299,13 +334,14 @@ void Renderer::Impl::record_sun(gpu::Commands& commands, const Drawing& drawing,
     for (std::size_t i = 0; i < drawing.objects.size(); ++i) {
         const Object& object = drawing.objects[i];
         if (!object.casts_shadow || object.surface.vertex_count == 0) continue;
-        const BoundsPush values{placed.objects[i], bounds.address(), object.surface.vertex_count};
+        const BoundsPush values{uniforms + placed.objects[i].object, bounds.address(), object.surface.vertex_count};
         commands.push(std::as_bytes(std::span(&values, 1)).first(20));
         commands.dispatch(std::min(64u, (object.surface.vertex_count + 63) / 64));
     }
     commands.barrier();
     commands.bind(*pipelines.sun);
-    const SunPush values{placed.frames[0], bounds.address(), light.address(), static_cast<float>(shadow_side)};
+    const SunPush values{uniforms + placed.frames[0], bounds.address(), light.address(),
+                         static_cast<float>(shadow_side)};
     commands.push(std::as_bytes(std::span(&values, 1)).first(28));
     commands.dispatch(1);
     commands.drawing_barrier();
@@ -335,7 +371,7 @@ void Renderer::Impl::record_occlusion(gpu::Commands& commands, const Drawing& dr
             draw_surface(commands, drawing.objects[i]);
         }
         commands.bind(pipelines.ground_depth);
-        for (const std::uint64_t ground : placed.grounds) {
+        for (const Uniforms& ground : placed.grounds) {
             push(commands, placed.frames[pass], ground);
             commands.draw(6);
         }
@@ -347,7 +383,7 @@ void Renderer::Impl::record_occlusion(gpu::Commands& commands, const Drawing& dr
         if (wanted) {
             commands.bind(pipeline);
             commands.bind(0, images);
-            push(commands, placed.frames[pass], 0);
+            push(commands, placed.frames[pass]);
             commands.draw(3);
         }
         commands.end_pass();
@@ -358,13 +394,13 @@ void Renderer::Impl::record_occlusion(gpu::Commands& commands, const Drawing& dr
 
 void Renderer::Impl::record_lit(gpu::Commands& commands, const Drawing& drawing, const Placed& placed,
                                 std::size_t pass) {
-    const std::uint64_t frame = placed.frames[pass];
+    const std::uint32_t frame = placed.frames[pass];
     const VkClearValue clear[] = {clear_nothing, clear_depth};
     commands.begin_pass(passes.lit, targets.lit_frame, clear);
     if (drawing.background == Background::sky) {
         commands.bind(pipelines.background);
         commands.bind(0, background_set);
-        push(commands, frame, 0);
+        push(commands, frame);
         commands.draw(3);
     }
     const auto surfaces = [&](const gpu::GraphicsPipeline& pipeline) {
@@ -445,7 +481,7 @@ void Renderer::Impl::record_top(gpu::Commands& commands, const Drawing& drawing,
     const auto add = [&](const gpu::GraphicsPipeline& pipeline, std::uint64_t data, std::size_t vertices) {
         if (vertices == 0) return;
         commands.bind(pipeline);
-        push(commands, placed.frames.back(), data);
+        push(commands, placed.frames.back(), data, glm::vec4(0));
         commands.draw(static_cast<std::uint32_t>(vertices));
     };
     add(pipelines.line_on_top, placed.lines_on_top, 6 * drawing.lines_on_top.size());
@@ -476,7 +512,7 @@ Result<void> Renderer::Impl::record_target(gpu::Commands& commands, FrameSlot& s
     commands.begin_pass(onto.pass, slot.target, {&clear_nothing, 1});
     commands.bind(onto.pipeline);
     commands.bind(0, display_set);
-    push(commands, placed.frames.back(), 0);
+    push(commands, placed.frames.back());
     commands.draw(3);
     commands.end_pass();
     return {};
@@ -495,7 +531,11 @@ Result<std::uint64_t> Renderer::Impl::draw(const Drawing& drawing, const Target&
     if (slot.submitted > 0) {
         if (auto done = device->wait(slot.submitted); !done) return done.errors();
     }
-    if (auto begun = slot.begin(*device, room_for(drawing, repeats)); !begun) return begun.errors();
+    const auto begun = slot.begin(*device, room_for(drawing, repeats));
+    if (!begun) return begun.errors();
+    if (*begun) {
+        if (auto bound = bind_uniforms(slot); !bound) return bound.errors();
+    }
     gpu::Commands& commands = *slot.commands;
     const Placed placed = place(slot, drawing);
     record(commands, drawing, placed, sheer);

@@ -18,7 +18,7 @@ struct RendererOptions {
     /// repeatedly.
     std::uint32_t samples = 4;
     /// Less work per pixel, for images that must be ready soon: hard shadows from a smaller map, no ambient occlusion,
-    /// no threads, reflections without detail.
+    /// no threads, reflections without detail, no transparent background.
     bool draft = false;
 };
 

@@ -13,6 +13,7 @@
 #include "weft/backends.h"
 #include "weft/drawing_device.h"
 
+#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <thread>
@@ -355,6 +356,32 @@ TEST_F(ChangingSceneTest, shows_objects) {
     expect_shown("another world");
     world = World(std::move(*make_cpu_backend()), {});
     expect_shown("nothing");
+}
+
+// A draft has the colors of the image: it leaves out details only.
+TEST_F(ChangingSceneTest, has_drafts_that_look_alike) {
+    const auto mean_difference = [&](const std::vector<std::string>& overlays) {
+        std::vector<std::uint8_t> images[2];
+        for (const bool draft : {false, true}) {
+            auto made = SceneView::create(
+                device, scene, world, {.width = 120, .height = 90, .samples = 4, .draft = draft, .overlays = overlays});
+            EXPECT_TRUE(made.ok()) << made.error().message();
+            images[draft] = picture(*made, scene, LiveWorldFrame(world));
+        }
+        EXPECT_NE(images[0], images[1]);
+        double sum = 0;
+        for (std::size_t i = 0; i < images[0].size(); ++i) sum += std::abs(images[0][i] - images[1][i]);
+        return sum / static_cast<double>(images[0].size());
+    };
+    world.add(make_collider({.name = "ground", .shape = PlaneDesc{{0, 1, 0}, -0.3f}}));
+    EXPECT_LT(mean_difference({}), 4);
+    EXPECT_LT(mean_difference({"strain", "wireframe", "pins"}), 4);
+    for (const char* name : {"velvet", "chiffon", "denim"}) {
+        SceneMaterial material;
+        material.values = find_material(name)->material;
+        scene.cloths[0].material = material;
+        EXPECT_LT(mean_difference({}), 5) << name;
+    }
 }
 
 }  // namespace

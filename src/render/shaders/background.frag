@@ -9,9 +9,8 @@ void main() {
     vec4 far = frame.from_clip * vec4(place * 2.0 - 1.0, 1.0, 1.0);
     vec3 direction = normalize(far.xyz / far.w - frame.eye.xyz);
     if (draft) {
-        // Software drivers run both sides of a branch, but no loop without a round.
         vec3 seen = sky_at(direction);
-        for (int i = 0; i < int(whole(frame.background).y); ++i)
+        for (int i = 0; i < rounds(whole(frame.background).y > 0.5); ++i)
             seen = textureLod(background_map, environment_place(picture_direction(direction)), 0.0).rgb * whole(frame.environment).x;
         color = written(seen * whole(frame.light).x, 1.0);
         return;

@@ -4,10 +4,13 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "render/shading/frame.data.h"
 #include "render/shading/tone.h"
-#define frame push.frame.data
 
 // Less work per pixel, for images that must be ready soon (RendererOptions::draft).
 layout(constant_id = 2) const bool draft = false;
+
+// Software drivers run both sides of a branch, but no loop without a round. So `for (int i = 0; i < rounds(b); ++i)` is a
+// branch that costs nothing where it is not taken, if all pixels agree.
+int rounds(bool taken) { return taken ? 1 : 0; }
 
 // The color that is written for light. Drafts have no later pass that maps tones.
 vec4 written(vec3 light, float alpha) { return vec4(draft ? tone_map(light) : light, alpha); }

@@ -2,7 +2,6 @@
 // A square of the ground plane around the camera's target, up to where the ground has faded. The object's transform
 // holds two directions along the plane, its normal, and a point of it.
 #include "render/shaders/common.glsl"
-#define object push.object.data
 
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;

@@ -7,7 +7,7 @@ layout(location = 1) noperspective out float across;  // pixels from the middle
 layout(location = 2) out float half_width;
 
 void main() {
-    LineRef lines = LineRef(push.object);
+    LineRef lines = LineRef(push.items);
     LineData line = lines.at[gl_VertexIndex / 6];
     const vec2 corners[6] = vec2[](vec2(0, -1), vec2(1, -1), vec2(1, 1), vec2(0, -1), vec2(1, 1), vec2(0, 1));
     vec2 corner = corners[gl_VertexIndex % 6];

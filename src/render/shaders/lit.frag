@@ -1,6 +1,5 @@
 #version 460
 #include "render/shaders/common.glsl"
-#define object push.object.data
 #include "render/shading/color_scale.h"
 
 layout(location = 0) in vec3 position;

@@ -1,5 +1,4 @@
 // Reads vertices from buffers by index.
-#define object push.object.data
 
 vec3 to_world(vec3 p) {
     return object.transform[0].xyz * p.x + object.transform[1].xyz * p.y + object.transform[2].xyz * p.z +

@@ -6,7 +6,7 @@ layout(location = 1) noperspective out vec2 place;  // pixels from the middle
 layout(location = 2) out float radius;
 
 void main() {
-    PointRef points = PointRef(push.object);
+    PointRef points = PointRef(push.items);
     PointData one = points.at[gl_VertexIndex / 6];
     const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
     radius = 0.5 * one.position.w;

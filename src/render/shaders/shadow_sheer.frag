@@ -1,9 +1,8 @@
 #version 460
 // Shadow of sheer cloth: keeps a random share of the texels that equals the coverage of its threads.
 #include "render/shaders/common.glsl"
-#define object push.object.data
 
 void main() {
-    float covered = whole(object.material.data.velvet).z;
+    float covered = whole(material.velvet).z;
     if (pixel_noise(gl_FragCoord.xy, whole(frame.light).w) >= covered) discard;
 }

@@ -12,14 +12,14 @@ vec2 disc(int i, int count, float turn) {
 }
 
 float sun_reaching(vec3 position, vec3 normal, vec2 pixel) {
-    vec4 scale = frame.shadow.data.scale;
+    vec4 scale = shadow.scale;
     vec3 sun = frame.sun.xyz;
     float facing = dot(normal, sun);
     // Normal offset against self-shadowing. It is larger at grazing light, where one texel covers a range of depths.
     vec3 side = facing < 0.0 ? -normal : normal;
     float grazing = sqrt(max(0.0, 1.0 - facing * facing));
     vec3 lifted = position + side * (scale.x * (0.7 + 1.3 * grazing));
-    vec3 p = (frame.shadow.data.to_shadow * vec4(lifted, 1.0)).xyz;
+    vec3 p = (shadow.to_shadow * vec4(lifted, 1.0)).xyz;
     bool outside = any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0)));
     float beyond = max(0.0, p.z - 1.0) * scale.y;  // m: distance behind the range of the shadow map
     p = clamp(p, vec3(0.0), vec3(1.0));

@@ -2,7 +2,6 @@
 // Order-independent transparency for sheer cloth: weighted sums of color, and optical depth (McGuire and Bavoil 2013).
 // Optical depth is a sum of logarithms instead of a product, so that both images use the same blending.
 #include "render/shaders/common.glsl"
-#define object push.object.data
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

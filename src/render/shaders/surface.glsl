@@ -7,8 +7,6 @@ layout(set = 1, binding = 0) uniform sampler2D color_map;
 layout(set = 1, binding = 1) uniform sampler2D relief_map;
 layout(set = 1, binding = 2) uniform sampler2D relief_squares;
 
-#define material object.material.data
-
 struct Place {
     vec3 position, normal;  // turned to the eye
     vec3 u, v;              // along warp and weft
@@ -20,6 +18,7 @@ struct Place {
 };
 
 vec4 albedos(float cosine) {
+    if (draft) return material.table[table_size / 2u];
     float at = clamp(cosine, 0.0, 1.0) * float(table_size) - 0.5;
     int below = int(clamp(floor(at), 0.0, float(table_size) - 2.0));
     return mix(material.table[below], material.table[below + 1], clamp(at - float(below), 0.0, 1.0));
@@ -125,8 +124,13 @@ Place find_place(vec3 normal, vec4 tangent, vec2 uv, vec3 rest, bool front, vec2
 
     float warp = whole(material.velvet).w > 0.5 && !front ? 1.0 - first.w : first.w;
     vec3 color = mix(material.weft_color.rgb, material.color.rgb, warp);
-    if (whole(material.map).z > 0.5) {
-        vec2 to_map = vec2(1.0, -1.0) * material.map.xy;  // v points up, rows of an image down
+    vec2 to_map = vec2(1.0, -1.0) * material.map.xy;  // v points up, rows of an image down
+    if (draft) {
+        for (int i = 0; i < rounds(whole(material.map).z > 0.5); ++i) {
+            vec2 side = to_map * vec2(textureSize(color_map, 0)), x = d.uv_x * side, y = d.uv_y * side;
+            color *= textureLod(color_map, uv * to_map, 0.5 * log2(max(dot(x, x), dot(y, y)) + 1e-12)).rgb;
+        }
+    } else if (whole(material.map).z > 0.5) {
         color *= textureGrad(color_map, uv * to_map, d.uv_x * to_map, d.uv_y * to_map).rgb;
     }
     vec2 lost = max(squares.xy - slope * slope, vec2(0.0));  // variance lost by filtering, adds roughness (LEAN)
@@ -159,7 +163,18 @@ vec3 sunlight(Place place, vec4 to_viewer) {
         Fiber fiber = place.fiber;
         vec3 l = vec3(dot(sun, place.u), dot(sun, place.v), nl);
         vec3 v = vec3(dot(place.to_eye, place.u), dot(place.to_eye, place.v), dot(place.to_eye, place.normal));
-        Lobes lobes = layered(fiber, lobes_before_layering(fiber, l, v), to_viewer.xy, albedos(nl).xy);
+        Lobes lobes;
+        if (draft) {
+            Fiber plain = fiber;
+            plain.sheen_color = vec3(0.0);
+            plain.velvet = 0.0;
+            lobes = layered(plain, lobes_before_layering(plain, l, v), to_viewer.xy, albedos(nl).xy);
+            bool fuzzy = whole(material.velvet).x > 0.0 || any(greaterThan(material.sheen.rgb, vec3(0.0)));
+            for (int i = 0; i < rounds(fuzzy); ++i)
+                lobes = layered(fiber, lobes_before_layering(fiber, l, v), to_viewer.xy, albedos(nl).xy);
+        } else {
+            lobes = layered(fiber, lobes_before_layering(fiber, l, v), to_viewer.xy, albedos(nl).xy);
+        }
         // Threads shadow the gaps between them: deep places get less light.
         vec3 back = lobes.matte * fiber.color * (1.0 - through) * place.cavity + lobes.sheen + vec3(lobes.gloss * place.cavity);
         vec3 sent = nl > 0.0 ? back * nl : fiber.color * (through * -nl / pi);

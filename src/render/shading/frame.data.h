@@ -1,4 +1,4 @@
-// Data of a frame in buffers, with the same layout (std430) in C++ and GLSL.
+// Data of a frame in buffers, with the same layout (std140 and std430) in C++ and GLSL.
 #ifndef WEFT_SHADING_FRAME_H
 #define WEFT_SHADING_FRAME_H
 
@@ -11,7 +11,6 @@ using Vec4s = std::uint64_t;
 using Vec2s = std::uint64_t;
 using Floats = std::uint64_t;
 using LightRef = std::uint64_t;
-using MaterialRef = std::uint64_t;
 using FrameRef = std::uint64_t;
 using ObjectRef = std::uint64_t;
 using LineRef = std::uint64_t;
@@ -42,7 +41,6 @@ struct MaterialData {
 
 #ifndef __cplusplus
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer LightRef { LightData data; };
-layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer MaterialRef { MaterialData data; };
 #endif
 
 struct FrameData {
@@ -59,8 +57,6 @@ struct FrameData {
     vec4 environment;  ///< intensity, cosine and sine of the rotation, highest level
     vec4 background;   ///< 1: transparent; 1: environment image; fading of grounds: begin and end, m from the target
     vec4 sky[3];       ///< background colors: zenith, horizon, ground
-    LightRef shadow;
-    Vec4s unused;
 };
 
 const uint object_has_uvs = 1u, object_has_tangents = 2u, object_has_rest = 4u, object_has_scalars = 8u,
@@ -70,8 +66,8 @@ struct ObjectData {
     Vec4s positions, normals, tangents;
     Vec2s uvs;
     Floats rest, scalars;
-    MaterialRef material;
     uint flags, scale_kind;
+    Vec4s unused;  // vectors begin at multiples of 16 bytes
     vec4 transform[4];  ///< columns
     vec4 scale;         ///< m per unit of u and of v; minimum of the scalars, 1 over their range
 };
@@ -93,7 +89,7 @@ struct FlatData {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(FrameData) == 4 * 16 * 3 + 16 * (4 + 9 + 4 + 3) + 16);
+static_assert(sizeof(FrameData) == 4 * 16 * 3 + 16 * (4 + 9 + 4 + 3));
 static_assert(sizeof(ObjectData) == 64 + 64 + 16);
 static_assert(sizeof(MaterialData) == 16 * (7 + table_size));
 }  // namespace weft::shading
@@ -106,10 +102,14 @@ layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer Fl
 
 #ifndef WEFT_OWN_PUSH
 layout(push_constant, std430) uniform Push {
-    FrameRef frame;
-    ObjectRef object;  ///< or the address of lines, points or flat vertices
+    Vec4s items;  ///< address of lines, points or flat vertices
     vec4 numbers;
 } push;
+// Uniform buffers, because software drivers read other buffers once for each pixel, which took most of the time.
+layout(set = 2, binding = 0, std140) uniform FrameBlock { FrameData frame; };
+layout(set = 2, binding = 1, std140) uniform ObjectBlock { ObjectData object; };
+layout(set = 2, binding = 2, std140) uniform MaterialBlock { MaterialData material; };
+layout(set = 2, binding = 3, std140) uniform LightBlock { LightData shadow; };  ///< placement of the shadow map
 #endif
 #endif
 
