@@ -141,6 +141,7 @@ struct SceneView::Impl {
     std::vector<render::Object> objects;
     std::vector<render::Ground> grounds;
     OverlayOutput shown;
+    std::vector<std::string> hidden;  // names
     FieldSurfaces fields;
 
     Impl(ViewOptions o, ViewSources from, render::Renderer r)
@@ -385,6 +386,7 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, const WorldFrame& wo
     objects.clear();
     grounds.clear();
     shown = {};
+    const auto is_hidden = [&](const std::string& name) { return std::ranges::find(hidden, name) != hidden.end(); };
     for (std::size_t i = 0; i < world.cloth_count(); ++i)
         if (auto added = add_cloth(scene, world, i, frame); !added) return added;
     if (!overlays.empty()) {
@@ -394,8 +396,12 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, const WorldFrame& wo
     for (std::size_t i = 0; i < world.colliders().size(); ++i) {
         const bool colored = next != shown.colliders.end() && next->collider == i;
         const ColliderScalars* scalars = colored ? &*next++ : nullptr;
+        if (is_hidden(world.colliders()[i].name)) continue;
         if (auto added = add_collider(scene, world, i, scalars); !added) return added;
     }
+    // Only now, because overlays count the cloths.
+    for (std::size_t i = world.cloth_count(); i-- > 0;)
+        if (is_hidden(world.model(i)->name)) objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(i));
     return {};
 }
 
@@ -461,6 +467,10 @@ Camera SceneView::camera(const SceneDesc& scene, const WorldFrame& world) const 
 
 const std::vector<std::string>& SceneView::notes() const {
     return impl_->notes;
+}
+
+void SceneView::set_hidden(std::vector<std::string> names) {
+    impl_->hidden = std::move(names);
 }
 
 void SceneView::set_overlays(std::vector<const Overlay*> overlays) {

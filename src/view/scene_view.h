@@ -81,6 +81,8 @@ class SceneView {
                                const render::Target& target, gpu::BinarySemaphores window = {}) {
         return draw(scene, LiveWorldFrame(world), camera, target, window);
     }
+    /// Cloths and colliders with these names are not drawn.
+    void set_hidden(std::vector<std::string> names);
     /// Replaces the overlays.
     void set_overlays(std::vector<const Overlay*> overlays);
     /// One line per problem that was worked around: maps that cannot be read.

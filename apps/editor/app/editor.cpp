@@ -331,7 +331,8 @@ void Editor::request_view() {
                         .camera = view_.camera,
                         .width = static_cast<std::uint32_t>(view_.size().x),
                         .height = static_cast<std::uint32_t>(view_.size().y),
-                        .overlays = overlays_};
+                        .overlays = overlays_,
+                        .hidden = {marks_.hidden.begin(), marks_.hidden.end()}};
     const std::string name = session_->selected_name();
     if (session_->selected().starts_with("/cloths/")) request.selected_cloths = {name};
     if (session_->selected().starts_with("/colliders/")) request.selected_colliders = {name};

@@ -73,6 +73,7 @@ class Views {
             view.emplace(std::move(*made));
         }
         view->set_overlays(request.overlays);
+        view->set_hidden(request.hidden);
         const auto part = [&](std::uint32_t pixels) { return std::max(1u, pixels * quality.percent / 100); };
         auto image =
             view->picture(*request.scene, *request.world, request.camera, part(request.width), part(request.height));

@@ -30,6 +30,7 @@ struct ViewRequest {
     std::uint32_t width = 0, height = 0;  ///< pixels; nothing is drawn while one is 0
     std::vector<const Overlay*> overlays = {};
     std::vector<std::string> selected_cloths = {}, selected_colliders = {};  ///< names; they get an outline
+    std::vector<std::string> hidden = {};  ///< names of cloths and colliders that are not drawn
     friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
 };
 

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace weft::editor {
@@ -145,6 +146,23 @@ TEST_F(ViewThreadTest, draws_each_change) {
     thread.request(next);
     std::this_thread::sleep_for(50ms);
     EXPECT_EQ(thread.image()->image.width, 120u) << "a window without pixels";
+}
+
+TEST_F(ViewThreadTest, leaves_out_what_is_hidden) {
+    ViewThread thread(options());
+    const auto image_without = [&](std::vector<std::string> hidden) {
+        ViewRequest request = base;
+        request.hidden = std::move(hidden);
+        const std::uint64_t number = thread.request(request);
+        const auto image = wait_for(thread, [&](const ViewImage& one) { return one.number == number && is_best(one); });
+        return image ? image->image.rgba : std::vector<std::uint8_t>();
+    };
+    const auto whole = image_without({});
+    std::set<std::vector<std::uint8_t>> images{whole};
+    for (const char* name : {"sheet", "ball", "ground"})
+        EXPECT_TRUE(images.insert(image_without({name})).second) << name;
+    EXPECT_EQ(image_without({}), whole);
+    EXPECT_EQ(image_without({"nobody"}), whole);
 }
 
 TEST_F(ViewThreadTest, draws_only_the_newest_request) {
