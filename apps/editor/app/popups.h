@@ -18,9 +18,12 @@ class Dialog {
             ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
         ImGui::SetNextWindowPos(ImVec2(0, 0));
         ImGui::SetNextWindowSize(window);
-        ImGui::SetNextWindowFocus();
+        const std::string shade = "shade " + std::string(name);
+        // Only at first: later it would take the keyboard from a field of the dialog.
+        const ImGuiWindow* known = ImGui::FindWindowByName(shade.c_str());
+        if (!known || !known->WasActive) ImGui::SetNextWindowFocus();
         ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0, 0, 0, 0.45f));
-        ImGui::Begin(("shade " + std::string(name)).c_str(), nullptr, fixed);
+        ImGui::Begin(shade.c_str(), nullptr, fixed);
         ImGui::PopStyleColor();
         const ImVec2 fitted(std::min(size.x, window.x - 8), std::min(size.y, window.y - 8));
         ImGui::SetCursorPos(ImVec2((window.x - fitted.x) / 2, (window.y - fitted.y) / 2));
