@@ -110,7 +110,7 @@ Json json_in(const Document& document, const std::filesystem::path& folder) {
     for (const Edit& edit : difference(document.original->json, json)) {
         Json value = Json::array({edit.value.value_or(Json())});
         shorten(value);
-        if (!apply(wanted, edit.value ? Edit{edit.place, value[0]} : edit)) return json;
+        if (!editor::apply(wanted, edit.value ? Edit{edit.place, value[0]} : edit)) return json;
     }
     return wanted;
 }

@@ -6,11 +6,11 @@
 namespace weft {
 namespace {
 
-using Json = nlohmann::json;
+using nlohmann::json;
 
 constexpr std::size_t max_compared_pairs = std::size_t{1} << 20;
 
-double likeness(const Json& a, const Json& b) {
+double likeness(const json& a, const json& b) {
     if (a == b) return 4;
     if (a.is_structured() != b.is_structured()) return 0.1;
     if (!a.is_object() || !b.is_object()) return 0.5;
@@ -24,7 +24,7 @@ double likeness(const Json& a, const Json& b) {
 }
 
 // The alignment with the greatest sum of likenesses.
-void match_parts(const Json& from, const Json& to, std::size_t begin, std::size_t from_end, std::size_t to_end,
+void match_parts(const json& from, const json& to, std::size_t begin, std::size_t from_end, std::size_t to_end,
                  std::vector<JsonMatch>& matches) {
     const std::size_t rows = from_end - begin, columns = to_end - begin;
     std::vector<double> best((rows + 1) * (columns + 1)), pair(rows * columns);
@@ -49,7 +49,7 @@ void match_parts(const Json& from, const Json& to, std::size_t begin, std::size_
 
 }  // namespace
 
-std::vector<JsonMatch> match_lists(const Json& from, const Json& to) {
+std::vector<JsonMatch> match_lists(const json& from, const json& to) {
     std::vector<JsonMatch> matches;
     const std::size_t shorter = std::min(from.size(), to.size());
     std::size_t begin = 0, same_at_end = 0;

@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-using Json = nlohmann::json;
+using nlohmann::json;
 
 constexpr std::size_t max_columns = 120;
 constexpr std::size_t tab_columns = 4;
@@ -57,8 +57,8 @@ std::string_view last_break(std::string_view blanks) {
 /// One member of the changed container.
 struct Item {
     const JsonPiece* piece = nullptr;  ///< null: new
-    const Json* from = nullptr;
-    const Json* to = nullptr;  ///< null: removed
+    const json* from = nullptr;
+    const json* to = nullptr;  ///< null: removed
     std::string key = {};      ///< of a new member, in JSON
 };
 
@@ -75,7 +75,7 @@ class TextChange {
 
     void append(std::string_view text) { out_ += text; }
     /// `value`: a part of the source.
-    void change(std::string_view value, const Json& from, const Json& to);
+    void change(std::string_view value, const json& from, const json& to);
     bool failed() const { return failed_; }
     std::string take() { return std::move(out_); }
 
@@ -95,14 +95,14 @@ class TextChange {
         std::optional<std::string> lead = {};  ///< of a removed member, for the next one
     };
 
-    void change_members(std::string_view value, const Json& from, const Json& to);
-    std::vector<Item> items_of(const JsonPieces& parts, const Json& from, const Json& to);
+    void change_members(std::string_view value, const json& from, const json& to);
+    std::vector<Item> items_of(const JsonPieces& parts, const json& from, const json& to);
     void write(const Container& container, char open, Layout layout);
     void write_item(const Container& container, const Item& item, bool last, Layout layout, Between& between);
     std::string lead_of_kept(const Container& container, const Item& item, Layout layout, const Between& between) const;
     std::string lead_of_new(const Container& container, const Item& item, Layout layout, const Between& between) const;
     void drop(const Container& container, std::size_t index, Between& between);
-    void put(const Json& value, bool one_line);
+    void put(const json& value, bool one_line);
 
     std::string_view line() const;  ///< the last line of what was written
     std::string_view rest_of_source_line(std::string_view value) const;
@@ -155,7 +155,7 @@ bool TextChange::too_long(std::size_t mark, std::string_view value) const {
     }
 }
 
-void TextChange::change(std::string_view value, const Json& from, const Json& to) {
+void TextChange::change(std::string_view value, const json& from, const json& to) {
     if (from == to)
         out_ += value;
     else if ((from.is_object() && to.is_object()) || (from.is_array() && to.is_array()))
@@ -164,7 +164,7 @@ void TextChange::change(std::string_view value, const Json& from, const Json& to
         put(to, value.find_first_of(break_characters) == value.npos && source_columns(value) > max_columns);
 }
 
-void TextChange::put(const Json& value, bool one_line) {
+void TextChange::put(const json& value, bool one_line) {
     const auto node = JsonNode::of(value);
     if (!node) {
         failed_ = true;
@@ -188,7 +188,7 @@ void TextChange::put(const Json& value, bool one_line) {
     }
 }
 
-std::vector<Item> TextChange::items_of(const JsonPieces& parts, const Json& from, const Json& to) {
+std::vector<Item> TextChange::items_of(const JsonPieces& parts, const json& from, const json& to) {
     std::vector<Item> items;
     if (from.is_array()) {
         for (const JsonMatch& match : match_lists(from, to))
@@ -197,7 +197,7 @@ std::vector<Item> TextChange::items_of(const JsonPieces& parts, const Json& from
         return items;
     }
     for (const JsonPiece& piece : parts.pieces) {
-        const auto key = Json::parse(piece.key).get<std::string>();
+        const auto key = json::parse(piece.key).get<std::string>();
         const auto kept = to.find(key);
         items.push_back({&piece, &from.at(key), kept == to.end() ? nullptr : &*kept});
     }
@@ -213,7 +213,7 @@ std::vector<Item> TextChange::items_of(const JsonPieces& parts, const Json& from
     return items;
 }
 
-void TextChange::change_members(std::string_view value, const Json& from, const Json& to) {
+void TextChange::change_members(std::string_view value, const json& from, const json& to) {
     Container container;
     container.parts = json_pieces(value);
     const JsonPieces& parts = container.parts;
@@ -361,7 +361,7 @@ void TextChange::drop(const Container& container, std::size_t index, Between& be
 
 }  // namespace
 
-Result<std::string> edit_scene_text(std::string_view text, const Json& wanted) {
+Result<std::string> edit_scene_text(std::string_view text, const json& wanted) {
     Problems problems;
     const auto now = parse_json(text, problems);
     if (!now || !problems.none()) return std::move(problems).take();

@@ -150,10 +150,10 @@ TEST(TextEdit, keeps_line_ends_and_byte_order_mark) {
 }
 
 TEST(TextEdit, writes_new_values_as_the_scene_writer_does) {
-    const Json cloth = {{"transform", {{"position", {0, 2.5e-7}}}}, {"name", "sheet"}, {"mesh", {{"file", "a.obj"}}}};
+    const Json cloth = {{"fabric", "silk"}, {"name", "sheet"}, {"mesh", {{"file", "a.obj"}}}};
     EXPECT_EQ(with("{ \"cloths\": [] }", "/cloths/0", cloth),
-              "{ \"cloths\": [{ \"name\": \"sheet\", \"mesh\": { \"file\": \"a.obj\" }, \"transform\": "
-              "{ \"position\": [0, 2.5e-7] } }] }");
+              "{ \"cloths\": [{ \"name\": \"sheet\", \"mesh\": { \"file\": \"a.obj\" }, \"fabric\": \"silk\" }] }");
+    EXPECT_EQ(with("{}", "/x", {2.5e-7, 0.1, 3.0}), "{ \"x\": [2.5e-7, 0.1, 3] }");
     EXPECT_EQ(with("{}", "/x", -0.0), "{ \"x\": -0.0 }");
 }
 
