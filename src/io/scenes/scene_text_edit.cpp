@@ -144,12 +144,12 @@ std::size_t TextChange::source_columns(std::string_view value) const {
 }
 
 bool TextChange::too_long(std::size_t mark, std::string_view value) const {
-    const std::string_view all = out_;
+    const std::string_view all = out_, rest = rest_of_source_line(value);  // a comment at its end may exceed the limit
     std::size_t begin = all.substr(0, mark).find_last_of(break_characters) + 1;
     for (;;) {
         const std::size_t end = all.find_first_of(break_characters, begin);
-        const std::size_t rest = end == all.npos ? columns_of(rest_of_source_line(value)) : 0;
-        if (columns_of(all.substr(begin, end - begin)) + rest > max_columns) return true;
+        const std::size_t more = end == all.npos ? columns_of(rest.substr(0, rest.find("//"))) : 0;
+        if (columns_of(all.substr(begin, end - begin)) + more > max_columns) return true;
         if (end == all.npos) return false;
         begin = end + 1;
     }
