@@ -85,6 +85,7 @@ class Editor {
     void dialogs(Ui& ui);
     void history(Ui& ui);
     void gallery_dialog(Ui& ui);
+    void changed_file_dialog(Ui& ui);
     void export_dialog(Ui& ui);
     void help(Ui& ui);
     void preferences(Ui& ui);
@@ -103,7 +104,7 @@ class Editor {
     void step_once();
     void key_selected();
     void save(bool as);
-    void save_to(const std::filesystem::path& file);
+    void save_to(std::filesystem::path file, bool overwrite_changed = false);
     void ask_open();
     void ask_export();
     void screenshot();
@@ -133,7 +134,7 @@ class Editor {
     FileDialog file_dialog_;
     std::optional<ExportJob> export_;
     ExportOptions export_options_;
-    enum class Panel : std::uint8_t { none, gallery, export_file, help, preferences, unsaved, recovery };
+    enum class Panel : std::uint8_t { none, gallery, export_file, help, preferences, unsaved, recovery, changed_file };
     Panel panel_ = Panel::none;
     bool show_history_ = false;
     std::function<void()> after_unsaved_;

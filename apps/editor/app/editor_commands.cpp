@@ -205,11 +205,15 @@ void Editor::save(bool as) {
                       .chosen = [this](const std::filesystem::path& file) { save_to(file); }});
 }
 
-void Editor::save_to(const std::filesystem::path& file) {
-    if (auto saved = save_document(*session_->document(), file); !saved)
-        return session_->say("Save " + file.filename().string(), saved.errors());
-    simulator_->run([file](Stage& stage) { stage.saved_as(file); });
-    session_->mark_saved();
+void Editor::save_to(std::filesystem::path file, bool overwrite_changed) {
+    if (!overwrite_changed && changed_on_disk(*session_->document(), file)) {
+        panel_ = Panel::changed_file;
+        return;
+    }
+    auto saved = save_document(*session_->document(), file, overwrite_changed);
+    if (!saved) return session_->say("Save " + file.filename().string(), saved.errors());
+    simulator_->run([file, text = *saved](Stage& stage) { stage.saved_as(file, text); });
+    session_->mark_saved(file, *saved);
     add_recent(settings_, file);
     session_->say("Saved " + file.string());
     if (auto after = std::exchange(after_unsaved_, {})) after();

@@ -60,7 +60,24 @@ void Editor::dialogs(Ui& ui) {
             if (button(ui, "later", {.text = "Later"})) panel_ = Panel::none;
             return;
         }
+        case Panel::changed_file:
+            return changed_file_dialog(ui);
     }
+}
+
+void Editor::changed_file_dialog(Ui& ui) {
+    const Theme& theme = ui.theme();
+    const std::filesystem::path file = session_->document()->file;
+    Dialog dialog(ui, "changed_file", "The file has changed on disk", ImVec2(theme.px(520), theme.px(150)));
+    ImGui::TextWrapped("%s is not as it was when it was opened or saved last. Saving undoes those changes.",
+                       file.filename().c_str());
+    if (button(ui, "save_as", {.icon = Icon::save, .text = "Save as …", .primary = true}))
+        panel_ = Panel::none, save(true);
+    ImGui::SameLine();
+    if (button(ui, "overwrite", {.icon = Icon::trash, .text = "Overwrite it"}))
+        panel_ = Panel::none, save_to(file, true);
+    ImGui::SameLine();
+    if (button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none, after_unsaved_ = {};
 }
 
 void Editor::gallery_dialog(Ui& ui) {

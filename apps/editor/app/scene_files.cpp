@@ -2,6 +2,7 @@
 
 #include "io/files/atomic_file.h"
 #include "io/scenes/scene_file.h"
+#include "io/scenes/scene_text_edit.h"
 #include "io/scenes/scene_writer.h"
 
 #include <algorithm>
@@ -50,6 +51,78 @@ void move_file_names(Json& json, const std::filesystem::path& from, const std::f
     }
 }
 
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code failed;
+    return std::filesystem::equivalent(a, b, failed) || std::filesystem::absolute(a, failed).lexically_normal() ==
+                                                            std::filesystem::absolute(b, failed).lexically_normal();
+}
+
+/// Whether text with this value stands anywhere except as the name of an object.
+bool is_referred_to(const Json& json, const std::string& name) {
+    for (const auto& [key, value] : json.items())
+        if (value.is_structured() ? is_referred_to(value, name) : key != "name" && value == name) return true;
+    return false;
+}
+
+/// Takes away the names that the editor gave to objects of the file, unless something refers to them.
+void remove_given_names(Json& json, const FileText& original) {
+    const auto named = make_document(original.json, {}, {});
+    if (!named) return;
+    for (const char* list : {"cloths", "colliders"}) {
+        if (!json.contains(list) || !original.json.contains(list)) continue;
+        for (std::size_t i = 0; i < original.json[list].size(); ++i) {
+            if (!original.json[list][i].value("name", "").empty()) continue;
+            const Json& name = (*named)->json[list][i]["name"];
+            const auto object =
+                std::ranges::find_if(json[list], [&](const Json& one) { return one.value("name", "") == name; });
+            if (object == json[list].end() || is_referred_to(json, name.get<std::string>())) continue;
+            if (original.json[list][i].contains("name"))
+                (*object)["name"] = "";
+            else
+                object->erase("name");
+        }
+    }
+}
+
+/// Numbers that are a float get its fewest digits.
+void shorten(Json& json) {
+    for (Json& value : json) {
+        if (value.is_structured()) shorten(value);
+        if (!value.is_number_float()) continue;
+        const auto real = value.get<double>();
+        const auto rounded = static_cast<float>(real);
+        if (rounded != real) continue;
+        const Json shorter = number(rounded);
+        if (!shorter.is_number() || shorter.get<double>() == real || shorter.get<float>() != rounded) continue;
+        value = shorter;
+    }
+}
+
+/// The document's JSON as a file in the folder must have it.
+Json json_in(const Document& document, const std::filesystem::path& folder) {
+    Json json = document.json;
+    if (!document.folder.empty() && document.folder != folder)
+        move_file_names(json, document.folder, folder.empty() ? "." : folder);
+    if (!document.original) return json;
+    remove_given_names(json, *document.original);
+    // What has not changed keeps all its digits.
+    Json wanted = document.original->json;
+    for (const Edit& edit : difference(document.original->json, json)) {
+        Json value = Json::array({edit.value.value_or(Json())});
+        shorten(value);
+        if (!editor::apply(wanted, edit.value ? Edit{edit.place, value[0]} : edit)) return json;
+    }
+    return wanted;
+}
+
+Result<std::string> changed_text(const Document& document, const Json& json) {
+    if (document.original)
+        if (auto text = edit_scene_text(document.original->text, json)) return text;
+    const auto scene = read_scene(json, {});
+    if (!scene) return scene.errors();
+    return write_scene(*scene);
+}
+
 }  // namespace
 
 DocumentPtr first_document() {
@@ -74,20 +147,26 @@ std::vector<GalleryScene> gallery() {
     return scenes;
 }
 
-Result<void> save_document(const Document& document, const std::filesystem::path& file) {
-    Json json = document.json;
-    const std::filesystem::path folder = file.parent_path();
-    if (!document.folder.empty() && document.folder != folder)
-        move_file_names(json, document.folder, folder.empty() ? "." : folder);
-    const auto scene = read_scene(json, {});
-    if (!scene) return scene.errors();
-    const auto text = write_scene(*scene);
-    if (!text) {
-        Errors errors = text.errors();
-        for (Error& error : errors) error.where = file.string() + ": " + error.where;
+bool changed_on_disk(const Document& document, const std::filesystem::path& file) {
+    std::error_code missing;
+    if (!document.original || !same_file(document.file, file) || !std::filesystem::exists(file, missing)) return false;
+    const auto now = read_scene_text(file);
+    return !now || *now != document.original->text;
+}
+
+Result<FileTextPtr> save_document(const Document& document, const std::filesystem::path& file, bool overwrite_changed) {
+    if (!overwrite_changed && changed_on_disk(document, file))
+        return Error{file.string(), "has changed on disk since it was opened; saving would undo those changes"};
+    const auto in_file = [&](Errors errors) {
+        for (Error& error : errors) error.where = file.string() + (error.where.empty() ? "" : ": ") + error.where;
         return errors;
-    }
-    return write_atomically(file, [&](AtomicFile& out) { return out.write(*text); });
+    };
+    const auto text = changed_text(document, json_in(document, file.parent_path()));
+    if (!text) return in_file(text.errors());
+    if (const auto scene = parse_scene(*text, {}); !scene) return in_file(scene.errors());
+    const auto written = write_atomically(file, [&](AtomicFile& out) { return out.write(*text); });
+    if (!written) return written.errors();
+    return make_file_text(*text);
 }
 
 }  // namespace weft::editor

@@ -24,8 +24,15 @@ struct GalleryScene {
 /// The scenes of the source tree or of the installed program, by name.
 std::vector<GalleryScene> gallery();
 
-/// Writes the document. A file that the document was read from keeps what has not changed, comments too. Names of mesh
-/// and image files are adjusted to the new folder. Fails without cloths.
-Result<void> save_document(const Document& document, const std::filesystem::path& file);
+/// Whether the file is the document's and holds another text than when it was opened or saved.
+bool changed_on_disk(const Document& document, const std::filesystem::path& file);
+
+/// Writes the document and returns what the file holds now. If the document was read from a file, its text stays as it
+/// is but for what has changed, with its comments. Objects without a name there stay without unless they were renamed
+/// or something refers to them. Names of mesh and image files are adjusted to the new folder.
+///
+/// Fails without cloths, and if the file has changed on disk, unless `overwrite_changed`.
+Result<FileTextPtr> save_document(const Document& document, const std::filesystem::path& file,
+                                  bool overwrite_changed = false);
 
 }  // namespace weft::editor

@@ -47,7 +47,13 @@ void Session::rebuild() {
     document_ = published_->document;
     for (const Pending& pending : pending_)
         if (auto next = edited(*document_, pending.edits)) document_ = *next;
+    keep_file();
     keep_selection(*before);
+}
+
+// Documents from before the last save, which undo brings back, know only an older text of the file.
+void Session::keep_file() {
+    if (file_text_ && document_->original != file_text_) document_ = saved_in(*document_, file_, file_text_);
 }
 
 void Session::change(const std::string& label, std::vector<Edit> edits, Change phase) {
@@ -136,8 +142,11 @@ bool Session::has_changes() const {
     return document_->json != saved_;
 }
 
-void Session::mark_saved() {
+void Session::mark_saved(const std::filesystem::path& file, FileTextPtr text) {
     saved_ = document_->json;
+    file_ = file;
+    file_text_ = std::move(text);
+    keep_file();
 }
 
 std::string place_after_append(const Document& document, const std::string& list) {

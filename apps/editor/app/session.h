@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,7 +63,8 @@ class Session {
 
     /// Whether the document differs from its file.
     bool has_changes() const;
-    void mark_saved();
+    /// From now on the document is that of the file, which holds the text.
+    void mark_saved(const std::filesystem::path& file, FileTextPtr text);
 
   private:
     struct Pending {
@@ -70,6 +72,7 @@ class Session {
         std::vector<Edit> edits;
     };
     void rebuild();
+    void keep_file();
     void keep_selection(const Document& before);
 
     Simulator& simulator_;
@@ -82,6 +85,8 @@ class Session {
     std::string selected_;
     std::vector<Message> messages_;
     Json saved_;
+    std::filesystem::path file_;
+    FileTextPtr file_text_;
     double now_ = 0;
 };
 

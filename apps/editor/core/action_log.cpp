@@ -28,7 +28,7 @@ Result<LogHead> read_head(const Json& json) {
     if (!json.is_object() || json.value("weft_log", 0u) != log_format)
         return Error{"", "is not a log of the editor: its first line must have \"weft_log\": 1"};
     const std::string file = json.value("file", ""), folder = json.value("folder", "");
-    auto document = make_document(json.value("scene", Json()), file, folder);
+    auto document = make_document(json.value("scene", Json()), file, folder, make_file_text(json.value("text", "")));
     if (!document) return document.errors();
     return LogHead{std::move(*document), json.value("backend", "cpu"), json.value("threads", 1u),
                    json.value("note", "")};
@@ -96,7 +96,9 @@ Result<ActionLog> ActionLog::create(const std::filesystem::path& file, const Log
     log.file_.reset(std::fopen(file.c_str(), "wb"));
     if (!log.file_) return Error::of_machine(file.string(), "cannot be written: " + system_reason(errno));
     const auto& folder = head.document->folder;
+    const FileTextPtr& original = head.document->original;
     const Json json{{"weft_log", log_format},
+                    {"text", original ? original->text : ""},
                     {"file", head.document->file.string()},
                     {"folder", folder.empty() ? "" : std::filesystem::absolute(folder).string()},
                     {"backend", head.backend},

@@ -172,7 +172,8 @@ Json number(float value) {
     return Json::parse(number_text(value), nullptr, false);
 }
 
-Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, const std::filesystem::path& folder) {
+Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, const std::filesystem::path& folder,
+                                  FileTextPtr original) {
     auto scene = read_scene(json, {});
     if (!scene) return scene.errors();
     auto document = std::make_shared<Document>();
@@ -180,18 +181,35 @@ Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, 
     document->folder = folder;
     document->json = std::move(json);
     document->scene = std::move(*scene);
+    document->original = std::move(original);
     write_names(document->json, "cloths", document->scene.cloths);
     write_names(document->json, "colliders", document->scene.colliders);
     return DocumentPtr(std::move(document));
 }
 
+FileTextPtr make_file_text(std::string text) {
+    Problems problems;
+    auto json = parse_json(text, problems);
+    if (!json || !problems.none()) return {};
+    return std::make_shared<const FileText>(FileText{std::move(text), std::move(*json)});
+}
+
+DocumentPtr saved_in(const Document& document, const std::filesystem::path& file, FileTextPtr text) {
+    auto saved = std::make_shared<Document>(document);
+    saved->file = file;
+    if (saved->folder.empty()) saved->folder = file.parent_path();
+    saved->original = std::move(text);
+    return saved;
+}
+
 Result<DocumentPtr> open_document(const std::filesystem::path& file) {
-    const auto text = read_scene_text(file);
+    auto text = read_scene_text(file);
     if (!text) return text.errors();
     Problems problems;
     auto json = parse_json(*text, problems);
     if (!json || !problems.none()) return std::move(problems).take(file.string());
-    auto document = make_document(std::move(*json), file, file.parent_path());
+    auto original = std::make_shared<const FileText>(FileText{std::move(*text), *json});
+    auto document = make_document(std::move(*json), file, file.parent_path(), std::move(original));
     if (document) return document;
     Errors errors = document.errors();
     for (Error& error : errors) error.where = file.string() + (error.where.empty() ? "" : ": ") + error.where;
@@ -202,7 +220,7 @@ Result<DocumentPtr> edited(const Document& document, std::span<const Edit> edits
     Json json = document.json;
     for (const Edit& edit : edits)
         if (auto applied = apply(json, edit); !applied) return applied.errors();
-    return make_document(std::move(json), document.file, document.folder);
+    return make_document(std::move(json), document.file, document.folder, document.original);
 }
 
 }  // namespace weft::editor

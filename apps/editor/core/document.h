@@ -26,19 +26,32 @@ struct Edit {
     friend bool operator==(const Edit&, const Edit&) = default;
 };
 
+/// What a scene file held when it was opened or saved.
+struct FileText {
+    std::string text;
+    Json json;  ///< the value of `text`
+};
+using FileTextPtr = std::shared_ptr<const FileText>;
+
 /// Immutable. All cloths and colliders have names, in the JSON too.
 struct Document {
     std::filesystem::path file = {};    ///< empty: not saved yet
     std::filesystem::path folder = {};  ///< in which the scene's files are searched
     Json json;
     SceneDesc scene;
+    FileTextPtr original = {};  ///< of `file`; null: never saved, or not known
 };
 using DocumentPtr = std::shared_ptr<const Document>;
 
 /// Reads a scene file. Fails with all problems, each with its place.
 Result<DocumentPtr> open_document(const std::filesystem::path& file);
 /// `where` of errors is a JSON pointer.
-Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, const std::filesystem::path& folder);
+Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, const std::filesystem::path& folder,
+                                  FileTextPtr original = {});
+/// Null if the text is not that of a JSON value.
+FileTextPtr make_file_text(std::string text);
+/// The same document, saved in the file. Names of files in the scene still refer to its folder.
+DocumentPtr saved_in(const Document& document, const std::filesystem::path& file, FileTextPtr text);
 
 /// Applies the edits in order. Fails on a place that cannot be reached, and on a scene that does not pass its checks,
 /// with all problems; `where` of errors is a JSON pointer.

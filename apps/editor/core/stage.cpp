@@ -309,10 +309,8 @@ std::vector<std::string> Stage::take_notes() {
     return notes;
 }
 
-void Stage::saved_as(const std::filesystem::path& file) {
-    auto saved = std::make_shared<Document>(*document_);
-    saved->file = file;
-    saved->folder = file.parent_path();
+void Stage::saved_as(const std::filesystem::path& file, FileTextPtr text) {
+    const DocumentPtr saved = saved_in(*document_, file, std::move(text));
     if (followed_ == document_) followed_ = saved;
     document_ = saved;
 }

@@ -54,7 +54,7 @@ class Stage {
     /// What the user should know, one line each, since the last call.
     std::vector<std::string> take_notes();
     /// The file is the document's from now on. Not an undo step.
-    void saved_as(const std::filesystem::path& file);
+    void saved_as(const std::filesystem::path& file, FileTextPtr text);
 
   private:
     Stage() = default;

@@ -3,6 +3,7 @@
 #include "scene/problems.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -23,7 +24,19 @@ std::string in_json(std::string_view text) {
     return nlohmann::json(text).dump();
 }
 
+// Keys that begin an object of a scene, in their order. All others follow in the order of the alphabet.
+constexpr std::array<std::string_view, 20> first_keys{
+    "weft", "name",      "kind",   "preset",   "time",     "a",        "b",    "cloth",   "mesh",           "plane",
+    "box",  "transform", "fabric", "material", "position", "rotation", "size", "tearing", "self_collision", "pins"};
+
 }  // namespace
+
+std::vector<std::string> keys_in_order(const nlohmann::json& object) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : object.items()) keys.push_back(key);
+    std::ranges::stable_sort(keys, {}, [](const std::string& key) { return std::ranges::find(first_keys, key); });
+    return keys;
+}
 
 JsonNode JsonNode::number(float value) {
     JsonNode node(Kind::scalar);
@@ -54,6 +67,51 @@ std::optional<JsonNode> JsonNode::text(std::string_view value) {
         return {};
     }
     return node;
+}
+
+std::optional<JsonNode> JsonNode::of(const nlohmann::json& value) {
+    if (value.is_string()) return text(value.get_ref<const std::string&>());
+    if (!value.is_structured()) {
+        JsonNode node(Kind::scalar);
+        const bool real = value.is_number_float();
+        const double number = real ? value.get<double>() : 0;
+        if (real && !std::isfinite(number)) return {};
+        node.scalar_ = !real ? value.dump() : number == 0 && std::signbit(number) ? "-0.0" : number_text(number);
+        return node;
+    }
+    JsonNode node(value.is_object() ? Kind::object : Kind::list);
+    const auto add_child = [&](std::string key, const nlohmann::json& child) {
+        auto made = of(child);
+        if (!made || !text(key)) return false;
+        made->key_ = std::move(key);
+        node.children_.push_back(std::move(*made));
+        return true;
+    };
+    if (value.is_object()) {
+        for (std::string& key : keys_in_order(value)) {
+            const nlohmann::json& child = value[key];
+            if (!add_child(std::move(key), child)) return {};
+        }
+    } else {
+        for (const nlohmann::json& child : value)
+            if (!add_child({}, child)) return {};
+    }
+    return node;
+}
+
+std::string JsonNode::pretty(std::size_t indent, std::size_t used) const {
+    std::string out;
+    if (children_.empty())
+        append_line(out);
+    else
+        append(out, indent, used);
+    return out;
+}
+
+std::string JsonNode::line() const {
+    std::string out;
+    append_line(out);
+    return out;
 }
 
 std::string JsonNode::pretty() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 #include <vector>
 
 namespace weft {
+
+/// The keys of an object in the order in which JsonNode::of() writes them.
+std::vector<std::string> keys_in_order(const nlohmann::json& object);
 
 /// A value to write: an object that keeps the order of its keys, a list, or the finished text of any other value.
 class JsonNode {
@@ -21,6 +25,9 @@ class JsonNode {
     static JsonNode flag(bool value);
     /// Nothing if the bytes are not UTF-8, which JSON requires.
     static std::optional<JsonNode> text(std::string_view value);
+    /// Any value, with the keys of new scene objects in the order of docs/scene.md. Nothing if it holds text that is
+    /// not UTF-8.
+    static std::optional<JsonNode> of(const nlohmann::json& value);
 
     void add(std::string_view key, JsonNode value) {
         value.key_ = key;
@@ -32,6 +39,11 @@ class JsonNode {
 
     /// Puts a value on one line if it fits; longer lists of numbers fill lines. Ends in a newline.
     std::string pretty() const;
+    /// The same for a value within a text: `indent` is the indentation of its line, `used` the column at which it
+    /// begins. No newline at the end.
+    std::string pretty(std::size_t indent, std::size_t used) const;
+    /// The whole value on one line.
+    std::string line() const;
 
   private:
     enum class Kind { object, list, scalar };
