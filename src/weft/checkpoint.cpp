@@ -91,7 +91,10 @@ Result<void> SceneWorld::rename(const SceneDesc& next) {
     }
     for (std::size_t i = 0; i < next.colliders.size(); ++i) renamed.moment.colliders[i].name = next.colliders[i].name;
     renamed.scene = std::make_shared<const SceneDesc>(next);
-    return go_to(renamed);
+    SceneDesc before = std::exchange(scene_, next);  // stitches name cloths
+    auto gone = go_to(renamed);
+    if (!gone) scene_ = std::move(before);
+    return gone;
 }
 
 std::size_t size_of(const Checkpoint& checkpoint) {
