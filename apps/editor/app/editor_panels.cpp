@@ -323,6 +323,8 @@ void Editor::status_texts(Ui& ui) {
     const ImRect box(at, ImVec2(at.x + ImGui::GetItemRectSize().x, at.y + ImGui::GetItemRectSize().y));
     ui.note("text", box, text);
     ui.note("frame", box, std::to_string(now.frame));
+    ui.note("images", box, std::to_string(view_thread_->count()));
+    ui.note("step_ms", box, std::to_string(now.step_ms));
     ui.note("acknowledged", box, std::to_string(now.acknowledged));
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();

@@ -69,6 +69,8 @@ std::uint64_t hash_of(const ImDrawData& data) {
     return hash.value();
 }
 
+constexpr double software_rate = 32;  // frames/s
+
 }  // namespace
 
 struct UiWindow::Impl {
@@ -244,6 +246,8 @@ Result<std::unique_ptr<UiWindow>> UiWindow::open(const UiWindowOptions& options)
     auto impl = std::make_unique<Impl>();
     impl->options = options;
     if (auto opened = impl->open(); !opened) return opened.errors();
+    // On a processor, frames take time that a simulation and a view need.
+    if (!impl->device->info().is_gpu()) impl->options.most_rate = std::min(options.most_rate, software_rate);
     return std::unique_ptr<UiWindow>(new UiWindow(std::move(impl)));
 }
 

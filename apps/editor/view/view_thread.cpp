@@ -7,6 +7,11 @@
 #include "view/scene_view.h"
 #include "vulkan/interop.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <condition_variable>
@@ -112,6 +117,14 @@ class Views {
     std::array<std::optional<SceneView>, 2> views_;  // by Quality::draft
 };
 
+// The simulation comes first. Threads that a software driver starts for this thread's device have its priority too.
+void lower_priority() {
+#ifdef __linux__
+    constexpr int nice = 5;
+    (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), nice);
+#endif
+}
+
 }  // namespace
 
 struct ViewThread::Impl {
@@ -180,6 +193,7 @@ std::shared_ptr<const ViewImage> ViewThread::Impl::drawn(const ViewRequest& requ
 }
 
 void ViewThread::Impl::run() {
+    lower_priority();
     std::uint64_t shown = 0;  // the request that was drawn last
     bool is_best = true;      // and whether it was drawn in the best quality
     Clock::time_point changed_at{};
