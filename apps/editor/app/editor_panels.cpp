@@ -324,6 +324,7 @@ void Editor::status_texts(Ui& ui) {
     ui.note("text", box, text);
     ui.note("frame", box, std::to_string(now.frame));
     ui.note("acknowledged", box, std::to_string(now.acknowledged));
+    ui.note("posted", box, std::to_string(session_->posted()));
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
         if (const auto cure = substeps_for(now); cure > now.document->scene.solver.substeps)
