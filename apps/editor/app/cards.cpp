@@ -68,7 +68,10 @@ void Cards::card(Ui& ui, Session& session, ViewMarks* marks, const std::string& 
     const Ui::Scope scope(ui, place.substr(1));
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const float room = ImGui::GetContentRegionAvail().x - (has_marks ? 2 * (side + gap) : 0);
-    if (chosen && std::exchange(rename_, false) && marks) renaming_ = place, name_ = label;
+    if (chosen && std::exchange(rename_, false) && marks) {
+        renaming_ = place, name_ = label;
+        ui.focus(ui.probe().path("name"), true);
+    }
     if (renaming_ == place) {
         ImGui::SetNextItemWidth(room);
         const Change change = text(ui, {.name = "name"}, name_);

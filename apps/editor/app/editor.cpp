@@ -112,7 +112,7 @@ Result<void> Editor::start() {
 }
 
 // Replaces what runs.
-void Editor::set_stage(Stage stage) {
+void Editor::set_stage(Stage stage, const std::optional<Log>& recovered) {
     session_.reset();
     simulator_.reset();
     if (!log_file_.empty() && options_.record.empty()) {
@@ -125,11 +125,16 @@ void Editor::set_stage(Stage stage) {
     if (options_.record.empty() && (log_folder().empty() || !options_.keep_settings)) log_file_.clear();
     if (!log_file_.empty()) {
         const Options& with = stage.options();
-        auto made = ActionLog::create(log_file_, {stage.document(), with.backend, with.threads});
-        if (made)
+        // A session that was recovered goes on with its actions, so that it can be recovered again.
+        const LogHead fresh{stage.document(), with.backend, with.threads};
+        auto made = ActionLog::create(log_file_, recovered ? recovered->head : fresh);
+        if (made) {
             log = std::move(*made);
-        else
+            for (std::size_t i = 0; recovered && i < recovered->actions.size(); ++i) log->add(recovered->actions[i]);
+        } else {
             problem = made.error().message() + ": after a crash this session cannot be recovered";
+            log_file_.clear();
+        }
     }
     photographer_ = std::make_shared<Photographer>();
     const DocumentPtr document = stage.document();
@@ -141,6 +146,7 @@ void Editor::set_stage(Stage stage) {
                          .wake = [this] { window_->redraw(); }},
         std::move(log));
     session_ = std::make_unique<Session>(*simulator_);
+    if (recovered) session_->set_saved(recovered->head.document->json);
     if (!problem.empty()) session_->say(problem);
     marks_ = {};
     view_.choose_none();
@@ -182,32 +188,40 @@ void Editor::take_opened() {
         session_->say("Open " + opened.file.filename().string(), opened.errors);
         return;
     }
-    set_stage(std::move(*opened.stage));
-    if (!opened.file.empty()) add_recent(settings_, opened.file);
+    set_stage(std::move(*opened.stage), opened.recovered);
+    if (opened.recovered) {
+        // The new log has all of it.
+        std::error_code ignored;
+        if (!log_file_.empty()) std::filesystem::remove(opened.file, ignored);
+        if (!opened.errors.empty()) session_->say("Recovered in part", opened.errors);
+    } else if (!opened.file.empty()) {
+        add_recent(settings_, opened.file);
+    }
     simulator_->play(true);
 }
 
-// Plays a log in the background.
+// Plays a log in the background, as far as it can be played.
 void Editor::recover(const std::filesystem::path& file) {
     panel_ = Panel::none;
     if (opening_.valid()) return;
     opening_ = std::async(std::launch::async, [file, this] {
-        Opened opened{{}, {}, {}};
-        const auto log = read_log(file);
-        if (!log) {
-            opened.errors = log.errors();
+        Opened opened{{}, {}, file};
+        auto log = read_log(file);
+        auto stage = log ? open_stage(log->head, {}) : Result<Stage>(log.errors());
+        if (!stage) {
+            opened.errors = stage.errors();
         } else {
-            auto stage = open_stage(log->head, {});
-            if (!stage) {
-                opened.errors = stage.errors();
-            } else {
-                if (auto played = play(*stage, log->actions, log->end); !played) opened.errors = played.errors();
-                opened.stage.emplace(std::move(*stage));
+            std::size_t done = 0;
+            const auto count = [&](std::size_t actions) {
+                done = actions;
+                return true;
+            };
+            if (auto played = play(*stage, log->actions, log->end, count); !played) {
+                opened.errors = played.errors();
+                log->actions.resize(done);
             }
-        }
-        if (opened.stage) {
-            std::error_code ignored;
-            std::filesystem::remove(file, ignored);
+            opened.stage.emplace(std::move(*stage));
+            opened.recovered.emplace(std::move(*log));
         }
         window_->redraw();
         return opened;
@@ -351,8 +365,8 @@ Result<void> Editor::take_view_image() {
 }
 
 void Editor::update_title() {
-    const Document& document = *session_->document();
-    const std::string name = document.file.empty() ? "untitled" : document.file.filename().string();
+    const std::filesystem::path& file = session_->document()->file;
+    const std::string name = file.empty() ? "untitled" : file.filename().string();
     const std::string title = name + (session_->has_changes() ? " (changed)" : "") + " - weft";
     if (title == title_) return;
     title_ = title;

@@ -61,9 +61,10 @@ class Editor {
         std::optional<Stage> stage;
         Errors errors;
         std::filesystem::path file;
+        std::optional<Log> recovered = {};  ///< what has led to the stage
     };
     Result<void> start();
-    void set_stage(Stage stage);
+    void set_stage(Stage stage, const std::optional<Log>& recovered = {});
     void open_later(const std::filesystem::path& file, DocumentPtr document);
     void take_opened();
     void recover(const std::filesystem::path& log);
@@ -103,8 +104,9 @@ class Editor {
     void toggle_play();
     void step_once();
     void key_selected();
-    void save(bool as);
-    void save_to(std::filesystem::path file, bool overwrite_changed = false);
+    /// `after`: what follows once it is saved.
+    void save(bool as, std::function<void()> after = {});
+    void save_to(std::filesystem::path file, std::function<void()> after = {}, bool overwrite_changed = false);
     void ask_open();
     void ask_export();
     void screenshot();

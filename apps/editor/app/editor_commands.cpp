@@ -194,20 +194,21 @@ void Editor::ask_open() {
                       .chosen = [this](const std::filesystem::path& file) { drop({file.string()}); }});
 }
 
-void Editor::save(bool as) {
-    const Document& document = *session_->document();
-    if (!as && !document.file.empty()) return save_to(document.file);
+void Editor::save(bool as, std::function<void()> after) {
+    const std::filesystem::path known = session_->document()->file;
+    if (!as && !known.empty()) return save_to(known, after);
     file_dialog_.ask({.title = "Save the scene",
                       .action = "Save",
                       .endings = {".json"},
                       .for_writing = true,
-                      .start = document.file.empty() ? std::filesystem::path("scene.json") : document.file,
-                      .chosen = [this](const std::filesystem::path& file) { save_to(file); }});
+                      .start = known.empty() ? std::filesystem::path("scene.json") : known,
+                      .chosen = [this, after](const std::filesystem::path& file) { save_to(file, after); }});
 }
 
-void Editor::save_to(std::filesystem::path file, bool overwrite_changed) {
+void Editor::save_to(std::filesystem::path file, std::function<void()> after, bool overwrite_changed) {
     if (!overwrite_changed && changed_on_disk(*session_->document(), file)) {
         panel_ = Panel::changed_file;
+        after_unsaved_ = std::move(after);
         return;
     }
     auto saved = save_document(*session_->document(), file, overwrite_changed);
@@ -216,7 +217,7 @@ void Editor::save_to(std::filesystem::path file, bool overwrite_changed) {
     session_->mark_saved(file, *saved);
     add_recent(settings_, file);
     session_->say("Saved " + file.string());
-    if (auto after = std::exchange(after_unsaved_, {})) after();
+    if (after) after();
 }
 
 void Editor::unless_changed(std::function<void()> what) {
@@ -241,7 +242,7 @@ void Editor::ask_export() {
 
 void Editor::screenshot() {
     if (!view_image_ || view_image_->image.rgba.empty()) return;
-    const std::filesystem::path folder = session_->document()->folder;
+    const std::filesystem::path folder = session_->document()->file.parent_path();
     std::filesystem::path file;
     std::error_code ignored;
     for (int i = 1; file.empty() || std::filesystem::exists(file, ignored); ++i)

@@ -37,7 +37,7 @@ void Editor::dialogs(Ui& ui) {
                 if (auto after = std::exchange(after_unsaved_, {})) after();
             };
             if (button(ui, "save", {.icon = Icon::save, .text = "Save", .primary = true}))
-                panel_ = Panel::none, save(false);
+                panel_ = Panel::none, save(false, std::exchange(after_unsaved_, {}));
             ImGui::SameLine();
             if (button(ui, "discard", {.icon = Icon::trash, .text = "Discard them"})) go_on();
             ImGui::SameLine();
@@ -72,10 +72,10 @@ void Editor::changed_file_dialog(Ui& ui) {
     ImGui::TextWrapped("%s is not as it was when it was opened or saved last. Saving undoes those changes.",
                        file.filename().c_str());
     if (button(ui, "save_as", {.icon = Icon::save, .text = "Save as …", .primary = true}))
-        panel_ = Panel::none, save(true);
+        panel_ = Panel::none, save(true, std::exchange(after_unsaved_, {}));
     ImGui::SameLine();
     if (button(ui, "overwrite", {.icon = Icon::trash, .text = "Overwrite it"}))
-        panel_ = Panel::none, save_to(file, true);
+        panel_ = Panel::none, save_to(file, std::exchange(after_unsaved_, {}), true);
     ImGui::SameLine();
     if (button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none, after_unsaved_ = {};
 }

@@ -326,6 +326,7 @@ void Editor::status_texts(Ui& ui) {
     ui.note("images", box, std::to_string(view_thread_->count()));
     ui.note("step_ms", box, std::to_string(now.step_ms));
     ui.note("acknowledged", box, std::to_string(now.acknowledged));
+    ui.note("posted", box, std::to_string(session_->posted()));
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
         if (const auto cure = substeps_for(now); cure > now.document->scene.solver.substeps)

@@ -81,7 +81,7 @@ void FileDialog::show(Ui& ui) {
     if (!open_) return;
     const Theme& theme = ui.theme();
     Dialog dialog(ui, "file_dialog", question_.title.c_str(), ImVec2(theme.px(620), theme.px(440)));
-    if (appearing_) ui.focus(ui.probe().path("path"));
+    if (appearing_) ui.focus(ui.probe().path("path"), true);
     appearing_ = false;
     if (ui.pressed(Key::escape)) open_ = false;
     const Change typed = text(ui, {.name = "path", .label = "File", .what = "A path, or a name in the folder below"},

@@ -73,6 +73,7 @@ class PropertyRow {
     }
 
   private:
+    /// Call it after the widget: arguments are evaluated in any order.
     void store(Change change, Json value) {
         if (change == Change::none) return;
         Edit edit{place_ + "/" + std::string(p_.key), std::move(value)};
@@ -89,10 +90,12 @@ class PropertyRow {
             if (usual_) with_usual.usual = usual_->get<double>();
             if (p_.kind == ParameterKind::integer) {
                 auto whole = value_.get<long long>();
-                store(integer(ui_, field_, whole, with_usual), as_json(static_cast<double>(whole)));
+                const Change change = integer(ui_, field_, whole, with_usual);
+                store(change, as_json(static_cast<double>(whole)));
             } else {
                 double one = value_.get<double>();
-                store(editor::number(ui_, field_, one, with_usual), as_json(one));
+                const Change change = editor::number(ui_, field_, one, with_usual);
+                store(change, as_json(one));
             }
             return;
         }
@@ -126,13 +129,15 @@ class PropertyRow {
             return store(change, of_mesh ? Json("mesh") : Json(180));
         if (of_mesh) return;
         double degrees = value_.get<double>();
-        store(angle(ui_, field_, degrees, range), as_json(degrees));
+        const Change change = angle(ui_, field_, degrees, range);
+        store(change, as_json(degrees));
     }
     void flag_row() {
         bool on = value_.get<bool>();
         std::optional<bool> usual;
         if (usual_) usual = usual_->get<bool>();
-        store(flag(ui_, field_, on, usual), on);
+        const Change change = flag(ui_, field_, on, usual);
+        store(change, on);
     }
     void choice_row() {
         const std::vector<std::string_view> names = choice_names(p_);

@@ -23,6 +23,7 @@ std::string list_of(const std::string& place) {
 
 Session::Session(Simulator& simulator) : simulator_(simulator), published_(simulator.newest()) {
     document_ = published_->document;
+    file_ = document_->file;
     saved_ = document_->json;
 }
 
@@ -73,8 +74,8 @@ void Session::change(const std::string& label, std::vector<Edit> edits, Change p
         if (phase == Change::finished) say(label, next.errors());
     } else if ((*next)->json != document_->json) {
         ChangeScene action{.label = label, .edits = edits, .gesture = gesture_};
-        const std::uint64_t number = simulator_.post(std::move(action));
-        pending_.push_back({number, std::move(edits)});
+        posted_ = simulator_.post(std::move(action));
+        pending_.push_back({posted_, std::move(edits)});
         gesture_posted_ = true;
         const DocumentPtr before = std::exchange(document_, *next);
         keep_selection(*before);
@@ -86,8 +87,8 @@ void Session::post(Action action) {
     std::vector<Edit> edits;
     const auto* rename = std::get_if<Rename>(&action);
     if (rename) edits = {{rename->place + "/name", rename->name}};
-    const std::uint64_t number = simulator_.post(std::move(action));
-    if (rename) pending_.push_back({number, std::move(edits)});
+    posted_ = simulator_.post(std::move(action));
+    if (rename) pending_.push_back({posted_, std::move(edits)});
 }
 
 void Session::select(std::string place) {

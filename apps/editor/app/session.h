@@ -35,6 +35,8 @@ class Session {
     /// The document with all changes, also those that the simulator has not carried out yet. Never waits.
     const DocumentPtr& document() const { return document_; }
     const Published& now() const { return *published_; }
+    /// The number of the last action; the simulator has carried it out once now().acknowledged is as large.
+    std::uint64_t posted() const { return posted_; }
     Simulator& simulator() { return simulator_; }
 
     /// Changes the document. `phase`: of the widget that made the change; changes of one gesture are one undo step.
@@ -65,6 +67,8 @@ class Session {
     bool has_changes() const;
     /// From now on the document is that of the file, which holds the text.
     void mark_saved(const std::filesystem::path& file, FileTextPtr text);
+    /// The file has this scene. For sessions that do not begin with their file's content.
+    void set_saved(Json scene) { saved_ = std::move(scene); }
 
   private:
     struct Pending {
@@ -79,6 +83,7 @@ class Session {
     PublishedPtr published_;
     DocumentPtr document_;
     std::deque<Pending> pending_;
+    std::uint64_t posted_ = 0;
     std::uint64_t gesture_ = 0, next_gesture_ = 1;
     std::string gesture_label_;
     bool gesture_posted_ = false;

@@ -88,7 +88,9 @@ void show_timeline(Ui& ui, Session& session) {
 
     // Scrubbing.
     bool hovered = false, held = false;
+    const bool was_held = ImGui::GetActiveID() == item.id;
     ImGui::ButtonBehavior(item.box, item.id, &hovered, &held, ImGuiButtonFlags_PressedOnClick);
+    if (held || was_held) GImGui->NavDisableHighlight = false;  // after a click keys go here
     if (held) {
         const float fraction =
             std::clamp((ImGui::GetIO().MousePos.x - left) / std::max(1.0f, right - left), 0.0f, 1.0f);

@@ -252,6 +252,7 @@ bool ViewPanel::cancel(Session& session) {
     switch (std::exchange(gesture_, Gesture::none)) {
         case Gesture::gizmo:
         case Gesture::carry:
+            gizmo_drag_.reset();
             session.change("", {}, Change::cancelled);
             return true;
         case Gesture::pull:
@@ -472,21 +473,22 @@ void ViewPanel::draw_gizmo(Ui& ui, const Session& session, const Input& input) {
             draw.AddText(ImVec2(points.back().x + theme.px(8), points.back().y - theme.px(8)), color,
                          letters[shape.axis]);
     }
-    // The middle of each handle, for tests that drag it.
+    // A place on each handle, for tests that drag it.
     constexpr std::pair<GizmoHandle, const char*> named[] = {
         {GizmoHandle::move_x, "move_x"},      {GizmoHandle::move_y, "move_y"},   {GizmoHandle::move_z, "move_z"},
         {GizmoHandle::turn_x, "turn_x"},      {GizmoHandle::turn_y, "turn_y"},   {GizmoHandle::turn_z, "turn_z"},
         {GizmoHandle::scale_x, "scale_x"},    {GizmoHandle::scale_y, "scale_y"}, {GizmoHandle::scale_z, "scale_z"},
         {GizmoHandle::scale_all, "scale_all"}};
     const Ui::Scope scope(ui, "gizmo");
-    for (const auto& [handle, name] : named) {
-        for (const GizmoShape& shape : handles->shapes(GizmoHandle::none)) {
-            if (shape.handle != handle || shape.points.empty()) continue;
-            const Vec2 p = shape.points[shape.points.size() * 2 / 3];
-            const ImVec2 at(origin_.x + p.x, origin_.y + p.y);
-            ui.note(name, ImRect(at, ImVec2(at.x + 1, at.y + 1)));
-        }
-    }
+    const auto note = [&](const char* name, Vec2 p) {
+        const ImVec2 at(origin_.x + p.x, origin_.y + p.y);
+        ui.note(name, ImRect(at, ImVec2(at.x + 1, at.y + 1)));
+    };
+    if (const auto center = input.view.project(place_of_selected(session)->position)) note("center", center->pixel);
+    for (const auto& [handle, name] : named)
+        for (const GizmoShape& shape : handles->shapes(GizmoHandle::none))
+            if (shape.handle == handle && !shape.faint && shape.filled == (handle == GizmoHandle::scale_all))
+                note(name, shape.points[shape.points.size() * 2 / 3]);
 }
 
 void ViewPanel::draw_marks(Ui& ui, const Session& session, const Input& input) {

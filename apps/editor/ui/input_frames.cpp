@@ -153,6 +153,9 @@ InputFrame InputFrames::next(double now, bool typing, bool hold) {
             break;
         }
         last = std::max(last, time);
+        const auto* key = std::get_if<render::KeyChanged>(&waiting_.front().what);
+        if ((key && !key->repeated) || std::holds_alternative<render::ButtonChanged>(waiting_.front().what))
+            ++state_.changes;
         waiting_.pop_front();
     }
     state_.time = waiting_.empty() ? std::max(last, now) : last;

@@ -37,6 +37,7 @@ struct InputFrame {
     std::vector<Press> keys;              ///< changes of keys in this frame, in order
     std::u32string text;                  ///< typed in this frame
     std::vector<std::string> files = {};  ///< dropped in this frame, at the pointer
+    std::uint64_t changes = 0;            ///< of keys and buttons so far, in all frames
 
     Modifiers modifiers() const;
 };

@@ -63,7 +63,10 @@ std::string Probe::json() const {
     const auto flag = [](bool value) { return value ? "true" : "false"; };
     std::string text = "{\"window\": {\"width\": " + json_number(width) + ", \"height\": " + json_number(height) +
                        ", \"scale\": " + json_number(scale) + "},\n\"frames\": " + std::to_string(frames) +
-                       ", \"settled\": " + std::to_string(settled) + ",\n\"widgets\": {";
+                       ", \"settled\": " + std::to_string(settled) + ", \"idle\": " + flag(idle) +
+                       ", \"changes\": " + std::to_string(changes) +
+                       ", \"pointer\": {\"x\": " + json_number(pointer_x) + ", \"y\": " + json_number(pointer_y) +
+                       "},\n\"widgets\": {";
     const char* between = "\n";
     for (const auto& [name, one] : widgets_) {
         text += between + json_text(name) + ": {\"x\": " + json_number(one.x) + ", \"y\": " + json_number(one.y) +

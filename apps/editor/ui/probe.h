@@ -40,6 +40,9 @@ class Probe {
 
     std::uint64_t frames = 0;   ///< drawn
     std::uint64_t settled = 0;  ///< of these, frames after which nothing was left to do: no input, no animation
+    bool idle = false;          ///< this frame is one of them
+    std::uint64_t changes = 0;  ///< of keys and buttons, up to this frame
+    float pointer_x = 0, pointer_y = 0;  ///< pixels; -1 while it is outside the window
     float width = 0, height = 0, scale = 1;
 
     std::string json() const;

@@ -122,11 +122,14 @@ void Ui::begin(float width, float height, double now) {
     feed();
     kept_digits_ = std::exchange(keeps_digits_, false);
     released_space_ = std::exchange(releases_space_, false);
-    if (focus_wanted_ == 0) focus_typing_ = false;
+    if (focus_wanted_ == 0 && focus_path_.empty()) focus_typing_ = false;
     probe_.begin_frame();
     probe_.width = width;
     probe_.height = height;
     probe_.scale = theme_.scale;
+    probe_.changes = input_.changes;
+    probe_.pointer_x = input_.pointer ? input_.pointer->x : -1;
+    probe_.pointer_y = input_.pointer ? input_.pointer->y : -1;
     last_stops_ = std::exchange(stops_, {});
     ImGui::NewFrame();
     update_focus();
@@ -168,7 +171,8 @@ const ImDrawData& Ui::end() {
     if (focus_wanted_ != 0 && focus_wanted_ == focus_missed_) focus_wanted_ = 0;  // the widget is gone
     focus_missed_ = focus_wanted_;
     if (!focus_path_.empty() && settling_ == 0) focus_path_.clear();  // there is no such widget
-    if (!wants_frame() && !frames_.pending()) ++probe_.settled;
+    probe_.idle = !wants_frame() && !frames_.pending();
+    if (probe_.idle) ++probe_.settled;
     return *ImGui::GetDrawData();
 }
 
@@ -322,9 +326,9 @@ void Ui::focus_next(bool forward, bool typing) {
     if (context_->ActiveId != 0) ImGui::ClearActiveID();
 }
 
-void Ui::focus(std::string_view path) {
+void Ui::focus(std::string_view path, bool typing) {
     focus_path_ = path;
-    focus_typing_ = false;
+    focus_typing_ = typing;
     redraw();
 }
 
@@ -365,11 +369,14 @@ void Ui::tooltip(const Item& item, const std::function<void()>& content) {
         return;
     }
     if (item.focused) ImGui::SetNextWindowPos(ImVec2(item.box.Min.x, item.box.Max.y + theme_.px(6)));
+    // The panel around the widget may have no padding.
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme_.px(8), theme_.px(6)));
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(theme_.px(340));
     content();
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 }  // namespace weft::editor

@@ -119,8 +119,8 @@ class Ui {
     void draw_focus(const Item& item) const;
     /// Moves the keyboard to the next or previous widget. `typing`: opens it for typing, if it can be typed into.
     void focus_next(bool forward, bool typing);
-    /// Moves the keyboard to a widget by its path, when it is next placed.
-    void focus(std::string_view path);
+    /// Moves the keyboard to a widget by its path, when it is next placed. `typing`: as in focus_next().
+    void focus(std::string_view path, bool typing = false);
     /// Whether this widget should open for typing now, because the keyboard moved to it with `typing`.
     bool takes_typing(const Item& item);
     /// Arrow keys left and right belong to the focused widget in this frame.
