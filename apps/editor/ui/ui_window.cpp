@@ -155,14 +155,13 @@ void UiWindow::Impl::collect(double patience) {
 }
 
 // Waits until a frame is due; false if none was in that time. Input of a fast mouse and animations make at most
-// `most_rate` frames a second.
+// `most_rate` frames a second. On a GPU, what is left of earlier input follows at once.
 bool UiWindow::Impl::wait(double patience) {
     const double give_up = display->now() + patience;
     collect(0);
     while (!close_requested) {
         const double now = display->now();
-        // What is left of earlier input follows at once.
-        const double pace = ui->input_pending() ? 0 : 1 / options.most_rate;
+        const double pace = ui->input_pending() && device->info().is_gpu() ? 0 : 1 / options.most_rate;
         const double soonest = begun + std::max(options.least_frame, pace);
         double due = must_show() ? now : now + std::max(0.0, ui->due_in(now));
         due = std::max(due, soonest);
