@@ -162,7 +162,7 @@ void Editor::preferences(Ui& ui) {
 
 void Editor::help(Ui& ui) {
     const Theme& theme = ui.theme();
-    Dialog dialog(ui, "help", "Keys and mouse", ImVec2(theme.px(680), theme.px(520)));
+    Dialog dialog(ui, "help", "Keys and mouse", ImVec2(theme.px(800), theme.px(560)));
     ImGui::BeginChild("text", ImVec2(0, -ImGui::GetFrameHeightWithSpacing() * 1.2f), false);
     constexpr std::pair<const char*, const char*> mouse[] = {
         {"Left drag on cloth", "pulls it, with a force that has a limit (tool Hand)"},

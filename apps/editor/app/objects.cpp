@@ -26,8 +26,19 @@ Json at_height(float height) {
     return Json{{"position", {0, number(height), 0}}};
 }
 
+/// m: beside the colliders that are there.
+float free_place(const Document& document) {
+    constexpr float gap = 0.6f;
+    float x = 0;
+    for (const SceneCollider& one : document.scene.colliders)
+        if (!std::holds_alternative<PlaneDesc>(one.shape)) x = std::max(x, one.transform.position.x + gap);
+    return x;
+}
+
 Json collider(const Document& document, const char* shape, const char* name, Json values, float height) {
-    return Json{{"name", free_name(document, name)}, {shape, std::move(values)}, {"transform", at_height(height)}};
+    return Json{{"name", free_name(document, name)},
+                {shape, std::move(values)},
+                {"transform", {{"position", {number(free_place(document)), number(height), 0}}}}};
 }
 
 /// `shirt` of `folder/shirt.obj`.
