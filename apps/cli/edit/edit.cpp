@@ -68,7 +68,7 @@ int run_edit(const EditOptions& options) {
 #endif
 
 Command add_edit(Program& program) {
-    Arguments command = program.add_command("edit", "Open the editor");
+    [[maybe_unused]] Arguments command = program.add_command("edit", "Open the editor");
 #ifdef WEFT_VULKAN
     const auto options = std::make_shared<EditOptions>();
     command.add("scene", options->scene, "Scene file; without it, silk falls over a ball");
