@@ -21,6 +21,17 @@ std::vector<std::uint64_t> serials_of(std::span<const ClothSource> sources) {
     return serials;
 }
 
+bool same_names(const SceneDesc& a, const SceneDesc& b) {
+    return std::ranges::equal(a.cloths, b.cloths, {}, &SceneCloth::name, &SceneCloth::name) &&
+           std::ranges::equal(a.colliders, b.colliders, {}, &SceneCollider::name, &SceneCollider::name);
+}
+
+/// Both must have as many cloths and colliders.
+void take_names(SceneDesc& scene, const SceneDesc& from) {
+    for (std::size_t i = 0; i < scene.cloths.size(); ++i) scene.cloths[i].name = from.cloths[i].name;
+    for (std::size_t i = 0; i < scene.colliders.size(); ++i) scene.colliders[i].name = from.colliders[i].name;
+}
+
 }  // namespace
 
 Checkpoint SceneWorld::checkpoint() {
@@ -33,8 +44,9 @@ Result<void> SceneWorld::go_to(const Checkpoint& checkpoint) {
     const bool same_objects =
         serials_of(sources_) == serials_of(checkpoint.sources) && collider_serials_ == checkpoint.collider_serials;
     std::optional<Checkpoint> before;
-    if (!same_objects) before = this->checkpoint();
+    if (!same_objects || !same_names(scene_, *checkpoint.scene)) before = this->checkpoint();
     auto gone = match_objects(checkpoint);
+    if (gone) take_names(scene_, *checkpoint.scene);  // stitches name cloths
     if (gone) gone = match_stitches(*checkpoint.scene, !same_objects);
     if (gone) gone = world_->go_to(checkpoint.moment);
     if (!gone) {

@@ -250,6 +250,14 @@ TEST(Checkpoints, of_renamed_objects_move_on) {
     EXPECT_EQ(world->world().colliders()[0].name, "globe");
     world->advance();
     EXPECT_EQ(world->world().state_hash(), expected);
+
+    // Back before the rename, and before the stitches were others.
+    next.stitches.clear();
+    ASSERT_TRUE(world->change_to(next).ok());
+    ASSERT_TRUE(world->go_to(then).ok());
+    EXPECT_TRUE(world->scene() == *then.scene);
+    world->advance();
+    EXPECT_EQ(world->world().state_hash(), expected);
 }
 
 TEST(Checkpoints, report_their_size) {
