@@ -133,7 +133,7 @@ class WorldFrameCopy final : public WorldFrame {
     std::optional<AirDesc> air_;
 };
 
-/// Makes copies of one world or of several, in the memory of earlier copies that nobody has any more. The copies may
+/// Makes copies of one world or of several. Reuses the memory of earlier copies that have been released. The copies may
 /// outlive this object. Not thread-safe; the copies may be released on any thread.
 class WorldFrameCopies {
   public:

@@ -37,7 +37,7 @@ constexpr const char* hanging = R"({ "weft": 1,
 constexpr const char* empty = R"({ "weft": 1, "cloths": [], "colliders": [{"name": "floor", "plane": {}}],
     "camera": {"position": [2, 1.8, 2.4], "target": [0, 0.3, 0], "fov": 50} })";
 
-/// The same from so far away that handles, whose size on the screen is constant, look the same at every place.
+/// The same from far away, where perspective does not change the shape of handles while they move.
 constexpr const char* from_afar = R"({ "weft": 1, "cloths": [], "colliders": [{"name": "floor", "plane": {}}],
     "camera": {"position": [20, 15.3, 24], "target": [0, 0.3, 0], "fov": 5.4} })";
 

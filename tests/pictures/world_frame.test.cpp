@@ -177,7 +177,7 @@ TEST_F(WorldFrameTest, is_not_drawn_with_surfaces_of_the_world) {
     EXPECT_EQ(picture(view, scene, *copy), before);
 }
 
-TEST_F(WorldFrameTest, copies_use_the_memory_of_copies_that_nobody_has) {
+TEST_F(WorldFrameTest, reuse_the_memory_of_released_copies) {
     Busy busy("cpu");
     WorldFrameCopies copies;
     auto first = copies.copy(busy.world);

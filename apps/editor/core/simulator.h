@@ -1,4 +1,4 @@
-// A thread that simulates. Actions are carried out between two frames, and nobody waits for it.
+// A thread that simulates. It carries out actions between two frames. Other threads post them and do not wait.
 #pragma once
 
 #include "editor/core/action_log.h"

@@ -145,7 +145,7 @@ TEST(Stage, refuses_what_is_wrong_and_changes_nothing) {
                             change_of("/cloths/1/name", "sheet"),
                             Rename{"/cloths/0", "cloth 1"},
                             Rename{"/cloths/9", "a"},
-                            Cut{"nobody", {{0, 0, 0}, {1, 0, 0}}},
+                            Cut{"no such cloth", {{0, 0, 0}, {1, 0, 0}}},
                             Cut{"sheet", {{5, 5, 5}, {6, 5, 5}}},
                             Cut{"cloth 1", {{-1, 1, 0}, {1, 1, 0}}},
                             Seek{77},

@@ -52,7 +52,7 @@ class StrokeTracer {
         return std::max({length(q - p), length(r - q), length(p - r)});
     }
 
-    // Whether a short way over the cloth leads from one to the other.
+    // Whether the geodesic distance between the two points is short.
     bool connected(const StrokeHit& a, const StrokeHit& b) const {
         const Triangle first = cloth_.mesh.triangle(a.hit.triangle), second = cloth_.mesh.triangle(b.hit.triangle);
         if (std::ranges::find_first_of(first, second) != first.end()) return true;
