@@ -185,7 +185,9 @@ struct AirDesc {
 /// Selects particles by number. Fails if a number is out of range, or the vertex belongs to no triangle.
 struct VertexPins {
     std::vector<std::uint32_t> vertices = {};  ///< welded vertices, numbered in order of first appearance in the file
-    friend bool operator==(const VertexPins&, const VertexPins&) = default;
+    std::string group = {};                    ///< the group of a scene file that lists them; empty: none
+    /// The same vertices are selected, whatever lists them.
+    friend bool operator==(const VertexPins& a, const VertexPins& b) { return a.vertices == b.vertices; }
 };
 /// Selects all particles in a box. Fails if there are none.
 struct BoxPins {
@@ -256,6 +258,9 @@ struct PaintedChannel {
 struct ResistanceDesc {
     float factor = 1;  ///< 0.001…1e6: on all limits of the fabric. A product with a channel is at least 0.001
     std::variant<VertexPins, BoxPins, ColorPins, PaintedChannel> select = {};
+    /// With VertexPins: one per vertex, 0.001…1e6, each multiplied by `factor`; empty: all 1. A product is at least
+    /// 0.001.
+    std::vector<float> factors = {};
     friend bool operator==(const ResistanceDesc&, const ResistanceDesc&) = default;
 };
 

@@ -134,6 +134,7 @@ void check_keys(const std::vector<Key>& keys, std::span<const Parameter> table, 
 // `made` is empty for meshes from files or from the program: their particles are not known here.
 void check_selection(const VertexPins& vertices, const std::optional<MadeMesh>& made, const std::string& pointer,
                      Problems& problems) {
+    if (!vertices.group.empty()) return;  // check_group
     if (vertices.vertices.empty()) problems.add(at(pointer, "vertices"), "must name at least one vertex");
     if (made) check_vertex_pins(vertices, made->vertices, at(pointer, "vertices"), problems);
 }
@@ -319,9 +320,24 @@ void check_path(const std::variant<PathCut, PlaneCut>& along, const std::string&
     }
 }
 
+void check_factors(const ResistanceDesc& resistance, const std::string& pointer, Problems& problems) {
+    const auto& factors = resistance.factors;
+    if (factors.empty() || problems.concern(pointer)) return;
+    const auto* vertices = std::get_if<VertexPins>(&resistance.select);
+    if (!vertices || !vertices->group.empty()) return problems.add(pointer, "needs \"vertices\"");
+    if (factors.size() != vertices->vertices.size())
+        problems.add(pointer, "must hold a number per vertex, " + std::to_string(vertices->vertices.size()) + ", got " +
+                                  std::to_string(factors.size()));
+    for (std::size_t i = 0; i < factors.size(); ++i)
+        if (const std::string problem = range_problem(one_factor, double{factors[i]}, number_text(factors[i]));
+            !problem.empty())
+            problems.add(at(pointer, i), problem);
+}
+
 void check_resistance(const ResistanceDesc& resistance, const std::optional<MadeMesh>& made, const std::string& pointer,
                       Problems& problems) {
     check_values(resistance_factor_keys, &resistance, pointer, problems);
+    check_factors(resistance, at(pointer, "factors"), problems);
     if (const auto* channel = std::get_if<PaintedChannel>(&resistance.select)) {
         check_values(painted_channel_keys, channel, pointer, problems);
         if (made) problems.add(at(pointer, "channel"), needs_colors(*made));
@@ -332,6 +348,19 @@ void check_resistance(const ResistanceDesc& resistance, const std::optional<Made
     } else {
         check_selection(std::get<ColorPins>(resistance.select), made, pointer, problems);
     }
+}
+
+void check_groups(const std::vector<VertexGroup>& groups, const std::optional<MadeMesh>& made,
+                  const std::string& pointer, Problems& problems) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const std::string place = at(pointer, i);
+        check_values(group_keys, &groups[i], place, problems);
+        if (groups[i].name.empty() && !problems.concern(at(place, "name")))
+            problems.add(at(place, "name"), "must not be empty");
+        if (!problems.concern(at(place, "vertices")))
+            check_selection(VertexPins{groups[i].vertices}, made, place, problems);
+    }
+    check_names(groups, pointer, problems);
 }
 
 void check_tearing(const SceneCloth& cloth, const std::optional<MadeMesh>& made, const std::string& pointer,
@@ -378,6 +407,7 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
                      at(pointer, "fabric"), problems);
     // If a mesh has errors, its number of particles is unknown.
     const bool sound = !problems.concern(at(pointer, "mesh"));
+    check_groups(cloth.groups, sound ? made_mesh(cloth.mesh) : std::nullopt, at(pointer, "groups"), problems);
     check_pins(cloth.pins, sound ? cloth.mesh : MeshDesc(MeshFileDesc()), at(pointer, "pins"), problems);
     check_tearing(cloth, sound ? made_mesh(cloth.mesh) : std::nullopt, pointer, problems);
     check_material(cloth.material, at(pointer, "material"), problems);

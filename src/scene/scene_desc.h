@@ -37,7 +37,14 @@ struct SceneMaterial {
     friend bool operator==(const SceneMaterial&, const SceneMaterial&) = default;
 };
 
-/// A ClothDesc with its fabric looked up, and a material.
+/// Vertices with a name, so that pins and resistance can name them.
+struct VertexGroup {
+    std::string name = {};
+    std::vector<std::uint32_t> vertices = {};  ///< welded vertices, as in VertexPins
+    friend bool operator==(const VertexGroup&, const VertexGroup&) = default;
+};
+
+/// A ClothDesc with its fabric looked up, groups, and a material.
 struct SceneCloth {
     std::string name = {};
     MeshDesc mesh = {};                        ///< the simulated mesh
@@ -46,6 +53,7 @@ struct SceneCloth {
     Vec3 velocity = {};  ///< m/s, at the start
     Fabric fabric = {};
     std::string fabric_name = "cotton";  ///< of the preset that the fabric is based on
+    std::vector<VertexGroup> groups = {};
     std::vector<PinDesc> pins = {};
     std::vector<CutDesc> cuts = {};
     std::vector<SeamDesc> seams = {};

@@ -29,6 +29,8 @@ const ColliderDesc collider;
 #define WEFT_SHAPE(name, Name) const Name##Desc name##_shape;
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
+const GroupHead group_head;
+const VertexGroup group;
 const PinDesc pin;
 const OffsetKey offset_key;
 const CutDesc cut;
@@ -79,7 +81,9 @@ std::vector<SceneTable> all_tables() {
         tables.push_back(
             {"/cloths/*/fabric", table.parameters, reinterpret_cast<const std::byte*>(&cloth.fabric) + table.offset});
     const SceneTable rest[] = {
+        {"/cloths/*/groups/*", group_keys, &group},
         {"/cloths/*/pins/*", pin_keys, nullptr},
+        {"/cloths/*/pins/*", in_group_keys, &group_head},
         {"/cloths/*/pins/*", color_pin_keys, &color_pins},
         {"/cloths/*/pins/*", pin_motion_keys, &pin},
         {"/cloths/*/pins/*/motion/*", offset_key_keys, &offset_key},
@@ -88,6 +92,8 @@ std::vector<SceneTable> all_tables() {
         {"/cloths/*/cuts/*/plane", cut_plane_keys, &cut_plane},
         {"/cloths/*/seams/*", seam_keys, &seam},
         {"/cloths/*/seams/*/plane", cut_plane_keys, &cut_plane},
+        {"/cloths/*/resistance/*", resistance_vertex_keys, nullptr},
+        {"/cloths/*/resistance/*", in_group_keys, &group_head},
         {"/cloths/*/resistance/*", resistance_keys, nullptr},
         {"/cloths/*/resistance/*", color_pin_keys, &color_pins},
         {"/cloths/*/resistance/*", painted_channel_keys, &painted_channel},

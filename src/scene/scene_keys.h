@@ -39,6 +39,9 @@ struct FabricHead {
 struct MaterialHead {
     std::string preset = {};
 };
+struct GroupHead {
+    std::string group = {};
+};
 
 // One entry per scene key.
 // clang-format off
@@ -195,6 +198,7 @@ inline constexpr Parameter cloth_keys[] = {
      .max = 4294967295, .what = "with which groups of other cloths it collides: the sum of 2^group"},
     {.key = "layer", .kind = ParameterKind::integer, .offset = offsetof(SceneCloth, layer), .max = 1000,
      .what = "where cloths of two layers cross, untangling moves the higher one to the front of the lower one"},
+    {.key = "groups", .kind = ParameterKind::list, .what = "vertices with a name, for `pins` and `resistance`"},
     {.key = "pins", .kind = ParameterKind::list, .what = "particles whose positions are given"},
     {.key = "cuts", .kind = ParameterKind::list,
      .what = "where the cloth is opened, and when; needs `tearing` `cuts`, `split` or `erode`"},
@@ -266,6 +270,18 @@ inline constexpr Parameter pin_keys[] = {
                                                           "transform"},
 };
 
+inline constexpr Parameter group_keys[] = {
+    {.key = "name", .kind = ParameterKind::text, .offset = offsetof(VertexGroup, name),
+     .what = "name, unique in the cloth", .required = true},
+    {.key = "vertices", .kind = ParameterKind::list, .what = "vertices, numbered as for `pins`", .required = true},
+};
+
+/// Selects the vertices of a group.
+inline constexpr Parameter in_group_keys[] = {
+    {.key = "group", .kind = ParameterKind::text, .offset = offsetof(GroupHead, group),
+     .what = "name of one of the cloth's `groups`"},
+};
+
 inline constexpr Parameter pin_motion_keys[] = {
     {.key = "attach", .kind = ParameterKind::text, .offset = offsetof(PinDesc, attach),
      .what = "name of a collider that the particles follow; by default they stay where they start"},
@@ -307,9 +323,17 @@ inline constexpr Parameter seam_keys[] = {
     {.key = "plane", .kind = ParameterKind::object, .what = "a plane through the cloth at the start; in place of `points`"},
 };
 
-inline constexpr Parameter resistance_keys[] = {
+inline constexpr Parameter resistance_vertex_keys[] = {
     {.key = "vertices", .kind = ParameterKind::list,
      .what = "numbers of welded vertices, in order of first appearance in the mesh"},
+    {.key = "factors", .kind = ParameterKind::list,
+     .what = "one number per vertex, 0.001 … 1000000; `factor` is multiplied by it, and at least 0.001; with `vertices`"},
+};
+
+/// One of the list `factors`.
+inline constexpr Parameter one_factor = {.key = "factors", .min = 0.001, .max = 1e6};
+
+inline constexpr Parameter resistance_keys[] = {
     {.key = "box", .kind = ParameterKind::object, .what = "all particles within this box in world space, after the "
                                                           "transform"},
 };

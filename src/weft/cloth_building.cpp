@@ -94,6 +94,24 @@ const TriangleMesh& simulated_mesh(const ClothModel& model, const ClothSource& s
     return source.simulated ? *source.simulated : model.mesh();
 }
 
+namespace {
+
+/// The particles that the cloth was built with, without copies.
+PinnedCloth at_rest(const ClothModel& model, const ClothSource& source) {
+    return {.mesh = simulated_mesh(model, source),
+            .numbers = *source.numbers,
+            .positions = {model.start.data(), source.numbers->particle_count}};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const ClothModel>> with_resistance(const ClothModel& model, const ClothSource& source,
+                                                          const SceneCloth& cloth, const std::string& pointer) {
+    auto paint = repaint_resistance(cloth, model, at_rest(model, source), pointer);
+    if (!paint) return paint.errors();
+    return with_tear_paint(model, std::move(*paint));
+}
+
 Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
                                const std::string& pointer, std::vector<std::string>& notes) {
     auto loaded = load_placed(cloth.mesh, cloth.transform, files);
@@ -142,11 +160,7 @@ Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, 
                                    std::move(*topology));
     if (!model) return within(pointer, model.errors());
     note_binding(**model, notes);
-    auto paint = paint_strength(cloth, **model,
-                                {.mesh = simulated_mesh(**model, built.source),
-                                 .numbers = *built.source.numbers,
-                                 .positions = {(*model)->start.data(), (*model)->particle_count}},
-                                pointer);
+    auto paint = paint_strength(cloth, **model, at_rest(**model, built.source), pointer);
     if (!paint) return paint.errors();
     if (*paint) *model = with_tear_paint(**model, std::move(*paint));
     auto cuts = plan_cuts(cloth, **model, pointer);

@@ -43,6 +43,11 @@ struct BuiltCloth {
 Result<BuiltCloth> build_cloth(const SceneCloth& cloth, const MeshFiles& files, const World& world,
                                const std::string& pointer, std::vector<std::string>& notes);
 
+/// A model of the same particles with the resistance of `cloth`. `model`: of a cloth that tears by itself. `pointer`:
+/// the place of the cloth in errors.
+Result<std::shared_ptr<const ClothModel>> with_resistance(const ClothModel& model, const ClothSource& source,
+                                                          const SceneCloth& cloth, const std::string& pointer);
+
 /// The cloth's fabric with its tether settings, which the solver treats as part of the fabric.
 Fabric fabric_of(const SceneCloth& cloth);
 

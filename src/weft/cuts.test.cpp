@@ -356,7 +356,61 @@ TEST(SceneResistance, follows_boxes_and_colors) {
     EXPECT_THAT(problem_of(scene), HasSubstr("/cloths/0/resistance/0/channel: the mesh has no vertex colors"));
 }
 
-// A change of strengths is a change of the cloth, but other pins keep them.
+// The strength changes under a cloth that moves and has torn, and nothing else does.
+TEST(SceneResistance, changes_while_the_cloth_moves) {
+    SceneDesc scene = tearing_sheet({{.strength = 50, .along = PlaneCut{{1, 0, 0}, 0.001f}}}, {});
+    SceneWorld world = open_cut_world(scene);
+    for (int i = 0; i < 5; ++i) world.advance();
+    ASSERT_TRUE(world.cut(world.world().cloth_id(0), {.along = PlaneCut{{0, 0, 1}, 0.001f}}, CutPositions::start));
+    world.advance();
+    const auto positions = [&] {
+        const auto now = world.world().frame().cloths[0].positions;
+        return std::vector<Vec4>(now.begin(), now.end());
+    };
+    const std::vector<Vec4> before = positions();
+    const std::uint64_t shape = world.world().frame().cloths[0].topology_version;
+    SceneDesc next = world.scene();
+    next.cloths[0].resistance = {{.factor = 2, .select = VertexPins{{7, 9}}, .factors = {0.25f, 4}}};
+    ASSERT_TRUE(world.change_to(next));
+    EXPECT_EQ(world.scene(), next);
+    EXPECT_EQ(positions(), before);
+    EXPECT_EQ(world.world().frame().cloths[0].topology_version, shape) << "it stays cut";
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[7], 2);
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[9], 1.0f / 8);
+    EXPECT_FALSE(only_model(world).tear_law->seams.empty());
+    // A new model gets it too, and so does the world that the document describes.
+    next.cloths[0].pins = {{.select = VertexPins{{0}}, .compliance = 0.01f}};
+    ASSERT_TRUE(world.change_to(next));
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[7], 2);
+    const SceneWorld fresh = open_cut_world(next);
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance, only_model(fresh).tear_law->inverse_resistance);
+    EXPECT_EQ(only_model(world).tear_law->watch, only_model(fresh).tear_law->watch);
+    next.cloths[0].resistance = {{.select = VertexPins{{5000}, "hem"}}};
+    EXPECT_THAT(world.change_to(next).errors()[0].message(),
+                HasSubstr("/cloths/0/resistance/0/group: must be a vertex"));
+    next.cloths[0].resistance.clear();
+    ASSERT_TRUE(world.change_to(next));
+    EXPECT_EQ(only_model(world).tear_law->inverse_resistance[7], 1);
+}
+
+// Other names of groups leave the cloth alone.
+TEST(SceneGroups, can_change_while_the_cloth_moves) {
+    SceneDesc scene = tearing_sheet({}, {});
+    scene.cloths[0].groups = {{"hem", {0, 1}}};
+    scene.cloths[0].pins = {{.select = VertexPins{{0, 1}, "hem"}, .compliance = 0.01f}};
+    SceneWorld world = open_cut_world(scene);
+    for (int i = 0; i < 5; ++i) world.advance();
+    const std::string before = world.world().state_hash();
+    SceneDesc next = world.scene();
+    next.cloths[0].groups = {{"edge", {0, 1}}, {"rest", {4}}};
+    next.cloths[0].pins[0].select = VertexPins{{0, 1}, "edge"};
+    ASSERT_TRUE(world.change_to(next));
+    EXPECT_EQ(world.world().state_hash(), before);
+    EXPECT_EQ(world.scene().cloths[0].groups[0].name, "edge");
+    EXPECT_EQ(std::get<VertexPins>(world.scene().cloths[0].pins[0].select).group, "edge");
+}
+
+// Other pins and another fabric keep the strengths.
 TEST(SceneSeams, stay_when_the_model_is_built_again) {
     SceneWorld world = open_cut_world(tearing_sheet({{.strength = 50, .along = PlaneCut{{1, 0, 0}, 0.001f}}},
                                                     {{.factor = 3, .select = BoxPins{{{-1, -1, -1}, {1, 1, 1}}}}}));

@@ -91,6 +91,8 @@ void add_seam(const SeamDesc& seam, const ClothModel& model, TearPaint& paint, E
                 paint.seams.push_back({link, seam.strength, seam.tear_energy, across_seam(seam.along, model, link)});
 }
 
+constexpr float least_resistance = 0.001f;
+
 float channel_of(Vec4 color, ColorChannel channel) {
     switch (channel) {
         case ColorChannel::red:
@@ -119,9 +121,8 @@ Result<void> paint_channel(const ResistanceDesc& desc, const PinnedCloth& cloth,
             return Error{place + "/channel", "the color of vertex " + std::to_string(v) + " is not a finite number"};
         sum[p] += value, ++count[p];
     }
-    constexpr float least = 0.001f;
     for (std::size_t p = 0; p < sum.size(); ++p)
-        if (count[p] > 0) paint.resistance[p] = std::max(least, desc.factor * sum[p] / count[p]);
+        if (count[p] > 0) paint.resistance[p] = std::max(least_resistance, desc.factor * sum[p] / count[p]);
     return {};
 }
 
@@ -136,8 +137,25 @@ Result<void> paint_resistance(const ResistanceDesc& desc, const PinnedCloth& clo
         desc.select);
     const auto chosen = select_particles(select, cloth, place);
     if (!chosen) return chosen.errors();
-    for (const std::uint32_t p : *chosen) paint.resistance[p] = desc.factor;
+    for (std::size_t i = 0; i < chosen->size(); ++i) {
+        // Copies follow the listed vertices, and have no resistance of their own.
+        const float own = i < desc.factors.size() ? desc.factors[i] : 1;
+        paint.resistance[(*chosen)[i]] = std::max(least_resistance, desc.factor * own);
+    }
     return {};
+}
+
+Result<std::vector<float>> resistance_of(const SceneCloth& cloth, const ClothModel& model, const PinnedCloth& particles,
+                                         const std::string& pointer) {
+    TearPaint paint;
+    Errors errors;
+    if (!cloth.resistance.empty()) paint.resistance.assign(model.tears->vertex_count(), 1.0f);
+    for (std::size_t i = 0; i < cloth.resistance.size(); ++i) {
+        const auto done = paint_resistance(cloth.resistance[i], particles, paint, at(at(pointer, "resistance"), i));
+        if (!done) errors.insert(errors.end(), done.errors().begin(), done.errors().end());
+    }
+    if (!errors.empty()) return errors;
+    return std::move(paint.resistance);
 }
 
 }  // namespace
@@ -149,12 +167,21 @@ Result<std::shared_ptr<const TearPaint>> paint_strength(const SceneCloth& cloth,
     Errors errors;
     for (std::size_t i = 0; i < cloth.seams.size(); ++i)
         add_seam(cloth.seams[i], model, *paint, errors, at(at(pointer, "seams"), i));
-    if (!cloth.resistance.empty()) paint->resistance.assign(model.tears->vertex_count(), 1.0f);
-    for (std::size_t i = 0; i < cloth.resistance.size(); ++i) {
-        const auto done = paint_resistance(cloth.resistance[i], particles, *paint, at(at(pointer, "resistance"), i));
-        if (!done) errors.insert(errors.end(), done.errors().begin(), done.errors().end());
-    }
+    auto resistance = resistance_of(cloth, model, particles, pointer);
+    if (!resistance) errors.insert(errors.end(), resistance.errors().begin(), resistance.errors().end());
     if (!errors.empty()) return errors;
+    paint->resistance = std::move(*resistance);
+    return std::shared_ptr<const TearPaint>(std::move(paint));
+}
+
+Result<std::shared_ptr<const TearPaint>> repaint_resistance(const SceneCloth& cloth, const ClothModel& model,
+                                                            const PinnedCloth& particles, const std::string& pointer) {
+    auto resistance = resistance_of(cloth, model, particles, pointer);
+    if (!resistance) return resistance.errors();
+    const bool has_seams = model.tear_paint && !model.tear_paint->seams.empty();
+    if (resistance->empty() && !has_seams) return std::shared_ptr<const TearPaint>();
+    auto paint = has_seams ? std::make_shared<TearPaint>(*model.tear_paint) : std::make_shared<TearPaint>();
+    paint->resistance = std::move(*resistance);
     return std::shared_ptr<const TearPaint>(std::move(paint));
 }
 

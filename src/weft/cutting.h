@@ -32,6 +32,10 @@ Result<std::vector<PlannedCut>> plan_cuts(const SceneCloth& cloth, const ClothMo
 Result<std::shared_ptr<const TearPaint>> paint_strength(const SceneCloth& cloth, const ClothModel& model,
                                                         const PinnedCloth& particles, const std::string& pointer);
 
+/// The same with the seams that the model has.
+Result<std::shared_ptr<const TearPaint>> repaint_resistance(const SceneCloth& cloth, const ClothModel& model,
+                                                            const PinnedCloth& particles, const std::string& pointer);
+
 /// The closed edges that a cut opens now. `positions`: of the particles; empty: the cut lies on the cloth as it was
 /// built. Fails like plan_cuts(); `where` of errors is `place`.
 Result<std::vector<Opening>> find_cut(const CutDesc& cut, const ClothModel& model, std::span<const Vec4> positions,

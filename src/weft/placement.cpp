@@ -36,7 +36,7 @@ class PinSelector {
         for (std::size_t i = 0; i < pins.vertices.size(); ++i) {
             const std::uint32_t vertex = pins.vertices[i];
             const auto problem = [&](const std::string& what) {
-                errors.push_back({where + "/vertices/" + std::to_string(i), what});
+                errors.push_back({where + (pins.group.empty() ? "/vertices/" + std::to_string(i) : "/group"), what});
             };
             if (vertex >= particle.size()) {
                 problem("must be a vertex of the mesh, 0 to " + std::to_string(particle.size() - 1) + ", got " +

@@ -60,6 +60,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
             .velocity = cloth.velocity,
             .fabric = cloth.fabric,
             .fabric_name = cloth.fabric_name,
+            .groups = cloth.groups,
             .pins = cloth.pins,
             .cuts = cloth.cuts,
             .seams = cloth.seams,
@@ -79,7 +80,7 @@ SceneCloth without_meshes(const SceneCloth& cloth) {
 bool same_particles(const SceneCloth& a, const SceneCloth& b) {
     return a.mesh == b.mesh && a.render_mesh == b.render_mesh && a.transform == b.transform &&
            a.velocity == b.velocity && a.tearing == b.tearing && a.tear_room == b.tear_room && a.cuts == b.cuts &&
-           a.seams == b.seams && a.resistance == b.resistance;
+           a.seams == b.seams;
 }
 bool collides_alike(const SceneCloth& a, const SceneCloth& b) {
     return a.self_collision == b.self_collision && a.collision_group == b.collision_group &&
@@ -343,6 +344,18 @@ Result<bool> SceneWorld::change_material(std::size_t place, const SceneCloth& cl
     return true;
 }
 
+// The strength of particles is part of the model and not of the constraints: nothing else changes.
+Result<void> SceneWorld::change_resistance(std::size_t place, const SceneCloth& cloth, const std::string& pointer) {
+    const ClothId id = world_->cloth_id(place);
+    const bool pending = world_->is_rebuilding(id);
+    auto model = with_resistance(*world_->model(id), sources_[place], cloth, pointer);
+    if (!model) return model.errors();
+    if (auto set = world_->set_material(id, std::move(*model)); !set) return set;
+    scene_.cloths[place].resistance = cloth.resistance;
+    if (pending) rebuild_later(place);
+    return {};
+}
+
 Result<void> SceneWorld::set_pins(ClothId id, std::vector<PinDesc> pins) {
     const std::size_t place = place_of(id);
     auto pinned = select_pins_now(*world_, id, sources_[place], pins);
@@ -508,6 +521,7 @@ void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
         if (!at_start) return true;
         auto same = *there;
         same.material = now.material;
+        if constexpr (requires { same.groups; }) same.groups = now.groups;
         return same == now;
     };
     for (std::size_t i = scene_.colliders.size(); i-- > 0;) {
@@ -560,6 +574,10 @@ Result<void> SceneWorld::change_cloths(const SceneDesc& next) {
         }
         const auto place = static_cast<std::size_t>(there - scene_.cloths.data());
         scene_.cloths[place].material = wanted.material;
+        scene_.cloths[place].groups = wanted.groups;
+        if (there->resistance != wanted.resistance) {
+            if (auto set = change_resistance(place, wanted, at("/cloths", i)); !set) return set;
+        }
         if (*there == wanted) continue;
         const ClothId id = world_->cloth_id(place);
         if (there->pins != wanted.pins && differs_in_pins_alone(*there, wanted)) {

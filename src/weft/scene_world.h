@@ -79,10 +79,10 @@ class SceneWorld {
     void set_contact_marks(bool on);
 
     /// Applies the differences between the document and `next`, for example to undo edits. Objects are matched by name.
-    /// Fabric, pins, friction and pose of a matched object are changed while it keeps moving. A cloth whose mesh,
-    /// transform or velocity differs, and a collider whose shape or keys differ, are replaced by new ones. Objects then
-    /// have the order of `next`. Fails on a scene that does not pass its checks, with all problems, and on a cloth that
-    /// cannot be built, and then changes nothing.
+    /// Fabric, pins, resistance, friction and pose of a matched object are changed while it keeps moving. A cloth whose
+    /// mesh, transform or velocity differs, and a collider whose shape or keys differ, are replaced by new ones.
+    /// Objects then have the order of `next`. Fails on a scene that does not pass its checks, with all problems, and on
+    /// a cloth that cannot be built, and then changes nothing.
     Result<void> change_to(SceneDesc next);
 
     /// Gives cloths and colliders other names. `next` must equal the document except for names and references to them.
@@ -131,6 +131,7 @@ class SceneWorld {
     Result<void> set_models(std::span<Change> changes);
     /// Returns false and changes nothing if the fabric needs a rebuilt model.
     Result<bool> change_material(std::size_t place, const SceneCloth& cloth);
+    Result<void> change_resistance(std::size_t place, const SceneCloth& cloth, const std::string& pointer);
     void rebuild_later(std::size_t place);
     Result<bool> target_at_once(std::size_t place, const Pinned& pinned);
     Result<void> change_stitches(const SceneDesc& next);

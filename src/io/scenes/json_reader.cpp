@@ -125,6 +125,17 @@ std::vector<std::uint32_t> ObjectReader::indices(std::string_view key) {
     return result;
 }
 
+std::vector<float> ObjectReader::numbers(std::string_view key) {
+    constexpr double most = std::numeric_limits<float>::max();
+    constexpr Parameter any = {.min = -most, .max = most};
+    std::vector<float> result;
+    const json* all = list(key);
+    if (!all) return result;
+    result.resize(all->size());
+    for (std::size_t i = 0; i < result.size(); ++i) (void)number(any, (*all)[i], at(at(pointer_, key), i), result[i]);
+    return result;
+}
+
 std::vector<Vec3> ObjectReader::points(std::string_view key) {
     constexpr Parameter coordinate = {.min = -far_away, .max = far_away};
     std::vector<Vec3> result;

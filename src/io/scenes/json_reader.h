@@ -45,6 +45,9 @@ class ObjectReader {
     /// The list of indices under `key`; an entry that is not an index is reported and read as 0.
     std::vector<std::uint32_t> indices(std::string_view key);
 
+    /// The list of numbers under `key`; what is no number is reported and read as 0.
+    std::vector<float> numbers(std::string_view key);
+
     /// The list of points under `key`, each of three numbers; what is no point is reported and read as zeros.
     std::vector<Vec3> points(std::string_view key);
 

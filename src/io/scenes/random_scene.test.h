@@ -201,7 +201,12 @@ class RandomScene {
         if (maybe())
             for (const FabricTable& table : fabric_tables())
                 fill(table.parameters, reinterpret_cast<std::byte*>(&cloth.fabric) + table.offset);
+        for (std::uint32_t i = below(3); i > 0; --i)
+            cloth.groups.push_back({"group " + std::to_string(i), {below(4), below(4)}});
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.pins.emplace_back(), of_a_file);
+        for (PinDesc& pin : cloth.pins)
+            if (auto* vertices = std::get_if<VertexPins>(&pin.select); vertices && !cloth.groups.empty() && maybe())
+                *vertices = {cloth.groups[0].vertices, cloth.groups[0].name};
         if (cloth.tearing == Tearing::off) return;
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back(), cut_keys);
         if (cloth.tearing == Tearing::split)
@@ -217,6 +222,7 @@ class RandomScene {
         fill(resistance_factor_keys, &resistance);
         const std::uint32_t kind = below(of_a_file ? 4 : 2);
         if (kind == 0) resistance.select = VertexPins{{below(4), below(4)}};
+        if (kind == 0 && maybe()) resistance.factors = {0.25f, 7};
         if (kind == 1) resistance.select = BoxPins{{{-1e3f, -0.0f, -2.5f}, {1, 0.1f, 1e20f}}};
         if (kind == 2) fill(color_pin_keys, &resistance.select.emplace<ColorPins>());
         if (kind == 3) fill(painted_channel_keys, &resistance.select.emplace<PaintedChannel>());

@@ -131,10 +131,28 @@ void read_fabric(ObjectReader& o, SceneCloth& cloth) {
         o.problems().add(place, "must be the name of a fabric or an object, got " + json_text(*found));
 }
 
-// Vertices, a box or a color.
+using Groups = std::vector<VertexGroup>;
+
+void read_group(ObjectReader& o, VertexGroup& group) {
+    o.values(group_keys, &group);
+    group.vertices = o.indices("vertices");
+}
+
+VertexPins in_group(ObjectReader& o, const std::string& name, const Groups& groups) {
+    const auto found = std::ranges::find(groups, name, &VertexGroup::name);
+    if (found != groups.end()) return {found->vertices, name};
+    std::vector<std::string_view> names;
+    for (const VertexGroup& group : groups) names.push_back(group.name);
+    o.problems().add(at(o.pointer(), "group"), "unknown group " + in_quotes(name) + suggestion(name, names));
+    return {{}, name};
+}
+
+// Vertices, a group, a box or a color.
 template <class Select>
-void read_selection(ObjectReader& o, std::string_view kind, const ColorPins& by_color, Select& select) {
+void read_selection(ObjectReader& o, std::string_view kind, const ColorPins& by_color, const GroupHead& by_group,
+                    const Groups& groups, Select& select) {
     if (kind == "vertices") select = VertexPins{o.indices("vertices")};
+    if (kind == "group") select = in_group(o, by_group.group, groups);
     if (kind == "box") {
         BoxPins in_box;
         o.object("box", [&](ObjectReader& box) { box.values(box_keys, &in_box.box); });
@@ -143,13 +161,15 @@ void read_selection(ObjectReader& o, std::string_view kind, const ColorPins& by_
     if (kind == "color") select = by_color;
 }
 
-void read_pin(ObjectReader& pin, PinDesc& result) {
+void read_pin(ObjectReader& pin, const Groups& groups, PinDesc& result) {
     ColorPins by_color;
+    GroupHead by_group;
     pin.know(pin_keys);
+    pin.values(in_group_keys, &by_group);
     pin.values(color_pin_keys, &by_color);
     pin.values(pin_motion_keys, &result);
-    const std::string_view kind = pin.one_of({"vertices", "box", "color"});
-    read_selection(pin, kind, by_color, result.select);
+    const std::string_view kind = pin.one_of({"vertices", "group", "box", "color"});
+    read_selection(pin, kind, by_color, by_group, groups, result.select);
     if (!kind.empty()) pin.only_with("color", color_pin_keys);
     pin.objects("motion", [&](ObjectReader& key) { key.values(offset_key_keys, &result.motion.emplace_back()); });
 }
@@ -165,17 +185,21 @@ void read_path(ObjectReader& o, std::span<const Parameter> keys, Desc& desc) {
                  [&](ObjectReader& plane) { plane.values(cut_plane_keys, &desc.along.template emplace<PlaneCut>()); });
 }
 
-void read_resistance(ObjectReader& o, ResistanceDesc& result) {
+void read_resistance(ObjectReader& o, const Groups& groups, ResistanceDesc& result) {
     ColorPins by_color;
+    GroupHead by_group;
     PaintedChannel painted;
+    o.know(resistance_vertex_keys);
     o.know(resistance_keys);
+    o.values(in_group_keys, &by_group);
     o.values(color_pin_keys, &by_color);
     o.values(painted_channel_keys, &painted);
     o.values(resistance_factor_keys, &result);
-    const std::string_view kind = o.one_of({"vertices", "box", "color", "channel"});
-    read_selection(o, kind, by_color, result.select);
+    const std::string_view kind = o.one_of({"vertices", "group", "box", "color", "channel"});
+    read_selection(o, kind, by_color, by_group, groups, result.select);
     if (kind == "channel") result.select = painted;
-    if (!kind.empty()) o.only_with("color", color_pin_keys);
+    result.factors = o.numbers("factors");
+    if (!kind.empty()) o.only_with("color", color_pin_keys), o.only_with("vertices", resistance_vertex_keys);
 }
 
 void read_cloth(ObjectReader& o, SceneCloth& cloth) {
@@ -184,10 +208,12 @@ void read_cloth(ObjectReader& o, SceneCloth& cloth) {
     o.object("render_mesh", [&](ObjectReader& mesh) { read_mesh(mesh, cloth.render_mesh.emplace()); });
     o.object("transform", [&](ObjectReader& t) { t.values(transform_keys, &cloth.transform); });
     read_fabric(o, cloth);
-    o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.pins.emplace_back()); });
+    o.objects("groups", [&](ObjectReader& group) { read_group(group, cloth.groups.emplace_back()); });
+    o.objects("pins", [&](ObjectReader& pin) { read_pin(pin, cloth.groups, cloth.pins.emplace_back()); });
     o.objects("cuts", [&](ObjectReader& cut) { read_path(cut, cut_keys, cloth.cuts.emplace_back()); });
     o.objects("seams", [&](ObjectReader& seam) { read_path(seam, seam_keys, cloth.seams.emplace_back()); });
-    o.objects("resistance", [&](ObjectReader& one) { read_resistance(one, cloth.resistance.emplace_back()); });
+    o.objects("resistance",
+              [&](ObjectReader& one) { read_resistance(one, cloth.groups, cloth.resistance.emplace_back()); });
     read_material(o, default_material(cloth), cloth.material);
 }
 

@@ -29,10 +29,10 @@ struct Kinds {
 const Kinds kinds[] = {
     {"/cloths/*/mesh", {"grid", "sphere", "box", "file"}},
     {"/cloths/*/render_mesh", {"grid", "sphere", "box", "file"}},
-    {"/cloths/*/pins/*", {"vertices", "box", "color"}},
+    {"/cloths/*/pins/*", {"vertices", "group", "box", "color"}},
     {"/cloths/*/cuts/*", {"points", "plane"}},
     {"/cloths/*/seams/*", {"points", "plane"}},
-    {"/cloths/*/resistance/*", {"vertices", "box", "color", "channel"}},
+    {"/cloths/*/resistance/*", {"vertices", "group", "box", "color", "channel"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
     {"/stitches/*/a", {"vertices", "points"}},
     {"/stitches/*/b", {"vertices", "points"}},
@@ -199,6 +199,7 @@ Json type_json(const Parameter& p, const std::string& place) {
                         {"items", {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}}},
                         {"minItems", on_cloth ? 2 : 4}};
             }
+            if (p.key == one_factor.key) return {{"type", "array"}, {"items", one_number(one_factor)}, {"minItems", 1}};
             // Only lists of vertices have no keys of their own.
             Json items = {{"type", "integer"}, {"minimum", 0}};
             Json schema = {{"type", "array"}, {"items", below.empty() ? items : object_schema(below)}};

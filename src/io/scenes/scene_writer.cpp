@@ -67,6 +67,7 @@ class SceneWriter {
     JsonNode light(const Lighting& light, const std::string& place);
 
     Problems problems_;
+    std::vector<VertexGroup> groups_;  ///< of the cloth that is written
 };
 
 // Whether two members of one struct, of the same type and count, have the same value.
@@ -76,6 +77,13 @@ bool same_value_as(const Parameter& leader, const Parameter& follower, const voi
 
 Child unless_empty(JsonNode node) {
     return node.empty() ? Child() : Child(std::move(node));
+}
+
+template <class Number>
+JsonNode numbers_of(const std::vector<Number>& all) {
+    JsonNode node = JsonNode::list();
+    for (const Number one : all) node.add(JsonNode::number(one));
+    return node;
 }
 
 template <class Read>
@@ -233,12 +241,15 @@ Child SceneWriter::material(const std::optional<SceneMaterial>& desc, const Mate
     return preset && as_named ? text(desc->preset, place) : node;
 }
 
-// Vertices, a box or a color.
+// Vertices, a group, a box or a color.
 template <class Select>
 void SceneWriter::selection(JsonNode& node, const Select& select, const std::string& place) {
     if (const auto* vertices = std::get_if<VertexPins>(&select)) {
-        node.add("vertices", list(vertices->vertices, at(place, "vertices"),
-                                  [](std::uint32_t vertex, const std::string&) { return JsonNode::number(vertex); }));
+        // A program may name a group that the cloth has not.
+        if (std::ranges::find(groups_, VertexGroup{vertices->group, vertices->vertices}) != groups_.end())
+            node.add("group", text(vertices->group, at(place, "group")));
+        else
+            node.add("vertices", numbers_of(vertices->vertices));
     } else if (const auto* box = std::get_if<BoxPins>(&select)) {
         node.add("box", object(box_keys, box->box, Bounds(), at(place, "box")));
     } else if (const auto* color = std::get_if<ColorPins>(&select)) {
@@ -277,6 +288,7 @@ JsonNode SceneWriter::resistance(const ResistanceDesc& desc, const std::string& 
     selection(node, desc.select, place);
     if (const auto* painted = std::get_if<PaintedChannel>(&desc.select))
         node.add("channel", value(painted_channel_keys[0], painted, at(place, "channel")));
+    if (!desc.factors.empty()) node.add("factors", numbers_of(desc.factors));
     const ResistanceDesc defaults;
     values(node, resistance_factor_keys, &desc, &defaults, place);
     return node;
@@ -285,12 +297,18 @@ JsonNode SceneWriter::resistance(const ResistanceDesc& desc, const std::string& 
 JsonNode SceneWriter::cloth(const SceneCloth& desc, std::size_t index, const std::string& place) {
     SceneCloth defaults;
     defaults.name = "cloth " + std::to_string(index);
+    groups_ = desc.groups;
     return object(cloth_keys, desc, defaults, place, [&](std::string_view key, const std::string& where) -> Child {
         if (key == "mesh") return desc.mesh == defaults.mesh ? Child() : mesh(desc.mesh, where);
         if (key == "render_mesh") return desc.render_mesh ? Child(mesh(*desc.render_mesh, where)) : Child();
         if (key == "transform") return unless_empty(object(transform_keys, desc.transform, defaults.transform, where));
         if (key == "fabric") return fabric(desc, where);
         if (key == "material") return material(desc.material, default_material(desc), where);
+        if (key == "groups")
+            return unless_empty(list(desc.groups, where, [&](const VertexGroup& one, const std::string& below) {
+                return object(group_keys, one, VertexGroup(), below,
+                              [&](std::string_view, const std::string&) { return Child(numbers_of(one.vertices)); });
+            }));
         if (key == "cuts")
             return unless_empty(list(desc.cuts, where, [&](const CutDesc& one, const std::string& below) {
                 return path(cut_keys, one, below);

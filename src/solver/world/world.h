@@ -39,8 +39,8 @@ class World {
     /// have edits.
     Result<void> set_model(ClothId id, std::shared_ptr<const ClothModel> model, KinematicTargets targets,
                            std::optional<std::vector<std::uint32_t>> pinned = {});
-    /// Sets a model made by with_fabric(): the same constraints with other parameters. Pins are kept. Drops a model
-    /// that rebuild_later() has pending.
+    /// Sets a model made by with_fabric() or with_tear_paint(): the same constraints with other parameters. Pins are
+    /// kept. Drops a model that rebuild_later() has pending.
     Result<void> set_material(ClothId id, std::shared_ptr<const ClothModel> model);
     /// Replaces the pins. Changes only the particles concerned: newly pinned ones keep their positions, released ones
     /// get their inverse mass back. `pinned`: in any order, repetitions allowed. Tethers and coarse levels remain those

@@ -1,5 +1,6 @@
 // Edits of the constraints, triangles and particles of cloths.
 #include "base/hash.h"
+#include "solver/model/tear_law.h"
 #include "solver/world/world.h"
 
 #include <algorithm>
@@ -170,7 +171,7 @@ Result<void> World::set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits,
     return {};
 }
 
-// The model of a cloth before its edits, with the fabric of `model`; null without edits.
+// The model of a cloth before its edits, with the fabric and the strengths of `model`; null without edits.
 Result<std::shared_ptr<const ClothModel>> World::with_fabric_unedited(const Cloth& cloth, const ClothModel& model) {
     if (!cloth.unedited) return std::shared_ptr<const ClothModel>();
     Fabric fabric = model.fabric;
@@ -178,6 +179,8 @@ Result<std::shared_ptr<const ClothModel>> World::with_fabric_unedited(const Clot
     auto changed = with_fabric(*cloth.unedited, fabric);
     if (changed && !*changed)
         return Error{"cloth '" + model.name + "'", "has been edited, and this fabric needs other constraints"};
+    if (changed && (*changed)->tear_law && (*changed)->tear_paint != model.tear_paint)
+        return with_tear_paint(**changed, model.tear_paint);
     return changed;
 }
 
