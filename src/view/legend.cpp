@@ -23,8 +23,7 @@ float unit_of(std::uint32_t width, std::uint32_t height) {
 }
 
 Vec4 color_at(const Legend::Bar& bar, float t) {
-    const auto color = shading::color_scale(t, static_cast<int>(bar.scale));
-    return {color.x, color.y, color.z, 1};
+    return color_of(bar.scale, t);
 }
 
 // The text, shortened to fit into `room`.
@@ -129,6 +128,11 @@ void draw_backdrop(float left, float top, float right, float bottom, float soft,
 }
 
 }  // namespace
+
+Vec4 color_of(render::ColorScale scale, float at) {
+    const auto color = shading::color_scale(at, static_cast<int>(scale));
+    return {color.x, color.y, color.z, 1};
+}
 
 std::vector<std::string> tick_texts(const Legend::Bar& bar, std::size_t count) {
     std::vector<std::string> texts;

@@ -31,6 +31,9 @@ struct Legend {
     bool of_scalars = false;  ///< belongs to OverlayOutput::scalars
 };
 
+/// sRGB and opacity. `at`: 0…1, from one end of the scale to the other.
+Vec4 color_of(render::ColorScale scale, float at);
+
 /// Numbers under a bar, from its left end to its right: five, or three if five do not fit.
 std::vector<std::string> tick_texts(const Legend::Bar& bar, std::size_t count = 5);
 

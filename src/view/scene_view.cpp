@@ -1,11 +1,13 @@
 #include "view/scene_view.h"
 
+#include "base/copies.h"
 #include "mesh/uv_scale.h"
 #include "render/host_mesh.h"
 #include "render/renderer.h"
 #include "scene/materials.h"
 #include "view/collider_mesh.h"
 #include "view/framing.h"
+#include "view/overlay_parts.h"
 #include "view/overlays.h"
 #include "view/scene_materials.h"
 
@@ -142,6 +144,7 @@ struct SceneView::Impl {
     std::vector<render::Ground> grounds;
     OverlayOutput shown;
     std::vector<std::string> hidden;  // names
+    std::shared_ptr<const ClothPaint> paint;
     FieldSurfaces fields;
 
     Impl(ViewOptions o, ViewSources from, render::Renderer r)
@@ -161,6 +164,8 @@ struct SceneView::Impl {
                               const ColliderScalars* scalars);
     Result<void> add_field(ColliderOnDevice& collider, const ColliderScalars& scalars, const Pose& pose);
     Result<void> draw_overlays(const WorldFrame& world, const Frame& frame);
+    Result<void> show(const Scalars& scalars, ClothOnDevice& cloth, render::Object& object);
+    Result<void> show_paint(const WorldFrame& world);
     Result<gpu::SurfaceBuffers> host_surface(ClothOnDevice& cloth, const ClothFrame& now);
     Result<render::Drawing> draw(const SceneDesc& scene, const WorldFrame& world, const Camera& camera,
                                  std::uint32_t wide, std::uint32_t high);
@@ -382,6 +387,7 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, const WorldFrame& wo
     if (auto dropped = drop_what_left(world); !dropped) return dropped;
     // Without overlays, surfaces on the device need no readback. A model has triangles, so every cloth is an object.
     const bool here = !sources.surface || !world.is_live() || !overlays.empty();
+    turn = 1 - turn;
     const Frame* frame = here ? &world.frame() : nullptr;
     objects.clear();
     grounds.clear();
@@ -392,6 +398,7 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, const WorldFrame& wo
     if (!overlays.empty()) {
         if (auto drawn = draw_overlays(world, *frame); !drawn) return drawn;
     }
+    if (auto painted = show_paint(world); !painted) return painted;
     auto next = shown.colliders.begin();
     for (std::size_t i = 0; i < world.colliders().size(); ++i) {
         const bool colored = next != shown.colliders.end() && next->collider == i;
@@ -408,19 +415,36 @@ Result<void> SceneView::Impl::bring(const SceneDesc& scene, const WorldFrame& wo
 Result<void> SceneView::Impl::draw_overlays(const WorldFrame& world, const Frame& frame) {
     shown = weft::draw_overlays(
         overlays, {.world = world, .frame = frame, .fields = fields, .size = size, .width = width, .height = height});
-    turn = 1 - turn;
     for (std::size_t i = 0; i < world.cloth_count() && i < shown.scalars.size(); ++i) {
-        ClothOnDevice& one = *find_at(cloths, world.cloth_id(i), i);
-        const Scalars& scalars = shown.scalars[i];
-        gpu::Buffer& buffer = one.scalars[turn];
-        if (!buffer) {
-            auto made = device().memory().buffer(scalars.values.size() * sizeof(float), gpu::MemoryKind::upload,
-                                                 "overlay of " + one.model->name);
-            if (!made) return made.errors();
-            buffer = std::move(*made);
-        }
-        std::ranges::copy(scalars.values, buffer.as<float>().begin());
-        objects[i].scalars = {render::range_of(buffer, 0, buffer.size()), scalars.least, scalars.most, scalars.scale};
+        auto done = show(shown.scalars[i], *find_at(cloths, world.cloth_id(i), i), objects[i]);
+        if (!done) return done;
+    }
+    return {};
+}
+
+Result<void> SceneView::Impl::show(const Scalars& scalars, ClothOnDevice& cloth, render::Object& object) {
+    gpu::Buffer& buffer = cloth.scalars[turn];
+    if (!buffer) {
+        auto made = device().memory().buffer(scalars.values.size() * sizeof(float), gpu::MemoryKind::upload,
+                                             "overlay of " + cloth.model->name);
+        if (!made) return made.errors();
+        buffer = std::move(*made);
+    }
+    std::ranges::copy(scalars.values, buffer.as<float>().begin());
+    object.scalars = {render::range_of(buffer, 0, buffer.size()), scalars.least, scalars.most, scalars.scale};
+    return {};
+}
+
+Result<void> SceneView::Impl::show_paint(const WorldFrame& world) {
+    for (std::size_t i = 0; paint && i < world.cloth_count(); ++i) {
+        const ClothModel& model = *world.model(i);
+        if (model.name != paint->cloth || model.particle_count != paint->values.size() + model.copied_from.size())
+            continue;
+        std::vector<float> values = paint->values;
+        append_copies(values, std::span(model.copied_from.data(), model.copied_from.size()), model.particle_count);
+        const Scalars scalars{overlay::at_vertices(model, values), paint->least, paint->most, paint->scale};
+        auto done = show(scalars, *find_at(cloths, world.cloth_id(i), i), objects[i]);
+        if (!done) return done;
     }
     return {};
 }
@@ -471,6 +495,10 @@ const std::vector<std::string>& SceneView::notes() const {
 
 void SceneView::set_hidden(std::vector<std::string> names) {
     impl_->hidden = std::move(names);
+}
+
+void SceneView::set_paint(std::shared_ptr<const ClothPaint> paint) {
+    impl_->paint = std::move(paint);
 }
 
 void SceneView::set_overlays(std::vector<const Overlay*> overlays) {

@@ -45,6 +45,14 @@ struct ViewSources {
     ReadLight read_light = {};
 };
 
+/// Values that are shown as colors in place of a cloth's material, and of what overlays show on it.
+struct ClothPaint {
+    std::string cloth;          ///< name
+    std::vector<float> values;  ///< per particle that the cloth was built with; copies have those of their originals
+    float least = 0, most = 1;  ///< at the ends of the scale
+    render::ColorScale scale = render::ColorScale::amount;
+};
+
 /// Scene and world are read only during calls. They may move between calls, and anything in them may change: the next
 /// image shows it. A world is drawn itself, or from a copy (view/world_frame.h), which may be older than the scene.
 class SceneView {
@@ -85,6 +93,8 @@ class SceneView {
     void set_hidden(std::vector<std::string> names);
     /// Replaces the overlays.
     void set_overlays(std::vector<const Overlay*> overlays);
+    /// Null: none. Does nothing if the cloth does not exist or has another number of particles.
+    void set_paint(std::shared_ptr<const ClothPaint> paint);
     /// One line per problem that was worked around: maps that cannot be read.
     const std::vector<std::string>& notes() const;
 

@@ -79,6 +79,7 @@ class Views {
         }
         view->set_overlays(request.overlays);
         view->set_hidden(request.hidden);
+        view->set_paint(request.paint);
         const auto part = [&](std::uint32_t pixels) { return std::max(1u, pixels * quality.percent / 100); };
         auto image =
             view->picture(*request.scene, *request.world, request.camera, part(request.width), part(request.height));

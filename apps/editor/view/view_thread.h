@@ -7,6 +7,7 @@
 #include "look/camera.h"
 #include "scene/scene_desc.h"
 #include "view/overlays.h"
+#include "view/scene_view.h"
 #include "view/world_frame.h"
 
 #include <weft/result.h>
@@ -29,6 +30,7 @@ struct ViewRequest {
     Camera camera = {};
     std::uint32_t width = 0, height = 0;  ///< pixels; nothing is drawn while one is 0
     std::vector<const Overlay*> overlays = {};
+    std::shared_ptr<const ClothPaint> paint = {};
     std::vector<std::string> selected_cloths = {}, selected_colliders = {};  ///< names; they get an outline
     std::vector<std::string> hidden = {};  ///< names of cloths and colliders that are not drawn
     friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
