@@ -24,18 +24,20 @@ std::vector<Triangle> chosen(std::span<const Triangle> triangles, std::span<cons
 
 }  // namespace
 
-float brush_fall_off(float distance, float radius) {
+float brush_fall_off(float distance, float radius, BrushFallOff kind) {
     if (!(radius > 0) || !(distance < radius)) return 0;
+    if (kind == BrushFallOff::none) return 1;
+    if (kind == BrushFallOff::linear) return 1 - std::max(distance, 0.0f) / radius;
     const float t = std::max(distance, 0.0f) / radius;
     return (1 - t * t) * (1 - t * t);
 }
 
 std::vector<BrushWeight> brush_weights(SurfaceDistance& distance, const MeshView& mesh, const MeshPlace& center,
-                                       float radius, const std::optional<MeshPlace>& mirrored) {
+                                       float radius, const std::optional<MeshPlace>& mirrored, BrushFallOff fall_off) {
     std::vector<BrushWeight> weights;
     const auto add = [&](const MeshPlace& place) {
         for (const ReachedVertex& reached : distance.from(mesh, place, radius))
-            weights.push_back({reached.vertex, brush_fall_off(reached.distance, radius)});
+            weights.push_back({reached.vertex, brush_fall_off(reached.distance, radius, fall_off)});
     };
     add(center);
     if (mirrored) add(*mirrored);
@@ -47,12 +49,19 @@ std::vector<BrushWeight> brush_weights(SurfaceDistance& distance, const MeshView
     return weights;
 }
 
-RestMirror::RestMirror(std::vector<Vec3> rest_positions, std::span<const Triangle> triangles)
-    : positions_(std::move(rest_positions)),
+RestMirror::RestMirror(std::vector<Vec3> rest_positions, std::span<const Triangle> triangles, MirrorAxis axis)
+    : axis_(axis == MirrorAxis::x   ? &Vec3::x
+            : axis == MirrorAxis::y ? &Vec3::y
+                                    : &Vec3::z),
+      positions_(std::move(rest_positions)),
       numbers_(sound_triangles(positions_, triangles)),
       place_(triangles.size(), none),
       search_({}, {}) {
     triangles_ = chosen(triangles, numbers_);
+    Bounds bounds;
+    for (const Triangle& t : triangles_)
+        for (const std::uint32_t corner : t) bounds.include(positions_[corner]);
+    if (!triangles_.empty()) twice_middle_ = bounds.min.*axis_ + bounds.max.*axis_;
     for (std::uint32_t i = 0; i < numbers_.size(); ++i) place_[numbers_[i]] = i;
     search_ = SurfaceSearch(positions_, triangles_);
 }
@@ -61,7 +70,7 @@ std::optional<MeshPlace> RestMirror::of(const MeshPlace& place, float tolerance)
     if (place.triangle >= place_.size() || place_[place.triangle] == none) return std::nullopt;
     Vec3 point = point_of(MeshView(positions_, triangles_), {place_[place.triangle], place.weights});
     if (!finite(point)) return std::nullopt;
-    point.x = -point.x;
+    point.*axis_ = twice_middle_ - point.*axis_;
     const SurfacePoint found = search_.closest(point);
     if (found.triangle == none || !(found.distance <= static_cast<double>(tolerance))) return std::nullopt;
     const auto& w = found.weights;

@@ -12,6 +12,11 @@
 namespace weft::editor {
 
 enum class BrushMode : std::uint8_t { add, subtract, smooth, set };
+enum class BrushFallOff : std::uint8_t {
+    smooth,  ///< with a slope of 0 at the center and at the radius
+    linear,
+    none,  ///< 1 up to the radius
+};
 
 struct BrushSettings {
     BrushMode mode = BrushMode::add;
@@ -21,8 +26,8 @@ struct BrushSettings {
     float min = 0, max = 1;  ///< of painted values
 };
 
-/// 1 at the center, 0 from the radius on, with a slope of 0 at both.
-float brush_fall_off(float distance, float radius);
+/// 1 at the center, 0 from the radius on.
+float brush_fall_off(float distance, float radius, BrushFallOff kind = BrushFallOff::smooth);
 
 struct BrushWeight {
     std::uint32_t vertex = 0;
@@ -33,12 +38,16 @@ struct BrushWeight {
 /// reach a vertex, the larger weight. Distances run over the surface: the other side of a fold is farther away.
 /// Ascending by vertex.
 std::vector<BrushWeight> brush_weights(SurfaceDistance& distance, const MeshView& mesh, const MeshPlace& center,
-                                       float radius, const std::optional<MeshPlace>& mirrored = std::nullopt);
+                                       float radius, const std::optional<MeshPlace>& mirrored = std::nullopt,
+                                       BrushFallOff fall_off = BrushFallOff::smooth);
 
-/// Finds mirror images of points across the plane x = 0 of a shape at rest.
+enum class MirrorAxis : std::uint8_t { x, y, z };
+
+/// Finds mirror images of points across a plane of a shape at rest: perpendicular to the axis, through the middle of
+/// the shape's bounds.
 class RestMirror {
   public:
-    RestMirror(std::vector<Vec3> rest_positions, std::span<const Triangle> triangles);
+    RestMirror(std::vector<Vec3> rest_positions, std::span<const Triangle> triangles, MirrorAxis axis = MirrorAxis::x);
     RestMirror(const RestMirror&) = delete;
     RestMirror& operator=(const RestMirror&) = delete;
 
@@ -47,6 +56,8 @@ class RestMirror {
     std::optional<MeshPlace> of(const MeshPlace& place, float tolerance) const;
 
   private:
+    float Vec3::*axis_;
+    float twice_middle_ = 0;  // m
     std::vector<Vec3> positions_;
     std::vector<Triangle> triangles_;     // the sound ones
     std::vector<std::uint32_t> numbers_;  // of these in the mesh

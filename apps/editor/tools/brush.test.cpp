@@ -194,13 +194,42 @@ TEST(Brush, paints_the_mirror_image_across_the_rest_shape) {
               brush_weights(distance, MeshView(rest), middle, 0.15f).size());
 }
 
+TEST(Brush, is_mirrored_across_the_middle_of_any_axis) {
+    TriangleMesh rest = make_grid({1, 1}, {21, 21}, GridDiagonal::uniform);
+    const MeshPlace place = place_at(rest, 0.3f, 0.1f);
+    for (Vec3& p : rest.positions) p = p + Vec3{7, 0, -4};
+    const auto image = [&](MirrorAxis axis) {
+        const auto other = RestMirror(rest.positions, rest.triangles, axis).of(place, 0.01f);
+        EXPECT_TRUE(other);
+        return other ? point_of(MeshView(rest), *other) : Vec3{};
+    };
+    expect_close(image(MirrorAxis::x), {6.7f, 0, -3.9f}, 1e-5f);
+    expect_close(image(MirrorAxis::y), {7.3f, 0, -3.9f}, 1e-5f);
+    expect_close(image(MirrorAxis::z), {7.3f, 0, -4.1f}, 1e-5f);
+}
+
+TEST(Brush, falls_off_as_asked) {
+    for (const BrushFallOff kind : {BrushFallOff::smooth, BrushFallOff::linear, BrushFallOff::none}) {
+        EXPECT_EQ(brush_fall_off(0, 2, kind), 1);
+        EXPECT_EQ(brush_fall_off(2, 2, kind), 0);
+        EXPECT_EQ(brush_fall_off(1, 0, kind), 0);
+    }
+    EXPECT_EQ(brush_fall_off(0.5f, 2, BrushFallOff::linear), 0.75f);
+    EXPECT_EQ(brush_fall_off(1.9f, 2, BrushFallOff::none), 1);
+}
+
 TEST(Brush, what_has_no_mirror_image_is_not_mirrored) {
-    TriangleMesh half = make_grid({1, 1}, {11, 11}, GridDiagonal::uniform);
-    for (Vec3& p : half.positions) p.x += 0.7f;
-    half.positions[60].x = nan_value;
-    const RestMirror mirror(half.positions, half.triangles);
-    EXPECT_FALSE(mirror.of({0, {1, 0, 0}}, 0.1f));
-    EXPECT_TRUE(mirror.of({0, {1, 0, 0}}, 10));
+    // A sheet of which one corner is missing.
+    TriangleMesh part = make_grid({1, 1}, {11, 11}, GridDiagonal::uniform);
+    const MeshPlace opposite = place_at(part, 0.42f, 0.42f);
+    for (Triangle& t : part.triangles) {
+        const Vec3 p = part.positions[t[0]];
+        if (p.x < 0.05f && p.z > 0.05f) t = {0, 0, 999};
+    }
+    part.positions[13].x = nan_value;
+    const RestMirror mirror(part.positions, part.triangles);
+    EXPECT_FALSE(mirror.of(opposite, 0.1f));
+    EXPECT_TRUE(mirror.of(opposite, 10));
     EXPECT_FALSE(mirror.of({999999, {1, 0, 0}}, 10));
     EXPECT_FALSE(RestMirror({}, {}).of({0, {1, 0, 0}}, 10));
 }
