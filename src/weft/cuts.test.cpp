@@ -361,7 +361,7 @@ TEST(SceneResistance, changes_while_the_cloth_moves) {
     SceneDesc scene = tearing_sheet({{.strength = 50, .along = PlaneCut{{1, 0, 0}, 0.001f}}}, {});
     SceneWorld world = open_cut_world(scene);
     for (int i = 0; i < 5; ++i) world.advance();
-    ASSERT_TRUE(world.cut(world.world().cloth_id(0), {.along = PlaneCut{{0, 0, 1}, 0.001f}}, CutPositions::start));
+    ASSERT_TRUE(world.cut(world.world().cloth_id(0), {.along = PlaneCut{{0, 1, 0}, 0.001f}}, CutPositions::start));
     world.advance();
     const auto positions = [&] {
         const auto now = world.world().frame().cloths[0].positions;

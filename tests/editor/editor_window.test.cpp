@@ -286,8 +286,8 @@ TEST_F(EditorWindow, vertices_are_chosen_and_pinned_and_cloth_is_cut) {
     e.key("2");
     const Rectangle all = e.place(view);
     e.drag(all.at(0.3, 0.3), all.at(0.6, 0.5));
-    EXPECT_THAT(e.value("middle/view/tool/pin"), AllOf(StartsWith("Pin "), Not("Pin 0")));
-    const auto chosen = std::stoul(e.value("middle/view/tool/pin").substr(4));
+    EXPECT_THAT(e.value("properties/tool/pin"), AllOf(StartsWith("Pin "), Not("Pin 0")));
+    const auto chosen = std::stoul(e.value("properties/tool/pin").substr(4));
     e.key("p");
     const auto pinned = e.played();
     const Json& pins = pinned.document()->json["cloths"][0]["pins"];

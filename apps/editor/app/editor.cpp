@@ -149,7 +149,9 @@ void Editor::set_stage(Stage stage, const std::optional<Log>& recovered) {
     if (recovered) session_->set_saved(recovered->head.document->json);
     if (!problem.empty()) session_->say(problem);
     marks_ = {};
-    view_.choose_none();
+    view_.selector.choose_none();
+    view_.anchors.discard();
+    view_.brush.cancel();
     const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
     view_.camera = document->scene.camera.value_or(framing(subject_of(*picture->world).all, 1.6f));
 }
@@ -313,6 +315,8 @@ void Editor::layout(Ui& ui) {
     splitter(ui, "split_right", SplitAxis::x, height, settings_.right, 200, 800, true);
     ImGui::SameLine(0, 0);
     panel(ui, "properties", ImVec2(right, height), theme.colors.panel, padding, [&] {
+        const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
+        if (picture && tool_panel_.show(ui, *session_, view_, *picture)) ImGui::Separator();
         ImGui::PushFont(theme.strong);
         const std::string& selected = session_->selected();
         ImGui::TextUnformatted(selected.empty() ? "Properties"
@@ -346,6 +350,7 @@ void Editor::request_view() {
                         .width = static_cast<std::uint32_t>(view_.size().x),
                         .height = static_cast<std::uint32_t>(view_.size().y),
                         .overlays = overlays_,
+                        .paint = view_.paint(*session_, *picture),
                         .hidden = {marks_.hidden.begin(), marks_.hidden.end()}};
     const std::string name = session_->selected_name();
     if (session_->selected().starts_with("/cloths/")) request.selected_cloths = {name};

@@ -8,6 +8,7 @@
 #include "editor/app/properties.h"
 #include "editor/app/session.h"
 #include "editor/app/settings.h"
+#include "editor/app/tool_panel.h"
 #include "editor/app/view_panel.h"
 #include "editor/ui/ui_window.h"
 #include "editor/view/view_thread.h"
@@ -75,7 +76,6 @@ class Editor {
     void menus(Ui& ui);
     void menu(Ui& ui, const char* name, const char* label, std::initializer_list<const char*> commands);
     void menu_entries(Ui& ui, const char* name, std::initializer_list<const char*> commands);
-    void tool_row(Ui& ui);
     void view(Ui& ui);
     void view_overlay(Ui& ui);
     void timeline(Ui& ui);
@@ -131,6 +131,7 @@ class Editor {
     Cards cards_;
     Properties properties_;
     ViewPanel view_;
+    ToolPanel tool_panel_;
     ViewMarks marks_;
     std::vector<const Overlay*> overlays_;
     FileDialog file_dialog_;

@@ -14,8 +14,23 @@ void Editor::make_commands() {
     const Modifiers plain{}, control{.control = true}, shift{.shift = true}, both{.shift = true, .control = true};
     const auto on_view = [this](ViewFrom side) { return [this, side] { view_.look_from(side), window_->redraw(); }; };
     const auto tool = [this](Tool one) { return [this, one] { view_.settings.tool = one; }; };
+    const auto radius = [this](float by) { return [this, by] { view_.brush.scale_radius(by); }; };
+    const auto choice = [this](std::string_view name, Icon icon, Key key, Modifiers modifiers) {
+        const SelectionChange& one = *std::ranges::find(selection_changes(), name, &SelectionChange::name);
+        return Command{name,
+                       one.label,
+                       one.what,
+                       icon,
+                       key,
+                       modifiers,
+                       [this, &one] {
+                           view_.selector.change(one, *session_,
+                                                 *static_cast<const Picture*>(session_->now().picture.get()));
+                       },
+                       [this, &one] { return !one.needs_chosen || !view_.selector.chosen().empty(); }};
+    };
     const auto has_object = [this] { return is_object(session_->selected()); };
-    const auto has_chosen = [this] { return !view_.chosen().empty(); };
+    const auto has_chosen = [this] { return !view_.selector.chosen().empty(); };
     const auto picture = [this] { return static_cast<const Picture*>(session_->now().picture.get()); };
     commands_ = {
         {"new", "New", "An empty scene with a floor", Icon::file, Key::n, control,
@@ -44,10 +59,10 @@ void Editor::make_commands() {
          has_object},
         {"key", "Set key", "Keep the pose of the collider at the present time", Icon::key, Key::k, plain,
          [this] { key_selected(); }, [this] { return session_->selected().starts_with("/colliders/"); }},
-        {"pin", "Pin", "Hold the chosen vertices", Icon::pin, Key::p, plain, [this] { view_.pin_chosen(*session_); },
+        {"pin", "Pin", "Hold the chosen vertices", Icon::pin, Key::p, plain, [this] { view_.selector.pin(*session_); },
          has_chosen},
         {"unpin", "Unpin", "Let go of the chosen vertices", Icon::unpin, Key::p, shift,
-         [this] { view_.unpin_chosen(*session_); }, has_chosen},
+         [this] { view_.selector.unpin(*session_); }, has_chosen},
         {"play", "Play or pause", "Run the simulation", Icon::play, Key::space, plain, [this] { toggle_play(); }},
         {"step", "Step", "One frame", Icon::step, Key::period, plain, [this] { step_once(); }},
         {"reset", "Reset", "Back to the first frame", Icon::reset, Key::r, plain, [this] { session_->post(Reset{}); }},
@@ -59,13 +74,30 @@ void Editor::make_commands() {
         {"turn", "Turn", "Rings that turn the object", Icon::rotate, Key::digit_4, plain, tool(Tool::turn)},
         {"scale", "Scale", "Handles that scale the object", Icon::scale, Key::digit_5, plain, tool(Tool::scale)},
         {"cut", "Cut", "Draw a stroke across a cloth", Icon::cut, Key::digit_6, plain, tool(Tool::cut)},
+        {"lasso", "Lasso", "Choose vertices of a cloth by a line around them", Icon::lasso, Key::digit_7, plain,
+         tool(Tool::lasso)},
+        {"brush", "Brush", "Paint pins, resistance or groups on a cloth", Icon::brush, Key::digit_8, plain,
+         tool(Tool::brush)},
+        {"anchors", "Anchors", "Choose vertices to pin, and apply them together", Icon::pin, Key::digit_9, plain,
+         tool(Tool::anchors)},
+        {"smaller", "Smaller brush", "Also the key [", Icon::remove, Key::left_bracket, plain, radius(1 / 1.2f)},
+        {"larger", "Larger brush", "Also the key ]", Icon::add, Key::right_bracket, plain, radius(1.2f)},
+        {"apply_anchors", "Apply anchors", "Pin and unpin what is pending", Icon::check, Key::enter, plain,
+         [this] { view_.anchors.apply(*session_); },
+         [this] { return view_.settings.tool == Tool::anchors && view_.anchors.pending(); }},
+        choice("all", Icon::box_select, Key::a, control),
+        choice("none", Icon::cross, Key::a, both),
+        choice("invert", Icon::repeat, Key::i, control),
+        choice("grow", Icon::add, Key::equal, control),
+        choice("shrink", Icon::remove, Key::minus, control),
+        choice("boundary", Icon::frame_all, Key::b, control),
         {"axes", "Local axes", "Handles along the axes of the object or of the world", Icon::move, Key::x, plain,
          [this] {
              GizmoAxes& axes = view_.settings.axes;
              axes = axes == GizmoAxes::world ? GizmoAxes::local : GizmoAxes::world;
          }},
         {"through", "Choose through cloth", "Hidden vertices can be chosen too", Icon::eye, Key::t, plain,
-         [this] { view_.settings.through = !view_.settings.through; }},
+         [this] { view_.selector.through = !view_.selector.through; }},
         {"frame", "Frame selected", "Show the object as a whole", Icon::frame_all, Key::f, plain,
          [this, picture] { view_.frame_selected(*picture(), *session_), window_->redraw(); }},
         {"frame_all", "Frame all", "Show the whole scene", Icon::frame_all, Key::home, plain,

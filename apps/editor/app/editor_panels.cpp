@@ -54,6 +54,16 @@ std::string shortcut_text(const Command& command) {
             return text + "Del";
         case Key::home:
             return text + "Home";
+        case Key::enter:
+            return text + "Enter";
+        case Key::left_bracket:
+            return text + "[";
+        case Key::right_bracket:
+            return text + "]";
+        case Key::equal:
+            return text + "=";
+        case Key::minus:
+            return text + "-";
         default:
             return text;
     }
@@ -130,9 +140,10 @@ void Editor::toolbar(Ui& ui) {
         menu(ui, "edit", "Edit",
              {"undo", "redo", "history", "", "duplicate", "rename", "delete", "", "pin", "unpin", "key", "",
               "preferences"});
+        menu(ui, "select_menu", "Select", {"all", "none", "invert", "", "grow", "shrink", "boundary", "", "through"});
         menu(ui, "view_menu", "View",
              {"frame", "frame_all", "", "from_front", "from_back", "from_left", "from_right", "from_top", "from_bottom",
-              "", "go_to_camera", "use_camera", "", "axes", "through"});
+              "", "go_to_camera", "use_camera", "", "axes"});
         menu(ui, "overlays", "Overlays", {});
         menu(ui, "help_menu", "Help", {"help"});
         ImGui::SameLine(0, theme.px(14));
@@ -146,8 +157,8 @@ void Editor::toolbar(Ui& ui) {
                     .width = theme.px(92)}))
             toggle_play();
         float gap = theme.px(14);
-        for (const char* name :
-             {"step", "reset", "", "undo", "redo", "", "hand", "select", "move", "turn", "scale", "cut"}) {
+        for (const char* name : {"step", "reset", "", "undo", "redo", "", "hand", "select", "move", "turn", "scale",
+                                 "cut", "lasso", "brush", "anchors"}) {
             if (!*name) {
                 gap = theme.px(14);
                 continue;
@@ -171,7 +182,7 @@ void Editor::toolbar(Ui& ui) {
     ImGui::PopStyleColor();
 }
 
-// Lines over the upper left corner of the view: what the tool does, messages, hints.
+// Lines over the upper left corner of the view: messages, hints.
 void Editor::view_overlay(Ui& ui) {
     const Theme& theme = ui.theme();
     const float width = std::min(ImGui::GetContentRegionAvail().x - theme.px(10), theme.px(520));
@@ -179,43 +190,11 @@ void Editor::view_overlay(Ui& ui) {
     ImGui::BeginGroup();
     ImGui::PushItemWidth(width);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-    tool_row(ui);
     messages(ui);
     hints(ui);
     ImGui::PopTextWrapPos();
     ImGui::PopItemWidth();
     ImGui::EndGroup();
-}
-
-void Editor::tool_row(Ui& ui) {
-    const Ui::Scope scope(ui, "tool");
-    if (view_.settings.tool == Tool::select) {
-        const std::size_t count = view_.chosen().size();
-        const std::string pin = "Pin " + std::to_string(count), unpin = "Unpin";
-        if (button(ui, "pin",
-                   {.icon = Icon::pin,
-                    .text = pin,
-                    .what = "Hold the chosen vertices",
-                    .shortcut = "P",
-                    .enabled = count > 0}))
-            view_.pin_chosen(*session_);
-        ImGui::SameLine();
-        if (button(ui, "unpin",
-                   {.icon = Icon::unpin,
-                    .text = unpin,
-                    .what = "Let go of them",
-                    .shortcut = "Shift+P",
-                    .enabled = count > 0}))
-            view_.unpin_chosen(*session_);
-        ImGui::SameLine();
-        if (button(ui, "through",
-                   {.icon = view_.settings.through ? Icon::eye : Icon::eye_off,
-                    .text = "Hidden too",
-                    .what = "Choose vertices that cloth or colliders hide",
-                    .shortcut = "T",
-                    .chosen = view_.settings.through}))
-            view_.settings.through = !view_.settings.through;
-    }
 }
 
 void Editor::messages(Ui& ui) {

@@ -198,6 +198,8 @@ void choose_alternative(Ui& ui, Session& session, const std::string& place, cons
     const std::string_view key = group.one_of[chosen];
     Json value = Json::object();
     if (key == "vertices") value = Json{0};
+    if (const auto groups = names_for(*session.document(), place, key); key == "group" && !groups.empty())
+        value = groups.front();
     if (key == "points") value = Json{{0, 0, 0}, {0.1, 0, 0}};
     if (key == "color") value = Json{1, 0, 0};
     if (key == "channel") value = "red";

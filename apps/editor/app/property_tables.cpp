@@ -21,8 +21,8 @@ struct OneOf {
 const std::vector<OneOf>& alternatives_of_objects() {
     static const std::vector<OneOf> all = {
         {"/cloths/*/mesh", {"grid", "sphere", "box", "file"}},
-        {"/cloths/*/pins/*", {"vertices", "box", "color"}},
-        {"/cloths/*/resistance/*", {"vertices", "box", "color", "channel"}},
+        {"/cloths/*/pins/*", {"vertices", "group", "box", "color"}},
+        {"/cloths/*/resistance/*", {"vertices", "group", "box", "color", "channel"}},
         {"/cloths/*/cuts/*", {"points", "plane"}},
         {"/cloths/*/seams/*", {"points", "plane"}},
         {"/stitches/*/a", {"vertices", "points"}},
@@ -40,6 +40,7 @@ constexpr Companion companions[] = {
     {"/cloths/*/mesh", "up", "file"},
     {"/cloths/*/pins/*", "threshold", "color"},
     {"/cloths/*/resistance/*", "threshold", "color"},
+    {"/cloths/*/resistance/*", "factors", "vertices"},
 };
 
 /// Some objects have the keys of others, and only those are in the tables.
@@ -57,15 +58,21 @@ std::size_t index_in(const std::string& place, std::string_view list) {
     return std::stoul(place.substr(list.size()));
 }
 
+/// The cloth that the place belongs to; null if it belongs to none.
+const SceneCloth* cloth_at(const Document& document, const std::string& place) {
+    if (!place.starts_with("/cloths/")) return nullptr;
+    const std::size_t index = index_in(place, "/cloths/");
+    return index < document.scene.cloths.size() ? &document.scene.cloths[index] : nullptr;
+}
+
 const Material* preset_material(const Document& document, const std::string& place) {
     const Json* value = find(document.json, place);
     std::string name;
     if (value && value->is_string()) name = value->get<std::string>();
     if (value && value->is_object()) name = value->value("preset", "");
     if (const MaterialPreset* preset = find_material(name)) return &preset->material;
-    if (place.starts_with("/cloths/")) {
-        const std::size_t index = index_in(place, "/cloths/");
-        if (index < document.scene.cloths.size()) return &default_material(document.scene.cloths[index]).material;
+    if (const SceneCloth* cloth = cloth_at(document, place)) {
+        return &default_material(*cloth).material;
     } else if (place.starts_with("/colliders/")) {
         const std::size_t index = index_in(place, "/colliders/");
         if (index < document.scene.colliders.size()) return &default_material(document.scene.colliders[index]).material;
@@ -74,9 +81,8 @@ const Material* preset_material(const Document& document, const std::string& pla
 }
 
 const Fabric& preset_fabric(const Document& document, const std::string& place) {
-    const std::size_t index = index_in(place, "/cloths/");
-    const auto& cloths = document.scene.cloths;
-    const FabricPreset* preset = index < cloths.size() ? find_fabric(cloths[index].fabric_name) : nullptr;
+    const SceneCloth* cloth = cloth_at(document, place);
+    const FabricPreset* preset = cloth ? find_fabric(cloth->fabric_name) : nullptr;
     return preset ? preset->fabric : find_fabric("cotton")->fabric;
 }
 
@@ -220,6 +226,9 @@ std::vector<std::string> names_for(const Document& document, const std::string& 
     } else if (key == "attach") {
         names.emplace_back();
         for (const SceneCollider& collider : document.scene.colliders) names.push_back(collider.name);
+    } else if (key == "group") {
+        if (const SceneCloth* cloth = cloth_at(document, place))
+            for (const VertexGroup& group : cloth->groups) names.push_back(group.name);
     } else if (key == "cloth") {
         for (const SceneCloth& cloth : document.scene.cloths) names.push_back(cloth.name);
     }
@@ -231,6 +240,8 @@ std::optional<Json> new_element(const Document& document, const std::string& lis
     const Json* all = find(document.json, list);
     const auto next_time = [&] { return all && !all->empty() ? all->back().value("time", 0.0) + 1 : 0.0; };
     if (pattern == "/cloths/*/pins") return Json{{"vertices", {0}}};
+    if (pattern == "/cloths/*/groups")
+        return Json{{"name", "group " + std::to_string(all ? all->size() : 0)}, {"vertices", {0}}};
     if (pattern == "/cloths/*/cuts") return Json{{"plane", {{"normal", {1, 0, 0}}}}};
     if (pattern == "/cloths/*/seams") return Json{{"strength", 100}, {"plane", {{"normal", {1, 0, 0}}}}};
     if (pattern == "/cloths/*/resistance") return Json{{"factor", 0.5}, {"vertices", {0}}};

@@ -3,7 +3,6 @@
 #include "editor/app/objects.h"
 #include "editor/app/property_tables.h"
 #include "editor/tools/stroke_cut.h"
-#include "editor/tools/vertex_selection.h"
 #include "view/collider_mesh.h"
 #include "view/framing.h"
 
@@ -61,19 +60,10 @@ std::string place_of_pick(const Session& session, const Pick& pick) {
 }  // namespace
 
 std::string_view name_of(Tool tool) {
-    constexpr std::string_view names[] = {"hand", "select", "move", "turn", "scale", "cut"};
+    constexpr std::string_view names[] = {"hand", "select", "move",  "turn",   "scale",
+                                          "cut",  "lasso",  "brush", "anchors"};
     return names[static_cast<std::size_t>(tool)];
 }
-
-/// The pointer in one frame.
-struct ViewPanel::Input {
-    Vec2 pointer;  // pixels in the view
-    Vec2 moved;
-    bool hovered = false;
-    float wheel = 0;
-    Modifiers modifiers;
-    Projection view;
-};
 
 void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage image, Vec2 image_size) {
     const ImVec2 room = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorScreenPos();
@@ -123,8 +113,10 @@ void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage i
             gesture_ = Gesture::none;
         } else {
             drag(session, input);
+            if (gesture_ == Gesture::paint) brush.drag({session, *picture_of(session), trees_, marks, input});
         }
         draw_marks(ui, session, input);
+        draw_touch(ui, session, marks, input);
         draw_gizmo(ui, session, input);
     }
     moving_ = moving_ || gesture_ != Gesture::none;
@@ -172,9 +164,13 @@ void ViewPanel::begin_left(Session& session, const ViewMarks& marks, const Input
         gesture_ = Gesture::box;
         return;
     }
-    if (settings.tool == Tool::cut) {
+    if (settings.tool == Tool::cut || settings.tool == Tool::lasso) {
         stroke_ = {input.pointer};
-        gesture_ = Gesture::stroke;
+        gesture_ = settings.tool == Tool::cut ? Gesture::stroke : Gesture::lasso;
+        return;
+    }
+    if (settings.tool == Tool::brush && brush.begin({session, picture, trees_, marks, input})) {
+        gesture_ = Gesture::paint;
         return;
     }
     pick_ = pick_at(input.view, input.pointer, trees_.scene(picture, marks));
@@ -199,7 +195,7 @@ void ViewPanel::begin_left(Session& session, const ViewMarks& marks, const Input
 
 void ViewPanel::drag(Session& session, const Input& input) {
     const bool moved = input.moved.x != 0 || input.moved.y != 0 || input.wheel != 0;
-    if (gesture_ == Gesture::stroke && moved) stroke_.push_back(input.pointer);
+    if ((gesture_ == Gesture::stroke || gesture_ == Gesture::lasso) && moved) stroke_.push_back(input.pointer);
     if (!moved) return;
     if (gesture_ == Gesture::gizmo) {
         const GizmoSnap snap = input.modifiers.control ? GizmoSnap{} : GizmoSnap{0, 0, 0};
@@ -217,7 +213,27 @@ void ViewPanel::drag(Session& session, const Input& input) {
     }
 }
 
+// Gestures that touch vertices. Returns false if it was another one.
+bool ViewPanel::end_touch(const ToolInput& in) {
+    const bool chooses = gesture_ == Gesture::box || gesture_ == Gesture::lasso;
+    if (chooses && clicked_)
+        selector.click(in);
+    else if (gesture_ == Gesture::box)
+        selector.box(in, start_);
+    else if (gesture_ == Gesture::lasso)
+        selector.lasso(in, stroke_);
+    else if (gesture_ == Gesture::paint)
+        brush.end(in);
+    else if (gesture_ == Gesture::orbit && clicked_ && settings.tool == Tool::anchors)
+        anchors.click(in, selector.through);
+    else
+        return false;
+    stroke_.clear();
+    return true;
+}
+
 void ViewPanel::end(Session& session, const ViewMarks& marks, const Input& input) {
+    if (end_touch({session, *picture_of(session), trees_, marks, input})) return;
     switch (gesture_) {
         case Gesture::gizmo:
             change_place(session,
@@ -232,10 +248,11 @@ void ViewPanel::end(Session& session, const ViewMarks& marks, const Input& input
             if (!clicked_)
                 session.change("Move " + describe_object(*session.document(), picked_place_), {}, Change::finished);
             break;
-        case Gesture::box:
-            return choose(session, marks, input);
         case Gesture::stroke:
             return cut(session, marks, input);
+        case Gesture::box:
+        case Gesture::lasso:
+        case Gesture::paint:
         case Gesture::orbit:
         case Gesture::look:
         case Gesture::pan:
@@ -259,7 +276,11 @@ bool ViewPanel::cancel(Session& session) {
             session.post(Release{});
             session.undo();
             return true;
+        case Gesture::paint:
+            brush.cancel();
+            return true;
         case Gesture::box:
+        case Gesture::lasso:
         case Gesture::stroke:
             stroke_.clear();
             return true;
@@ -270,8 +291,9 @@ bool ViewPanel::cancel(Session& session) {
         case Gesture::none:
             break;
     }
-    if (chosen_.empty()) return false;
-    chosen_.clear();
+    if (settings.tool == Tool::anchors && anchors.discard()) return true;
+    if (selector.chosen().empty()) return false;
+    selector.choose_none();
     return true;
 }
 
@@ -307,75 +329,6 @@ std::optional<std::size_t> ViewPanel::selected_cloth(const Picture& picture, con
     for (std::size_t i = 0; i < picture.world->cloth_count(); ++i)
         if (session.selected().starts_with("/cloths/") && PickTrees::name_of_cloth(picture, i) == name) return i;
     return {};
-}
-
-void ViewPanel::choose(Session& session, const ViewMarks& marks, const Input& input) {
-    const Picture& picture = *picture_of(session);
-    const PickScene scene = trees_.scene(picture, marks);
-    auto cloth = selected_cloth(picture, session);
-    if (clicked_ || !cloth) {
-        const Pick pick = pick_at(input.view, input.pointer, scene);
-        if (pick.kind == PickKind::cloth) {
-            cloth = pick.index;
-            session.select(place_of_pick(session, pick));
-        } else if (clicked_) {
-            session.select(place_of_pick(session, pick));
-            return;
-        }
-    }
-    if (!cloth) return session.say("Select a cloth first: vertices of the selected cloth are chosen.");
-    const std::string name = PickTrees::name_of_cloth(picture, *cloth);
-    const MeshView mesh = PickTrees::mesh_of_cloth(picture, *cloth);
-    const HiddenBy hidden{scene};
-    std::vector<std::uint32_t> particles;
-    if (clicked_) {
-        if (const auto one = vertex_at(input.view, mesh, input.pointer, 24, settings.through ? nullptr : &hidden))
-            particles.push_back(*one);
-    } else {
-        particles = vertices_in_box(input.view, mesh, start_, input.pointer, settings.through ? nullptr : &hidden);
-    }
-    if (chosen_cloth_ != name || (!input.modifiers.shift && !input.modifiers.control)) chosen_.clear();
-    chosen_cloth_ = name;
-    const std::vector<std::uint32_t>& of_welded = picture.numbers[*cloth]->of_welded;
-    for (std::uint32_t vertex = 0; vertex < of_welded.size(); ++vertex) {
-        if (!std::ranges::binary_search(particles, of_welded[vertex])) continue;
-        if (std::erase(chosen_, vertex) == 0) chosen_.push_back(vertex);
-    }
-    std::ranges::sort(chosen_);
-}
-
-void ViewPanel::pin_chosen(Session& session) {
-    if (chosen_.empty()) return session.say("Choose vertices of a cloth first, with the tool Select.");
-    const std::string place = place_of_named(*session.document(), "/cloths", chosen_cloth_);
-    if (place.empty()) return;
-    session.change("Pin " + std::to_string(chosen_.size()) + " vertices of " + chosen_cloth_,
-                   {{place + "/pins/-", Json{{"vertices", chosen_}}}});
-}
-
-void ViewPanel::unpin_chosen(Session& session) {
-    const std::string place = place_of_named(*session.document(), "/cloths", chosen_cloth_);
-    const Json* pins = find(session.document()->json, place + "/pins");
-    if (place.empty() || !pins) return session.say("Choose pinned vertices of a cloth first, with the tool Select.");
-    Json left = Json::array();
-    bool others = false;
-    for (const Json& pin : *pins) {
-        if (!pin.contains("vertices")) {
-            others = true;
-            left.push_back(pin);
-            continue;
-        }
-        Json kept = pin;
-        kept["vertices"] = Json::array();
-        for (const Json& vertex : pin["vertices"])
-            if (!std::ranges::binary_search(chosen_, vertex.get<std::uint32_t>())) kept["vertices"].push_back(vertex);
-        if (!kept["vertices"].empty()) left.push_back(kept);
-    }
-    if (left == *pins)
-        return session.say(others ? "Pins that a box or a color selects are removed in the properties."
-                                  : "None of the chosen vertices is pinned.");
-    std::optional<Json> value;
-    if (!left.empty()) value = left;
-    session.change("Unpin vertices of " + chosen_cloth_, {{place + "/pins", value}});
 }
 
 // --- Gizmo
@@ -516,32 +469,33 @@ void ViewPanel::draw_marks(Ui& ui, const Session& session, const Input& input) {
         draw.AddText(ImVec2(to->x + theme.px(9), to->y - theme.px(17)), IM_COL32(255, 240, 180, 255), label.c_str());
         ui.note("pull", ImRect(*from, ImVec2(from->x + 1, from->y + 1)), label);
     }
-    const auto cloth = selected_cloth(picture, session);
-    if (!chosen_.empty() && cloth && PickTrees::name_of_cloth(picture, *cloth) == chosen_cloth_) {
-        const ClothFrame& frame = picture.world->frame().cloths[*cloth];
-        const auto& of_welded = picture.numbers[*cloth]->of_welded;
-        for (const std::uint32_t vertex : chosen_) {
-            if (vertex >= of_welded.size() || of_welded[vertex] >= frame.positions.size()) continue;
-            if (const auto point = at(frame.positions[of_welded[vertex]].xyz())) {
-                draw.AddRectFilled(ImVec2(point->x - 4, point->y - 4), ImVec2(point->x + 4, point->y + 4),
-                                   IM_COL32(20, 20, 20, 255));
-                draw.AddRectFilled(ImVec2(point->x - 2.5f, point->y - 2.5f), ImVec2(point->x + 2.5f, point->y + 2.5f),
-                                   IM_COL32(255, 190, 60, 255));
-            }
-        }
-    }
     if (gesture_ == Gesture::box && !clicked_) {
         const ImVec2 a(origin_.x + start_.x, origin_.y + start_.y),
             b(origin_.x + input.pointer.x, origin_.y + input.pointer.y);
         draw.AddRectFilled(a, b, IM_COL32(255, 200, 80, 40));
         draw.AddRect(a, b, IM_COL32(255, 200, 80, 255));
     }
-    if (gesture_ == Gesture::stroke) {
-        for (std::size_t i = 1; i < stroke_.size(); ++i)
-            draw.AddLine(ImVec2(origin_.x + stroke_[i - 1].x, origin_.y + stroke_[i - 1].y),
-                         ImVec2(origin_.x + stroke_[i].x, origin_.y + stroke_[i].y), IM_COL32(255, 80, 80, 255),
-                         theme.px(2));
-    }
+    if (gesture_ != Gesture::stroke && gesture_ != Gesture::lasso) return;
+    std::vector<ImVec2> line;
+    for (const Vec2 p : stroke_) line.emplace_back(origin_.x + p.x, origin_.y + p.y);
+    const bool closed = gesture_ == Gesture::lasso;
+    draw.AddPolyline(line.data(), static_cast<int>(line.size()),
+                     closed ? IM_COL32(255, 200, 80, 255) : IM_COL32(255, 80, 80, 255),
+                     closed ? ImDrawFlags_Closed : ImDrawFlags_None, theme.px(2));
+}
+
+void ViewPanel::draw_touch(Ui& ui, Session& session, const ViewMarks& marks, const Input& input) {
+    const Picture& picture = *picture_of(session);
+    const ViewCanvas canvas{*ImGui::GetWindowDrawList(), input.view, origin_, ui.theme()};
+    const bool chooses = settings.tool == Tool::select || settings.tool == Tool::lasso;
+    const bool paints_pins = settings.tool == Tool::brush && brush.kind().name == "pins";
+    if (chooses || paints_pins || settings.tool == Tool::anchors)
+        for (std::size_t i = 0; i < picture.world->cloth_count(); ++i)
+            if (!marks.hidden.contains(PickTrees::name_of_cloth(picture, i))) draw_pins(canvas, picture, i);
+    if (settings.tool != Tool::brush) selector.draw(canvas, picture);
+    if (settings.tool == Tool::anchors) anchors.draw(canvas, session, picture);
+    if (settings.tool == Tool::brush && (gesture_ == Gesture::none || gesture_ == Gesture::paint))
+        brush.draw(ui, canvas, {session, picture, trees_, marks, input});
 }
 
 // --- Camera

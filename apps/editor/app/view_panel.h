@@ -1,13 +1,15 @@
 // The 3-D view: camera, picking, and the tools of the pointer.
 #pragma once
 
+#include "editor/app/anchor_tool.h"
+#include "editor/app/brush_tool.h"
 #include "editor/app/pick_trees.h"
 #include "editor/app/session.h"
+#include "editor/app/vertex_selector.h"
+#include "editor/app/view_input.h"
 #include "editor/tools/camera_moves.h"
 #include "editor/tools/drag_plane.h"
 #include "editor/tools/gizmo.h"
-#include "editor/tools/stroke_sampler.h"
-#include "editor/tools/surface_distance.h"
 #include "editor/ui/ui_renderer.h"
 
 #include <cstdint>
@@ -20,11 +22,14 @@ namespace weft::editor {
 /// What the left button does in the view.
 enum class Tool : std::uint8_t {
     hand,    ///< pulls cloth and moves colliders
-    select,  ///< chooses vertices
+    select,  ///< chooses vertices by click and box
     move,
     turn,
     scale,
     cut,
+    lasso,    ///< chooses vertices
+    brush,    ///< paints pins, resistance and groups
+    anchors,  ///< pins that are applied together
 };
 
 struct ViewSettings {
@@ -32,13 +37,15 @@ struct ViewSettings {
     GizmoAxes axes = GizmoAxes::world;
     FlyKeys keys = FlyKeys::usual;
     float pull_force = 5;  ///< N, largest
-    bool through = false;  ///< choose hidden vertices too
 };
 
 class ViewPanel {
   public:
     ViewSettings settings;
     Camera camera;
+    VertexSelector selector;
+    BrushTool brush;
+    AnchorTool anchors;
 
     /// Draws the view's image over the rest of the current window and reacts to the pointer. `image_size`: pixels of
     /// the image; zero: there is none yet.
@@ -52,25 +59,24 @@ class ViewPanel {
     void frame_selected(const Picture& picture, const Session& session);
     void look_from(ViewFrom side);
 
-    /// Chosen vertices of the selected cloth, as pins number them.
-    const std::vector<std::uint32_t>& chosen() const { return chosen_; }
-    void choose_none() { chosen_.clear(); }
-    /// Pins the chosen vertices, or takes their pins away.
-    void pin_chosen(Session& session);
-    void unpin_chosen(Session& session);
+    /// Colors of painted values, while the brush is the tool.
+    std::shared_ptr<const ClothPaint> paint(const Session& session, const Picture& picture) {
+        return settings.tool == Tool::brush ? brush.colors(session, picture) : nullptr;
+    }
     /// Ends what the pointer does, as Esc does. Whether there was something.
     bool cancel(Session& session);
 
   private:
-    enum class Gesture : std::uint8_t { none, orbit, look, pan, pull, carry, gizmo, box, stroke };
-    struct Input;
+    enum class Gesture : std::uint8_t { none, orbit, look, pan, pull, carry, gizmo, box, lasso, paint, stroke };
+    using Input = ViewInput;
     void move_camera(Ui& ui, const Input& input);
     void begin_left(Session& session, const ViewMarks& marks, const Input& input);
     void drag(Session& session, const Input& input);
     void end(Session& session, const ViewMarks& marks, const Input& input);
-    void choose(Session& session, const ViewMarks& marks, const Input& input);
+    bool end_touch(const ToolInput& in);
     void cut(Session& session, const ViewMarks& marks, const Input& input);
     void draw_marks(Ui& ui, const Session& session, const Input& input);
+    void draw_touch(Ui& ui, Session& session, const ViewMarks& marks, const Input& input);
     void draw_gizmo(Ui& ui, const Session& session, const Input& input);
     std::optional<GizmoPlace> place_of_selected(const Session& session) const;
     std::optional<Gizmo> gizmo(const Session& session, const Projection& view) const;
@@ -91,8 +97,6 @@ class ViewPanel {
     std::optional<GizmoDrag> gizmo_drag_;
     Vec3 scale_start_{1, 1, 1};
     std::vector<Vec2> stroke_;
-    std::vector<std::uint32_t> chosen_;
-    std::string chosen_cloth_;
     std::optional<CameraTransition> transition_;
     double transition_since_ = 0;
     double time_ = 0;

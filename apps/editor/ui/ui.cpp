@@ -115,7 +115,7 @@ void Ui::begin(float width, float height, double now) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(std::max(1.0f, width), std::max(1.0f, height));
     // While the keyboard moves on to a widget, the next key waits for it.
-    input_ = frames_.next(now, wants_text(), focus_wanted_ != 0);
+    input_ = frames_.next(now, wants_text(), focus_wanted_ != 0 || !focus_path_.empty());
     // ImGui's clock is that of the events, so that a double click is one even if frames are slow.
     io.DeltaTime = static_cast<float>(std::max(last_time_ < 0 ? 1.0 / 60 : input_.time - last_time_, 1e-5));
     last_time_ = input_.time;
