@@ -53,6 +53,8 @@ inline std::vector<Action> sample_actions() {
             change_of("/cloths/1/mesh/grid/resolution", Json{7, 12}),
             change_of("/cloths/0/pins", {}),
             change_of("/cloths/1/pins/-", Json{{"vertices", {0, 8}}}),
+            change_of("/cloths/0/groups", Json::parse(R"([{"name": "hem", "vertices": [0, 1, 2]}])")),
+            change_of("/cloths/1/pins", Json::parse(R"([{"vertices": [3, 4]}])")),
             change_of("/cloths/-", cloth),
             change_of("/colliders/-", ball),
             change_of("/colliders/-", box),

@@ -106,6 +106,26 @@ TEST_F(ViewThreadTest, ends_with_an_image_of_the_best_quality_and_is_then_idle) 
     EXPECT_EQ(thread.count(), count) << "it draws though nothing has changed";
 }
 
+TEST_F(ViewThreadTest, shows_paint_as_colors_of_the_cloth) {
+    ViewThread thread(options());
+    ViewRequest request = base;
+    request.camera = {.position = {0, 2, 0.01f}, .target = {}, .fov = 20};
+    const auto painted = [&](std::size_t particles, float value) {
+        request.paint = std::make_shared<const ClothPaint>(
+            ClothPaint{.cloth = "sheet", .values = std::vector<float>(particles, value)});
+        const std::uint64_t number = thread.request(request);
+        const auto image = wait_for(thread, [&](const ViewImage& one) { return one.number == number && is_best(one); });
+        std::array<int, 3> color{-1, -1, -1};
+        if (image) std::copy_n(image->image.at(80, 45), 3, color.begin());
+        return color;
+    };
+    const auto low = painted(169, 0), high = painted(169, 1), other = painted(7, 1);
+    EXPECT_GT(high[0], 200);
+    EXPECT_LT(high[2], 100);
+    EXPECT_LT(low[0], 110);
+    EXPECT_GT(other[2], 110) << "values of another cloth are not shown";
+}
+
 TEST_F(ViewThreadTest, draws_each_change) {
     ViewThread thread(options());
     thread.request(base);
