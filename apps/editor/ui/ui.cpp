@@ -329,6 +329,7 @@ void Ui::focus_next(bool forward, bool typing) {
 void Ui::focus(std::string_view path, bool typing) {
     focus_path_ = path;
     focus_typing_ = typing;
+    settling_ = std::max(settling_, frames_to_settle + 1);  // the widget may be new in the next frame
     redraw();
 }
 
