@@ -182,7 +182,7 @@ TEST_F(EditorWindow, amounts_are_typed_during_a_drag_and_after_a_handle_was_chos
 
     // What is no number is not kept.
     e.key("g");
-    e.type("3+");
+    e.type("3 kg");
     e.key("Return");
     EXPECT_TRUE(e.shows(amount));
     EXPECT_EQ(position_of(object).x, before.x + 3) << "as far as it was a number";

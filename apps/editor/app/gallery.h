@@ -18,8 +18,6 @@ class Gallery {
     /// Draws the dialog. Images that are missing are made meanwhile, in other processes. Returns the scene that was
     /// chosen.
     std::optional<std::filesystem::path> show(Ui& ui, UiRenderer& renderer, bool& open);
-    /// Ends what runs. Images that are there stay.
-    void stop() { thumbnails_.reset(); }
 
   private:
     void start();

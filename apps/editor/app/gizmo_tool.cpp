@@ -303,10 +303,10 @@ void GizmoTool::draw_label(Ui& ui, ImVec2 at) const {
     const std::string text = label();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float pad = theme.px(6);
-    // Within the window, so that it can be read.
-    const ImVec2 window = ui.size();
-    at.x = std::clamp(at.x, pad, std::max(pad, window.x - size.x - pad));
-    at.y = std::clamp(at.y, pad, std::max(pad, window.y - size.y - pad));
+    // Within the view, so that it can be read wherever the object goes.
+    const ImVec2 corner = ImGui::GetWindowPos(), all = ImGui::GetWindowSize();
+    at.x = std::clamp(at.x, corner.x + pad, corner.x + std::max(pad, all.x - size.x - pad));
+    at.y = std::clamp(at.y, corner.y + pad, corner.y + std::max(pad, all.y - size.y - pad));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(ImVec2(at.x - pad, at.y - pad / 2), ImVec2(at.x + size.x + pad, at.y + size.y + pad / 2),
                        IM_COL32(20, 22, 26, 215), pad / 2);
@@ -373,8 +373,8 @@ void GizmoTool::draw(Ui& ui, const Session& session, const Projection& view, Vec
                 note(name, line ? p[p.size() * 2 / 3] : p.front());
         }
     }
-    if (!drag_ || !center) return;
-    const Vec2 at = held_ && pointer ? *pointer : center->pixel;
+    if (!drag_) return;
+    const Vec2 at = held_ && pointer ? *pointer : center ? center->pixel : Vec2{view.size().x / 2, view.size().y};
     draw_label(ui, ImVec2(origin.x + at.x + theme.px(18), origin.y + at.y + theme.px(14)));
 }
 

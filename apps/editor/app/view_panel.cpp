@@ -160,6 +160,10 @@ void ViewPanel::move_camera(Ui& ui, const Picture& picture, const ViewMarks& mar
 }
 
 void ViewPanel::fly(Ui& ui, const Picture& picture, const Input& input) {
+    // A key that was pressed as part of a shortcut does not fly once Control is let go of.
+    for (const InputFrame::Press& press : ui.input().keys)
+        if (const Modifiers& with = press.modifiers; !press.repeated)
+            fly_keys_[static_cast<std::size_t>(press.key)] = press.down && !with.control && !with.alt && !with.super;
     const bool may = gesture_ == Gesture::look || (settings.fly_always && gesture_ == Gesture::none);
     if (!may || !has_keys || ui.wants_text() || input.modifiers.control || input.modifiers.alt) return;
     FlyInput fly{.map = settings.keys,
@@ -169,7 +173,8 @@ void ViewPanel::fly(Ui& ui, const Picture& picture, const Input& input) {
                  .scene_radius = 0};
     for (const auto& [key, letter] :
          {std::pair{Key::w, 'W'}, {Key::a, 'A'}, {Key::s, 'S'}, {Key::d, 'D'}, {Key::q, 'Q'}, {Key::e, 'E'}})
-        fly.held[static_cast<std::size_t>(letter)] = ui.input().down[static_cast<std::size_t>(key)];
+        fly.held[static_cast<std::size_t>(letter)] =
+            ui.input().down[static_cast<std::size_t>(key)] && fly_keys_[static_cast<std::size_t>(key)];
     if (!flies(fly)) return;
     fly.scene_radius = subject_of(*picture.world).all.radius;
     camera = flown(camera, fly);

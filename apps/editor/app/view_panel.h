@@ -10,6 +10,7 @@
 #include "editor/tools/surface_distance.h"
 #include "editor/ui/ui_renderer.h"
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -92,7 +93,8 @@ class ViewPanel {
     Pick pick_;          // where the gesture began
     std::string picked_place_;
     std::optional<DragPlane> plane_;
-    std::optional<double> pan_depth_;  // m, of what is under the pointer
+    std::bitset<static_cast<std::size_t>(Key::count)> fly_keys_;  // pressed without Control and the like
+    std::optional<double> pan_depth_;                             // m, of what is under the pointer
     Vec3 carried_from_;
     GizmoTool gizmo_;
     std::vector<Vec2> stroke_;

@@ -290,10 +290,22 @@ Result<void> Stage::recover() {
     std::uint64_t last = frame();
     while (last > 0 && !timeline_.contains(last)) --last;
     auto then = timeline_.moment_at(last);
-    if (!then) return Error::of_machine("simulation", why);
     Options options = options_.simulation;
     options.backend = "cpu";
     options.device.clear();
+    if (!then || lacks_particles((*then)->world)) {
+        // It was lost before a frame was kept.
+        auto world = make_world(document_->scene, options, document_->folder);
+        if (!world) return world.errors();
+        world_ = std::move(*world);
+        options_.simulation = options;
+        notes_taken_ = 0;
+        followed_ = document_;
+        if (last > 0) begin_branch();
+        let_go();
+        notes_.push_back(why + "; the CPU begins again at frame 0");
+        return {};
+    }
     if (auto moved = move_to(options, (*then)->world); !moved) return moved;
     followed_ = *(*then)->world.scene == document_->scene ? document_ : nullptr;
     let_go();

@@ -63,11 +63,13 @@ Change bits(Ui& ui, const Field& field, std::uint32_t& value, std::optional<std:
     if (item.hovered && io.MouseClicked[0]) {
         ImGui::FocusWindow(ImGui::GetCurrentWindow());
         ImGui::SetFocusID(item.id, ImGui::GetCurrentWindow());
+        GImGui->NavDisableHighlight = false;  // after a click keys go here
         pressed = chosen = std::max(under, 0);
         if (under < 0) pressed = -1;
     }
     if (item.focused) {
         ui.keep_arrows(item);
+        ui.keep_delete();
         const auto step = [&](Key key, int by) {
             if (ui.pressed(key, true)) chosen = std::clamp(chosen + by, 0, bit_count - 1);
         };

@@ -127,6 +127,7 @@ Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual) 
     const Item item = ui.place_at(field.name, box, value ? "on" : "off");
     bool held = false;
     bool pressed = press(ui, item, held);
+    if (item.focused && usual) ui.keep_delete();
     if (item.focused && usual && (ui.pressed(Key::delete_key) || ui.pressed(Key::backspace)) && whole.differs)
         pressed = true;
     if (item.visible) {

@@ -47,6 +47,7 @@ class NumberField {
     Change obey_keys() {
         ui_.keep_arrows(item_);
         ui_.keep_digits();
+        ui_.keep_delete();
         ui_.release_space();
         if (ui_.pressed(Key::enter) || ui_.pressed(Key::pad_enter) || ui_.pressed(Key::f2) || ui_.takes_typing(item_)) {
             begin_typing(ui_, item_, format_number(value_, 9));
