@@ -5,6 +5,7 @@
 #include "collide/shape_data.h"
 #include "scene/scene_desc.h"
 #include "solver/model/cloth_model.h"
+#include "solver/world/body.h"
 #include "solver/world/keys.h"
 
 #include <array>
@@ -47,6 +48,8 @@ struct Collider {
     Pose pose;                                   ///< current pose
     std::vector<PoseKey> motion = {};            ///< by ascending time; empty: no motion by keys
     std::optional<Pose> next_pose = {};          ///< pose at the end of the next frame, set by World::move()
+    std::optional<Body> body = {};               ///< nullopt: it moves as it is told
+    BodyFeatures features = {};                  ///< what touches bodies first; none of a plane or of a mesh at rest
     /// If not null, cloths that meet surfaces (ClothCollision) meet these triangles instead of the shape.
     std::shared_ptr<const ClothModel> surface = {};
 };
