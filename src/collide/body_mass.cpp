@@ -6,6 +6,7 @@
 #include "collide/solid_surface.h"
 #include "collide/winding_number.h"
 #include "mesh/weld.h"
+#include "physics/body/body.data.h"
 
 #include <algorithm>
 #include <array>
@@ -204,16 +205,10 @@ std::optional<Error> problem_of_values(const BodyDesc& body) {
         return Error{"/density", "must be > 0 kg/m³, got " + figure_text(body.density)};
     if (!finite(body.center)) return Error{"/center", "must be finite"};
     const Vec3 given = body.inertia;
-    if (given == Vec3{}) return std::nullopt;
-    const std::string got =
-        "[" + figure_text(given.x) + ", " + figure_text(given.y) + ", " + figure_text(given.z) + "]";
-    if (!finite(given) || !(given.x > 0 && given.y > 0 && given.z > 0))
-        return Error{"/inertia", "all three moments must be > 0 kg·m², or all 0, got " + got};
-    const double largest = std::max({given.x, given.y, given.z});
-    const double others = double{given.x} + given.y + given.z - largest;
-    if (largest > others * (1 + 1e-5))
-        return Error{"/inertia",
-                     "no body has these moments: the largest is more than the sum of the other two, got " + got};
+    if (const auto what = inertia_problem(given); !finite(given) || !what.empty())
+        return Error{"/inertia", (what.empty() ? "must be finite" : std::string(what)) + ", got [" +
+                                     figure_text(given.x) + ", " + figure_text(given.y) + ", " + figure_text(given.z) +
+                                     "]"};
     return std::nullopt;
 }
 

@@ -355,12 +355,12 @@ TEST(BodyMass, names_what_is_wrong) {
     EXPECT_EQ(mass_error({.center = {0, nan, 0}}, ball), "/center: must be finite");
     EXPECT_EQ(
         mass_error({.inertia = {1, 1, 2.1f}}, ball),
-        "/inertia: no body has these moments: the largest is more than the sum of the other two, got [1, 1, 2.1]");
+        "/inertia: must hold moments that a body can have: each at most the sum of the other two, got [1, 1, 2.1]");
     EXPECT_EQ(mass_error({.inertia = {1, 1, 2}}, ball), "none") << "a plate";
     EXPECT_EQ(mass_error({.inertia = {1, 0, 1}}, ball),
-              "/inertia: all three moments must be > 0 kg·m², or all 0, got [1, 0, 1]");
+              "/inertia: must hold three moments > 0 kg·m², or all 0, got [1, 0, 1]");
     EXPECT_EQ(mass_error({.inertia = {1, nan, 1}}, ball),
-              "/inertia: all three moments must be > 0 kg·m², or all 0, got [1, nan, 1]");
+              "/inertia: must hold three moments > 0 kg·m², or all 0, got [1, nan, 1]");
 }
 
 TEST(BodyMass, names_what_floats_do_not_hold) {

@@ -383,6 +383,28 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
     check_material(cloth.material, at(pointer, "material"), problems);
 }
 
+namespace {
+
+void check_body(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
+    const BodyDesc& body = *collider.body;
+    const std::string place = at(at(pointer, "motion"), "dynamic");
+    check_values(rigid_body_parameters, &body, place, problems);
+    if (!collider.motion.empty())
+        problems.add(place, "must not stand beside \"keys\": a body moves by forces, not by keys");
+    if (std::holds_alternative<PlaneDesc>(collider.shape))
+        problems.add(place, "must not stand beside \"plane\": a plane has no volume, so it cannot be a body");
+    const auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape);
+    if (mesh && mesh->contact == MeshContact::surface)
+        problems.add(at(at(pointer, "mesh"), "contact"),
+                     "must not be \"surface\" with a \"dynamic\" motion: bodies are solids");
+    const std::string moments = at(place, "inertia");
+    if (const auto what = inertia_problem(body.inertia); !what.empty() && !problems.concern(moments))
+        problems.add(moments, std::string(what) + ", got [" + number_text(body.inertia.x) + ", " +
+                                  number_text(body.inertia.y) + ", " + number_text(body.inertia.z) + "]");
+}
+
+}  // namespace
+
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
     check_values(collider_keys, &collider, pointer, problems);
 #define WEFT_SHAPE(name, Name)                                        \
@@ -392,6 +414,7 @@ void check_collider(const ColliderDesc& collider, const std::string& pointer, Pr
 #undef WEFT_SHAPE
     check_values(pose_keys, &collider.transform, at(pointer, "transform"), problems);
     check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
+    if (collider.body) check_body(collider, pointer, problems);
 }
 
 void check_mesh_point(const MeshPoint& point, const std::string& pointer, Problems& problems) {

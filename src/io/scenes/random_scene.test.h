@@ -275,6 +275,13 @@ class RandomScene {
                   PoseKey{.time = 0,
                           .position = collider.transform.position,
                           .rotation_degrees = collider.transform.rotation_degrees});
+        if (collider.motion.empty() && !std::holds_alternative<PlaneDesc>(collider.shape) && maybe()) {
+            fill(rigid_body_parameters, &collider.body.emplace());
+            const Vec3 moments = collider.body->inertia;
+            if (!inertia_problem(moments).empty()) collider.body->inertia = {moments.x, moments.x, moments.x};
+            if (auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape))
+                if (mesh->contact == MeshContact::surface) mesh->contact = MeshContact::solid;
+        }
     }
 
     // Some get a name, each a different one.
