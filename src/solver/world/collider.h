@@ -80,7 +80,8 @@ inline ShapeBlocks blocks_of(const Collider& collider) {
     return collider.data ? collider.data->blocks() : ShapeBlocks{};
 }
 
-/// `data`: of the shape, if its kernel reads any.
+/// Without a body, and without the features of a mesh (weft/body_building.h). `data`: of the shape, if its kernel reads
+/// any.
 Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData> data = {});
 
 /// Puts a body at the collider's pose, with the velocity and the spin that its description begins with.
