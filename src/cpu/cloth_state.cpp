@@ -314,7 +314,8 @@ void ClothState::begin_frame(const WorldPlan& plan) {
     limits = {found.tension, found.allowed};
 }
 
-void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces) {
+void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces,
+                         bool bodies) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
@@ -349,7 +350,7 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     if (line_scratch.size() < workers) line_scratch.resize(workers);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     near_colliders.prepare(padded(model->point_count()), static_cast<std::uint32_t>(colliders), workers,
-                           rounds_of(plan, *model) > 1, contact_forces);
+                           bodies || rounds_of(plan, *model) > 1, contact_forces);
     account.prepare(contact_forces ? colliders : 0, workers);
     if (plan.projection == Projection::jacobi && !gather) {
         gather = std::make_unique<const JacobiGather>(build_gather(*model));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "collide/body_features.h"
-#include "physics/body/body_mass.h"
+#include "solver/state/body_state.h"
 
 #include <weft/scene.h>
 
@@ -10,6 +10,7 @@ namespace weft {
 
 struct Body {
     BodyMass mass;
+    BodyState state;
     BodyDesc desc;  ///< its mass, density, center and inertia are those that `mass` was made from
 };
 

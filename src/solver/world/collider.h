@@ -84,6 +84,9 @@ inline ShapeBlocks blocks_of(const Collider& collider) {
 /// any.
 Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData> data = {});
 
+/// Puts a body at the collider's pose, with the velocity and the spin that its description begins with.
+void start_body(Collider& collider);
+
 /// Pose of the collider at a time in s. Positions and angles are interpolated linearly between keys, and constant
 /// before the first and after the last key.
 Pose pose_at(const Collider& collider, double time);
