@@ -332,7 +332,9 @@ class Compiler : ClothArgs {
                                .count = model_.point_count(),
                                .capacity = work_.slot_count,
                                .substep = substep,
-                               .first_iteration = pass.first_iteration ? 1u : 0u};
+                               .first_iteration = pass.first_iteration ? 1u : 0u,
+                               .particles = model_.particle_count,
+                               .unused = 0};
         if (shape_.colliders == 0) return;
         add(list, "cover", args, near_tiles_of(model_), pass, substep);
         add(list, "contact", args, args.count, pass, substep);
