@@ -52,11 +52,8 @@ TEST(Reserves, have_the_bits_of_the_cpu_with_every_contact_and_tearing) {
         {SelfCollision::off, {}},
         {SelfCollision::off, {.particles = 8}},
         {SelfCollision::off, {.particles = 40}},
-        {SelfCollision::off, {.particles = 40, .openings = true}},
         {SelfCollision::off, {.particles = 40, .openings = true, .tears = true}},
-        {SelfCollision::fast, {.particles = 40, .openings = true}},
         {SelfCollision::fast, {.particles = 40, .openings = true, .tears = true}},
-        {SelfCollision::exact, {.particles = 8}},
         {SelfCollision::exact, {.particles = 40, .openings = true}},
         {SelfCollision::exact, {.particles = 40, .openings = true, .tears = true, .erodes = true}}};
     for (const ReserveCase& test : cases) {
