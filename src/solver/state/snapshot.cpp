@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and the format version. On a machine of the other byte order neither matches.
-constexpr std::uint32_t magic = 0x74666577, version = 6;
+constexpr std::uint32_t magic = 0x74666577, version = 7;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;
@@ -105,6 +105,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
             out.list(edit.openings);
             out.list(edit.rows);
             out.list(edit.added);
+            out.one(edit.pruned_frames);
         }
     }
     Writer file;
@@ -153,6 +154,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
             edit.openings = in.list<Opening>();
             edit.rows = in.list<RowEdit>();
             edit.added = in.list<RowEdit>();
+            edit.pruned_frames = in.one<std::uint32_t>();
         }
     }
     if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};
