@@ -316,6 +316,34 @@ TEST_P(TearingState, goes_on_with_the_same_bits_after_a_restore_and_in_every_num
     }
 }
 
+// Coarse levels are pruned in the frames of a tear. They are built again once the cloth tears no more, and after eight
+// frames at the latest; a restored world knows when.
+TEST(Tearing, builds_coarse_levels_again_in_the_same_frame_after_a_restore) {
+    World world = make_world(heavy());
+    world.add(make_heavy_sheet());
+    const auto is_pruned = [](const World& of) { return of.frame().cloths[0].model->pruned != nullptr; };
+    int pruned = 0, longest = 0, built_again = 0;
+    for (int i = 0; i < 40; ++i) {
+        const bool before = is_pruned(world);
+        const Snapshot now = world.save();
+        world.step(1.0 / 60);
+        pruned = is_pruned(world) ? pruned + 1 : 0;
+        longest = std::max(longest, pruned);
+        built_again += before && !is_pruned(world);
+        if (!before) continue;
+        World other = make_world(heavy());
+        other.add(make_heavy_sheet());
+        ASSERT_TRUE(other.restore(*snapshot_from_bytes(to_bytes(now))).ok());
+        EXPECT_TRUE(is_pruned(other));
+        other.step(1.0 / 60);
+        EXPECT_EQ(is_pruned(other), is_pruned(world)) << "frame " << i;
+        EXPECT_EQ(other.state_hash(), world.state_hash()) << "frame " << i;
+    }
+    EXPECT_GT(longest, 0);
+    EXPECT_LE(longest, 8);
+    EXPECT_GT(built_again, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(, TearingState, ::testing::Values("splitting", "eroding", "painted"));
 
 TEST(Tearing, changes_no_bit_where_nothing_tears) {

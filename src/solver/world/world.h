@@ -230,6 +230,9 @@ class World {
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,
                                                                   const std::vector<ClothEdit>& edits);
+    static Result<std::shared_ptr<const ClothModel>> opened_model(const Cloth& cloth,
+                                                                  const std::vector<Opening>& openings,
+                                                                  std::uint32_t pruned);
     Result<void> set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits, std::shared_ptr<const ClothModel> model);
     static Result<std::shared_ptr<const ClothModel>> with_fabric_unedited(const Cloth& cloth, const ClothModel& model);
     std::vector<ParticleWeight> pin_copies(Cloth& cloth, const ClothModel& model, std::size_t plain_copies) const;
