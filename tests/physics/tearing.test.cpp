@@ -197,6 +197,7 @@ TEST(Tearing, of_a_strip_pulled_apart_begins_when_it_frees_the_energy_of_the_rip
     EXPECT_LT(most, 1.15 * least);
 }
 
+// Labels: slow no-asan
 TEST(Tearing, of_notches_begins_at_a_load_that_falls_with_the_root_of_their_length) {
     double begun[2];
     for (const int longer : {0, 1})
@@ -207,6 +208,7 @@ TEST(Tearing, of_notches_begins_at_a_load_that_falls_with_the_root_of_their_leng
 
 // A square sheet of which a band across its middle is free, `degrees` off the mesh. The sheet is cut in along the band
 // and pulled apart across it.
+// Labels: slow no-asan
 TEST(Tearing, runs_straight_across_the_pull_whatever_the_direction_of_the_mesh) {
     constexpr float half = 0.12f;
     for (const double degrees : {0.0, 20.0, 45.0}) {
