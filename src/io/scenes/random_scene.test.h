@@ -38,7 +38,8 @@ class RandomScene {
         name_unnamed(scene);
         for (SceneCloth& cloth : scene.cloths) {
             for (PinDesc& pin : cloth.pins) {
-                if (pin.motion.empty() && !scene.colliders.empty() && maybe()) pin.attach = scene.colliders[0].name;
+                if (pin.motion.empty() && !scene.colliders.empty() && !scene.colliders[0].body && maybe())
+                    pin.attach = scene.colliders[0].name;
             }
         }
         for (std::uint32_t i = below(3); i > 0; --i) draw(scene.stitches.emplace_back(), scene);
