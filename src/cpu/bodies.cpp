@@ -26,12 +26,6 @@ Bounds ball(Vec3 center, float radius) {
     return {center - by, center + by};
 }
 
-// Columns of R·I⁻¹·Rᵀ.
-Mat3 inverse_inertia_of(const BodyInStep& body) {
-    const auto column = [&](Vec3 axis) { return vector_of(rate_of(body.motion.turn, vector_of(axis), body.inertia)); };
-    return {column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1})};
-}
-
 vec3 from_quanta(const std::array<std::uint64_t, 3>& sum) {
     const auto axis = [](std::uint64_t quanta) {
         return static_cast<float>(static_cast<double>(static_cast<std::int64_t>(quanta)) /
@@ -53,7 +47,6 @@ void Bodies::prepare(const WorldStep& step, unsigned workers) {
     body_of_.assign(input.colliders.size(), none);
     if (sums_.size() < workers) sums_.resize(workers);
     for (auto& sums : sums_) sums.assign(steps_.size(), {});
-    pushes_.resize(steps_.size());
     reach_.assign(steps_.size(), {});
     gravity_ = input.gravity;
     h_ = static_cast<float>(input.dt / step.plan->substeps);
@@ -75,26 +68,16 @@ void Bodies::prepare(const WorldStep& step, unsigned workers) {
     watch_reach();
 }
 
-void Bodies::place(BodyInStep& body) const {
-    const Mat3 rotation = columns_of(body.motion.turn);
-    body.now = {rotation, vector_of(body.motion.place) - rotation * body.of->body->mass.center};
-    body.inverse_inertia = inverse_inertia_of(body);
-}
-
 void Bodies::run(const Pass& pass) {
     switch (pass.kind) {
         case PassKind::predict_bodies:
             return predict();
         case PassKind::move_bodies:
             return pass.batch == 0 ? count_touches() : take_sums();
-        default: {  // finish_bodies
-            std::ranges::fill(pushes_, scalar::BodyPush{vec3(0.0f), vec3(0.0f)});
-            contacts_.bounce(pushes_);
-            for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-                hit_body(bodies_[i].motion, bodies_[i].inverse_mass, pushes_[i]);
+        default:  // finish_bodies
+            for (int sweep = 0; sweep < sweeps_of_contacts; ++sweep) contacts_.bounce();
             ++substep_;
             return watch_reach();
-        }
     }
 }
 
@@ -132,35 +115,20 @@ void Bodies::count_touches() {
     }
 }
 
-void Bodies::apply(std::span<const scalar::BodyPush> pushes) {
-    const scalar::Step step{h_, 1 / h_, 1 / h_ / h_, 0, 1};
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-        BodyInStep& body = bodies_[i];
-        push_body(body.motion, body.inverse_mass, body.inertia, pushes[i], step);
-        place(body);
-    }
-}
-
 // What the cloth's sweep has added up moves the bodies, then their contacts with one another and with colliders do.
 void Bodies::take_sums() {
-    bool any = false;
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
         BodySums all;
         for (auto& sums : sums_) {
             for (std::size_t axis = 0; axis < 3; ++axis)
                 all.impulse[axis] += sums[i].impulse[axis], all.twist[axis] += sums[i].twist[axis];
+            sums[i].impulse = {}, sums[i].twist = {};
         }
-        pushes_[i] = {from_quanta(all.impulse), from_quanta(all.twist)};
-        for (auto& sums : sums_) sums[i].impulse = {}, sums[i].twist = {};
-        any = any || all.impulse != BodySums{}.impulse || all.twist != BodySums{}.twist;
+        if (all.impulse != BodySums{}.impulse || all.twist != BodySums{}.twist)
+            push(bodies_[i], {from_quanta(all.impulse), from_quanta(all.twist)}, h_);
     }
     count_touches();
-    if (any) apply(pushes_);
-    for (int sweep = 0; sweep < sweeps_of_contacts && !contacts_.empty(); ++sweep) {
-        std::ranges::fill(pushes_, scalar::BodyPush{vec3(0.0f), vec3(0.0f)});
-        contacts_.project(pushes_);
-        apply(pushes_);
-    }
+    for (int sweep = 0; sweep < sweeps_of_contacts; ++sweep) contacts_.project();
 }
 
 bool Bodies::all_finite() const {

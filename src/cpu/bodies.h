@@ -55,8 +55,6 @@ class Bodies {
     void predict();
     void count_touches();
     void take_sums();
-    void apply(std::span<const scalar::BodyPush> pushes);
-    void place(BodyInStep& body) const;
     void watch_reach();
 
     std::vector<BodyInStep> bodies_;
@@ -65,7 +63,6 @@ class Bodies {
     std::vector<Bounds> reach_;           ///< where each body is expected in the frame
     std::uint64_t reach_serial_ = 0;
     std::vector<AlignedVector<BodySums>> sums_;  ///< by worker, then by body
-    std::vector<scalar::BodyPush> pushes_;       ///< by body; scratch
     BodyContacts contacts_;
     Vec3 gravity_;
     float h_ = 0;

@@ -34,6 +34,18 @@ constexpr float open_margin = 1e-4f;
 
 }  // namespace
 
+void place(BodyInStep& body) {
+    const Mat3 rotation = columns_of(body.motion.turn);
+    body.now = {rotation, vector_of(body.motion.place) - rotation * body.of->body->mass.center};
+    const auto column = [&](Vec3 axis) { return vector_of(rate_of(body.motion.turn, vector_of(axis), body.inertia)); };
+    body.inverse_inertia = {column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1})};
+}
+
+void push(BodyInStep& body, const scalar::BodyPush& by, float h) {
+    push_body(body.motion, body.inverse_mass, body.inertia, by, {h, 1 / h, 1 / h / h, 0, 1});
+    place(body);
+}
+
 void BodyContacts::begin_frame(const StepInput& input, std::span<BodyInStep> bodies,
                                std::span<const std::uint32_t> body_of, float h) {
     input_ = &input;
@@ -77,10 +89,6 @@ void BodyContacts::find_contacts(std::uint32_t substep) {
     substep_ = substep;
     rows_.clear();
     for (const Pair& pair : pairs_) find_contacts(pair);
-    sharing_.assign(bodies_.size(), 0.0f);
-    for (const Row& row : rows_)
-        for (const std::uint32_t body : {row.a, row.b})
-            if (body != none) sharing_[body] += 1;
 }
 
 void BodyContacts::find_contacts(const Pair& pair) {
@@ -179,8 +187,7 @@ scalar::MovedBody BodyContacts::side_of(std::uint32_t number) const {
     if (number == none) return scalar::immovable();
     const BodyInStep& body = bodies_[number];
     const Mat3& inverse = body.inverse_inertia;
-    return {sharing_[number],     body.inverse_mass,    body.motion.place,
-            vector_of(inverse.x), vector_of(inverse.y), vector_of(inverse.z)};
+    return {1, body.inverse_mass, body.motion.place, vector_of(inverse.x), vector_of(inverse.y), vector_of(inverse.z)};
 }
 
 // How far the point of the collider that is now at `x` has moved since the start of the substep.
@@ -189,7 +196,7 @@ vec3 BodyContacts::way_of(std::uint32_t collider, vec3 x) const {
     return vector_of(there - to_world(before(collider), to_local(now(collider), there)));
 }
 
-void BodyContacts::project(std::span<scalar::BodyPush> pushes) {
+void BodyContacts::project() {
     const float depenetration = depenetration_speed * h_;
     for (Row& row : rows_) {
         const scalar::MovedBody a = side_of(row.a), b = side_of(row.b);
@@ -202,32 +209,39 @@ void BodyContacts::project(std::span<scalar::BodyPush> pushes) {
             {row.normal, row.gap_at_start, row.static_friction, row.kinetic_friction, depenetration}, sum,
             dot(row.normal, xa - xb) - row.radius, way, a, b, touched - a.center, touched - b.center);
         row.friction = sum.friction, row.push = sum.push;
-        add(row, touched, by * (1 / h_), pushes);
+        apply(row, touched, by * (1 / h_), [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, h_); });
     }
 }
 
-void BodyContacts::add(const Row& row, vec3 touched, vec3 impulse, std::span<scalar::BodyPush> pushes) const {
-    const auto one = [&](std::uint32_t body, vec3 by) {
-        if (body == none) return;
-        pushes[body].impulse = pushes[body].impulse + by;
-        pushes[body].twist = pushes[body].twist + cross(touched - bodies_[body].motion.place, by);
+template <class Apply>
+void BodyContacts::apply(const Row& row, vec3 touched, vec3 impulse, Apply&& to) {
+    const auto one = [&](std::uint32_t number, vec3 by) {
+        if (number == none) return;
+        BodyInStep& body = bodies_[number];
+        to(body, scalar::BodyPush{by, cross(touched - body.motion.place, by)});
     };
     one(row.a, impulse);
     one(row.b, -impulse);
 }
 
-// After Müller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", section 3.6. What
-// gravity adds in two substeps does not bounce, so that bodies come to rest.
-void BodyContacts::bounce(std::span<scalar::BodyPush> pushes) {
+// After Müller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", section 3.6: the
+// velocities at a contact become what restitution makes of those before it, or zero. Projections alone leave some, and
+// what stands would tremble. What gravity adds in two substeps does not bounce. No contact takes back more than it
+// gave.
+void BodyContacts::bounce() {
     const float slow = 2 * h_ * length(input_->gravity);
-    for (const Row& row : rows_) {
-        if (!(row.push > 0) || !(row.restitution > 0) || !(row.approach < -slow)) continue;
+    for (Row& row : rows_) {
+        if (!(row.push > 0)) continue;
         const scalar::MovedBody a = side_of(row.a), b = side_of(row.b);
         const vec3 touched = vector_of(to_world(now(row.collider_a), row.local_a)) - row.normal * row.radius;
         const vec3 speed = velocity_at(row.collider_a, touched) - velocity_at(row.collider_b, touched);
-        const float missing = -row.restitution * row.approach - dot(row.normal, speed);
+        const float wanted = row.approach < -slow ? -row.restitution * row.approach : 0;
         const float w = weight_of(a, touched - a.center, row.normal) + weight_of(b, touched - b.center, row.normal);
-        if (missing > 0) add(row, touched, row.normal * (missing / std::max(w, 1e-30f)), pushes);
+        const float impulse =
+            std::max((wanted - dot(row.normal, speed)) / std::max(w, 1e-30f), -row.push / h_ - row.taken);
+        row.taken += impulse;
+        apply(row, touched, row.normal * impulse,
+              [](BodyInStep& body, const scalar::BodyPush& one) { hit_body(body.motion, body.inverse_mass, one); });
     }
 }
 

@@ -27,6 +27,11 @@ struct BodyInStep {
     float contacts = 0;    ///< of cloth, that share the body in this substep
 };
 
+/// Computes BodyInStep::now and inverse_inertia from the motion.
+void place(BodyInStep& body);
+/// push_body() for a substep of h s.
+void push(BodyInStep& body, const scalar::BodyPush& by, float h);
+
 /// Pairs are searched once per frame, and again when a body leaves its box. Contacts are found in every substep, where
 /// the bodies are then. No result depends on which pairs are listed besides those that touch.
 class BodyContacts {
@@ -39,10 +44,10 @@ class BodyContacts {
     /// Finds the contacts of a substep, after the bodies have been predicted.
     void find_contacts(std::uint32_t substep);
     bool empty() const { return rows_.empty(); }
-    /// One sweep: adds to the pushes of each body.
-    void project(std::span<scalar::BodyPush> pushes);
-    /// Adds what restitution adds at the end of a substep.
-    void bounce(std::span<scalar::BodyPush> pushes);
+    /// One sweep over the contacts, one after another.
+    void project();
+    /// Likewise for the velocities at the end of a substep.
+    void bounce();
 
   private:
     /// A body whose features meet the shape of a collider, body or not; or the other way around.
@@ -58,6 +63,7 @@ class BodyContacts {
         float radius, gap_at_start;  ///< m
         float approach;              ///< m/s along the normal at the start of the substep; negative: they come nearer
         float static_friction, kinetic_friction, restitution;
+        float taken = 0;              ///< N·s, by bounce()
         float push = 0;               ///< kg·m
         scalar::vec3 friction{0.0f};  ///< kg·m
     };
@@ -67,7 +73,8 @@ class BodyContacts {
     scalar::vec3 way_of(std::uint32_t collider, scalar::vec3 x) const;
     scalar::vec3 velocity_at(std::uint32_t collider, scalar::vec3 x) const;
     scalar::vec3 velocity_before(std::uint32_t collider, scalar::vec3 x) const;
-    void add(const Row& row, scalar::vec3 touched, scalar::vec3 impulse, std::span<scalar::BodyPush> pushes) const;
+    template <class Apply>
+    void apply(const Row& row, scalar::vec3 touched, scalar::vec3 impulse, Apply&& to);
     void find_contacts(const Pair& pair);
     void touch(const Pair& pair, Vec3 local, float radius, float margin);
     void search_edge(const Pair& pair, const RoundEdge& edge, float margin);
@@ -80,7 +87,6 @@ class BodyContacts {
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> found_;
     std::vector<Row> rows_;
-    std::vector<float> sharing_;  ///< by body: contacts that share it
 };
 
 }  // namespace weft::cpu

@@ -95,9 +95,17 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     // After a frame in which the cloth has torn, its arrays are those of the new model already.
     const bool torn = tearing && !tearing->openings().empty() && other->tear_law == model->tear_law &&
                       other->copied_from.size() == tearing->arrays().copied_from.size();
+    const auto shares_rows = [](const ConstraintTable& a, const ConstraintTable& b) {
+        return a.particles.shares(b.particles) && a.fields.shares(b.fields);
+    };
+    const bool only_levels = tearing && tearing->openings().empty() && same_faces && same_masses &&
+                             other->tear_law == model->tear_law &&
+                             std::ranges::equal(other->constraints, model->constraints, shares_rows);
     model = std::move(other);
     find_halves();
-    if (torn) {
+    if (only_levels) {
+        // the arrays stay as they are
+    } else if (torn) {
         tearing->set_model(*model);
     } else {
         begin_tearing();

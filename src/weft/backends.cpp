@@ -4,19 +4,45 @@
 #include "scene/nearest_name.h"
 #ifdef WEFT_VULKAN
 #include "vulkan/vulkan_backend.h"
+
+#include <volk.h>
 #endif
 
 #include <algorithm>
+#include <atomic>
+#include <cstdlib>
 
 namespace weft {
 namespace {
+
+#ifdef WEFT_VULKAN
+std::atomic<int> submits_until_loss;
+PFN_vkQueueSubmit submit_of_driver = nullptr;
+
+VkResult VKAPI_CALL submit_or_lose(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
+    if (--submits_until_loss < 0) return VK_ERROR_DEVICE_LOST;
+    return submit_of_driver(queue, count, infos, fence);
+}
+
+/// For tests of programs: with WEFT_LOSE_DEVICE=N in the environment, the device is lost after N submits.
+std::function<void(VolkDeviceTable&)> loss_from_environment() {
+    const char* text = std::getenv("WEFT_LOSE_DEVICE");
+    if (!text || !*text) return {};
+    return [submits = std::atoi(text)](VolkDeviceTable& table) {
+        submits_until_loss = submits;
+        submit_of_driver = table.vkQueueSubmit;
+        table.vkQueueSubmit = submit_or_lose;
+    };
+}
+#endif
 
 Result<std::unique_ptr<Backend>> make_vulkan(const Options& options) {
 #ifdef WEFT_VULKAN
     return make_vulkan_backend({.execution = options.execution,
                                 .device = options.device,
                                 .software = options.backend == "vulkan",
-                                .timings = options.stage_timings});
+                                .timings = options.stage_timings,
+                                .intercept = loss_from_environment()});
 #else
     (void)options;
     return Error::of_machine("backend", "this build has no Vulkan");

@@ -114,7 +114,10 @@ SceneWorld::~SceneWorld() = default;
 Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
                                       const MakeBackend& make) {
     if (Errors errors = apply(options, scene.solver); !errors.empty()) return errors;
-    auto backend = make ? make(options) : make_backend(options);
+    Options on = options;
+    const bool bodies = std::ranges::any_of(scene.colliders, [](const ColliderDesc& one) { return !!one.body; });
+    if (bodies && on.backend == "auto" && on.device.empty()) on.backend = "cpu";  // the other one moves no bodies
+    auto backend = make ? make(on) : make_backend(on);
     if (!backend) return backend.errors();
     name_unnamed(scene);
     SceneWorld made;

@@ -11,52 +11,79 @@ SheetDesc pinned_sheet(std::uint32_t side) {
             .pinned = [](Vec3 p) { return std::max(std::abs(p.x), std::abs(p.z)) > 0.499f; }};
 }
 
+// Of a sheet and a ball that meet in free space. Errors in parts of the linear momentum that the heavier one had at
+// first, for angular momentum at a distance of 1 m.
+struct Meeting {
+    double linear = 0, angular = 0;  ///< the largest errors
+    double energy = 0;               ///< the largest, in parts of that at the start
+    double energy_left = 0;
+};
+
+Meeting meet(Fabric fabric, float mass, bool spins) {
+    World world = make_world({.gravity = {}, .contact_forces = spins});
+    world.add(make_sheet({.resolution = {17, 17},
+                          .rotation_degrees = {20, 0, 10},
+                          .velocity = {0, -1, 0.3f},
+                          .fabric = fabric,
+                          .layout = {.lines = true, .hierarchy = true}}));
+    world.add(make_ball(0.2f, mass, {0.05f, -0.4f, 0.1f},
+                        {.velocity = {0.1f, 0.5f, 0}, .spin = {0, spins ? 400.0f : 0, 90}}));
+    world.frame();
+    const Momentum start = momentum_of(world);
+    const double heavier = std::max(double{fabric.body.density} * 1.05, double{mass} * 0.5);
+    Meeting meeting;
+    for (int frame = 0; frame < 300; ++frame) {
+        world.step(1.0 / 60);
+        const Momentum now = momentum_of(world);
+        meeting.linear = std::max(meeting.linear, distance_between(now.linear, start.linear) / heavier);
+        meeting.angular = std::max(meeting.angular, distance_between(now.angular, start.angular) / heavier);
+        meeting.energy = std::max(meeting.energy, now.energy / start.energy);
+        meeting.energy_left = now.energy / start.energy;
+    }
+    return meeting;
+}
+
 TEST(ClothAndBody, keep_the_momentum_that_they_have_together) {
+    // So soft that its own constraints lose nothing by rounding.
+    Fabric soft = find_fabric("cotton")->fabric;
+    soft.stretch = {.stretch = {0.05f, 0.05f}, .compression = {0.05f, 0.05f}, .shear = 0.05f};
+    soft.bend = {};
     for (const float mass : {0.01f, 1.0f, 100.0f}) {
         for (const bool spins : {false, true}) {
-            World world = make_world({.gravity = {}, .contact_forces = spins});
-            world.add(make_sheet({.resolution = {17, 17},
-                                  .rotation_degrees = {20, 0, 10},
-                                  .velocity = {0, -1, 0.3f},
-                                  .fabric = find_fabric("cotton")->fabric,
-                                  .layout = {.lines = true, .hierarchy = true}}));
-            world.add(make_ball(0.2f, mass, {0.05f, -0.4f, 0.1f},
-                                {.velocity = {0.1f, 0.5f, 0}, .spin = {0, spins ? 400.0f : 0, 90}}));
-            world.frame();
-            const Momentum start = momentum_of(world);
-            double heavier = std::max(0.24 * 1.05, double{mass} * 0.5);
-            double energy = start.energy;
-            for (int frame = 0; frame < 300; ++frame) {
-                world.step(1.0 / 60);
-                energy = std::max(energy, momentum_of(world).energy);
-            }
-            const Momentum now = momentum_of(world);
-            EXPECT_LT(distance_between(now.linear, start.linear), 1e-4 * heavier) << mass << ' ' << spins;
-            EXPECT_LT(distance_between(now.angular, start.angular), 2e-4 * heavier) << mass << ' ' << spins;
-            EXPECT_LT(energy, start.energy * 1.01) << mass << ' ' << spins;
-            EXPECT_LT(now.energy, start.energy) << mass << ' ' << spins;
+            const Meeting meeting = meet(soft, mass, spins);
+            EXPECT_LT(meeting.linear, 1e-4) << mass << ' ' << spins;
+            EXPECT_LT(meeting.angular, 3e-4) << mass << ' ' << spins;
+            EXPECT_LT(meeting.energy, 1.01) << mass << ' ' << spins;
         }
     }
 }
 
+TEST(ClothAndBody, lose_energy_when_they_meet) {
+    for (const float mass : {0.01f, 1.0f, 100.0f}) {
+        const Meeting meeting = meet(find_fabric("cotton")->fabric, mass, true);
+        // The constraints of a sheet that flies alone for 4 s lose as much.
+        EXPECT_LT(meeting.linear, 2e-2) << mass;
+        EXPECT_LT(meeting.energy, 1.001) << mass;
+        EXPECT_LT(meeting.energy_left, 1) << mass;
+    }
+}
+
 TEST(ClothAndBody, a_sheet_bears_a_ball) {
-    for (const float mass : {0.001f, 0.1f, 10.0f}) {
-        World world = make_world({.contact_forces = true});
+    for (const float mass : {0.001f, 0.1f, 1.0f}) {
+        World world = make_world({.air = AirDesc{}, .contact_forces = true});
         world.add(make_sheet(pinned_sheet(33)));
-        const ColliderId ball = world.add(make_ball(0.1f, mass, {0.03f, 0.15f, 0.02f}));
+        const ColliderId ball = world.add(make_ball(0.1f, mass, {0.03f, 0.12f, 0.02f}, {.damping = 0.5f}));
         run(world, 9);
         double weight = 0, speed = 0;
         for (int frame = 0; frame < 60; ++frame) {
             world.step(1.0 / 60);
             world.summary();
-            weight += double{world.contact_forces().colliders.front().force.y} / 60;
+            weight += double{world.contact_forces().colliders.front().force.y} / -60;
             speed = std::max(speed, double{speed_of(world.body(ball))});
         }
         EXPECT_NEAR(weight / (mass * 9.81), 1, 0.01) << mass;
         EXPECT_LT(speed, 5e-3) << mass;
-        EXPECT_GT(world.body(ball).state.place.y, -0.3) << mass;
-        std::printf("%g kg: weight %.4f speed %.5f y %.4f\n", mass, weight / (mass * 9.81), speed,
-                    world.body(ball).state.place.y);
+        EXPECT_GT(world.body(ball).state.place.y, -0.2) << mass;
     }
 }
 
@@ -67,15 +94,21 @@ TEST(ClothAndBody, a_fast_ball_does_not_pass_a_curtain) {
                           .fabric = find_fabric("cotton")->fabric,
                           .layout = {.lines = true, .hierarchy = true},
                           .pinned = [](Vec3 p) { return p.z < -0.499f; }}));
-    const ColliderId ball = world.add(make_ball(0.1f, 0.5f, {0, 0, -3}, {.velocity = {0, 0.5f, 60}}));
-    run(world, 0.1);
-    // The curtain is in front of the ball.
-    const Vec3 at = world.body(ball).state.place.xyz();
-    float farthest = -10;
-    for (const Vec4& x : world.frame().cloths[0].positions)
-        if (std::hypot(x.x - at.x, x.y - at.y) < 0.05f) farthest = std::max(farthest, x.z);
-    EXPECT_GT(farthest, at.z);
-    EXPECT_LT(world.body(ball).state.velocity.z, 59);
+    const ColliderId ball = world.add(make_ball(0.1f, 0.5f, {0, 0, -1.03f}, {.velocity = {0, 0.5f, 60}}));
+    int met = 0;
+    for (int frame = 0; frame < 100; ++frame) {
+        world.step(1.0 / 1200);
+        const Vec3 at = world.body(ball).state.place.xyz();
+        if (at.z < 0) continue;
+        if (at.z > 0.4f) break;
+        ++met;
+        for (const Vec4& x : world.frame().cloths[0].positions) {
+            if (std::hypot(x.x - at.x, x.y - at.y) > 0.05f) continue;
+            EXPECT_GT(x.z, at.z) << frame;
+        }
+    }
+    EXPECT_GT(met, 5);
+    EXPECT_LT(world.body(ball).state.velocity.z, 59.5f);
 }
 
 TEST(ClothAndBody, the_same_bits_on_any_number_of_threads_and_after_a_restore) {

@@ -163,7 +163,7 @@ TEST(BodyContact, keeps_momentum) {
     const Momentum now = momentum_of(world);
     EXPECT_LT(world.body(a).state.velocity.x, 0.9);
     EXPECT_LT(distance_between(now.linear, start.linear), 1e-4 * size_of(start.linear));
-    EXPECT_LT(distance_between(now.angular, start.angular), 1e-4 * size_of(start.angular));
+    EXPECT_LT(distance_between(now.angular, start.angular), 1e-4 * size_of(start.linear));
     EXPECT_LE(now.energy, start.energy * 1.0001);
 }
 

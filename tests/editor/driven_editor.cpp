@@ -287,6 +287,14 @@ void DrivenEditor::let_go(const std::string& key) {
     send("keyup " + key, 1);
 }
 
+void DrivenEditor::hold_until(const std::string& key, const std::string& what, const std::function<bool()>& so) {
+    at_once_ = true;  // it does not settle meanwhile
+    hold(key);
+    at_once_ = false;
+    until(what, so);
+    let_go(key);
+}
+
 void DrivenEditor::type(const std::string& text) {
     // Shift is pressed as well where it is needed.
     send("type --delay 1 \"" + text + "\"", 2 * static_cast<unsigned>(text.size()));
@@ -294,18 +302,20 @@ void DrivenEditor::type(const std::string& text) {
 }
 
 void DrivenEditor::scroll_to(const std::string& name, const std::string& panel) {
-    const auto wheel = [&](const char* button, int turns) {
-        for (int i = 0; i < turns && !shows(name); ++i) {
-            const std::uint64_t before = frames();
-            send(std::string("click ") + button);
-            until("the wheel turns", [&] { return frames() > before; });
-            settle();
-        }
-    };
     if (shows(name)) return;
     point_at(place(panel).center());
-    wheel("4", 30), wheel("5", 60);
+    for (int i = 0; i < 30 && !shows(name); ++i) wheel(1);
+    for (int i = 0; i < 60 && !shows(name); ++i) wheel(-1);
     if (!shows(name)) fail(name + " cannot be scrolled into sight");
+}
+
+void DrivenEditor::wheel(int notches) {
+    for (int i = 0; i < std::abs(notches); ++i) {
+        const std::uint64_t before = frames();
+        send(notches > 0 ? "click 4" : "click 5");
+        until("the wheel turns", [&] { return frames() > before; });
+        settle();
+    }
 }
 
 void DrivenEditor::resize(unsigned width, unsigned height) {

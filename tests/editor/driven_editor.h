@@ -79,7 +79,11 @@ class DrivenEditor {
     /// Holds a key until it is let go of.
     void hold(const std::string& key);
     void let_go(const std::string& key);
+    /// Holds a key, with which something may move all the time, until this is so.
+    void hold_until(const std::string& key, const std::string& what, const std::function<bool()>& so);
     void type(const std::string& text);
+    /// Positive: away from the user.
+    void wheel(int notches);
     /// Turns the wheel over the panel until the widget is in sight.
     void scroll_to(const std::string& name, const std::string& panel);
     void resize(unsigned width, unsigned height);

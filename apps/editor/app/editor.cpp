@@ -97,6 +97,7 @@ Result<void> Editor::start() {
     window_ = std::move(*window);
     image_ = window_->renderer().add_image();
     view_.settings.keys = settings_.keys;
+    view_.settings.fly_always = settings_.fly_always;
     view_.settings.pull_force = settings_.pull_force;
     make_commands();
     view_thread_ = std::make_unique<ViewThread>(ViewThreadOptions{.on_image = [this] { window_->redraw(); }});
@@ -104,7 +105,7 @@ Result<void> Editor::start() {
     if (!options_.scene.empty()) add_recent(settings_, options_.scene);
     if (!problem.empty()) session_->say(problem);
     if (options_.record.empty() && options_.keep_settings) {
-        abandoned_ = abandoned_logs(log_folder());
+        for (const std::filesystem::path& file : abandoned_logs(log_folder())) abandoned_.push_back(summary_of(file));
         if (!abandoned_.empty()) panel_ = Panel::recovery;
     }
     simulator_->play(true);
@@ -138,6 +139,7 @@ void Editor::set_stage(Stage stage, const std::optional<Log>& recovered) {
     }
     photographer_ = std::make_shared<Photographer>();
     const DocumentPtr document = stage.document();
+    const std::optional<Stage::SavedFile> saved = stage.saved();
     simulator_ = std::make_unique<Simulator>(
         std::move(stage),
         Simulator::Hooks{.observe = [camera = photographer_](Stage& one) -> std::shared_ptr<const void> {
@@ -146,7 +148,10 @@ void Editor::set_stage(Stage stage, const std::optional<Log>& recovered) {
                          .wake = [this] { window_->redraw(); }},
         std::move(log));
     session_ = std::make_unique<Session>(*simulator_);
-    if (recovered) session_->set_saved(recovered->head.document->json);
+    if (saved)
+        session_->mark_saved(saved->file, saved->text, saved->json);
+    else if (recovered)
+        session_->set_saved(recovered->head.document->json);
     if (!problem.empty()) session_->say(problem);
     marks_ = {};
     view_.choose_none();
@@ -191,8 +196,7 @@ void Editor::take_opened() {
     set_stage(std::move(*opened.stage), opened.recovered);
     if (opened.recovered) {
         // The new log has all of it.
-        std::error_code ignored;
-        if (!log_file_.empty()) std::filesystem::remove(opened.file, ignored);
+        if (!log_file_.empty()) discard_log(opened.file);
         if (!opened.errors.empty()) session_->say("Recovered in part", opened.errors);
     } else if (!opened.file.empty()) {
         add_recent(settings_, opened.file);
@@ -228,15 +232,19 @@ void Editor::recover(const std::filesystem::path& file) {
     });
 }
 
+void Editor::discard_log(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    std::erase_if(abandoned_, [&](const LogSummary& one) { return one.file == file; });
+}
+
 void Editor::drop(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         if (file.ends_with(".json")) {
             unless_changed([this, file] { open_later(file, {}); });
             return;
         }
-        const auto added = addition(*session_->document(), "mesh", file);
-        session_->change("Add " + std::filesystem::path(file).filename().string(), added->edits);
-        session_->select(added->place);
+        add_cloth_from(file);
         did("drop");
     }
 }
@@ -250,6 +258,7 @@ Result<void> Editor::run() {
 Result<void> Editor::frame(Ui& ui) {
     take_opened();
     session_->begin_frame(ui.now());
+    take_added();
     if (auto taken = take_view_image(); !taken) return taken;
     if (!ui.input().files.empty()) drop(ui.input().files);
     if (window_->close_requested() && !closing_) {
@@ -283,36 +292,60 @@ void Editor::layout(Ui& ui) {
     toolbar(ui);
     const float status = theme.px(26), bar = splitter_width(ui), least = theme.px(60);
     const float height = std::max(least, size.y - ImGui::GetCursorPosY() - status);
-    // Narrow windows show less at the sides.
-    const float room = std::max(0.0f, size.x - 2 * bar - theme.px(140));
-    const float left = std::min(theme.px(settings_.left), room * 0.4f),
-                right = std::min(theme.px(settings_.right), room * 0.55f);
-    const ImVec2 padding(theme.px(10), theme.px(8));
-    panel(ui, "objects", ImVec2(left, height), theme.colors.panel, padding, [&] {
+    if (narrow(ui)) {
+        const ImVec2 whole(size.x, height);
+        if (page_ == Page::view) middle_panel(ui, whole);
+        if (page_ == Page::objects) objects_panel(ui, whole);
+        if (page_ == Page::properties) properties_panel(ui, whole);
+    } else {
+        // Smaller windows show less at the sides.
+        const float room = std::max(0.0f, size.x - 2 * bar - theme.px(140));
+        const float left = std::min(theme.px(settings_.left), room * 0.4f),
+                    right = std::min(theme.px(settings_.right), room * 0.55f);
+        objects_panel(ui, ImVec2(left, height));
+        ImGui::SameLine(0, 0);
+        splitter(ui, "split_left", SplitAxis::x, height, settings_.left, 120, 600);
+        ImGui::SameLine(0, 0);
+        middle_panel(ui, ImVec2(std::max(least, size.x - left - right - 2 * bar), height));
+        ImGui::SameLine(0, 0);
+        splitter(ui, "split_right", SplitAxis::x, height, settings_.right, 200, 800, true);
+        ImGui::SameLine(0, 0);
+        properties_panel(ui, ImVec2(right, height));
+    }
+    status_line(ui);
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+void Editor::objects_panel(Ui& ui, ImVec2 size) {
+    const Theme& theme = ui.theme();
+    panel(ui, "objects", size, theme.colors.panel, ImVec2(theme.px(10), theme.px(8)), [&] {
         cards_.show(ui, *session_, marks_, [&](std::string_view name) { add_object(name); });
         if (show_history_) history(ui);
     });
-    ImGui::SameLine(0, 0);
-    splitter(ui, "split_left", SplitAxis::x, height, settings_.left, 120, 600);
-    ImGui::SameLine(0, 0);
-    const float middle = std::max(least, size.x - left - right - 2 * bar);
+}
+
+void Editor::middle_panel(Ui& ui, ImVec2 size) {
+    const Theme& theme = ui.theme();
     constexpr ImGuiWindowFlags still = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
-    const auto middle_content = [&] {
+    const float least = theme.px(60);
+    const auto content = [&] {
         ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
         const float bottom = timeline_height(ui);
         panel(
-            ui, "view", ImVec2(middle, std::max(least, height - bottom)), theme.colors.background, ImVec2(0, 0),
+            ui, "view", ImVec2(size.x, std::max(least, size.y - bottom)), theme.colors.background, ImVec2(0, 0),
             [&] { view(ui); }, still);
         panel(
-            ui, "timeline", ImVec2(middle, bottom), theme.colors.panel, ImVec2(theme.px(8), theme.px(6)),
+            ui, "timeline", ImVec2(size.x, bottom), theme.colors.panel, ImVec2(theme.px(8), theme.px(6)),
             [&] { show_timeline(ui, *session_); }, still);
         ImGui::PopStyleVar();
     };
-    panel(ui, "middle", ImVec2(middle, height), theme.colors.background, ImVec2(0, 0), middle_content, still);
-    ImGui::SameLine(0, 0);
-    splitter(ui, "split_right", SplitAxis::x, height, settings_.right, 200, 800, true);
-    ImGui::SameLine(0, 0);
-    panel(ui, "properties", ImVec2(right, height), theme.colors.panel, padding, [&] {
+    panel(ui, "middle", size, theme.colors.background, ImVec2(0, 0), content, still);
+}
+
+void Editor::properties_panel(Ui& ui, ImVec2 size) {
+    const Theme& theme = ui.theme();
+    panel(ui, "properties", size, theme.colors.panel, ImVec2(theme.px(10), theme.px(8)), [&] {
         ImGui::PushFont(theme.strong);
         const std::string& selected = session_->selected();
         ImGui::TextUnformatted(selected.empty() ? "Properties"
@@ -320,9 +353,6 @@ void Editor::layout(Ui& ui) {
         ImGui::PopFont();
         properties_.show(ui, *session_);
     });
-    status_line(ui);
-    ImGui::End();
-    ImGui::PopStyleVar(2);
 }
 
 void Editor::view(Ui& ui) {
@@ -330,6 +360,7 @@ void Editor::view(Ui& ui) {
     if (view_image_ && !view_image_->image.rgba.empty())
         image_size = {static_cast<float>(view_image_->image.width), static_cast<float>(view_image_->image.height)};
     const ImVec2 corner = ImGui::GetCursorScreenPos();
+    view_.has_keys = panel_ == Panel::none && !file_dialog_.is_open();
     view_.show(ui, *session_, marks_, image_, image_size);
     ImGui::SetCursorScreenPos(ImVec2(corner.x + ui.theme().px(10), corner.y + ui.theme().px(8)));
     view_overlay(ui);

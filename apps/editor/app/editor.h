@@ -4,6 +4,7 @@
 #include "editor/app/cards.h"
 #include "editor/app/export_job.h"
 #include "editor/app/file_dialog.h"
+#include "editor/app/gallery.h"
 #include "editor/app/picture.h"
 #include "editor/app/properties.h"
 #include "editor/app/session.h"
@@ -12,6 +13,7 @@
 #include "editor/ui/ui_window.h"
 #include "editor/view/view_thread.h"
 
+#include <weft/bounds.h>
 #include <weft/simulation.h>
 
 #include <deque>
@@ -68,10 +70,17 @@ class Editor {
     void open_later(const std::filesystem::path& file, DocumentPtr document);
     void take_opened();
     void recover(const std::filesystem::path& log);
+    void discard_log(const std::filesystem::path& file);
 
     Result<void> frame(Ui& ui);
     void layout(Ui& ui);
     void toolbar(Ui& ui);
+    void scroll_toolbar(Ui& ui);
+    bool narrow(const Ui& ui) const;
+    void pages(Ui& ui);
+    void objects_panel(Ui& ui, ImVec2 size);
+    void middle_panel(Ui& ui, ImVec2 size);
+    void properties_panel(Ui& ui, ImVec2 size);
     void menus(Ui& ui);
     void menu(Ui& ui, const char* name, const char* label, std::initializer_list<const char*> commands);
     void menu_entries(Ui& ui, const char* name, std::initializer_list<const char*> commands);
@@ -86,6 +95,8 @@ class Editor {
     void dialogs(Ui& ui);
     void history(Ui& ui);
     void gallery_dialog(Ui& ui);
+    void unsaved_dialog(Ui& ui);
+    void recovery_dialog(Ui& ui);
     void changed_file_dialog(Ui& ui);
     void export_dialog(Ui& ui);
     void help(Ui& ui);
@@ -99,6 +110,8 @@ class Editor {
     void keys(Ui& ui);
 
     void add_object(std::string_view name);
+    void add_cloth_from(const std::string& file);
+    void take_added();
     void remove_selected();
     void duplicate_selected();
     void toggle_play();
@@ -134,14 +147,23 @@ class Editor {
     ViewMarks marks_;
     std::vector<const Overlay*> overlays_;
     FileDialog file_dialog_;
+    Gallery gallery_;
     std::optional<ExportJob> export_;
     ExportOptions export_options_;
     enum class Panel : std::uint8_t { none, gallery, export_file, help, preferences, unsaved, recovery, changed_file };
     Panel panel_ = Panel::none;
+    enum class Page : std::uint8_t { view, objects, properties };
+    Page page_ = Page::view;  ///< in a narrow window
     bool show_history_ = false;
     std::function<void()> after_unsaved_;
-    std::vector<std::filesystem::path> abandoned_;
+    std::vector<LogSummary> abandoned_;
     std::future<Opened> opening_;
+    struct Added {
+        std::string file;
+        Bounds bounds;  ///< of the mesh, m
+        Errors errors;
+    };
+    std::vector<std::future<Added>> adding_;
     std::filesystem::path log_file_;
     std::deque<float> step_ms_;
     std::uint64_t plotted_ = 0;

@@ -4,6 +4,8 @@
 #include "editor/app/scene_files.h"
 #include "io/images/picture_writer.h"
 
+#include <weft/files.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -25,6 +27,8 @@ void Editor::make_commands() {
          [this] { panel_ = Panel::gallery; }},
         {"save", "Save", "Write the scene to its file", Icon::save, Key::s, control, [this] { save(false); }},
         {"save_as", "Save as …", "Write the scene to another file", Icon::save, Key::s, both, [this] { save(true); }},
+        {"recover", "Recover …", "Sessions that have ended unexpectedly", Icon::to_default, Key::none, plain,
+         [this] { panel_ = Panel::recovery; }, [this] { return !abandoned_.empty(); }},
         {"export", "Export …", "Animation, video, images or meshes", Icon::export_file, Key::e, control,
          [this] { ask_export(); }},
         {"screenshot", "Save image", "Write the view's image beside the scene", Icon::camera, Key::f12, plain,
@@ -64,6 +68,8 @@ void Editor::make_commands() {
              GizmoAxes& axes = view_.settings.axes;
              axes = axes == GizmoAxes::world ? GizmoAxes::local : GizmoAxes::world;
          }},
+        {"amount", "Type an amount", "Choose a handle of the object, then type how far it goes", Icon::move, Key::g,
+         plain, [this] { view_.choose_handle(*session_); }, has_object},
         {"through", "Choose through cloth", "Hidden vertices can be chosen too", Icon::eye, Key::t, plain,
          [this] { view_.settings.through = !view_.settings.through; }},
         {"frame", "Frame selected", "Show the object as a whole", Icon::frame_all, Key::f, plain,
@@ -113,7 +119,7 @@ void Editor::keys(Ui& ui) {
             session_->select({});
         return;
     }
-    if (dialog) return;
+    if (dialog || view_.type(ui, *session_)) return;
     for (std::size_t i = 0; i < commands_.size(); ++i)
         if (commands_[i].key != Key::none && ui.shortcut(commands_[i].key, commands_[i].modifiers))
             return run_command(commands_[i]);
@@ -130,12 +136,47 @@ void Editor::add_object(std::string_view name) {
         session_->select(added->place);
     };
     if (name != "mesh" && name != "solid") return add(name, {});
-    file_dialog_.ask(
-        {.title = name == "mesh" ? "Add a cloth from a mesh" : "Add a solid mesh",
-         .action = "Add",
-         .endings = {".obj", ".ply", ".glb", ".gltf", ".fbx", ".stl", ".3ds"},
-         .start = session_->document()->folder / "",
-         .chosen = [add, kind = std::string(name)](const std::filesystem::path& file) { add(kind, file.string()); }});
+    file_dialog_.ask({.title = name == "mesh" ? "Add a cloth from a mesh" : "Add a solid mesh",
+                      .action = "Add",
+                      .endings = {".obj", ".ply", ".glb", ".gltf", ".fbx", ".stl", ".3ds"},
+                      .start = session_->document()->folder / "",
+                      .chosen = [this, add, kind = std::string(name)](const std::filesystem::path& file) {
+                          kind == "mesh" ? add_cloth_from(file.string()) : add(kind, file.string());
+                      }});
+}
+
+// The mesh is read in the background, for its size: the cloth begins above what is there, so that it falls on it.
+void Editor::add_cloth_from(const std::string& file) {
+    adding_.push_back(std::async(std::launch::async, [file, folder = session_->document()->folder, this] {
+        Added added{.file = file, .bounds = {}, .errors = {}};
+        const auto mesh = read_mesh_file(file, folder);
+        if (!mesh) added.errors = mesh.errors();
+        if (mesh)
+            for (const Vec3 p : mesh->positions) added.bounds.include(p);
+        window_->redraw();
+        return added;
+    }));
+}
+
+void Editor::take_added() {
+    while (!adding_.empty() && adding_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        const Added one = adding_.front().get();
+        adding_.erase(adding_.begin());
+        const std::string label = "Add " + std::filesystem::path(one.file).filename().string();
+        if (!one.errors.empty()) {
+            session_->say(label, one.errors);
+            continue;
+        }
+        const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
+        const Room room = picture ? room_of(*picture->world) : Room{};
+        const auto added = addition(*session_->document(), "mesh", one.file, place_above(one.bounds, room));
+        if (!added) {
+            session_->say(label, added.errors());
+            continue;
+        }
+        session_->change(label, added->edits);
+        session_->select(added->place);
+    }
 }
 
 void Editor::remove_selected() {
@@ -213,10 +254,12 @@ void Editor::save_to(std::filesystem::path file, std::function<void()> after, bo
     }
     auto saved = save_document(*session_->document(), file, overwrite_changed);
     if (!saved) return session_->say("Save " + file.filename().string(), saved.errors());
-    simulator_->run([file, text = *saved](Stage& stage) { stage.saved_as(file, text); });
+    session_->post(Saved{std::filesystem::absolute(file).lexically_normal().string(), (*saved)->text});
     session_->mark_saved(file, *saved);
     add_recent(settings_, file);
-    session_->say("Saved " + file.string());
+    const bool has_cloth = !session_->document()->scene.cloths.empty();
+    session_->say("Saved " + file.string() +
+                  (has_cloth ? "" : ". It has no cloth: weft run and weft render need one."));
     if (after) after();
 }
 

@@ -27,80 +27,85 @@ void Editor::dialogs(Ui& ui) {
             return help(ui);
         case Panel::preferences:
             return preferences(ui);
-        case Panel::unsaved: {
-            const Theme& theme = ui.theme();
-            Dialog dialog(ui, "unsaved", "The scene has changes that are not saved",
-                          ImVec2(theme.px(440), theme.px(120)));
-            ImGui::Dummy(ImVec2(0, theme.px(6)));
-            const auto go_on = [&] {
-                panel_ = Panel::none;
-                if (auto after = std::exchange(after_unsaved_, {})) after();
-            };
-            if (button(ui, "save", {.icon = Icon::save, .text = "Save", .primary = true}))
-                panel_ = Panel::none, save(false, std::exchange(after_unsaved_, {}));
-            ImGui::SameLine();
-            if (button(ui, "discard", {.icon = Icon::trash, .text = "Discard them"})) go_on();
-            ImGui::SameLine();
-            if (button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none, after_unsaved_ = {};
-            return;
-        }
-        case Panel::recovery: {
-            const Theme& theme = ui.theme();
-            Dialog dialog(ui, "recovery", "A session has ended unexpectedly", ImVec2(theme.px(520), theme.px(150)));
-            ImGui::TextWrapped("Its actions can be played again, except the last one if it was not written.");
-            if (button(ui, "recover", {.icon = Icon::to_default, .text = "Recover it", .primary = true}))
-                recover(abandoned_.front());
-            ImGui::SameLine();
-            if (button(ui, "discard", {.icon = Icon::trash, .text = "Discard it"})) {
-                std::error_code ignored;
-                for (const auto& log : abandoned_) std::filesystem::remove(log, ignored);
-                panel_ = Panel::none;
-            }
-            ImGui::SameLine();
-            if (button(ui, "later", {.text = "Later"})) panel_ = Panel::none;
-            return;
-        }
+        case Panel::unsaved:
+            return unsaved_dialog(ui);
+        case Panel::recovery:
+            return recovery_dialog(ui);
         case Panel::changed_file:
             return changed_file_dialog(ui);
     }
 }
 
+void Editor::unsaved_dialog(Ui& ui) {
+    const Theme& theme = ui.theme();
+    Dialog dialog(ui, "unsaved", "The scene has changes that are not saved", ImVec2(theme.px(440), 0));
+    const auto go_on = [&] {
+        panel_ = Panel::none;
+        if (auto after = std::exchange(after_unsaved_, {})) after();
+    };
+    if (button(ui, "save", {.icon = Icon::save, .text = "Save", .primary = true}))
+        panel_ = Panel::none, save(false, std::exchange(after_unsaved_, {}));
+    if (next_button(ui, "discard", {.icon = Icon::trash, .text = "Discard them"})) go_on();
+    if (next_button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none, after_unsaved_ = {};
+}
+
+// All sessions that have ended unexpectedly, newest first.
+void Editor::recovery_dialog(Ui& ui) {
+    const Theme& theme = ui.theme();
+    Dialog dialog(ui, "recovery",
+                  abandoned_.size() > 1 ? "Sessions have ended unexpectedly" : "A session has ended unexpectedly",
+                  ImVec2(theme.px(620), 0));
+    ImGui::TextUnformatted("Their actions can be played again, except the last one if it was not written.");
+    std::filesystem::path chosen, unwanted;
+    for (std::size_t i = 0; i < abandoned_.size(); ++i) {
+        const LogSummary& log = abandoned_[i];
+        const Ui::Scope scope(ui, std::to_string(i));
+        const std::string scene = log.scene.empty() ? "untitled" : std::filesystem::path(log.scene).filename().string();
+        const std::string text = scene + ", " + (log.time.empty() ? log.file.filename().string() : log.time) + ", " +
+                                 std::to_string(log.actions) + (log.actions == 1 ? " action" : " actions");
+        const ButtonStyle discard{.icon = Icon::trash, .text = "Discard"};
+        const float beside = ImGui::GetContentRegionAvail().x - button_width(ui, discard) - theme.px(8);
+        if (button(ui, "recover",
+                   {.icon = Icon::to_default,
+                    .text = text,
+                    .what = log.scene.empty() ? "Play the actions of this session again" : log.scene,
+                    .primary = i == 0,
+                    .left = true,
+                    .width = std::max(beside, theme.px(120))}))
+            chosen = log.file;
+        if (next_button(ui, "discard", discard)) unwanted = log.file;
+    }
+    if (button(ui, "later", {.text = "Later", .what = "File, Recover shows this list again"})) panel_ = Panel::none;
+    if (abandoned_.size() > 1 && next_button(ui, "discard_all", {.icon = Icon::trash, .text = "Discard all"}))
+        while (!abandoned_.empty()) discard_log(std::filesystem::path(abandoned_.front().file));
+    if (!unwanted.empty()) discard_log(unwanted);
+    if (abandoned_.empty()) panel_ = Panel::none;
+    if (!chosen.empty()) unless_changed([this, chosen] { recover(chosen); });
+}
+
 void Editor::changed_file_dialog(Ui& ui) {
     const Theme& theme = ui.theme();
     const std::filesystem::path file = session_->document()->file;
-    Dialog dialog(ui, "changed_file", "The file has changed on disk", ImVec2(theme.px(520), theme.px(150)));
-    ImGui::TextWrapped("%s is not as it was when it was opened or saved last. Saving undoes those changes.",
-                       file.filename().c_str());
+    Dialog dialog(ui, "changed_file", "The file has changed on disk", ImVec2(theme.px(520), 0));
+    ImGui::Text("%s is not as it was when it was opened or saved last. Saving undoes those changes.",
+                file.filename().c_str());
     if (button(ui, "save_as", {.icon = Icon::save, .text = "Save as …", .primary = true}))
         panel_ = Panel::none, save(true, std::exchange(after_unsaved_, {}));
-    ImGui::SameLine();
-    if (button(ui, "overwrite", {.icon = Icon::trash, .text = "Overwrite it"}))
+    if (next_button(ui, "overwrite", {.icon = Icon::trash, .text = "Overwrite it"}))
         panel_ = Panel::none, save_to(file, std::exchange(after_unsaved_, {}), true);
-    ImGui::SameLine();
-    if (button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none, after_unsaved_ = {};
+    if (next_button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none, after_unsaved_ = {};
 }
 
 void Editor::gallery_dialog(Ui& ui) {
-    const Theme& theme = ui.theme();
-    Dialog dialog(ui, "gallery", "Gallery", ImVec2(theme.px(760), theme.px(480)));
-    ImGui::BeginChild("scenes", ImVec2(0, -ImGui::GetFrameHeightWithSpacing() * 1.2f), false);
-    static const std::vector<GalleryScene> scenes = gallery();
-    const float width = (ImGui::GetContentRegionAvail().x - theme.px(24)) / 3;
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (i % 3 != 0) ImGui::SameLine();
-        if (!button(ui, scenes[i].name,
-                    {.icon = Icon::cloth, .text = scenes[i].name, .what = scenes[i].file.string(), .width = width}))
-            continue;
-        panel_ = Panel::none;
-        unless_changed([this, file = scenes[i].file] { open_later(file, {}); });
-    }
-    ImGui::EndChild();
-    if (button(ui, "close", {.text = "Close"})) panel_ = Panel::none;
+    bool open = true;
+    const auto chosen = gallery_.show(ui, window_->renderer(), open);
+    if (!open) panel_ = Panel::none;
+    if (chosen) unless_changed([this, file = *chosen] { open_later(file, {}); });
 }
 
 void Editor::export_dialog(Ui& ui) {
     const Theme& theme = ui.theme();
-    Dialog dialog(ui, "export", "Export the run from its first frame", ImVec2(theme.px(520), theme.px(210)));
+    Dialog dialog(ui, "export", "Export the run from its first frame", ImVec2(theme.px(520), 0));
     auto frames = static_cast<long long>(export_options_.frames);
     const Field field{.name = "frames", .label = "Frames", .what = "How many frames are simulated"};
     if (integer(ui, field, frames, {.min = 1, .max = 1e6, .integer = true}) != Change::none)
@@ -120,13 +125,12 @@ void Editor::export_dialog(Ui& ui) {
                               export_ = std::move(*job);
                           }});
     }
-    ImGui::SameLine();
-    if (button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none;
+    if (next_button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none;
 }
 
 void Editor::preferences(Ui& ui) {
     const Theme& theme = ui.theme();
-    Dialog dialog(ui, "preferences", "Preferences", ImVec2(theme.px(480), theme.px(330)));
+    Dialog dialog(ui, "preferences", "Preferences", ImVec2(theme.px(520), 0));
     std::size_t appearance = settings_.appearance == Appearance::light ? 1 : 0;
     constexpr std::array<std::string_view, 2> appearances{"dark", "light"};
     bool changed = choice(ui, {.name = "appearance", .label = "Appearance"}, appearance, appearances) != Change::none;
@@ -140,9 +144,14 @@ void Editor::preferences(Ui& ui) {
     std::size_t keys = settings_.keys == FlyKeys::source ? 1 : 0;
     constexpr std::array<std::string_view, 2> maps{"W S forward, back; Q E down, up",
                                                    "W S up, down; Q E back, forward"};
-    if (choice(ui, {.name = "keys", .label = "Flight keys", .what = "With the right button held"}, keys, maps) !=
+    if (choice(ui, {.name = "keys", .label = "Flight keys", .what = "Keys that move the eye"}, keys, maps) !=
         Change::none)
         view_.settings.keys = settings_.keys = keys == 1 ? FlyKeys::source : FlyKeys::usual;
+    std::size_t always = settings_.fly_always ? 1 : 0;
+    constexpr std::array<std::string_view, 2> when{"right button held", "always"};
+    if (choice(ui, {.name = "fly", .label = "They act", .what = "When the flight keys move the eye"}, always, when) !=
+        Change::none)
+        view_.settings.fly_always = settings_.fly_always = always == 1;
     double force = static_cast<double>(settings_.pull_force);
     if (number(ui, {.name = "pull_force", .label = "Pull", .what = "Largest force of the hand"}, force,
                {.min = 0.01, .max = 10000, .unit = "N", .usual = 5}) != Change::none)
@@ -162,36 +171,42 @@ void Editor::preferences(Ui& ui) {
 
 void Editor::help(Ui& ui) {
     const Theme& theme = ui.theme();
-    Dialog dialog(ui, "help", "Keys and mouse", ImVec2(theme.px(800), theme.px(560)));
-    ImGui::BeginChild("text", ImVec2(0, -ImGui::GetFrameHeightWithSpacing() * 1.2f), false);
-    constexpr std::pair<const char*, const char*> mouse[] = {
-        {"Left drag on cloth", "pulls it, with a force that has a limit (tool Hand)"},
-        {"Left drag on a collider", "moves it (tool Hand)"},
-        {"Left drag elsewhere, Alt + left", "orbits"},
-        {"Right drag", "looks around; with W A S D Q E flies, Shift is faster"},
-        {"Middle drag", "moves the view"},
-        {"Wheel", "nearer and farther; while pulling, moves the point away and back"},
-        {"Click", "selects; with the tool Select a vertex, with Shift more of them"},
-        {"Ctrl while a handle is dragged", "moves in steps"},
-        {"Esc", "takes the drag back; then selects nothing"},
-        {"Double click on a value", "the default"},
-        {"Tab, arrows, Enter", "go through the panels and change values"}};
-    for (const auto& [what, does] : mouse) {
-        ImGui::TextUnformatted(what);
-        ImGui::SameLine(theme.px(250));
-        ImGui::TextUnformatted(does);
+    Dialog dialog(ui, "help", "Keys and mouse", ImVec2(theme.px(1040), 0));
+    std::vector<std::pair<std::string, std::string>> lines{
+        {"Left drag on cloth", "Pull it, with a force that has a limit (tool Hand)"},
+        {"Left drag on a collider", "Move it (tool Hand)"},
+        {"Left drag elsewhere, Alt + left", "Orbit"},
+        {"Right drag", "Look around; with W A S D Q E fly, Shift is faster"},
+        {"Middle drag", "Move the view"},
+        {"Wheel", "Toward the pointer and back; while pulling, move the point away and back"},
+        {"Click", "Select; with the tool Select a vertex, with Shift more of them"},
+        {"Ctrl while a handle is dragged", "Move in steps"},
+        {"Numbers at a handle", "An exact amount: while it is dragged, or after a click on it; Enter keeps it"},
+        {"Esc", "Take the drag back; then select nothing"},
+        {"Double click on a value", "The default"},
+        {"Tab, arrows, Enter", "Go through the panels and change values"}};
+    for (const Command& one : commands_)
+        if (one.key != Key::none) lines.emplace_back(shortcut_text(one), std::string(one.label));
+    // Side by side where there is room.
+    const int columns = ImGui::GetContentRegionAvail().x > theme.px(600) ? 2 : 1;
+    const std::size_t rows = (lines.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
+    if (ImGui::BeginTable("lines", 2 * columns, ImGuiTableFlags_SizingStretchProp)) {
+        for (std::size_t row = 0; row < rows; ++row) {
+            for (std::size_t at = row; at < lines.size(); at += rows) {
+                ImGui::TableNextColumn();
+                ImGui::PushTextWrapPos(0);
+                ImGui::TextUnformatted(lines[at].first.c_str());
+                ImGui::PopTextWrapPos();
+                ImGui::TableNextColumn();
+                ImGui::PushTextWrapPos(0);
+                muted_text(ui, lines[at].second);
+                ImGui::PopTextWrapPos();
+            }
+        }
+        ImGui::EndTable();
     }
-    ImGui::Separator();
-    for (const Command& one : commands_) {
-        if (one.key == Key::none) continue;
-        ImGui::TextUnformatted(std::string(one.label).c_str());
-        ImGui::SameLine(theme.px(250));
-        ImGui::TextUnformatted(shortcut_text(one).c_str());
-    }
-    ImGui::Separator();
     muted_text(ui, "Screen readers are not supported.");
     muted_text(ui, typeface_notice);
-    ImGui::EndChild();
     if (button(ui, "close", {.text = "Close", .primary = true})) panel_ = Panel::none;
 }
 

@@ -122,17 +122,19 @@ void Editor::toolbar(Ui& ui) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(8), theme.px(5)));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(theme.px(4), theme.px(4)));
     ImGui::BeginChild("toolbar", ImVec2(ui.size().x, ImGui::GetFrameHeight() + theme.px(10)), false,
-                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar |
+                          ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_HorizontalScrollbar);
     {
         const Ui::Scope scope(ui, "toolbar");
+        if (narrow(ui)) pages(ui);
         menu(ui, "file", "File",
-             {"new", "open", "gallery", "", "save", "save_as", "", "export", "screenshot", "", "quit"});
+             {"new", "open", "gallery", "recover", "", "save", "save_as", "", "export", "screenshot", "", "quit"});
         menu(ui, "edit", "Edit",
              {"undo", "redo", "history", "", "duplicate", "rename", "delete", "", "pin", "unpin", "key", "",
               "preferences"});
         menu(ui, "view_menu", "View",
              {"frame", "frame_all", "", "from_front", "from_back", "from_left", "from_right", "from_top", "from_bottom",
-              "", "go_to_camera", "use_camera", "", "axes", "through"});
+              "", "go_to_camera", "use_camera", "", "axes", "amount", "through"});
         menu(ui, "overlays", "Overlays", {});
         menu(ui, "help_menu", "Help", {"help"});
         ImGui::SameLine(0, theme.px(14));
@@ -166,9 +168,48 @@ void Editor::toolbar(Ui& ui) {
                 run_command(one);
         }
     }
+    scroll_toolbar(ui);
     ImGui::EndChild();
     ImGui::PopStyleVar(2);
     ImGui::PopStyleColor();
+}
+
+// Too narrow for the panels side by side: one of them is shown.
+bool Editor::narrow(const Ui& ui) const {
+    return ui.size().x < ui.theme().px(560);
+}
+
+void Editor::pages(Ui& ui) {
+    struct Choice {
+        Page page;
+        const char *name, *what;
+        Icon icon;
+    };
+    for (const Choice& one :
+         {Choice{Page::view, "page_view", "Show the view", Icon::eye},
+          {Page::objects, "page_objects", "Show the list of objects", Icon::menu},
+          {Page::properties, "page_properties", "Show the selected object's values", Icon::settings}}) {
+        if (button(ui, one.name, {.icon = one.icon, .what = one.what, .chosen = page_ == one.page, .flat = true}))
+            page_ = one.page;
+        ImGui::SameLine();
+    }
+}
+
+// What does not fit is reached by the wheel; an arrow at the end shows that there is more.
+void Editor::scroll_toolbar(Ui& ui) {
+    const float most = ImGui::GetScrollMaxX(), wheel = ImGui::GetIO().MouseWheel;
+    if (most <= 0) return;
+    if (ImGui::IsWindowHovered() && wheel != 0)
+        ImGui::SetScrollX(std::clamp(ImGui::GetScrollX() - wheel * ui.theme().px(80), 0.0f, most));
+    const Theme& theme = ui.theme();
+    const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const auto arrow = [&](float x, Icon icon) {
+        const ImRect box(ImVec2(x, corner.y), ImVec2(x + theme.icon_side + theme.px(4), corner.y + size.y));
+        ImGui::GetWindowDrawList()->AddRectFilled(box.Min, box.Max, theme.color(theme.colors.header));
+        draw_icon(theme, icon, box, theme.color(theme.colors.muted));
+    };
+    if (ImGui::GetScrollX() < most - 1) arrow(corner.x + size.x - theme.icon_side - theme.px(4), Icon::right);
+    if (ImGui::GetScrollX() > 1) arrow(corner.x, Icon::left);
 }
 
 // Lines over the upper left corner of the view: what the tool does, messages, hints.
@@ -332,9 +373,11 @@ void Editor::status_texts(Ui& ui) {
         if (const auto cure = substeps_for(now); cure > now.document->scene.solver.substeps)
             ImGui::Text("About %u substeps leave 0.1 %% of the stretch unsolved.", cure);
         for (std::size_t i = 0; i < now.stage_ms.size(); ++i)
-            if (now.stage_ms[i] > 0)
-                ImGui::Text("%-16s %.3f ms", std::string(stage_name(static_cast<std::uint32_t>(i))).c_str(),
-                            now.stage_ms[i]);
+            if (now.stage_ms[i] > 0) {
+                ImGui::TextUnformatted(std::string(stage_name(static_cast<std::uint32_t>(i))).c_str());
+                ImGui::SameLine(theme.px(110));
+                ImGui::Text("%.3f ms", now.stage_ms[i]);
+            }
         ImGui::EndTooltip();
     }
     for (const std::string_view report : now.reports) {

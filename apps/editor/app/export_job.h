@@ -2,12 +2,12 @@
 #pragma once
 
 #include "editor/core/document.h"
+#include "io/files/child_process.h"
 
 #include <weft/result.h>
 
-#include <sys/types.h>
-
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace weft::editor {
@@ -29,7 +29,7 @@ class ExportJob {
 
     /// Looks how far it is. Never waits.
     void update();
-    bool running() const { return process_ > 0; }
+    bool running() const { return child_.has_value(); }
     float done() const { return done_; }  ///< 0…1; below 0: not known yet
     /// Stops it. Files that are not complete do not appear.
     void cancel();
@@ -39,13 +39,12 @@ class ExportJob {
 
   private:
     ExportJob() = default;
-    void end(int status);
+    void end();
 
     ExportOptions options_;
     std::filesystem::path scene_;  ///< the copy
-    pid_t process_ = 0;
-    int output_ = -1;
-    std::string text_, problem_;
+    std::optional<ChildProcess> child_;
+    std::string problem_;
     float done_ = -1;
 };
 

@@ -88,7 +88,15 @@ void FileDialog::show(Ui& ui) {
                               path_, "type or paste a path");
     if (typed == Change::finished && ui.pressed(Key::enter)) finish();
     ImGui::TextUnformatted(folder_.string().c_str());
-    ImGui::BeginChild("entries", ImVec2(0, -ImGui::GetFrameHeightWithSpacing() * 2.2f), true);
+    // The note and the buttons stand below the list. In a low window the dialog scrolls.
+    const float line = ImGui::GetFrameHeightWithSpacing();
+    const float noted =
+        problem_.empty()
+            ? 0
+            : ImGui::CalcTextSize(problem_.c_str(), nullptr, false, ImGui::GetContentRegionAvail().x - theme.px(40)).y +
+                  theme.px(18);
+    const float room = ImGui::GetContentRegionAvail().y - line - noted;
+    ImGui::BeginChild("entries", ImVec2(0, std::max(room, 3 * line)), true);
     {
         const Ui::Scope scope(ui, "entries");
         const float width = ImGui::GetContentRegionAvail().x;

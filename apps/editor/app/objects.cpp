@@ -2,9 +2,12 @@
 
 #include "editor/app/property_tables.h"
 #include "editor/app/session.h"
+#include "editor/tools/picking.h"
 #include "scene/scene_keys.h"
+#include "view/collider_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace weft::editor {
@@ -56,7 +59,38 @@ std::span<const AddableObject> addable_objects() {
     return addable;
 }
 
-Result<Addition> addition(const Document& document, std::string_view name, const std::string& file) {
+Room room_of(const WorldFrame& world) {
+    Room room;
+    for (const ClothFrame& cloth : world.frame().cloths)
+        for (const Vec4& p : cloth.positions) room.objects.include(p.xyz());
+    for (const Collider& collider : world.colliders()) {
+        if (const Bounds solid = bounds_of(collider); !solid.empty()) room.objects.include(solid);
+        if (collider.shape != ShapeKind::plane) continue;
+        const PickSurface plane = pick_surface(collider, nullptr);
+        if (!plane.plane) continue;
+        if ((plane.pose.rotation * plane.plane->normal).y < 0.99f) continue;
+        const float height = to_world(plane.pose, plane.plane->normal * plane.plane->offset).y;
+        room.floor = std::max(room.floor.value_or(height), height);
+    }
+    return room;
+}
+
+Vec3 place_above(const Bounds& mesh, const Room& room) {
+    constexpr float gap = 0.1f;  // m
+    if (mesh.empty() || (room.objects.empty() && !room.floor)) return {};
+    const auto millimeters = [](float x) { return std::round(x * 1000) / 1000; };
+    Vec3 place;
+    if (!room.objects.empty()) {
+        const Vec3 from = (mesh.min + mesh.max) * 0.5f, to = (room.objects.min + room.objects.max) * 0.5f;
+        place = {millimeters(to.x - from.x), 0, millimeters(to.z - from.z)};
+    }
+    const float top = room.objects.empty() ? *room.floor : std::max(room.objects.max.y, room.floor.value_or(-far_away));
+    place.y = millimeters(top + gap - mesh.min.y);
+    return place;
+}
+
+Result<Addition> addition(const Document& document, std::string_view name, const std::string& file,
+                          std::optional<Vec3> position) {
     if (name == "cloth") {
         return append(document, "/cloths",
                       Json{{"name", free_name(document, "sheet")},
@@ -66,7 +100,10 @@ Result<Addition> addition(const Document& document, std::string_view name, const
     if (name == "mesh" || name == "solid") {
         if (file.empty()) return Error{"mesh", "needs the name of a mesh file"};
         const std::string called = free_name(document, name_of_file(file));
-        if (name == "mesh") return append(document, "/cloths", Json{{"name", called}, {"mesh", {{"file", file}}}});
+        Json cloth{{"name", called}, {"mesh", {{"file", file}}}};
+        if (position && *position != Vec3{})
+            cloth["transform"] = {{"position", {number(position->x), number(position->y), number(position->z)}}};
+        if (name == "mesh") return append(document, "/cloths", std::move(cloth));
         return append(document, "/colliders", Json{{"name", called}, {"mesh", {{"file", file}}}});
     }
     if (name == "box")

@@ -3,7 +3,12 @@
 
 #include "editor/core/document.h"
 #include "editor/ui/icons.h"
+#include "view/world_frame.h"
 
+#include <weft/bounds.h>
+#include <weft/vector.h>
+
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,7 +32,18 @@ struct Addition {
     std::vector<Edit> edits;
     std::string place;
 };
-Result<Addition> addition(const Document& document, std::string_view name, const std::string& file = {});
+Result<Addition> addition(const Document& document, std::string_view name, const std::string& file = {},
+                          std::optional<Vec3> position = {});
+
+/// What a world holds.
+struct Room {
+    Bounds objects = {};         ///< of cloths and of colliders without planes, m
+    std::optional<float> floor;  ///< height of the highest horizontal plane, m
+};
+Room room_of(const WorldFrame& world);
+/// Where a mesh with these bounds falls on what is in the room: over its middle and just above it. An empty room leaves
+/// it where it is.
+Vec3 place_above(const Bounds& mesh, const Room& room);
 
 /// A copy of the object, beside it, with a name of its own.
 Result<Addition> duplication(const Document& document, const std::string& place);

@@ -1,5 +1,6 @@
 #include "editor/app/objects.h"
 
+#include "editor/app/gizmo_tool.h"
 #include "editor/app/property_tables.h"
 #include "editor/app/scene_files.h"
 #include "editor/core/scene.test.h"
@@ -141,7 +142,41 @@ TEST(SceneFiles, are_saved_and_read_as_the_same_scene) {
         EXPECT_TRUE((*again)->scene.air == (*document)->scene.air);
     }
     EXPECT_FALSE(save_document(*small_document(), "/proc/no/scene.json"));
-    EXPECT_FALSE(save_document(*new_document(), folder / "empty.json")) << "a scene file needs a cloth";
+    EXPECT_TRUE(save_document(*new_document(), folder / "empty.json")) << "a cloth can be added later";
+}
+
+TEST(Objects, a_mesh_begins_above_what_is_there) {
+    const Bounds mesh{{1, -0.5f, 0}, {2, 0.5f, 2}};
+    EXPECT_EQ(place_above(mesh, {}), Vec3{}) << "nothing to fall on";
+    const Vec3 on_floor = place_above(mesh, {.objects = {}, .floor = 0.25f});
+    EXPECT_EQ(on_floor.x, 0);
+    EXPECT_EQ(on_floor.z, 0);
+    EXPECT_NEAR(on_floor.y - 0.5f, 0.35f, 1e-3f) << "its lowest point";
+    const Room room{.objects = {{-1, 0, 3}, {1, 1.5f, 4}}, .floor = 0.0f};
+    const Vec3 above = place_above(mesh, room);
+    EXPECT_NEAR(above.x + 1.5f, 0, 1e-3f) << "the middle over the middle";
+    EXPECT_NEAR(above.z + 1, 3.5f, 1e-3f);
+    EXPECT_NEAR(above.y - 0.5f, 1.6f, 1e-3f);
+    EXPECT_EQ(place_above({}, room), Vec3{});
+    const auto added = addition(*new_document(), "mesh", "shirt.obj", above);
+    ASSERT_TRUE(added);
+    EXPECT_EQ((*added->edits[0].value)["transform"]["position"][1], Json(2.1));
+}
+
+TEST(Objects, amounts_are_typed_as_one_number_or_as_many_as_the_handle_has) {
+    using testing::ElementsAre;
+    using testing::IsEmpty;
+    EXPECT_THAT(typed_numbers("0.25", "m", 1), ElementsAre(0.25));
+    EXPECT_THAT(typed_numbers("0,25", "m", 1), ElementsAre(0.25));
+    EXPECT_THAT(typed_numbers("5 mm", "m", 1), ElementsAre(0.005));
+    EXPECT_THAT(typed_numbers("0.1, -0.2", "m", 2), ElementsAre(0.1, -0.2));
+    EXPECT_THAT(typed_numbers("0,1; 2", "m", 2), ElementsAre(0.1, 2));
+    EXPECT_THAT(typed_numbers("1; 2; 3", "m", 3), ElementsAre(1, 2, 3));
+    EXPECT_THAT(typed_numbers("1; 2; 3", "m", 2), IsEmpty());
+    EXPECT_THAT(typed_numbers("1", "m", 2), IsEmpty());
+    EXPECT_THAT(typed_numbers("", "m", 1), IsEmpty());
+    EXPECT_THAT(typed_numbers("3 kg", "m", 1), IsEmpty());
+    EXPECT_THAT(typed_numbers("1/0", "m", 1), IsEmpty());
 }
 
 }  // namespace

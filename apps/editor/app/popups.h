@@ -2,16 +2,24 @@
 #pragma once
 
 #include "editor/ui/ui.h"
+#include "editor/ui/widgets/controls.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <string>
+#include <string_view>
 
 namespace weft::editor {
 
-/// A window in the middle over everything else, which takes the whole input. Lives while its content is drawn.
+/// A window in the middle over everything else, which takes the whole input. Lives while its content is drawn. It is
+/// never larger than the window, and scrolls then. Long lines are wrapped.
 class Dialog {
   public:
-    Dialog(Ui& ui, const char* name, const char* title, ImVec2 size) : scope_(ui, name) {
+    /// `size`: pixels; height 0: as high as the content.
+    Dialog(Ui& ui, const char* name, const char* title, ImVec2 size)
+        : scope_(ui, name), ui_(ui), name_(name), fits_(size.y <= 0) {
+        if (fits_) size.y = std::max(heights()[name_], ui.theme().px(80));
         const ImVec2 window = ui.size();
         // A window of its own catches clicks beside the dialog.
         constexpr ImGuiWindowFlags fixed =
@@ -35,8 +43,16 @@ class Dialog {
         ImGui::PushFont(theme.strong);
         ImGui::TextUnformatted(title);
         ImGui::PopFont();
+        ImGui::PushTextWrapPos(0);
     }
     ~Dialog() {
+        ImGui::PopTextWrapPos();
+        const float needed = std::ceil(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y +
+                                       ImGui::GetStyle().WindowPadding.y + 2 * ImGui::GetStyle().ChildBorderSize + 1);
+        if (float& height = heights()[name_]; fits_ && height != needed) {
+            height = needed;
+            ui_.redraw();
+        }
         ImGui::EndChild();
         ImGui::PopStyleVar(2);
         ImGui::PopStyleColor();
@@ -46,7 +62,22 @@ class Dialog {
     Dialog& operator=(const Dialog&) = delete;
 
   private:
+    /// Of the content in the last frame, by the dialog's name, pixels.
+    static std::map<std::string, float>& heights() {
+        static std::map<std::string, float> all;
+        return all;
+    }
     Ui::Scope scope_;
+    Ui& ui_;
+    std::string name_;
+    bool fits_;
 };
+
+/// A button beside the one before it, or below it if there is no room.
+inline bool next_button(Ui& ui, std::string_view name, const ButtonStyle& style) {
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < button_width(ui, style)) ImGui::NewLine();
+    return button(ui, name, style);
+}
 
 }  // namespace weft::editor

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace weft::editor {
@@ -52,7 +54,8 @@ class PropertyRow {
         const NumberRange range = range_of(p_);
         field_ = {.name = p_.key, .label = label_, .what = p_.what, .range = describe(range)};
         if (usual_ && !value_text(*usual_, p_.unit).empty()) field_.usual = value_text(*usual_, p_.unit);
-        field_.differs = usual_ && value_ != *usual_;
+        // A name has no default to go back to.
+        field_.differs = usual_ && value_ != *usual_ && p_.key != "name";
         switch (p_.kind) {
             case ParameterKind::number:
             case ParameterKind::vector:
@@ -88,6 +91,8 @@ class PropertyRow {
         if (p_.count == 1) {
             NumberRange with_usual = range;
             if (usual_) with_usual.usual = usual_->get<double>();
+            if (p_.kind == ParameterKind::integer && p_.max == std::numeric_limits<std::uint32_t>::max())
+                return bit_set();
             if (p_.kind == ParameterKind::integer) {
                 auto whole = value_.get<long long>();
                 const Change change = integer(ui_, field_, whole, with_usual);
@@ -115,11 +120,20 @@ class PropertyRow {
         } else {
             NumberRange whole = range;
             whole.integer = p_.kind == ParameterKind::integer;
-            change = vector(ui_, field_, values, whole, usual);
+            change = vector(ui_, field_, values, whole, usual, parts_of(place_, p_));
         }
         Json list = Json::array();
         for (const double one : values) list.push_back(as_json(one));
         store(change, std::move(list));
+    }
+    // An integer that may have any value is a set of bits.
+    void bit_set() {
+        auto set = value_.get<std::uint32_t>();
+        std::optional<std::uint32_t> usual;
+        if (usual_) usual = usual_->get<std::uint32_t>();
+        field_.range = {};
+        const Change change = bits(ui_, field_, set, usual);
+        store(change, set);
     }
     void angle_or_mesh(const NumberRange& range) {
         bool of_mesh = value_.is_string();
@@ -176,7 +190,7 @@ class PropertyRow {
 
     Ui& ui_;
     Session& session_;
-    const std::string& place_;
+    const std::string place_;
     const Property& property_;
     const Parameter& p_;
     std::optional<Json> usual_;
@@ -239,6 +253,12 @@ void Properties::show(Ui& ui, Session& session) {
         return;
     }
     const Ui::Scope scope(ui, place.substr(1));
+    // The scene itself: its lists and objects have cards of their own.
+    if (place == "/.") {
+        for (const Property& property : properties_of(*session.document(), "").values)
+            if (property.key() != "weft") PropertyRow(ui, session, "", property).show();
+        return;
+    }
     object(ui, session, place, 0);
 }
 

@@ -43,6 +43,28 @@ constexpr Companion companions[] = {
     {"/cloths/*/resistance/*", "threshold", "color"},
 };
 
+/// Numbers that are not along x, y and z. `pattern`: empty: in every object.
+struct Parts {
+    std::string_view pattern, key;
+    std::vector<std::string_view> names;
+};
+const std::vector<Parts>& parts_of_keys() {
+    static const std::vector<Parts> all = {
+        {"", "friction", {"static", "kinetic"}},
+        {"/cloths/*/fabric", "stretch", {"warp", "weft"}},
+        {"/cloths/*/fabric", "compression", {"warp", "weft"}},
+        {"/cloths/*/fabric", "strength", {"warp", "weft"}},
+        {"/cloths/*/fabric", "bend", {"warp", "bias", "weft"}},
+        {"/cloths/*/fabric", "stiffness", {"stretch", "compress", "bend"}},
+        {"/cloths/*/mesh/grid", "size", {"x", "z"}},
+        {"/cloths/*/mesh/grid", "resolution", {"x", "z"}},
+        {"/colliders/*/tapered_capsule", "radius", {"\u2212y", "+y"}},
+        {"/cloths/*/material", "roughness", {"along", "across"}},
+        {"/cloths/*/material", "uv_tiling", {"u", "v"}},
+    };
+    return all;
+}
+
 /// Some objects have the keys of others, and only those are in the tables.
 std::string table_pattern(std::string pattern) {
     const auto replace = [&](std::string_view from, std::string_view to) {
@@ -202,6 +224,15 @@ std::optional<Json> value_of(const Document& document, const std::string& place,
         return std::string(value->get<bool>() ? names.back() : names.front());
     }
     return *value;
+}
+
+std::span<const std::string_view> parts_of(const std::string& place, const Parameter& parameter) {
+    const std::string pattern = table_pattern(pattern_of(place));
+    for (const Parts& one : parts_of_keys())
+        if (one.key == parameter.key && one.names.size() == parameter.count &&
+            (one.pattern.empty() || one.pattern == pattern))
+            return one.names;
+    return {};
 }
 
 std::string label_of_key(std::string_view key) {

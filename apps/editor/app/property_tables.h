@@ -6,6 +6,7 @@
 #include "editor/core/document.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,9 @@ std::optional<Json> value_of(const Document& document, const std::string& place,
 
 /// `Static friction` of `static_friction`.
 std::string label_of_key(std::string_view key);
+
+/// Names of the numbers under a key, such as `static` and `kinetic`; empty: they are along x, y and z.
+std::span<const std::string_view> parts_of(const std::string& place, const Parameter& parameter);
 
 /// Names that a text may have: fabrics, materials, colliders, cloths; empty: any text.
 std::vector<std::string> names_for(const Document& document, const std::string& place, std::string_view key);

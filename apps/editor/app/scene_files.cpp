@@ -65,21 +65,17 @@ bool is_referred_to(const Json& json, const std::string& name) {
 }
 
 /// Takes away the names that the editor gave to objects of the file, unless something refers to them.
-void remove_given_names(Json& json, const FileText& original) {
-    const auto named = make_document(original.json, {}, {});
-    if (!named) return;
+void remove_given_names(Json& json, const std::map<std::string, bool>& given) {
+    const Json all = json;
     for (const char* list : {"cloths", "colliders"}) {
-        if (!json.contains(list) || !original.json.contains(list)) continue;
-        for (std::size_t i = 0; i < original.json[list].size(); ++i) {
-            if (!original.json[list][i].value("name", "").empty()) continue;
-            const Json& name = (*named)->json[list][i]["name"];
-            const auto object =
-                std::ranges::find_if(json[list], [&](const Json& one) { return one.value("name", "") == name; });
-            if (object == json[list].end() || is_referred_to(json, name.get<std::string>())) continue;
-            if (original.json[list][i].contains("name"))
-                (*object)["name"] = "";
+        if (!json.contains(list)) continue;
+        for (Json& object : json[list]) {
+            const auto name = given.find(object.value("name", ""));
+            if (name == given.end() || is_referred_to(all, name->first)) continue;
+            if (name->second)
+                object["name"] = "";
             else
-                object->erase("name");
+                object.erase("name");
         }
     }
 }
@@ -104,7 +100,7 @@ Json json_in(const Document& document, const std::filesystem::path& folder) {
     if (!document.folder.empty() && document.folder != folder)
         move_file_names(json, document.folder, folder.empty() ? "." : folder);
     if (!document.original) return json;
-    remove_given_names(json, *document.original);
+    remove_given_names(json, document.given_names);
     // What has not changed keeps all its digits.
     Json wanted = document.original->json;
     for (const Edit& edit : difference(document.original->json, json)) {
@@ -120,7 +116,17 @@ Result<std::string> changed_text(const Document& document, const Json& json) {
         if (auto text = edit_scene_text(document.original->text, json)) return text;
     const auto scene = read_scene(json, {});
     if (!scene) return scene.errors();
+    // The writer wants a cloth, because a run needs one.
+    if (scene->cloths.empty()) return edit_scene_text("{\n    \"weft\": 1\n}\n", json);
     return write_scene(*scene);
+}
+
+/// Reads what is about to be written. A scene without cloths is valid: cloths can be added to it later.
+Result<void> check_text(const std::string& text) {
+    const FileTextPtr written = make_file_text(text);
+    if (!written) return Error{"", "would not be JSON"};
+    const auto scene = read_scene(written->json, {});
+    return scene ? Result<void>() : Result<void>(scene.errors());
 }
 
 }  // namespace
@@ -138,12 +144,16 @@ std::vector<GalleryScene> gallery() {
     const auto program = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
     for (const std::filesystem::path& folder :
          {std::filesystem::path(WEFT_SCENES), program / ".." / "share" / "weft" / "scenes"}) {
-        for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-            if (entry.path().extension() == ".json") scenes.push_back({entry.path().stem().string(), entry.path()});
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, failed)) {
+            const std::filesystem::path& file = entry.path();
+            const std::string above = file.parent_path().lexically_relative(folder).string();
+            if (file.extension() == ".json")
+                scenes.push_back({file.stem().string(), above == "." ? std::string() : above, file});
+        }
         if (!scenes.empty()) break;
     }
     for (GalleryScene& scene : scenes) std::ranges::replace(scene.name, '_', ' ');
-    std::ranges::sort(scenes, {}, &GalleryScene::name);
+    std::ranges::sort(scenes, {}, [](const GalleryScene& one) { return std::pair(one.group, one.name); });
     return scenes;
 }
 
@@ -163,7 +173,7 @@ Result<FileTextPtr> save_document(const Document& document, const std::filesyste
     };
     const auto text = changed_text(document, json_in(document, file.parent_path()));
     if (!text) return in_file(text.errors());
-    if (const auto scene = parse_scene(*text, {}); !scene) return in_file(scene.errors());
+    if (const auto checked = check_text(*text); !checked) return in_file(checked.errors());
     const auto written = write_atomically(file, [&](AtomicFile& out) { return out.write(*text); });
     if (!written) return written.errors();
     return make_file_text(*text);

@@ -103,6 +103,22 @@ TEST_F(SavedText, has_no_names_that_only_the_editor_gave) {
                        "\"silk\", \"pins\": [{ \"attach\": \"collider 1\", \"vertices\": [0] }] }"));
 }
 
+TEST_F(SavedText, has_no_such_names_after_a_removal_and_a_second_save) {
+    const std::string left = replaced(replaced(small_scene, "{ \"plane\": {} }, ", ""), "0.20 } }", "0.25 } }");
+    const DocumentPtr removed_one = with(open(file), {removed("/colliders/0")});
+    const auto saved = save_document(*removed_one, file);
+    ASSERT_TRUE(saved) << saved.error().message();
+    const DocumentPtr next = with(saved_in(*removed_one, file, *saved), {set("/colliders/0/sphere/radius", 0.25f)});
+    EXPECT_EQ(next->scene.colliders[0].name, "collider 1") << "as it was called all the time";
+    const auto again = save_document(*next, file);
+    ASSERT_TRUE(again) << again.error().message();
+    EXPECT_EQ(read(file), left);
+    // A name that the user gives stays.
+    const DocumentPtr named = with(saved_in(*next, file, *again), {set("/colliders/0/name", "ball")});
+    ASSERT_TRUE(save_document(*named, file));
+    EXPECT_THAT(read(file), HasSubstr("\"ball\""));
+}
+
 TEST_F(SavedText, goes_on_from_what_was_saved) {
     const DocumentPtr first = open(file), second = with(first, {set("/gravity", Json{0, -1, 0})});
     const auto saved = save_document(*second, file);
@@ -155,11 +171,11 @@ TEST_F(SavedText, of_a_scene_without_a_file_is_written_anew) {
     const auto saved = save_document(*first_document(), file, true);
     ASSERT_TRUE(saved) << saved.error().message();
     EXPECT_TRUE(open(file)->scene == first_document()->scene);
-    const auto none = save_document(*new_document(), folder / "none.json");
-    ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message(), HasSubstr("none.json: /cloths"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "none.json"));
-    EXPECT_FALSE(save_document(*with(open(folder / "scene.json"), {removed("/cloths/0")}), folder / "none.json"));
+    // Without a cloth too: one can be added later.
+    ASSERT_TRUE(save_document(*new_document(), folder / "none.json"));
+    EXPECT_TRUE(open(folder / "none.json")->scene == new_document()->scene) << read(folder / "none.json");
+    ASSERT_TRUE(save_document(*with(open(folder / "scene.json"), {removed("/cloths/0")}), folder / "bare.json"));
+    EXPECT_TRUE(open(folder / "bare.json")->scene.cloths.empty());
 }
 
 TEST(SavedScenes, come_back_after_random_changes) {

@@ -80,7 +80,7 @@ void Session::change(const std::string& label, std::vector<Edit> edits, Change p
         const DocumentPtr before = std::exchange(document_, *next);
         keep_selection(*before);
     }
-    if (phase == Change::finished) gesture_ = 0;
+    if (phase == Change::finished) gesture_ = 0, gesture_posted_ = false;
 }
 
 void Session::post(Action action) {
@@ -144,7 +144,11 @@ bool Session::has_changes() const {
 }
 
 void Session::mark_saved(const std::filesystem::path& file, FileTextPtr text) {
-    saved_ = document_->json;
+    mark_saved(file, std::move(text), document_->json);
+}
+
+void Session::mark_saved(const std::filesystem::path& file, FileTextPtr text, Json scene) {
+    saved_ = std::move(scene);
     file_ = file;
     file_text_ = std::move(text);
     keep_file();

@@ -22,9 +22,6 @@ struct Message {
     double since = 0;  ///< s, on the clock of the user interface
 };
 
-/// What has to happen before the window of a session may show another scene.
-enum class Saved { yes, no };
-
 class Session {
   public:
     explicit Session(Simulator& simulator);
@@ -67,6 +64,8 @@ class Session {
     bool has_changes() const;
     /// From now on the document is that of the file, which holds the text.
     void mark_saved(const std::filesystem::path& file, FileTextPtr text);
+    /// The same with another scene: what the document was when it was saved.
+    void mark_saved(const std::filesystem::path& file, FileTextPtr text, Json scene);
     /// The file has this scene. For sessions that do not begin with their file's content.
     void set_saved(Json scene) { saved_ = std::move(scene); }
 

@@ -48,6 +48,8 @@ Settings load_settings(const std::filesystem::path& file, std::string& problem) 
     };
     if (text("appearance") == "light") settings.appearance = Appearance::light;
     if (text("keys") == "source") settings.keys = FlyKeys::source;
+    if (const auto found = json.find("fly_always"); found != json.end() && found->is_boolean())
+        settings.fly_always = found->get<bool>();
     const float scale = within(json, "scale", 0, 0, most_scale);
     settings.scale = scale == 0 ? 0 : std::max(scale, least_scale);
     settings.left = within(json, "left", settings.left, 120, 600);
@@ -74,6 +76,7 @@ Result<void> save_settings(const Settings& settings, const std::filesystem::path
                     {"left", number(settings.left)},
                     {"right", number(settings.right)},
                     {"keys", settings.keys == FlyKeys::source ? "source" : "usual"},
+                    {"fly_always", settings.fly_always},
                     {"pull_force", number(settings.pull_force)},
                     {"recent", settings.recent},
                     {"hints_done", settings.hints_done}};

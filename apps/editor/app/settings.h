@@ -18,6 +18,7 @@ struct Settings {
     float scale = 0;                ///< of the user interface; 0: as the system asks
     float left = 230, right = 340;  ///< widths of the panels, pixels at 100 %
     FlyKeys keys = FlyKeys::usual;
+    bool fly_always = false;          ///< without the right button
     float pull_force = 5;             ///< N
     std::vector<std::string> recent;  ///< scene files, newest first
     std::set<std::string> hints_done;

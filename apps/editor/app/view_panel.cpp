@@ -1,7 +1,6 @@
 #include "editor/app/view_panel.h"
 
 #include "editor/app/objects.h"
-#include "editor/app/property_tables.h"
 #include "editor/tools/stroke_cut.h"
 #include "editor/tools/vertex_selection.h"
 #include "view/collider_mesh.h"
@@ -104,6 +103,7 @@ void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage i
                 .modifiers = ui.input().modifiers(),
                 .view = Projection(camera, size_)};
     moving_ = transition_.has_value();
+    set_gizmo();
     if (picture_of(session)) {
         if (hovered && gesture_ == Gesture::none) {
             const bool orbit = input.modifiers.alt;
@@ -117,7 +117,7 @@ void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage i
                 gesture_ = input.modifiers.shift ? Gesture::orbit : Gesture::pan;
         }
         if (length(Vec3{input.pointer.x - start_.x, input.pointer.y - start_.y, 0}) > click_way) clicked_ = false;
-        move_camera(ui, input);
+        move_camera(ui, *picture_of(session), marks, input);
         if (gesture_ != Gesture::none && !io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) {
             end(session, marks, input);
             gesture_ = Gesture::none;
@@ -125,33 +125,60 @@ void ViewPanel::show(Ui& ui, Session& session, const ViewMarks& marks, UiImage i
             drag(session, input);
         }
         draw_marks(ui, session, input);
-        draw_gizmo(ui, session, input);
+        std::optional<Vec2> over;
+        if (hovered || gesture_ == Gesture::gizmo) over = input.pointer;
+        gizmo_.draw(ui, session, input.view, origin_, over);
     }
     moving_ = moving_ || gesture_ != Gesture::none;
+    note_camera(ui, item.box);
     last_ = input.pointer;
     time_ = now;
 }
 
-void ViewPanel::move_camera(Ui& ui, const Input& input) {
+void ViewPanel::move_camera(Ui& ui, const Picture& picture, const ViewMarks& marks, const Input& input) {
     const bool moved = input.moved.x != 0 || input.moved.y != 0;
+    // Hidden objects are not under the pointer. Locked ones are, because the camera changes none of them.
+    const auto under_pointer = [&](Vec2 pointer) -> std::optional<Vec3> {
+        const Pick pick = pick_at(input.view, pointer, trees_.scene(picture, {.hidden = marks.hidden, .locked = {}}));
+        if (pick.kind == PickKind::nothing) return {};
+        return pick.point;
+    };
     if (moved && gesture_ == Gesture::orbit) camera = orbited_by(camera, input.moved, size_);
     if (moved && gesture_ == Gesture::look) camera = looked_by(camera, input.moved, size_);
-    if (moved && gesture_ == Gesture::pan) camera = panned_by(camera, input.moved, size_);
+    if (gesture_ != Gesture::pan) {
+        pan_depth_.reset();
+    } else if (moved) {
+        if (const auto point = pan_depth_ ? std::nullopt : under_pointer(start_))
+            pan_depth_ = static_cast<double>(input.view.project(*point)->depth);
+        camera = panned_by(camera, input.moved, size_, pan_depth_);
+    }
     if (input.wheel != 0 && gesture_ == Gesture::none) {
-        camera = dollied(camera, input.wheel, input.pointer, size_);
+        camera = dollied(camera, input.wheel, input.pointer, size_, under_pointer(input.pointer));
         moving_ = true;
     }
-    if (gesture_ != Gesture::look || ui.wants_text()) return;
+    fly(ui, picture, input);
+}
+
+void ViewPanel::fly(Ui& ui, const Picture& picture, const Input& input) {
+    // A key that was pressed as part of a shortcut does not fly once Control is let go of.
+    for (const InputFrame::Press& press : ui.input().keys)
+        if (const Modifiers& with = press.modifiers; !press.repeated)
+            fly_keys_[static_cast<std::size_t>(press.key)] = press.down && !with.control && !with.alt && !with.super;
+    const bool may = gesture_ == Gesture::look || (settings.fly_always && gesture_ == Gesture::none);
+    if (!may || !has_keys || ui.wants_text() || input.modifiers.control || input.modifiers.alt) return;
     FlyInput fly{.map = settings.keys,
                  .held = {},
                  .fast = input.modifiers.shift,
                  .seconds = static_cast<float>(std::clamp(ui.now() - time_, 0.0, 0.1)),
-                 .scene_radius = 1};
+                 .scene_radius = 0};
     for (const auto& [key, letter] :
          {std::pair{Key::w, 'W'}, {Key::a, 'A'}, {Key::s, 'S'}, {Key::d, 'D'}, {Key::q, 'Q'}, {Key::e, 'E'}})
-        fly.held[static_cast<std::size_t>(letter)] = ui.input().down[static_cast<std::size_t>(key)];
+        fly.held[static_cast<std::size_t>(letter)] =
+            ui.input().down[static_cast<std::size_t>(key)] && fly_keys_[static_cast<std::size_t>(key)];
     if (!flies(fly)) return;
+    fly.scene_radius = subject_of(*picture.world).all.radius;
     camera = flown(camera, fly);
+    moving_ = true;
     ui.redraw();
 }
 
@@ -159,14 +186,9 @@ void ViewPanel::move_camera(Ui& ui, const Input& input) {
 
 void ViewPanel::begin_left(Session& session, const ViewMarks& marks, const Input& input) {
     const Picture& picture = *picture_of(session);
-    if (const auto handles = gizmo(session, input.view)) {
-        const GizmoHandle handle = handles->handle_at(input.pointer);
-        if (handle != GizmoHandle::none) {
-            gizmo_drag_ = handles->start_drag(handle, input.pointer);
-            scale_start_ = {1, 1, 1};
-            gesture_ = gizmo_drag_ ? Gesture::gizmo : Gesture::none;
-            return;
-        }
+    if (gizmo_.press(session, input.view, input.pointer)) {
+        gesture_ = Gesture::gizmo;
+        return;
     }
     if (settings.tool == Tool::select) {
         gesture_ = Gesture::box;
@@ -201,10 +223,7 @@ void ViewPanel::drag(Session& session, const Input& input) {
     const bool moved = input.moved.x != 0 || input.moved.y != 0 || input.wheel != 0;
     if (gesture_ == Gesture::stroke && moved) stroke_.push_back(input.pointer);
     if (!moved) return;
-    if (gesture_ == Gesture::gizmo) {
-        const GizmoSnap snap = input.modifiers.control ? GizmoSnap{} : GizmoSnap{0, 0, 0};
-        change_place(session, gizmo_drag_->at(input.pointer, snap), Change::in_progress);
-    }
+    if (gesture_ == Gesture::gizmo && !clicked_) gizmo_.move(session, input.pointer, input.modifiers.control);
     if ((gesture_ != Gesture::pull && gesture_ != Gesture::carry) || !plane_) return;
     if (input.wheel != 0) plane_ = pushed(*plane_, input.view, input.wheel);
     const auto to = pulled_to(*plane_, input.view, input.pointer);
@@ -220,11 +239,7 @@ void ViewPanel::drag(Session& session, const Input& input) {
 void ViewPanel::end(Session& session, const ViewMarks& marks, const Input& input) {
     switch (gesture_) {
         case Gesture::gizmo:
-            change_place(session,
-                         gizmo_drag_->at(input.pointer, input.modifiers.control ? GizmoSnap{} : GizmoSnap{0, 0, 0}),
-                         Change::finished);
-            gizmo_drag_.reset();
-            return;
+            return gizmo_.release(session, input.pointer, input.modifiers.control, clicked_);
         case Gesture::pull:
             session.post(Release{});
             break;
@@ -249,10 +264,10 @@ void ViewPanel::end(Session& session, const ViewMarks& marks, const Input& input
 }
 
 bool ViewPanel::cancel(Session& session) {
-    switch (std::exchange(gesture_, Gesture::none)) {
-        case Gesture::gizmo:
+    const Gesture ended = std::exchange(gesture_, Gesture::none);
+    if (gizmo_.cancel(session)) return true;
+    switch (ended) {
         case Gesture::carry:
-            gizmo_drag_.reset();
             session.change("", {}, Change::cancelled);
             return true;
         case Gesture::pull:
@@ -267,6 +282,7 @@ bool ViewPanel::cancel(Session& session) {
         case Gesture::look:
         case Gesture::pan:
             return true;
+        case Gesture::gizmo:
         case Gesture::none:
             break;
     }
@@ -380,116 +396,32 @@ void ViewPanel::unpin_chosen(Session& session) {
 
 // --- Gizmo
 
-std::optional<GizmoPlace> ViewPanel::place_of_selected(const Session& session) const {
-    if (!is_object(session.selected()) || session.selected().starts_with("/stitches")) return {};
-    const std::string transform = session.selected() + "/transform";
-    return GizmoPlace{vector_at(*session.document(), transform + "/position", {}),
-                      vector_at(*session.document(), transform + "/rotation", {})};
+// A drag goes on with the handles with which it began.
+void ViewPanel::set_gizmo() {
+    if (gizmo_.dragged()) return;
+    gizmo_.axes = settings.axes;
+    gizmo_.kind = settings.tool == Tool::move    ? std::optional(GizmoKind::move)
+                  : settings.tool == Tool::turn  ? std::optional(GizmoKind::turn)
+                  : settings.tool == Tool::scale ? std::optional(GizmoKind::scale)
+                                                 : std::nullopt;
 }
 
-std::optional<Gizmo> ViewPanel::gizmo(const Session& session, const Projection& view) const {
-    const Tool tool = settings.tool;
-    if (tool != Tool::move && tool != Tool::turn && tool != Tool::scale) return {};
-    const auto place = place_of_selected(session);
-    if (!place) return {};
-    const GizmoKind kind = tool == Tool::move   ? GizmoKind::move
-                           : tool == Tool::turn ? GizmoKind::turn
-                                                : GizmoKind::scale;
-    return Gizmo(view, *place, kind, settings.axes);
+void ViewPanel::choose_handle(Session& session) {
+    if (settings.tool < Tool::move || settings.tool > Tool::scale) settings.tool = Tool::move;
+    set_gizmo();
+    gizmo_.choose(session, Projection(camera, size_));
+    // Enter belongs to the amount and not to what had the keyboard before.
+    GImGui->NavDisableHighlight = true;
 }
 
-// Scaling changes the values that give the object its size.
-void ViewPanel::change_place(Session& session, const GizmoChange& change, Change phase) {
-    const std::string& place = session.selected();
-    const std::string label = describe_object(*session.document(), place);
-    std::vector<Edit> edits;
-    const std::string transform = place + "/transform";
-    if (settings.tool == Tool::move) {
-        edits.push_back({transform + "/position", json_of(rounded(change.place.position, 1e-4f))});
-    } else if (settings.tool == Tool::turn) {
-        edits.push_back({transform + "/rotation", json_of(rounded(change.place.rotation_degrees, 0.01f))});
-    } else {
-        const auto ratio = [&](float now, float before) { return now / before; };
-        const Vec3 by{ratio(change.scale.x, scale_start_.x), ratio(change.scale.y, scale_start_.y),
-                      ratio(change.scale.z, scale_start_.z)};
-        for (const auto& [key, count] : {std::pair{"/sphere/radius", 1},
-                                         {"/capsule/radius", 1},
-                                         {"/capsule/half_height", 1},
-                                         {"/box/half_extents", 3},
-                                         {"/mesh/scale", 1},
-                                         {"/mesh/grid/size", 2}}) {
-            const std::string whole = place + key;
-            const std::string owner = whole.substr(0, whole.rfind('/'));
-            if (!find(session.document()->json, owner)) continue;
-            if (std::string_view(key) == "/mesh/scale" && !find(session.document()->json, place + "/mesh/file"))
-                continue;
-            for (const Property& property : properties_of(*session.document(), owner).values) {
-                if (property.key() != std::string_view(key).substr(std::string_view(key).rfind('/') + 1)) continue;
-                Json value = *value_of(*session.document(), owner, property);
-                const float factors[3] = {by.x, count == 2 ? by.z : by.y, by.z};
-                if (value.is_array())
-                    for (std::size_t i = 0; i < value.size() && i < 3; ++i)
-                        value[i] = number(std::max(1e-4f, value[i].get<float>() * factors[i]));
-                else
-                    value = number(std::max(1e-4f, value.get<float>() * std::cbrt(by.x * by.y * by.z)));
-                edits.push_back({whole, value});
-            }
-        }
-        scale_start_ = change.scale;
-    }
-    session.change((settings.tool == Tool::move   ? "Move "
-                    : settings.tool == Tool::turn ? "Turn "
-                                                  : "Scale ") +
-                       label,
-                   std::move(edits), phase);
+bool ViewPanel::type(const Ui& ui, Session& session) {
+    if (!gizmo_.active() || ui.wants_text()) return false;
+    const bool used = gizmo_.type(ui, session);
+    if (!gizmo_.active()) gesture_ = Gesture::none;  // Enter has ended it
+    return used;
 }
 
 // --- Marks over the image
-
-void ViewPanel::draw_gizmo(Ui& ui, const Session& session, const Input& input) {
-    const auto handles = gizmo(session, input.view);
-    if (!handles) return;
-    const Theme& theme = ui.theme();
-    GizmoHandle highlighted = gizmo_drag_ ? gizmo_drag_->handle() : GizmoHandle::none;
-    if (gesture_ == Gesture::none && input.hovered) highlighted = handles->handle_at(input.pointer);
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    constexpr ImU32 colors[] = {IM_COL32(230, 72, 72, 255), IM_COL32(96, 190, 80, 255), IM_COL32(80, 140, 245, 255),
-                                IM_COL32(240, 240, 240, 255)};
-    constexpr const char* letters[] = {"x", "y", "z"};
-    for (const GizmoShape& shape : handles->shapes(highlighted)) {
-        std::vector<ImVec2> points;
-        for (const Vec2 p : shape.points) points.emplace_back(origin_.x + p.x, origin_.y + p.y);
-        ImU32 color = colors[shape.axis];
-        if (shape.faint) color = (color & 0x00FFFFFF) | 0x50000000;
-        const float width = theme.px(shape.highlighted ? 4 : 2.5f);
-        if (shape.filled)
-            draw.AddConvexPolyFilled(points.data(), static_cast<int>(points.size()), color);
-        else
-            draw.AddPolyline(points.data(), static_cast<int>(points.size()), color,
-                             shape.closed ? ImDrawFlags_Closed : ImDrawFlags_None, width);
-        // The axes have letters, so that they are not told by color alone.
-        const bool arrow = shape.handle >= GizmoHandle::move_x && shape.handle <= GizmoHandle::move_z;
-        if (arrow && !shape.filled && shape.axis < 3 && !points.empty())
-            draw.AddText(ImVec2(points.back().x + theme.px(8), points.back().y - theme.px(8)), color,
-                         letters[shape.axis]);
-    }
-    // A place on each handle, for tests that drag it.
-    constexpr std::pair<GizmoHandle, const char*> named[] = {
-        {GizmoHandle::move_x, "move_x"},      {GizmoHandle::move_y, "move_y"},   {GizmoHandle::move_z, "move_z"},
-        {GizmoHandle::turn_x, "turn_x"},      {GizmoHandle::turn_y, "turn_y"},   {GizmoHandle::turn_z, "turn_z"},
-        {GizmoHandle::scale_x, "scale_x"},    {GizmoHandle::scale_y, "scale_y"}, {GizmoHandle::scale_z, "scale_z"},
-        {GizmoHandle::scale_all, "scale_all"}};
-    const Ui::Scope scope(ui, "gizmo");
-    const auto note = [&](const char* name, Vec2 p) {
-        const ImVec2 at(origin_.x + p.x, origin_.y + p.y);
-        ui.note(name, ImRect(at, ImVec2(at.x + 1, at.y + 1)));
-    };
-    if (const auto center = input.view.project(place_of_selected(session)->position)) note("center", center->pixel);
-    for (const auto& [handle, name] : named)
-        for (const GizmoShape& shape : handles->shapes(GizmoHandle::none))
-            if (shape.handle == handle && !shape.faint && shape.filled == (handle == GizmoHandle::scale_all))
-                note(name, shape.points[shape.points.size() * 2 / 3]);
-}
 
 void ViewPanel::draw_marks(Ui& ui, const Session& session, const Input& input) {
     const Theme& theme = ui.theme();
@@ -553,6 +485,15 @@ void ViewPanel::go_to(const Camera& to) {
 
 void ViewPanel::look_from(ViewFrom side) {
     go_to(seen_from(camera, side));
+}
+
+// For tests.
+void ViewPanel::note_camera(Ui& ui, const ImRect& box) const {
+    std::string text;
+    for (const float one : {camera.position.x, camera.position.y, camera.position.z, camera.target.x, camera.target.y,
+                            camera.target.z, camera.fov})
+        text += (text.empty() ? "" : " ") + std::to_string(one);
+    ui.note("camera", box, text);
 }
 
 void ViewPanel::frame_all(const Picture& picture) {

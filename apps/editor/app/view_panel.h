@@ -1,15 +1,16 @@
 // The 3-D view: camera, picking, and the tools of the pointer.
 #pragma once
 
+#include "editor/app/gizmo_tool.h"
 #include "editor/app/pick_trees.h"
 #include "editor/app/session.h"
 #include "editor/tools/camera_moves.h"
 #include "editor/tools/drag_plane.h"
-#include "editor/tools/gizmo.h"
 #include "editor/tools/stroke_sampler.h"
 #include "editor/tools/surface_distance.h"
 #include "editor/ui/ui_renderer.h"
 
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,14 +32,16 @@ struct ViewSettings {
     Tool tool = Tool::hand;
     GizmoAxes axes = GizmoAxes::world;
     FlyKeys keys = FlyKeys::usual;
-    float pull_force = 5;  ///< N, largest
-    bool through = false;  ///< choose hidden vertices too
+    bool fly_always = false;  ///< also while the right button is up
+    float pull_force = 5;     ///< N, largest
+    bool through = false;     ///< choose hidden vertices too
 };
 
 class ViewPanel {
   public:
     ViewSettings settings;
     Camera camera;
+    bool has_keys = true;  ///< false while a dialog has the keyboard
 
     /// Draws the view's image over the rest of the current window and reacts to the pointer. `image_size`: pixels of
     /// the image; zero: there is none yet.
@@ -60,21 +63,24 @@ class ViewPanel {
     void unpin_chosen(Session& session);
     /// Ends what the pointer does, as Esc does. Whether there was something.
     bool cancel(Session& session);
+    /// Chooses a handle of the selected object, for an amount that is typed.
+    void choose_handle(Session& session);
+    /// Gives the keys of this frame to the handle that is dragged or chosen. Returns whether it has used them.
+    bool type(const Ui& ui, Session& session);
 
   private:
     enum class Gesture : std::uint8_t { none, orbit, look, pan, pull, carry, gizmo, box, stroke };
     struct Input;
-    void move_camera(Ui& ui, const Input& input);
+    void move_camera(Ui& ui, const Picture& picture, const ViewMarks& marks, const Input& input);
+    void fly(Ui& ui, const Picture& picture, const Input& input);
     void begin_left(Session& session, const ViewMarks& marks, const Input& input);
     void drag(Session& session, const Input& input);
     void end(Session& session, const ViewMarks& marks, const Input& input);
     void choose(Session& session, const ViewMarks& marks, const Input& input);
     void cut(Session& session, const ViewMarks& marks, const Input& input);
+    void note_camera(Ui& ui, const ImRect& box) const;
+    void set_gizmo();
     void draw_marks(Ui& ui, const Session& session, const Input& input);
-    void draw_gizmo(Ui& ui, const Session& session, const Input& input);
-    std::optional<GizmoPlace> place_of_selected(const Session& session) const;
-    std::optional<Gizmo> gizmo(const Session& session, const Projection& view) const;
-    void change_place(Session& session, const GizmoChange& change, Change phase);
     Bounds bounds_of_selected(const Picture& picture, const Session& session) const;
     void go_to(const Camera& to);
     std::optional<std::size_t> selected_cloth(const Picture& picture, const Session& session) const;
@@ -87,9 +93,10 @@ class ViewPanel {
     Pick pick_;          // where the gesture began
     std::string picked_place_;
     std::optional<DragPlane> plane_;
+    std::bitset<static_cast<std::size_t>(Key::count)> fly_keys_;  // pressed without Control and the like
+    std::optional<double> pan_depth_;                             // m, of what is under the pointer
     Vec3 carried_from_;
-    std::optional<GizmoDrag> gizmo_drag_;
-    Vec3 scale_start_{1, 1, 1};
+    GizmoTool gizmo_;
     std::vector<Vec2> stroke_;
     std::vector<std::uint32_t> chosen_;
     std::string chosen_cloth_;

@@ -11,7 +11,7 @@ namespace {
 // The names of the alternatives of Action, in their order.
 constexpr std::array<std::string_view, std::variant_size_v<Action>> kinds = {
     "change", "rename", "cut",  "grab",         "move_grab", "release", "reset",
-    "seek",   "undo",   "redo", "undo_setting", "backend",   "advance"};
+    "seek",   "undo",   "redo", "undo_setting", "backend",   "saved",   "advance"};
 
 Json to_json(Vec3 v) {
     return {number(v.x), number(v.y), number(v.z)};
@@ -118,6 +118,7 @@ struct Writer {
     void operator()(const Seek& a) const { json["frame"] = a.frame; }
     void operator()(const UndoSetting& a) const { json["step"] = a.step; }
     void operator()(const UseBackend& a) const { json["backend"] = a.backend, json["threads"] = a.threads; }
+    void operator()(const Saved& a) const { json["file"] = a.file, json["text"] = a.text; }
     void operator()(const Advance& a) const { json["frames"] = a.frames; }
     template <class Plain>
     void operator()(const Plain&) const {}
@@ -143,6 +144,7 @@ struct Reader {
     void operator()(Seek& a) const { line.read("frame", a.frame); }
     void operator()(UndoSetting& a) const { line.read("step", a.step); }
     void operator()(UseBackend& a) const { line.read("backend", a.backend), line.read("threads", a.threads); }
+    void operator()(Saved& a) const { line.read("file", a.file), line.read("text", a.text); }
     void operator()(Advance& a) const { line.read("frames", a.frames); }
     template <class Plain>
     void operator()(Plain&) const {}

@@ -78,6 +78,12 @@ struct UseBackend {
     std::uint32_t threads = 1;
     friend bool operator==(const UseBackend&, const UseBackend&) = default;
 };
+/// The document as it is now has been written to a file, which holds the text. Not an undo step.
+struct Saved {
+    std::string file = {};  ///< an absolute path
+    std::string text = {};
+    friend bool operator==(const Saved&, const Saved&) = default;
+};
 /// Advances by frames. In a log the frames between two actions follow from `at`.
 struct Advance {
     std::uint64_t frames = 1;
@@ -85,7 +91,7 @@ struct Advance {
 };
 
 using Action = std::variant<ChangeScene, Rename, Cut, Grab, MoveGrab, Release, Reset, Seek, Undo, Redo, UndoSetting,
-                            UseBackend, Advance>;
+                            UseBackend, Saved, Advance>;
 
 /// An action and the frame at which it acts: before the next frame, when so many frames are done.
 struct TimedAction {

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -28,7 +29,12 @@ Result<LogHead> read_head(const Json& json) {
     if (!json.is_object() || json.value("weft_log", 0u) != log_format)
         return Error{"", "is not a log of the editor: its first line must have \"weft_log\": 1"};
     const std::string file = json.value("file", ""), folder = json.value("folder", "");
-    auto document = make_document(json.value("scene", Json()), file, folder, make_file_text(json.value("text", "")));
+    FileTextPtr original = make_file_text(json.value("text", ""));
+    // The scene has the names that objects of the file got when it was opened.
+    std::map<std::string, bool> given;
+    if (original)
+        if (const auto opened = make_document(original->json, file, folder)) given = (*opened)->given_names;
+    auto document = make_document(json.value("scene", Json()), file, folder, std::move(original), std::move(given));
     if (!document) return document.errors();
     return LogHead{std::move(*document), json.value("backend", "cpu"), json.value("threads", 1u),
                    json.value("note", "")};
@@ -170,6 +176,26 @@ std::filesystem::path log_folder() {
 std::filesystem::path new_log_file(const std::filesystem::path& folder) {
     const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     return folder / ("session-" + std::to_string(now) + "-" + std::to_string(::getpid()) + log_ending);
+}
+
+LogSummary summary_of(const std::filesystem::path& file) {
+    LogSummary summary;
+    summary.file = file;
+    std::error_code ignored;
+    summary.bytes = std::filesystem::file_size(file, ignored);
+    const std::string name = file.stem().string();  // session-SECONDS-PROCESS
+    const std::time_t seconds = std::atoll(name.c_str() + std::min(name.size(), name.find('-') + 1));
+    char text[32];
+    if (std::tm local{};
+        seconds > 0 && localtime_r(&seconds, &local) && std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &local) > 0)
+        summary.time = text;
+    std::ifstream in(file, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line)) return summary;
+    const Json head = Json::parse(line, nullptr, false);
+    if (head.is_object()) summary.scene = head.value("file", "");
+    while (std::getline(in, line)) ++summary.actions;
+    return summary;
 }
 
 std::vector<std::filesystem::path> abandoned_logs(const std::filesystem::path& folder) {

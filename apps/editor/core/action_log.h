@@ -71,4 +71,15 @@ std::filesystem::path new_log_file(const std::filesystem::path& folder);
 /// Logs in the folder whose session has not ended by itself and whose process is gone, newest first.
 std::vector<std::filesystem::path> abandoned_logs(const std::filesystem::path& folder);
 
+/// What a log is about, to choose among several.
+struct LogSummary {
+    std::filesystem::path file;  ///< of the log
+    std::string scene;           ///< file of the scene; empty: it was not saved yet
+    std::string time;            ///< when the session began: `2026-03-01 14:05`; empty: not known
+    std::size_t actions = 0;
+    std::uintmax_t bytes = 0;
+};
+/// Reads the first line and counts the others. Of a file that cannot be read, only the name is known.
+LogSummary summary_of(const std::filesystem::path& file);
+
 }  // namespace weft::editor

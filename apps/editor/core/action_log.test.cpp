@@ -15,8 +15,9 @@ using testing::IsEmpty;
 
 TEST(Actions, are_read_as_they_were_written) {
     std::vector<Action> all = sample_actions();
-    all.insert(all.end(), {Grab{"sheet", {3, {0.2f, 0.3f, 0.5f}}, {1, 2, 3}, 5}, MoveGrab{{0.1f, 2, 3}}, Release{},
-                           Seek{4}, Undo{}, Redo{}, UndoSetting{3}, UseBackend{"vulkan", 1}, Advance{20}});
+    all.insert(all.end(),
+               {Grab{"sheet", {3, {0.2f, 0.3f, 0.5f}}, {1, 2, 3}, 5}, MoveGrab{{0.1f, 2, 3}}, Release{}, Seek{4},
+                Undo{}, Redo{}, UndoSetting{3}, UseBackend{"vulkan", 1}, Saved{"/a/b.json", "{}"}, Advance{20}});
     for (const Action& action : all) {
         const std::string line = to_line({12, action});
         const auto read = action_from(Json::parse(line));
@@ -88,6 +89,41 @@ TEST(Logs, of_a_session_that_was_killed_lack_at_most_the_last_action) {
     EXPECT_EQ(read->actions.size(), 1u);
     EXPECT_THAT(abandoned_logs(folder.path()), ElementsAre(file));
     log->finish(0);
+}
+
+TEST(Logs, know_what_was_saved) {
+    ScratchFolder folder;
+    const auto file = folder / "scene.json";
+    Stage stage = open_small();
+    auto log = ActionLog::create(folder / "session-86400-999999999.weftlog", {stage.document(), "cpu", 1});
+    ASSERT_TRUE(log);
+    const auto act = [&](const Action& action) {
+        must(stage.apply(action));
+        log->add({stage.frame(), action});
+    };
+    act(change_of("/gravity", Json{0, -1, 0}));
+    const std::string text = stage.document()->json.dump();
+    act(Saved{file.string(), text});
+    const Json saved = stage.document()->json;
+    EXPECT_EQ(stage.history().done().size(), 1u) << "it is no step";
+    act(change_of("/gravity", Json{0, -2, 0}));
+    act(Undo{});
+    act(Undo{});
+    const auto read = read_log(log->file());
+    ASSERT_TRUE(read);
+    auto again = open_stage(read->head, {});
+    must(play(*again, read->actions, read->end));
+    ASSERT_TRUE(again->saved());
+    EXPECT_EQ(again->saved()->file, file);
+    EXPECT_EQ(again->saved()->text->text, text);
+    EXPECT_EQ(again->saved()->json, saved);
+    EXPECT_NE(again->document()->json, saved) << "the change before it is undone";
+
+    const LogSummary summary = summary_of(log->file());
+    EXPECT_EQ(summary.actions, 5u);
+    EXPECT_THAT(summary.time, HasSubstr("1970-01-0"));
+    EXPECT_GT(summary.bytes, 100u);
+    EXPECT_EQ(summary_of(folder / "none").actions, 0u);
 }
 
 TEST(Logs, of_this_process_and_of_ended_sessions_are_not_abandoned) {

@@ -72,12 +72,16 @@ Result<void> remove(Json& parent, const std::string& part, const Edit& edit) {
     return {};
 }
 
-/// Writes the names that unnamed objects got.
+/// Writes the names that unnamed objects got, and adds them to `given`.
 template <class Named>
-void write_names(Json& json, const char* key, const std::vector<Named>& all) {
+void write_names(Json& json, const char* key, const std::vector<Named>& all, std::map<std::string, bool>& given) {
     const auto list = json.find(key);
     if (list == json.end() || !list->is_array()) return;
-    for (std::size_t i = 0; i < all.size() && i < list->size(); ++i) (*list)[i]["name"] = all[i].name;
+    for (std::size_t i = 0; i < all.size() && i < list->size(); ++i) {
+        Json& object = (*list)[i];
+        if (object.value("name", "").empty()) given[all[i].name] = object.contains("name");
+        object["name"] = all[i].name;
+    }
 }
 
 void append(std::vector<Edit>& to, std::vector<Edit> more) {
@@ -173,7 +177,7 @@ Json number(float value) {
 }
 
 Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, const std::filesystem::path& folder,
-                                  FileTextPtr original) {
+                                  FileTextPtr original, std::map<std::string, bool> given_names) {
     auto scene = read_scene(json, {});
     if (!scene) return scene.errors();
     auto document = std::make_shared<Document>();
@@ -182,8 +186,9 @@ Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, 
     document->json = std::move(json);
     document->scene = std::move(*scene);
     document->original = std::move(original);
-    write_names(document->json, "cloths", document->scene.cloths);
-    write_names(document->json, "colliders", document->scene.colliders);
+    document->given_names = std::move(given_names);
+    write_names(document->json, "cloths", document->scene.cloths, document->given_names);
+    write_names(document->json, "colliders", document->scene.colliders, document->given_names);
     return DocumentPtr(std::move(document));
 }
 
@@ -220,7 +225,7 @@ Result<DocumentPtr> edited(const Document& document, std::span<const Edit> edits
     Json json = document.json;
     for (const Edit& edit : edits)
         if (auto applied = apply(json, edit); !applied) return applied.errors();
-    return make_document(std::move(json), document.file, document.folder, document.original);
+    return make_document(std::move(json), document.file, document.folder, document.original, document.given_names);
 }
 
 }  // namespace weft::editor

@@ -6,6 +6,7 @@
 #include <weft/result.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -40,6 +41,8 @@ struct Document {
     Json json;
     SceneDesc scene;
     FileTextPtr original = {};  ///< of `file`; null: never saved, or not known
+    /// Names that objects without one got, which a saved file does not have. True: the file has an empty name.
+    std::map<std::string, bool> given_names = {};
 };
 using DocumentPtr = std::shared_ptr<const Document>;
 
@@ -47,7 +50,7 @@ using DocumentPtr = std::shared_ptr<const Document>;
 Result<DocumentPtr> open_document(const std::filesystem::path& file);
 /// `where` of errors is a JSON pointer.
 Result<DocumentPtr> make_document(Json json, const std::filesystem::path& file, const std::filesystem::path& folder,
-                                  FileTextPtr original = {});
+                                  FileTextPtr original = {}, std::map<std::string, bool> given_names = {});
 /// Null if the text is not that of a JSON value.
 FileTextPtr make_file_text(std::string text);
 /// The same document, saved in the file. Names of files in the scene still refer to its folder.

@@ -57,6 +57,13 @@ std::vector<Edit> rename_edits(const Document& document, const ObjectPlace& obje
     return edits;
 }
 
+bool lacks_particles(const Checkpoint& checkpoint) {
+    const WorldMoment& moment = checkpoint.moment;
+    for (std::size_t i = 0; i < moment.models.size() && i < moment.state.cloths.size(); ++i)
+        if (moment.models[i]->particle_count > 0 && moment.state.cloths[i].position.empty()) return true;
+    return false;
+}
+
 }  // namespace
 
 Result<Stage> Stage::open(DocumentPtr document, StageOptions options) {
@@ -89,7 +96,11 @@ Result<void> Stage::step() {
 // --- Moments
 
 MomentPtr Stage::moment() {
-    return std::make_shared<const Moment>(Moment{document_, world_->checkpoint(), lineage_});
+    const auto take = [&] { return std::make_shared<const Moment>(Moment{document_, world_->checkpoint(), lineage_}); };
+    MomentPtr now = take();
+    // A device that is lost while it is read gives no state back.
+    if (lacks_particles(now->world) && recover()) now = take();
+    return now;
 }
 
 Result<void> Stage::go_to(const Moment& moment) {
@@ -114,7 +125,9 @@ void Stage::begin_branch() {
 }
 
 void Stage::record() {
-    if (options_.record) timeline_.record(frame(), *moment());
+    if (!options_.record) return;
+    const MomentPtr now = moment();  // first: it may go back to an earlier frame
+    timeline_.record(frame(), *now);
 }
 
 Result<void> Stage::follow(DocumentPtr next) {
@@ -277,11 +290,24 @@ Result<void> Stage::recover() {
     std::uint64_t last = frame();
     while (last > 0 && !timeline_.contains(last)) --last;
     auto then = timeline_.moment_at(last);
-    if (!then) return Error::of_machine("simulation", why);
     Options options = options_.simulation;
     options.backend = "cpu";
     options.device.clear();
+    if (!then || lacks_particles((*then)->world)) {
+        // It was lost before a frame was kept.
+        auto world = make_world(document_->scene, options, document_->folder);
+        if (!world) return world.errors();
+        world_ = std::move(*world);
+        options_.simulation = options;
+        notes_taken_ = 0;
+        followed_ = document_;
+        if (last > 0) begin_branch();
+        let_go();
+        notes_.push_back(why + "; the CPU begins again at frame 0");
+        return {};
+    }
     if (auto moved = move_to(options, (*then)->world); !moved) return moved;
+    followed_ = *(*then)->world.scene == document_->scene ? document_ : nullptr;
     let_go();
     notes_.push_back(why + "; the CPU goes on from frame " + std::to_string(last));
     return {};
@@ -309,10 +335,14 @@ std::vector<std::string> Stage::take_notes() {
     return notes;
 }
 
-void Stage::saved_as(const std::filesystem::path& file, FileTextPtr text) {
-    const DocumentPtr saved = saved_in(*document_, file, std::move(text));
+Result<void> Stage::act(const Saved& action) {
+    FileTextPtr text = make_file_text(action.text);
+    if (!text) return Error{"text", "is not JSON"};
+    saved_ = SavedFile{action.file, text, document_->json};
+    const DocumentPtr saved = saved_in(*document_, action.file, std::move(text));
     if (followed_ == document_) followed_ = saved;
     document_ = saved;
+    return {};
 }
 
 }  // namespace weft::editor

@@ -53,8 +53,13 @@ class Stage {
 
     /// What the user should know, one line each, since the last call.
     std::vector<std::string> take_notes();
-    /// The file is the document's from now on. Not an undo step.
-    void saved_as(const std::filesystem::path& file, FileTextPtr text);
+    /// What was last written to a file, by the action Saved.
+    struct SavedFile {
+        std::filesystem::path file;
+        FileTextPtr text;
+        Json json;  ///< of the document at that time
+    };
+    const std::optional<SavedFile>& saved() const { return saved_; }
 
   private:
     Stage() = default;
@@ -70,6 +75,7 @@ class Stage {
     Result<void> act(const Redo& action);
     Result<void> act(const UndoSetting& action);
     Result<void> act(const UseBackend& action);
+    Result<void> act(const Saved& action);
     Result<void> act(const Advance& action);
 
     MomentPtr moment();
@@ -96,6 +102,7 @@ class Stage {
     Timeline timeline_;
     Lineage lineage_;
     std::uint64_t next_branch_ = 1;
+    std::optional<SavedFile> saved_;
     std::optional<GrabId> grab_;
     std::size_t notes_taken_ = 0;  ///< of the world
     std::vector<std::string> notes_;

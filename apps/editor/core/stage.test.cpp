@@ -294,5 +294,39 @@ TEST(Timelines, drop_the_oldest_frames_without_a_disk) {
     must(stage.apply(Reset{}));
 }
 
+#ifdef WEFT_VULKAN
+// While the scene is opened, and at each of a few submits in a row: while a frame runs, and while its result is read.
+TEST(Stages, go_on_on_the_cpu_when_the_device_is_lost) {
+    bool in_frame = false;
+    for (const int submits : {40, 60, 61, 62, 63, 64, 65}) {
+        SCOPED_TRACE(submits);
+        ::setenv("WEFT_LOSE_DEVICE", std::to_string(submits).c_str(), 1);
+        auto opened = Stage::open(small_document(), {.simulation = {.backend = "vulkan"}});
+        ::unsetenv("WEFT_LOSE_DEVICE");
+        if (!opened) GTEST_SKIP() << opened.error().message();
+        Stage stage = std::move(*opened);
+        const bool lost_at_once = stage.world().world().backend().name() == "cpu";
+        EXPECT_EQ(lost_at_once, submits == 40);
+        std::vector<std::string> notes;
+        for (int i = 0; i < 60 && notes.empty(); ++i) {
+            must(stage.step());
+            notes = stage.take_notes();
+        }
+        ASSERT_EQ(notes.size(), 1u);
+        EXPECT_THAT(notes[0], testing::AnyOf(HasSubstr("the CPU goes on from frame " + std::to_string(stage.frame())),
+                                             HasSubstr("the CPU begins again at frame 0")));
+        in_frame = in_frame || notes[0].find("VK_ERROR_DEVICE_LOST") != std::string::npos;
+        EXPECT_EQ(stage.world().world().backend().name(), "cpu");
+        const std::uint64_t frame = stage.frame();
+        must(stage.apply(change_of("/gravity", Json{0, -1, 0})));
+        must(stage.step());
+        EXPECT_EQ(stage.frame(), frame + 1);
+        must(stage.apply(Undo{}));
+        EXPECT_EQ(stage.frame(), frame);
+    }
+    EXPECT_TRUE(in_frame);
+}
+#endif
+
 }  // namespace
 }  // namespace weft::editor

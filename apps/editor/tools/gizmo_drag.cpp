@@ -13,6 +13,7 @@ namespace {
 constexpr double end_on = 0.1;      // sine of the angle to the line of sight
 constexpr double depth_range = 20;  // of a drag, over the depth of its start
 constexpr double least_factor = 0.01;
+constexpr double handle_end = 1.2;  // in sizes of the gizmo: nothing of a handle that moves is farther from the center
 constexpr double drag_degree = 180 / std::numbers::pi;
 
 bool between(GizmoHandle handle, GizmoHandle first, GizmoHandle last) {
@@ -95,6 +96,10 @@ void GizmoDrag::start_turn(Double2 pointer) {
 //     u(s) = F k s / (z + a s),
 // where w is the direction of the axis on the image, k its length at depth 1, z the depth of the center and a the
 // axis' part along the view. So s = u z / (F k - a u), and the depth there is z F k / (F k - a u).
+//
+// The handle was grabbed at g meters from the center. The gizmo keeps its size on the image, so at the depth z' the
+// grabbed point is at g z'/z meters from the center. If the pointer is over the point q of the axis, the center has
+// moved by s with q = s + g (1 + a s / z).
 double GizmoDrag::moved_along(Double3 axis, Double2 way) const {
     const double z = center_.z, focal = view_.focal();
     const Double2 across{axis.x - center_.x / z * axis.z, axis.y - center_.y / z * axis.z};
@@ -107,10 +112,17 @@ double GizmoDrag::moved_along(Double3 axis, Double2 way) const {
         if (depth != z + s * axis.z) s = (depth - z) / axis.z;
         return s;
     }
-    const double u = dot(way, across) / k, slope = axis.z / (focal * k);  // z over the depth is 1 - slope · u
-    const double nearness = std::clamp(1 - slope * u, 1 / depth_range, depth_range);
-    if (nearness != 1 - slope * u) return z * (1 / nearness - 1) / axis.z;
-    return u * z / (focal * k * nearness);
+    const double slope = axis.z / (focal * k);  // z over the depth is 1 - slope · u
+    const auto point = [&](double u, double nearness) { return u * z / (focal * k * nearness); };
+    const double longest = handle_end * size_ * z / focal;
+    double from = dot(pointer_ - view_.pixel_of(center_), across) / k;
+    const double near_pointer = 1 - slope * from;
+    const double g = near_pointer > 0 ? std::clamp(point(from, near_pointer), -longest, longest) : 0;
+    from = focal * k * g / (z + axis.z * g);
+    const double start = 1 - slope * from, to = from + dot(way, across) / k;
+    const double wanted = (1 - slope * to) / start, nearness = std::clamp(wanted, 1 / depth_range, depth_range);
+    if (nearness != wanted) return z * (1 / nearness - 1) / axis.z;
+    return (point(to, 1 - slope * to) - point(from, start)) / (1 + axis.z * g / z);
 }
 
 // The inverse of the depth changes linearly over the image of a plane, so a drag ends where it reaches its limits.
@@ -132,14 +144,20 @@ std::array<double, 2> GizmoDrag::moved_within(Double3 u, Double3 v, Double2 way)
         const Double3 move = level * s + away * (sign * t);
         return {dot(move, u), dot(move, v)};
     }
-    const Double2 from = view_.pixel_of(center_);
     const auto nearness_at = [&](Double2 pixel) { return dot(normal, view_.direction_at(pixel)) / height; };
+    const auto point = [&](Double2 pixel) { return view_.direction_at(pixel) * (1 / nearness_at(pixel)); };
+    // Where the square was grabbed, from the center: at another depth it is larger with the gizmo.
+    Double3 grabbed = nearness_at(pointer_) > 0 ? point(pointer_) - center_ : Double3{};
+    const double longest = handle_end * size_ * center_.z / view_.focal();
+    if (length(grabbed) > longest) grabbed = grabbed * (longest / length(grabbed));
+    const Double2 from = view_.pixel_of(center_ + grabbed);
     const double n0 = nearness_at(from), n1 = nearness_at(from + way);
     double part = 1;
     if (n1 < n0 / depth_range) part = (n0 / depth_range - n0) / (n1 - n0);
     if (n1 > n0 * depth_range) part = (n0 * depth_range - n0) / (n1 - n0);
-    const Double2 to = from + way * part;
-    const Double3 move = view_.direction_at(to) * (1 / nearness_at(to)) - center_;
+    const Double3 way_in_plane = point(from + way * part) - point(from);
+    const Double3 growth = grabbed * (1 / center_.z);  // per meter of depth
+    const Double3 move = way_in_plane - growth * (way_in_plane.z / (1 + growth.z));
     return {dot(move, u), dot(move, v)};
 }
 

@@ -66,10 +66,11 @@ class GizmoDrag {
     const GizmoPlace& start() const { return frame_.place; }
     /// The object with the pointer at a pixel. A pointer that is not finite gives the start.
     ///
-    ///  * An arrow moves the object's center on the image as far as the pointer moves along the arrow, a square as far
-    ///    as the pointer moves. A drag toward a vanishing point ends at 20 times the depth of the start, one toward the
-    ///    eye at a 20th. Along an axis or plane that is seen within 6° of end on, the center moves with the pointer by
-    ///    as many meters as in the plane of the image.
+    ///  * An arrow or a square stays under the pointer: the point of it that was grabbed is there also after the move,
+    ///    although the handles keep their size on the image while the object comes nearer or goes away. A drag toward a
+    ///    vanishing point ends at 20 times the depth of the start, one toward the eye at a 20th. Along an axis or plane
+    ///    that is seen within 6° of end on, the center moves with the pointer by as many meters as in the plane of the
+    ///    image.
     ///  * A ring turns by the way of the pointer along the ring's tangent where it was grabbed, divided by the ring's
     ///    radius. Where the ring is seen end on, that is the tangent of its nearest point.
     ///  * A handle that scales stays under the pointer.

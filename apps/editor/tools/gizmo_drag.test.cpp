@@ -44,26 +44,47 @@ GizmoHandle handle_after(GizmoHandle first, std::size_t by) {
     return static_cast<GizmoHandle>(static_cast<std::size_t>(first) + by);
 }
 
-TEST(GizmoDrag, an_object_follows_the_pointer_along_an_arrow) {
+/// A point of a handle as it is drawn: the tip of an arrow, the middle of a square.
+std::optional<Double2> point_of(const Projection& view, const GizmoPlace& place, GizmoHandle handle, GizmoAxes axes) {
+    for (const GizmoShape& shape : Gizmo(view, place, GizmoKind::move, axes).shapes(GizmoHandle::none)) {
+        if (shape.handle != handle || !shape.filled || shape.faint) continue;
+        if (handle <= GizmoHandle::move_z) return exact(shape.points.front());
+        Double2 middle;
+        for (const Vec2 p : shape.points) middle = middle + exact(p) * 0.25;
+        return middle;
+    }
+    return {};
+}
+
+/// The same point of the square's plane, with the perspective that its corners' mean ignores.
+Double2 middle_of_square(const Projection& view, const GizmoPlace& place, std::size_t normal, GizmoAxes axes) {
+    const auto depth = static_cast<double>(view.project(place.position)->depth);
+    const double size = std::min(90 / view.pixels_per_meter(depth), 0.4 * depth);
+    const Vec3 diagonal = axis_number(place, axes, (normal + 1) % 3) + axis_number(place, axes, (normal + 2) % 3);
+    return pixel_of(view, place.position + diagonal * static_cast<float>(0.39 * size));
+}
+
+TEST(GizmoDrag, the_grabbed_point_of_an_arrow_stays_under_the_pointer) {
     Dice dice(60);
     int dragged = 0, limited = 0;
-    double worst = 0;
+    double worst = 0, center_off = 0;
     for (int i = 0; i < 3000; ++i) {
         const Projection view(dice.camera(), usual_size);
         const GizmoPlace place{dice.point(0.4f), dice.point(180)};
         const auto axes = static_cast<GizmoAxes>(i % 2);
         const std::size_t number = static_cast<std::size_t>(i) % 3;
+        const GizmoHandle handle = handle_after(GizmoHandle::move_x, number);
         const Vec3 axis = axis_number(place, axes, number);
-        if (!view.project(place.position) || steepness(view, place.position, axis) < 0.11f) continue;
+        if (!view.project(place.position) || steepness(view, place.position, axis) < 0.16f) continue;
+        const auto tip = point_of(view, place, handle, axes);
+        ASSERT_TRUE(tip);
         // 200 pixels along the arrow as it is seen, and some beside it.
         const Double2 start = pixel_of(view, place.position);
         const Double2 ahead = pixel_of(view, place.position + axis * 0.01f) - start;
         const Double2 along = ahead * (1 / length(ahead)), beside{-along.y, along.x};
-        const Vec2 grabbed = rounded(start + along * 60);
-        const GizmoDrag drag = drag_of(view, place, handle_after(GizmoHandle::move_x, number), grabbed, axes);
+        const GizmoDrag drag = drag_of(view, place, handle, rounded(*tip), axes);
         for (const double way : {200.0, -200.0, 3.0, 77.0}) {
-            const Vec2 pointer =
-                rounded(exact(grabbed) + along * way + beside * static_cast<double>(dice.between(-40, 40)));
+            const Vec2 pointer = rounded(*tip + along * way + beside * static_cast<double>(dice.between(-40, 40)));
             const GizmoChange change = drag.at(pointer, no_steps);
             const Vec3 moved = change.place.position - place.position;
             EXPECT_LT(length(cross(moved, axis)), 1e-4f * std::max(1.0f, length(moved))) << "it stays on the axis";
@@ -74,41 +95,50 @@ TEST(GizmoDrag, an_object_follows_the_pointer_along_an_arrow) {
                 ++limited;
                 continue;
             }
+            const auto now = point_of(view, change.place, handle, axes);
+            if (!now) continue;  // seen end on there
             ++dragged;
-            const double off = length(pixel_of(view, change.place.position) - (start + along * way));
-            worst = std::max(worst, off);
+            // After a long way into the depth, floats resolve the place only to some hundredths of a pixel.
+            worst = std::max(worst, length(*now - (*tip + along * way)));
+            center_off = std::max(center_off, length(pixel_of(view, change.place.position) - (start + along * way)));
         }
     }
     EXPECT_LT(worst, 2) << "pixels";
     EXPECT_LT(worst, 0.1) << "what rounding of floats leaves";
-    EXPECT_GT(dragged, 9000);
+    EXPECT_GT(center_off, 5) << "the object itself gets larger or smaller on the image";
+    EXPECT_GT(dragged, 8000);
     EXPECT_LT(limited, dragged / 20);
 }
 
-TEST(GizmoDrag, an_object_follows_the_pointer_in_a_plane_and_in_the_image) {
+TEST(GizmoDrag, the_grabbed_point_of_a_square_stays_under_the_pointer) {
     Dice dice(61);
     int dragged = 0;
+    double worst = 0;
     for (int i = 0; i < 2000; ++i) {
         const Projection view(dice.camera(), usual_size);
         const GizmoPlace place{dice.point(0.4f), dice.point(180)};
         const auto axes = static_cast<GizmoAxes>(i % 2);
         const std::size_t number = static_cast<std::size_t>(i) % 4;
+        const GizmoHandle handle = handle_after(GizmoHandle::move_yz, number);
         if (!view.project(place.position)) continue;
         const Vec3 normal = number < 3 ? axis_number(place, axes, number) : view.ahead();
-        if (std::abs(dot(normal, normalized(place.position - view.camera().position))) < 0.12f) continue;
-        const Double2 start = pixel_of(view, place.position);
-        const Vec2 grabbed = rounded(start + Double2{10, 20});
-        const GizmoDrag drag = drag_of(view, place, handle_after(GizmoHandle::move_yz, number), grabbed, axes);
+        if (std::abs(dot(normal, normalized(place.position - view.camera().position))) < 0.16f) continue;
+        const auto square = [&](const GizmoPlace& at) {
+            return number < 3 ? middle_of_square(view, at, number, axes) : pixel_of(view, at.position);
+        };
+        const Double2 grabbed = square(place);
+        const GizmoDrag drag = drag_of(view, place, handle, rounded(grabbed), axes);
         const Double2 way{static_cast<double>(dice.between(-200, 200)), static_cast<double>(dice.between(-200, 200))};
-        const GizmoChange change = drag.at(rounded(exact(grabbed) + way), no_steps);
+        const GizmoChange change = drag.at(rounded(grabbed + way), no_steps);
         const Vec3 moved = change.place.position - place.position;
         EXPECT_LT(std::abs(dot(moved, normal)), 1e-4f * std::max(1.0f, length(moved)));
         const float depth = dot(change.place.position - view.camera().position, view.ahead());
         const float from = dot(place.position - view.camera().position, view.ahead());
         if (depth > 19.9f * from || depth < from / 19.9f) continue;
         ++dragged;
-        EXPECT_LT(length(pixel_of(view, change.place.position) - start - way), 0.1);
+        worst = std::max(worst, length(square(change.place) - grabbed - way));
     }
+    EXPECT_LT(worst, 0.1);
     EXPECT_GT(dragged, 1200);
 }
 

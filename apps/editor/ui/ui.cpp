@@ -121,6 +121,7 @@ void Ui::begin(float width, float height, double now) {
     last_time_ = input_.time;
     feed();
     kept_digits_ = std::exchange(keeps_digits_, false);
+    kept_delete_ = std::exchange(keeps_delete_, false);
     released_space_ = std::exchange(releases_space_, false);
     if (focus_wanted_ == 0 && focus_path_.empty()) focus_typing_ = false;
     probe_.begin_frame();
@@ -208,6 +209,7 @@ bool Ui::shortcut(Key label, Modifiers modifiers) const {
         const bool digit = (label >= Key::digit_0 && label <= Key::digit_9) || label == Key::minus ||
                            label == Key::period || (label >= Key::pad_0 && label <= Key::pad_add);
         if ((kept_digits_ || keeps_digits_) && digit) return false;
+        if ((kept_delete_ || keeps_delete_) && (label == Key::delete_key || label == Key::backspace)) return false;
     }
     return std::ranges::any_of(input_.keys, [&](const InputFrame::Press& one) {
         return one.label == label && one.down && !one.repeated && one.modifiers == modifiers;

@@ -127,6 +127,8 @@ class Ui {
     void keep_arrows(const Item& item) const;
     /// Digits and signs belong to the focused widget and are no shortcuts.
     void keep_digits() { keeps_digits_ = true; }
+    /// Delete and Backspace reset the focused widget and are no shortcuts.
+    void keep_delete() { keeps_delete_ = true; }
     /// The focused widget does not need the space bar.
     void release_space() { releases_space_ = true; }
     /// Shows text beside the pointer, or under the widget that has the keyboard, once it has rested there for a while.
@@ -165,6 +167,7 @@ class Ui {
     int settling_ = 2;                                 // frames until what follows from the last input is shown
     double due_ = 0;                                   // s: time of a requested frame; infinity: none
     bool keeps_digits_ = false, kept_digits_ = false;  // in this frame, in the last one
+    bool keeps_delete_ = false, kept_delete_ = false;
     bool releases_space_ = false, released_space_ = false;
 
     struct Stop {

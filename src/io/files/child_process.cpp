@@ -57,18 +57,38 @@ struct Ends {
     }
 };
 
-int spawn(const std::vector<std::string>& arguments, const Ends& ends, int output, pid_t& process) {
-    std::vector<char*> words;
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
+std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+    std::vector<char*> all;
+    for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
+    all.push_back(nullptr);
+    return all;
+}
+
+/// This process' environment with other values for some variables.
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& changed) {
+    std::vector<std::string> all;
+    for (char** one = environ; *one; ++one) {
+        const std::string text = *one;
+        if (!changed.contains(text.substr(0, text.find('=')))) all.push_back(text);
+    }
+    for (const auto& [name, value] : changed) all.push_back(name + "=" + value);
+    return all;
+}
+
+int spawn(const std::vector<std::string>& arguments, const Ends& ends, const ChildOptions& options, pid_t& process) {
+    const std::vector<char*> words = pointers_to(arguments);
+    const std::vector<std::string> environment = environment_with(options.environment);
 
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     ::posix_spawn_file_actions_init(&files);
     ::posix_spawnattr_init(&attributes);
-    if (output >= 0) ::posix_spawn_file_actions_adddup2(&files, output, 3);
+    if (options.output >= 0) ::posix_spawn_file_actions_adddup2(&files, options.output, 3);
     ::posix_spawn_file_actions_adddup2(&files, ends.input[1], STDIN_FILENO);
-    ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (options.prints)
+        ::posix_spawn_file_actions_adddup2(&files, ends.messages[1], STDOUT_FILENO);
+    else
+        ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_adddup2(&files, ends.messages[1], STDERR_FILENO);
     sigset_t none, usual;
     sigemptyset(&none);
@@ -78,7 +98,8 @@ int spawn(const std::vector<std::string>& arguments, const Ends& ends, int outpu
     ::posix_spawnattr_setsigdefault(&attributes, &usual);
     ::posix_spawnattr_setpgroup(&attributes, 0);
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    const int problem = ::posix_spawnp(&process, words[0], &files, &attributes, words.data(), environ);
+    const int problem =
+        ::posix_spawnp(&process, words[0], &files, &attributes, words.data(), pointers_to(environment).data());
     ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&files);
     return problem;
@@ -98,8 +119,8 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     Ends ends;
     int problem = ends.open() ? 0 : errno;
     pid_t process = -1;
-    if (problem == 0) problem = spawn(arguments, ends, options.output, process);
-    if (problem == ENOENT)
+    if (problem == 0) problem = spawn(arguments, ends, options, process);
+    if (problem == ENOENT && !options.package.empty())
         return Error::of_machine(options.where, "needs the program " + child.program_ +
                                                     ", which was not found: install " + child.program_ +
                                                     " (Debian: " + options.package + ")");
@@ -157,11 +178,21 @@ bool ChildProcess::wait(std::optional<std::chrono::milliseconds> limit) {
         if (ended == process_ || (ended < 0 && errno != EINTR)) process_ = -1;
         listen();
         if (process_ < 0) break;
-        if (limit && std::chrono::steady_clock::now() - begin > *limit) return false;
+        if (limit && std::chrono::steady_clock::now() - begin >= *limit) return false;
         pollfd wake{messages_, POLLIN, 0};
         ::poll(&wake, 1, 10);  // ms: if the program has closed its messages, its end is noticed up to 10 ms late
     }
     return true;
+}
+
+bool ChildProcess::running() {
+    return process_ >= 0 && !wait(std::chrono::milliseconds(0));
+}
+
+void ChildProcess::end(std::chrono::milliseconds patience) {
+    if (process_ < 0) return;
+    if (::kill(-process_, SIGTERM) != 0) ::kill(process_, SIGTERM);
+    if (!wait(patience)) kill();
 }
 
 void ChildProcess::kill() {

@@ -1,4 +1,4 @@
-// Runs another program and feeds it through its standard input.
+// Runs another program: feeds it through its standard input, or follows what it prints while it works.
 #pragma once
 
 #include <weft/result.h>
@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,9 +16,12 @@
 namespace weft {
 
 struct ChildOptions {
-    std::string where;    ///< for errors: what the program makes
-    std::string package;  ///< the Debian package of the program
-    int output = -1;      ///< passed as the program's descriptor 3; -1: none
+    std::string where;         ///< for errors: what the program makes
+    std::string package = {};  ///< the Debian package of the program; empty: it is not in one
+    int output = -1;           ///< passed as the program's descriptor 3; -1: none
+    /// Variables that are added to those of this process, or replace them.
+    std::map<std::string, std::string> environment = {};
+    bool prints = false;  ///< its standard output counts among its messages; else it is dropped
 };
 
 /// Never raises SIGPIPE, never deadlocks with a program that waits for its messages to be read, and leaves no process
@@ -36,6 +40,14 @@ class ChildProcess {
     Result<void> write(std::span<const std::byte> bytes);
     /// Closes the input and waits for the end. Fails unless the program exits with success.
     Result<void> finish();
+    /// Reads what it has printed so far. Returns whether it still runs. Never waits.
+    bool running();
+    /// The last 2000 bytes or so of what it has printed.
+    const std::string& messages() const { return said_; }
+    /// Asks it to end (SIGTERM), and forces it to if it still runs after `patience`.
+    void end(std::chrono::milliseconds patience);
+    /// After its end: whether it has exited with success.
+    bool succeeded() const { return process_ < 0 && status_ == 0; }
     /// An error with `what` and the last messages of the program.
     Error failure(const std::string& what) const;
 

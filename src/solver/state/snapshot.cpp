@@ -106,6 +106,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
             out.list(edit.openings);
             out.list(edit.rows);
             out.list(edit.added);
+            out.one(edit.pruned_frames);
         }
     }
     Writer file;
@@ -155,6 +156,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
             edit.openings = in.list<Opening>();
             edit.rows = in.list<RowEdit>();
             edit.added = in.list<RowEdit>();
+            edit.pruned_frames = in.one<std::uint32_t>();
         }
     }
     if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};

@@ -102,6 +102,8 @@ class Backend {
     virtual std::string_view name() const = 0;  ///< as on the command line
     virtual std::string device() const = 0;     ///< description for the user
     virtual unsigned threads() const = 0;
+    /// Whether it moves bodies (StepInput::bodies).
+    virtual bool moves_bodies() const { return false; }
     /// Bytes of device memory in use, besides host memory.
     virtual std::uint64_t device_bytes() const { return 0; }
 

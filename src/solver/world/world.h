@@ -113,8 +113,8 @@ class World {
 
     /// Makes the collider a body that moves by forces, at its current pose, or nullopt: one that moves as it is told.
     /// The body starts with the velocity and the spin of its description. The collider must have a surface of no mesh
-    /// (Collider::surface). Ends a motion by keys.
-    void set_body(ColliderId id, std::optional<Body> body);
+    /// (Collider::surface). Ends a motion by keys. Fails on a backend that moves no bodies.
+    Result<void> set_body(ColliderId id, std::optional<Body> body);
     /// Puts a body elsewhere, with another velocity in m/s and angular velocity in rad/s. Cloth and bodies that are
     /// there are pushed out slowly.
     void place_body(ColliderId id, const Pose& pose, Vec3 velocity, Vec3 rate);
@@ -230,6 +230,9 @@ class World {
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,
                                                                   const std::vector<ClothEdit>& edits);
+    static Result<std::shared_ptr<const ClothModel>> opened_model(const Cloth& cloth,
+                                                                  const std::vector<Opening>& openings,
+                                                                  std::uint32_t pruned);
     Result<void> set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits, std::shared_ptr<const ClothModel> model);
     static Result<std::shared_ptr<const ClothModel>> with_fabric_unedited(const Cloth& cloth, const ClothModel& model);
     std::vector<ParticleWeight> pin_copies(Cloth& cloth, const ClothModel& model, std::size_t plain_copies) const;
@@ -267,6 +270,7 @@ class World {
     Result<void> check_grabs(const Snapshot& snapshot, std::span<const std::shared_ptr<const ClothModel>> models) const;
     void restore_grabs(const std::vector<SavedGrab>& saved);
     // world_bodies.cpp
+    Result<void> can_move(const std::optional<Body>& body) const;
     void begin_bodies();
     void end_bodies() const;
     void hash_bodies(StateHash& hash) const;

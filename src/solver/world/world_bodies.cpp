@@ -7,8 +7,15 @@
 
 namespace weft {
 
-void World::set_body(ColliderId id, std::optional<Body> body) {
+Result<void> World::can_move(const std::optional<Body>& body) const {
+    if (!body || backend_->moves_bodies()) return {};
+    return Error{"motion/dynamic", "needs the CPU: the " + std::string(backend_->name()) +
+                                       " backend moves no bodies yet (--backend cpu)"};
+}
+
+Result<void> World::set_body(ColliderId id, std::optional<Body> body) {
     assert(contains(id) && !(body && surface_of(id)));
+    if (auto able = can_move(body); !able) return able;
     complete_and_resolve();
     Collider& collider = colliders_[colliders_.find(id)];
     collider.motion.clear();
@@ -17,6 +24,7 @@ void World::set_body(ColliderId id, std::optional<Body> body) {
     if (collider.body) start_body(collider);
     places_->reset();
     replan();
+    return {};
 }
 
 void World::place_body(ColliderId id, const Pose& pose, Vec3 velocity, Vec3 rate) {

@@ -91,6 +91,22 @@ bool button(Ui& ui, std::string_view name, const ButtonStyle& style) {
     return pressed;
 }
 
+bool area_button(Ui& ui, std::string_view name, ImVec2 size, std::string_view value, std::string_view what) {
+    const Theme& theme = ui.theme();
+    const Item item = ui.place(name, size, value);
+    bool held = false;
+    const bool pressed = press(ui, item, held);
+    const ImVec4 ground = held           ? theme.colors.field_active
+                          : item.hovered ? theme.colors.field_hovered
+                                         : theme.colors.field;
+    if (item.visible)
+        ImGui::GetWindowDrawList()->AddRectFilled(item.box.Min, item.box.Max, theme.color(ground),
+                                                  ImGui::GetStyle().FrameRounding);
+    ui.draw_focus(item);
+    if (!what.empty()) ui.tooltip(item, [&] { ImGui::TextUnformatted(what.data(), what.data() + what.size()); });
+    return pressed;
+}
+
 // --- Flag
 
 Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual) {
@@ -111,6 +127,7 @@ Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual) 
     const Item item = ui.place_at(field.name, box, value ? "on" : "off");
     bool held = false;
     bool pressed = press(ui, item, held);
+    if (item.focused && usual) ui.keep_delete();
     if (item.focused && usual && (ui.pressed(Key::delete_key) || ui.pressed(Key::backspace)) && whole.differs)
         pressed = true;
     if (item.visible) {

@@ -3,6 +3,7 @@
 
 #include "editor/ui/widgets/field.h"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,11 +25,17 @@ struct ButtonStyle {
 };
 /// Whether it was pressed: by the mouse, Space or Enter.
 bool button(Ui& ui, std::string_view name, const ButtonStyle& style);
+/// An area without content that can be pressed like a button; what is drawn over it afterwards is its content.
+bool area_button(Ui& ui, std::string_view name, ImVec2 size, std::string_view value, std::string_view what);
 /// The width of such a button in pixels.
 float button_width(const Ui& ui, const ButtonStyle& style);
 
 /// On or off. Space, Enter and a click change it.
 Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual = {});
+
+/// A set of numbers from 0 to 31 as the bits of a number, shown as boxes. A click on a box changes it. Arrow keys move
+/// between boxes, Space and Enter change one.
+Change bits(Ui& ui, const Field& field, std::uint32_t& value, std::optional<std::uint32_t> usual = {});
 
 /// One of several names. Opens a list; the arrow keys left and right change it at once.
 Change choice(Ui& ui, const Field& field, std::size_t& value, std::span<const std::string_view> names,

@@ -47,6 +47,7 @@ class NumberField {
     Change obey_keys() {
         ui_.keep_arrows(item_);
         ui_.keep_digits();
+        ui_.keep_delete();
         ui_.release_space();
         if (ui_.pressed(Key::enter) || ui_.pressed(Key::pad_enter) || ui_.pressed(Key::f2) || ui_.takes_typing(item_)) {
             begin_typing(ui_, item_, format_number(value_, 9));
@@ -323,8 +324,9 @@ Change angle(Ui& ui, const Field& field, double& degrees, NumberRange range) {
 }
 
 Change vector(Ui& ui, const Field& field, std::span<double> values, const NumberRange& range,
-              std::span<const double> usual) {
-    constexpr std::array<std::string_view, 4> names = {"x", "y", "z", "w"};
+              std::span<const double> usual, std::span<const std::string_view> parts) {
+    constexpr std::array<std::string_view, 4> usual_names = {"x", "y", "z", "w"};
+    const std::span<const std::string_view> names = parts.size() == values.size() ? parts : usual_names;
     Field whole = field;
     if (whole.range.empty()) whole.range = describe(range);
     if (usual.size() == values.size()) {
@@ -349,7 +351,11 @@ Change vector(Ui& ui, const Field& field, std::span<double> values, const Number
         NumberRange one = range;
         if (whole.usual.empty() == false) one.usual = usual[i];
         const ImRect box(ImVec2(x, row.control.Min.y), ImVec2(x + width, row.control.Max.y));
-        const Change made = number_in(ui, names[i], box, values[i], one, whole, names[i]);
+        // Where the name does not fit beside the number, the tooltip has it.
+        const std::string what = std::string(names[i]) + ": " + std::string(field.what);
+        Field tip = whole;
+        if (!parts.empty()) tip.what = what;
+        const Change made = number_in(ui, names[i], box, values[i], one, tip, names[i]);
         if (made != Change::none) change = made;
     }
     return change;

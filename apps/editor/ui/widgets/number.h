@@ -52,9 +52,10 @@ Change number(Ui& ui, const Field& field, double& value, const NumberRange& rang
 Change integer(Ui& ui, const Field& field, long long& value, NumberRange range);
 /// Degrees; Ctrl goes in steps of 15°.
 Change angle(Ui& ui, const Field& field, double& degrees, NumberRange range = {});
-/// Two to four numbers in a row, named NAME/x, NAME/y, …. `usual`: the defaults; empty or as many.
+/// Two to four numbers in a row, named NAME/x, NAME/y, …. `usual`: the defaults; empty or as many. `parts`: the names
+/// of the numbers, such as `static` and `kinetic`, if they are not along x, y, z and w.
 Change vector(Ui& ui, const Field& field, std::span<double> values, const NumberRange& range,
-              std::span<const double> usual = {});
+              std::span<const double> usual = {}, std::span<const std::string_view> parts = {});
 /// A number without a row of its own. `prefix`: shown at the left, "x".
 Change number_in(Ui& ui, std::string_view name, const ImRect& box, double& value, const NumberRange& range,
                  const Field& tip, std::string_view prefix = {});
