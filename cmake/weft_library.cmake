@@ -20,7 +20,7 @@ function(weft_shared name folder)
     if(UNIX AND NOT APPLE)   # templates of the standard library are visible by default
         set(exports ${PROJECT_SOURCE_DIR}/cmake/weft_exports.map)
         target_link_options(${library} PRIVATE -Wl,--version-script=${exports})
-        if(NOT WEFT_SANITIZE)   # sanitizer functions are defined in the program
+        if(NOT WEFT_SANITIZE OR CMAKE_CXX_COMPILER_ID STREQUAL GNU)   # clang links sanitizers to programs only
             target_link_options(${library} PRIVATE -Wl,--no-undefined)
         endif()
         set_target_properties(${library} PROPERTIES LINK_DEPENDS ${exports})

@@ -1,6 +1,7 @@
 # One static library per folder of src/, from all of its .cpp files. Files named *.test.cpp go into the test program of
 # the folder. FOLDER names a folder with another name than the library, ROOT one in another place than src; WITHOUT names
-# subfolders that have their own library. A new constraint, exporter or shape is a file in its folder and needs no change here.
+# subfolders that have their own library. LIGHT: the code takes little of the time of a frame; JSON: it is LIGHT and uses
+# nlohmann's JSON. A new constraint, exporter or shape is a file in its folder and needs no change here.
 
 find_package(Threads REQUIRED)
 
@@ -38,6 +39,11 @@ if(WEFT_SANITIZE)
         # with clang, has all of them.
         target_compile_options(weft_flags INTERFACE
             -fno-sanitize=null,vptr,object-size,pointer-overflow,alignment)
+    endif()
+    if(WEFT_SANITIZE MATCHES address AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+        # Checks of accesses are calls instead of inline code. They find the same errors, and a file compiles in 60 % of
+        # the time. The loops over constraints keep inline checks (src/cpu/dependencies.cmake).
+        target_compile_options(weft_flags INTERFACE --param=asan-instrumentation-with-call-threshold=0)
     endif()
     target_link_options(weft_flags INTERFACE -fsanitize=${WEFT_SANITIZE})
 endif()
@@ -81,17 +87,23 @@ function(weft_precompile name group)
         set_property(GLOBAL PROPERTY weft_precompiled_${group} ${name})
         target_precompile_headers(${name} PRIVATE ${ARGN})
     endif()
-    # GCC 12 gives false warnings for the standard library's strings once they are precompiled. `cmake --preset core`
-    # has no precompiled headers and keeps these warnings.
+    # GCC 12 gives false warnings for the standard library's strings once they are precompiled. The presets
+    # core and tsan have no precompiled headers and keep these warnings.
     if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND NOT group MATCHES tests)
         target_compile_options(${name} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     endif()
+endfunction()
+
+# weft_light(<target>): its code takes little of the time of a frame. -O3 would compile longer and gain nothing.
+function(weft_light name)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O2>)
 endfunction()
 
 # Headers that most files of a library include, plus nlohmann's JSON, which takes a second to compile, for its users.
 set(weft_library_headers <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional> <limits> <memory>
     <numbers> <optional> <random> <span> <string> <string_view> <utility> <vector>)
 function(weft_precompile_json name)
+    weft_light(${name})
     weft_precompile(${name} json ${weft_library_headers} <iostream> <nlohmann/json.hpp>)
 endfunction()
 
@@ -141,7 +153,7 @@ function(weft_test name)
 endfunction()
 
 function(weft_module name)
-    cmake_parse_arguments(ARG "JSON" "FOLDER;ROOT" "DEPENDS;WITHOUT" ${ARGN})
+    cmake_parse_arguments(ARG "JSON;LIGHT" "FOLDER;ROOT" "DEPENDS;WITHOUT" ${ARGN})
     if(NOT ARG_FOLDER)
         set(ARG_FOLDER ${name})
     endif()
@@ -173,6 +185,13 @@ function(weft_module name)
     endif()
     if(ARG_JSON)
         weft_precompile_json(weft_${name})
+    elseif(ARG_LIGHT)
+        weft_light(weft_${name})
+        if(CMAKE_BUILD_TYPE STREQUAL Release)
+            weft_precompile(weft_${name} light_libraries ${weft_library_headers})
+        else()   # the same flags as all libraries
+            weft_precompile(weft_${name} libraries ${weft_library_headers})
+        endif()
     else()
         weft_precompile(weft_${name} libraries ${weft_library_headers})
     endif()

@@ -21,8 +21,11 @@ struct Bounds {
         min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
         max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
     }
-    void include(const Bounds& b) { include(b.min), include(b.max); }
-    bool empty() const { return min.x > max.x; }
+    /// An empty box changes nothing.
+    void include(const Bounds& b) {
+        if (!b.empty()) include(b.min), include(b.max);
+    }
+    bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
     /// Points on the surface are inside.
     bool contains(Vec3 p) const {
         return p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y && p.z <= max.z;

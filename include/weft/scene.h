@@ -403,6 +403,21 @@ void with_mesh_shape(Shape& shape, Visit&& visit) {
     if (auto* solid = std::get_if<SolidMeshDesc>(&shape)) visit(*solid);
 }
 
+/// What makes a collider a body: it falls, and what it touches pushes it.
+struct BodyDesc {
+    float mass = 0;          ///< kg, 0…1e9; 0: the volume of the shape times `density`
+    float density = 1000;    ///< kg/m³, > 0…1e6
+    Vec3 center = {};        ///< m: the center of mass, from where the shape has it, in the collider's frame
+    Vec3 inertia = {};       ///< kg·m², moments about the collider's axes; 0: those of the shape, by the mass
+    Vec3 velocity = {};      ///< m/s at the start, of the center of mass
+    Vec3 spin = {};          ///< °/s at the start, about the world's axes
+    float damping = 0;       ///< 1/s, 0…1e6: the rate at which the velocity decays
+    float spin_damping = 0;  ///< 1/s, 0…1e6
+    float restitution = 0;   ///< 0…1, against colliders and bodies; a pair has the larger one
+    bool reaction = true;    ///< false: cloth does not push the body
+    friend bool operator==(const BodyDesc&, const BodyDesc&) = default;
+};
+
 /// A rigid shape that cloth collides with.
 struct ColliderDesc {
     std::string name = {};
@@ -410,6 +425,7 @@ struct ColliderDesc {
     TransformDesc transform = {};               ///< `scale` is ignored
     std::array<float, 2> friction{0.4f, 0.3f};  ///< static and kinetic coefficient, 0…100
     std::vector<PoseKey> motion = {};           ///< by ascending time; empty: the collider stays at `transform`
+    std::optional<BodyDesc> body = {};          ///< a body starts at `transform`; `motion` must then be empty
     friend bool operator==(const ColliderDesc&, const ColliderDesc&) = default;
 };
 

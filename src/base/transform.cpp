@@ -60,6 +60,7 @@ Mat3 matrix_of(const Quaternion& q) {
 }  // namespace
 
 Bounds to_world(const Pose& pose, const Bounds& local) {
+    if (local.empty()) return {};
     const Vec3 center = to_world(pose, local.center()), half = local.size() * 0.5f;
     const auto reach = [&](float x, float y, float z) {
         return std::abs(x) * half.x + std::abs(y) * half.y + std::abs(z) * half.z;

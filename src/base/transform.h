@@ -35,7 +35,7 @@ struct Pose {
 constexpr Vec3 to_world(const Pose& pose, Vec3 local) {
     return pose.rotation * local + pose.position;
 }
-/// The box around a box that has been placed.
+/// The box around a box that has been placed; empty if that is empty.
 Bounds to_world(const Pose& pose, const Bounds& local);
 constexpr Vec3 to_local(const Pose& pose, Vec3 world) {
     return transposed(pose.rotation) * (world - pose.position);

@@ -27,6 +27,21 @@ TEST(Pose, local_and_world_are_inverse) {
     EXPECT_NEAR(length(pose.rotation * p), length(p), 1e-6f);
 }
 
+TEST(Bounds, do_not_grow_by_an_empty_box) {
+    const Bounds box{{1, 2, 3}, {4, 5, 6}};
+    Bounds grown = box;
+    grown.include(Bounds{});
+    EXPECT_EQ(grown, box);
+    grown.include(Bounds{{1, 9, 3}, {4, 8, 6}});  // empty along one axis, as the common part of two boxes can be
+    EXPECT_EQ(grown, box);
+    grown = {};
+    grown.include(Bounds{});
+    EXPECT_TRUE(grown.empty());
+    grown.include(box);
+    EXPECT_EQ(grown, box);
+    EXPECT_TRUE(to_world(Pose{rotation_from_degrees({10, 20, 30}), {1, 2, 3}}, Bounds{}).empty());
+}
+
 TEST(Transform, goes_from_pose_to_pose_by_the_shortest_turn) {
     const Pose from{rotation_from_degrees({10, 20, 30}), {1, 2, 3}};
     for (const Vec3 turn : {Vec3{0, 0, 0}, Vec3{40, -70, 20}, Vec3{170, 0, 0}, Vec3{0, 179, 0}, Vec3{-90, 0, 120}}) {

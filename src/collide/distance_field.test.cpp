@@ -114,6 +114,7 @@ VectorErrors errors_of_grid_of_vectors(const TriangleMesh& mesh, Vec3 origin, do
     return errors;
 }
 
+// Labels: slow no-asan
 TEST(DistanceField, is_close_to_the_distance_to_the_mesh) {
     struct Case {
         const char* name;
@@ -172,6 +173,7 @@ TEST(DistanceField, has_the_right_size_and_sign_everywhere) {
 }
 
 // Interpolation alone leaves 99 of 100 points of the bunny at most 0.09 cells outside.
+// Labels: slow no-asan
 TEST(DistanceField, covers_its_mesh) {
     if (!std::ifstream(bunny_file)) GTEST_SKIP() << bunny_file << " is missing";
     const TriangleMesh mesh = read_bunny();
@@ -247,6 +249,7 @@ TEST(DistanceField, normals_are_gradients) {
     EXPECT_GT(compared, 1900);
 }
 
+// Labels: slow no-asan
 TEST(DistanceField, does_not_depend_on_the_number_of_threads) {
     TriangleMesh mesh = bowl(0.8f);
     append_mesh(mesh, make_box({1.5f, 0.02f, 0.5f}, {3, 2, 2}), {0.2f, -0.9f, 0.3f});

@@ -23,9 +23,11 @@ Range as_range(Share share) {
 
 }  // namespace
 
-ClothRun::ClothRun(const Passes& passes, ClothState& cloth, const WorldStep& step, const ClothStep& mine)
+ClothRun::ClothRun(const Passes& passes, ClothState& cloth, Bodies& bodies, const WorldStep& step,
+                   const ClothStep& mine)
     : passes_(passes),
       cloth_(cloth),
+      bodies_(bodies),
       plan_(*step.plan),
       input_(step.input),
       step_(mine),
@@ -94,6 +96,10 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
             return passes_.velocities(view_, particles_in_use(worker), numbers_.max_speed, numbers_.h);
         case PassKind::targets:
             run_targets(substep, mine);
+            break;
+        case PassKind::count_touches:
+        case PassKind::touch_bodies:
+            run_body_contacts(pass, substep, mine, worker);
             break;
         case PassKind::contact:
             run_contacts(pass, substep, mine, worker);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/workers.h"
+#include "cpu/bodies.h"
 #include "cpu/cloth_state.h"
 #include "cpu/passes.h"
 #include "solver/plan/frame_numbers.h"
@@ -18,7 +19,7 @@ struct Worker {
 
 class ClothRun {
   public:
-    ClothRun(const Passes& passes, ClothState& cloth, const WorldStep& step, const ClothStep& mine);
+    ClothRun(const Passes& passes, ClothState& cloth, Bodies& bodies, const WorldStep& step, const ClothStep& mine);
 
     const ClothModel& model() const { return *cloth_.model; }
     void keep_last_good(Worker worker) const;
@@ -34,12 +35,15 @@ class ClothRun {
     void run_targets(std::uint32_t substep, Range mine) const;
     ColliderPart& cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
+    void run_body_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
+    bool is_body(const NearCollider& near) const { return bodies_.body_of(near.collider) != none; }
     /// Without what run_contacts() adds.
     ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;
     template <class Collect, class Visit>
     void for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const;
     void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void move_faces(bool last, Worker worker) const;
+    void push_back(std::uint32_t particle, std::uint32_t collider, Vec3 by) const;
     void settle_faces(std::uint32_t substep, Worker worker) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
         return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));
@@ -60,6 +64,7 @@ class ClothRun {
 
     const Passes& passes_;
     ClothState& cloth_;
+    Bodies& bodies_;
     const WorldPlan& plan_;
     const StepInput& input_;
     const ClothStep& step_;

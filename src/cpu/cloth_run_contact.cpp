@@ -23,10 +23,11 @@ scalar::ContactBody body_between(const Pose& before, const Pose& now) {
 // Lists made before a tile left its box may miss a collider, so each pass of contact begins with a check.
 ColliderPart& ClothRun::cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
     ColliderPart& part = cloth_.near_colliders.part(worker.number);
-    if (substep == 0 && pass.first_iteration)
+    const PassKind first = bodies_.empty() ? PassKind::contact : PassKind::count_touches;
+    if (substep == 0 && pass.kind == first && pass.first_iteration)
         part.begin_frame({mine.begin, mine.end}, !model().collision.meets_surfaces());
     const float left = static_cast<float>(plan_.substeps - substep), seconds = numbers_.h * left;
-    part.cover(passes_, view_, *input_.places,
+    part.cover(passes_, view_, *input_.places, bodies_,
                {.fall = input_.gravity * (0.5f * seconds * seconds), .substeps = left, .margin = numbers_.tile_margin});
     return part;
 }
@@ -35,9 +36,10 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
     if (input_.colliders.empty()) return;
     ColliderPart& part = cover_colliders(pass, substep, mine, worker);
     const bool traces = !cloth_.account.empty();
-    cloth_.face_contacts.clear_near({mine.begin, mine.end});
+    if (bodies_.empty()) cloth_.face_contacts.clear_near({mine.begin, mine.end});
     for (const ColliderRun& run : part.runs()) {
         for (const NearCollider& near : part.near(run)) {
+            if (is_body(near)) continue;
             ContactView view = contact_view(near, substep);
             view.first_iteration = pass.first_iteration;
             view.sums = part.sums(near);
@@ -54,8 +56,33 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
     }
 }
 
+// Before the first sweep of an iteration particles are counted, or the sweep begins the marks of faces.
+void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
+    ColliderPart& part = cover_colliders(pass, substep, mine, worker);
+    const bool traces = !cloth_.account.empty(), counts = pass.kind == PassKind::count_touches;
+    if (counts || !pass.first_iteration) cloth_.face_contacts.clear_near({mine.begin, mine.end});
+    for (const ColliderRun& run : part.runs()) {
+        for (const NearCollider& near : part.near(run)) {
+            if (!is_body(near)) continue;
+            ContactView view = contact_view(near, substep);
+            const BodyView body = bodies_.view(bodies_.body_of(near.collider), worker.number);
+            const auto kind = static_cast<std::uint32_t>(view.kind);
+            if (counts) {
+                passes_.count_touches[kind](view_, view, body, {run.begin, run.end});
+                continue;
+            }
+            view.first_iteration = pass.first_iteration;
+            view.sums = part.sums(near);
+            view.moved = traces ? part.moved(near) : nullptr;
+            view.turned = traces ? part.turned(near) : nullptr;
+            passes_.touch_body[kind](view_, view, body, {run.begin, run.end});
+        }
+    }
+}
+
 ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t substep) const {
     const Collider& collider = input_.colliders[near.collider];
+    const std::uint32_t body = bodies_.body_of(near.collider);
     const auto [static_friction, kinetic_friction] = friction_between(model(), collider);
     return {.kind = static_cast<int>(collider.shape),
             .numbers = collider.numbers,
@@ -63,8 +90,8 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .steepness = steepness_of(collider),
             .roundness = roundness_of(collider),
             .layer_distance = layer_distance_of(collider),
-            .now = input_.places->pose(near.collider, substep + 1),
-            .before = input_.places->pose(near.collider, substep),
+            .now = body == none ? input_.places->pose(near.collider, substep + 1) : bodies_.now(body),
+            .before = body == none ? input_.places->pose(near.collider, substep) : bodies_.before(body),
             .static_friction = static_friction,
             .kinetic_friction = kinetic_friction,
             .half_thickness = numbers_.half_thickness,
@@ -112,12 +139,16 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
             for_each_near_face(
                 worker.number, [&](const ColliderRun& run) { contacts.collect(worker.number, faces, run); },
                 [&](const NearCollider& near) {
-                    contacts.find(passes_, worker.number, view_, faces, near.collider, contact_view(near, substep),
-                                  nearest);
+                    const std::uint32_t body = bodies_.body_of(near.collider);
+                    const bool moved = body != none && bodies_.feels_cloth(body);
+                    const std::size_t found = contacts.find(passes_, worker.number, view_, faces, near.collider,
+                                                            contact_view(near, substep), nearest, moved);
+                    if (moved) bodies_.add_touches(worker.number, body, static_cast<std::uint32_t>(found));
                 });
             break;
         case PassKind::push_faces:
-            contacts.push(passes_, worker.number, view_, pass.batch == face_sweeps, numbers_.depenetration, nearest);
+            contacts.push(passes_, worker.number, view_, bodies_, pass.batch == face_sweeps, numbers_.depenetration,
+                          nearest);
             break;
         case PassKind::move_faces:
             move_faces(pass.batch == face_sweeps, worker);
@@ -137,34 +168,48 @@ void ClothRun::run_face_contact(const Pass& pass, std::uint32_t substep, Worker 
     }
 }
 
-// The log of contacts adds up floats, so with a log one thread does this for all, in the order of the contacts.
+// The log of contacts adds up floats, so with a log one thread does this for all, in the order of the contacts. With
+// bodies too, because they need to know how far each contact moves a particle before any of them is moved.
 void ClothRun::move_faces(bool last, Worker worker) const {
     FaceContacts& contacts = cloth_.face_contacts;
-    if (cloth_.account.empty()) return contacts.move(worker.number, view_);
+    if (cloth_.account.empty() && !contacts.any_of_bodies()) return contacts.move(worker.number, view_);
     if (worker.number != 0) return;
     contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
-        cloth_.near_colliders.trace(particle, collider, by, lever);
+        if (!cloth_.account.empty()) cloth_.near_colliders.trace(particle, collider, by, lever);
+        push_back(particle, collider, by);
     });
     for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_);
 }
 
+// The collider gets the opposite of what it did to a particle, if it is a body. One thread at a time.
+void ClothRun::push_back(std::uint32_t particle, std::uint32_t collider, Vec3 by) const {
+    const std::uint32_t body = bodies_.body_of(collider);
+    if (body == none || !bodies_.feels_cloth(body)) return;
+    const float* x = view_.position + 4 * std::size_t{particle};
+    bodies_.add_push(0, body, by, Vec3{x[0], x[1], x[2]} + by, x[3]);
+}
+
 // Likewise.
 void ClothRun::settle_faces(std::uint32_t substep, Worker worker) const {
-    const bool logs = !cloth_.account.empty();
+    const bool logs = !cloth_.account.empty() || cloth_.face_contacts.any_of_bodies();
     if (logs && worker.number != 0) return;
     for (unsigned of = logs ? 0 : worker.number; of < (logs ? worker.count : worker.number + 1); ++of) {
         cloth_.face_contacts.for_each_held(of, [&](std::uint32_t p, std::uint32_t collider, float part) {
             float* x = view_.position + 4 * std::size_t{p};
             const float* start = view_.start + 4 * std::size_t{p};
             if (!(x[3] > 0)) return;
-            const Pose now = input_.places->pose(collider, substep + 1);
-            const scalar::ContactBody body = body_between(input_.places->pose(collider, substep), now);
+            const std::uint32_t number = bodies_.body_of(collider);
+            const Pose now = number == none ? input_.places->pose(collider, substep + 1) : bodies_.now(number);
+            const scalar::ContactBody body =
+                body_between(number == none ? input_.places->pose(collider, substep) : bodies_.before(number), now);
             const scalar::vec3 at{x[0], x[1], x[2]};
             const scalar::vec3 held =
                 held_place(body, to_body_at_start(body, {start[0], start[1], start[2]}), to_body(body, at), part);
             const Vec3 place{held.x, held.y, held.z};
             const Vec3 before{x[0], x[1], x[2]};
-            if (logs) cloth_.near_colliders.trace(p, collider, place - before, before - now.position);
+            if (!cloth_.account.empty())
+                cloth_.near_colliders.trace(p, collider, place - before, before - now.position);
+            push_back(p, collider, place - before);
             x[0] = place.x, x[1] = place.y, x[2] = place.z;
         });
     }

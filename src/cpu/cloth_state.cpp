@@ -95,9 +95,17 @@ void ClothState::set_topology(std::shared_ptr<const ClothModel> other, std::span
     // After a frame in which the cloth has torn, its arrays are those of the new model already.
     const bool torn = tearing && !tearing->openings().empty() && other->tear_law == model->tear_law &&
                       other->copied_from.size() == tearing->arrays().copied_from.size();
+    const auto shares_rows = [](const ConstraintTable& a, const ConstraintTable& b) {
+        return a.particles.shares(b.particles) && a.fields.shares(b.fields);
+    };
+    const bool only_levels = tearing && tearing->openings().empty() && same_faces && same_masses &&
+                             other->tear_law == model->tear_law &&
+                             std::ranges::equal(other->constraints, model->constraints, shares_rows);
     model = std::move(other);
     find_halves();
-    if (torn) {
+    if (only_levels) {
+        // the arrays stay as they are
+    } else if (torn) {
         tearing->set_model(*model);
     } else {
         begin_tearing();
@@ -314,7 +322,8 @@ void ClothState::begin_frame(const WorldPlan& plan) {
     limits = {found.tension, found.allowed};
 }
 
-void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces) {
+void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces,
+                         bool bodies) {
     const auto has = [](const std::vector<Pass>& passes, PassKind kind) {
         return std::ranges::find(passes, kind, &Pass::kind) != passes.end();
     };
@@ -349,7 +358,7 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     if (line_scratch.size() < workers) line_scratch.resize(workers);
     for (auto& scratch : line_scratch) scratch.resize(line_scratch_floats(longest));
     near_colliders.prepare(padded(model->point_count()), static_cast<std::uint32_t>(colliders), workers,
-                           rounds_of(plan, *model) > 1, contact_forces);
+                           bodies || rounds_of(plan, *model) > 1, contact_forces);
     account.prepare(contact_forces ? colliders : 0, workers);
     if (plan.projection == Projection::jacobi && !gather) {
         gather = std::make_unique<const JacobiGather>(build_gather(*model));

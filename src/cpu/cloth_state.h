@@ -102,7 +102,8 @@ struct ClothState {
     void roll_back();
     Bounds bounds() const;  ///< of the particles where they are; leaves out what is not a number
     /// Allocates what the plan needs besides the particles; the passes do not allocate.
-    void prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces = false);
+    void prepare(const WorldPlan& plan, std::size_t colliders, unsigned workers, bool contact_forces = false,
+                 bool bodies = false);
     /// Computes the limits of tethers and coarse levels from the tension that the last frame left in the cloth.
     void begin_frame(const WorldPlan& plan);
     void end_frame(const WorldPlan& plan, double dt);

@@ -1,5 +1,6 @@
 #include "cpu/collider_lists.h"
 
+#include "cpu/bodies.h"
 #include "solver/plan/frame_numbers.h"
 
 #include <algorithm>
@@ -56,11 +57,13 @@ void ColliderPart::begin_frame(Share mine, bool surfaces) {
 }
 
 void ColliderPart::cover(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
-                         const TileReach& reach) {
+                         const Bodies& bodies, const TileReach& reach) {
     const Range mine{mine_.begin, mine_.end};
     const std::uint32_t outside = passes.first_outside(particles.position, boxes_, mine, 0);
-    if (outside == tiles()) return;
-    search(passes, particles, places, reach, outside);
+    const bool bodies_left = bodies_serial_ != bodies.reach_serial();
+    if (outside == tiles() && !bodies_left) return;
+    search(passes, particles, places, bodies, reach, outside);
+    bodies_serial_ = bodies.reach_serial();
     std::swap(runs_, last_runs_), std::swap(near_, last_near_);
     join_tiles();
     if (keeps_sums_) carry_over(last_runs_, last_near_, sums_, scratch_);
@@ -84,24 +87,33 @@ Bounds ColliderPart::box_of(const ParticleView& particles, std::uint32_t tile, c
     return box.empty() ? box : grown(box, reach.margin + tile_slack_per_way * way * reach.substeps);
 }
 
-// Searches the tiles that have left their boxes, the first of which is `outside`. The other lists stay as they are.
+// Searches the tiles that have left their boxes, the first of which is `outside`, and all if a body has left its own.
+// The other lists stay as they are.
 void ColliderPart::search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
-                          const TileReach& reach, std::uint32_t outside) {
+                          const Bodies& bodies, const TileReach& reach, std::uint32_t outside) {
     const Range mine{mine_.begin, mine_.end};
+    const bool all = bodies_serial_ != bodies.reach_serial();
     next_lists_.colliders.clear();
     next_lists_.begin.clear();
     for (std::uint32_t tile = 0; tile < tiles(); ++tile) {
         next_lists_.begin.push_back(static_cast<std::uint32_t>(next_lists_.colliders.size()));
         const std::span<const std::uint32_t> before = lists_.of(tile);
-        if (tile != outside) {
+        if (tile != outside && !all) {
             next_lists_.colliders.insert(next_lists_.colliders.end(), before.begin(), before.end());
             continue;
         }
-        boxes_[tile].include(box_of(particles, tile, reach));
+        if (tile == outside) {
+            const Bounds box = box_of(particles, tile, reach);
+            if (!box.empty()) boxes_[tile].include(box);
+        }
         found_.clear();
         places.find(boxes_[tile], found_, surfaces_);
+        if (!bodies.empty() && !boxes_[tile].empty()) {
+            bodies.find(boxes_[tile], found_);
+            std::ranges::sort(found_);
+        }
         std::ranges::set_union(before, found_, std::back_inserter(next_lists_.colliders));
-        outside = passes.first_outside(particles.position, boxes_, mine, tile + 1);
+        if (tile == outside) outside = passes.first_outside(particles.position, boxes_, mine, tile + 1);
     }
     next_lists_.begin.push_back(static_cast<std::uint32_t>(next_lists_.colliders.size()));
     std::swap(lists_, next_lists_);

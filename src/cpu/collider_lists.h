@@ -14,6 +14,8 @@
 
 namespace weft::cpu {
 
+class Bodies;
+
 /// What decides how far around a tile to look.
 struct TileReach {
     Vec3 fall;       ///< m: by gravity, in the rest of the frame
@@ -44,7 +46,7 @@ class ColliderPart {
     /// Starts a frame for the particles of a worker. `surfaces`: lists also colliders with a Collider::surface.
     void begin_frame(Share mine, bool surfaces = true);
     /// Makes the lists again if a particle has left its box.
-    void cover(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
+    void cover(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places, const Bodies& bodies,
                const TileReach& reach);
 
     std::span<const ColliderRun> runs() const { return runs_; }
@@ -77,13 +79,14 @@ class ColliderPart {
 
     std::uint32_t tiles() const { return static_cast<std::uint32_t>(boxes_.size()); }
     Bounds box_of(const ParticleView& particles, std::uint32_t tile, const TileReach& reach) const;
-    void search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places,
+    void search(const Passes& passes, const ParticleView& particles, const ColliderPlaces& places, const Bodies& bodies,
                 const TileReach& reach, std::uint32_t outside);
     void join_tiles();
     void carry_over(std::span<const ColliderRun> runs, std::span<const NearCollider> near, AlignedVector<Vec4>& sums,
                     AlignedVector<Vec4>& scratch) const;
 
     Share mine_{};
+    std::uint64_t bodies_serial_ = 0;  ///< Bodies::reach_serial() at the last search
     bool keeps_sums_ = false, traces_ = false, surfaces_ = true;
     std::vector<Bounds> boxes_;  ///< by tile; empty: not searched yet
     Lists lists_, next_lists_;

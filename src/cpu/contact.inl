@@ -100,6 +100,95 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
     }
 }
 
+WEFT_FN MovedBody moved_body(const BodyView& b) {
+    return {real(b.contacts),
+            real(b.inverse_mass),
+            spread(b.center),
+            spread(b.inverse_inertia.x),
+            spread(b.inverse_inertia.y),
+            spread(b.inverse_inertia.z)};
+}
+
+// A particle on a lane, and its distance to a body.
+struct LaneContact {
+    real w, gap, way;
+    vec3 x, start, local, local_at_start, normal;
+};
+
+template <class Shape>
+WEFT_FN LaneContact lane_contact(const ParticleView& p, const ContactBody& body, const Solid& solid, std::size_t i) {
+    LaneContact lane;
+    real unused;
+    lane.x = load_blocks_unordered(p.position + 4 * i, lane.w);
+    lane.start = load_blocks_unordered(p.start + 4 * i, unused);
+    lane.local = to_body(body, lane.x);
+    lane.local_at_start = to_body_at_start(body, lane.start);
+    lane.gap = Shape::distance(lane.local, solid.numbers, lane.normal) - body.half_thickness;
+    const vec3 step = lane.local - lane.local_at_start;
+    lane.way = sqrt(dot(step, step));
+    return lane;
+}
+
+template <class Shape>
+inline void count_touches_pass(const ParticleView& p, const ContactView& c, const BodyView& b, Range range) {
+    const ContactBody body = make_body(c);
+    const Solid solid = solid_of(c);
+    const ContactSum none = {vec3(real(0.0f)), real(0.0f)};
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        const LaneContact lane = lane_contact<Shape>(p, body, solid, i);
+        if (!any(may_touch(lane.gap, none, lane.way, solid, body))) continue;
+        const ContactPlane plane =
+            contact_plane(solid, body, none, lane.local, lane.local_at_start, lane.gap, lane.normal);
+        const mask touches = plane.gap < real(0.0f) && lane.w > real(0.0f);
+        b.sums->touches += static_cast<std::uint32_t>(__builtin_popcount(bits_of(touches)));
+    }
+}
+
+// Adds the opposite of what a contact does to the particles to the sums of the body.
+WEFT_FN void add_to_body(const BodyView& b, vec3 by, vec3 x, real w) {
+    const real momentum = contact_momentum(w, real(b.inv_h));
+    const vec3 impulse = by * momentum, twist = cross(x - spread(b.center), impulse);
+    alignas(64) float quanta[6][16];
+    const real parts[6] = {impulse.x, impulse.y, impulse.z, twist.x, twist.y, twist.z};
+    for (int k = 0; k < 6; ++k) store(to_impulse_quanta(parts[k]), quanta[k]);
+    for (std::uint32_t bits = bits_of(dot(by, by) > real(0.0f)); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+        const auto add = [&](std::uint64_t& sum, float more) {
+            sum += static_cast<std::uint64_t>(static_cast<std::int64_t>(more));
+        };
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            add(b.sums->impulse[axis], quanta[axis][lane]), add(b.sums->twist[axis], quanta[3 + axis][lane]);
+    }
+}
+
+template <class Shape>
+inline void touch_body_pass(const ParticleView& p, const ContactView& c, const BodyView& b, Range range) {
+    const ContactBody body = make_body(c);
+    const Solid solid = solid_of(c);
+    const MovedBody moved = moved_body(b);
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        LaneContact lane = lane_contact<Shape>(p, body, solid, i);
+        ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
+        const std::size_t at = i - range.begin;
+        if (!c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
+        const vec3 before = lane.x;
+        if (any(may_touch(lane.gap, sum, lane.way, solid, body))) {
+            contact_moved_body(solid, body, moved, lane.x, lane.start, lane.w, sum, lane.local, lane.local_at_start,
+                               lane.gap, lane.normal);
+            store_blocks_unordered(lane.x, lane.w, p.position + 4 * i);
+            if (c.moved) trace_pass(c, i - range.begin, before, lane.x);
+            if (b.moved) add_to_body(b, lane.x - before, lane.x, lane.w);
+            const mask touches = sum.push > real(0.0f);
+            b.sums->touches += static_cast<std::uint32_t>(__builtin_popcount(bits_of(touches)));
+        }
+        if (c.near_faces) {
+            const vec3 by = lane.x - before;
+            mark_near_faces(c, solid, at, lane.gap + body.half_thickness, lane.way, dot(by, by) > real(0.0f));
+        }
+        store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * at);
+    }
+}
+
 // Appends the contacts of the lanes in `listed`.
 WEFT_FN void append_rows(const std::uint32_t (&corners)[3][16], mask listed, const FaceRow& row, FaceRows& to) {
     alignas(64) float weights[4 * 16], plane[4 * 16], start[4 * 16], gaps[4 * 16], lever[4 * 16],
@@ -241,11 +330,12 @@ WEFT_FN void add_face_pushes(const std::uint32_t* corners, vec3 push, mask acts,
     }
 }
 
-inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, bool last, float depenetration, float nearest,
-                            const FaceSums& to) {
-    for (std::size_t i = 0; i < rows.count; i += lane_count) {
+// On lanes `begin` is a multiple of their number.
+inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, std::size_t begin, std::size_t end, bool last,
+                            float depenetration, float nearest, const FaceSums& to) {
+    for (std::size_t i = begin; i < end; i += lane_count) {
         const FaceRow row = load_row(rows, i, depenetration);
-        const std::size_t left = rows.count - i;
+        const std::size_t left = end - i;
         const mask mine = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu);
         real w[3];
         vec3 x[3];
@@ -274,5 +364,35 @@ inline void push_faces_pass(const ParticleView& p, const FaceRows& rows, bool la
         }
         for (int k = 0; k < 3; ++k)
             add_face_pushes(rows.corners[static_cast<std::size_t>(k)] + i, push[k], mine && w[k] > real(0.0f), to);
+    }
+}
+
+inline void push_faces_of_body_pass(const ParticleView& p, const FaceRows& rows, std::size_t begin, std::size_t end,
+                                    float depenetration, const BodyView& b, const Pose& found, const Pose& now,
+                                    const FaceSums& to) {
+    const MovedBody moved = moved_body(b);
+    const vec3 fx = spread(found.rotation.x), fy = spread(found.rotation.y), fz = spread(found.rotation.z),
+               f = spread(found.position), nx = spread(now.rotation.x), ny = spread(now.rotation.y),
+               nz = spread(now.rotation.z), n = spread(now.position);
+    for (std::size_t i = begin; i < end; i += lane_count) {
+        const FaceRow row = load_row(rows, i, depenetration);
+        const std::size_t left = end - i;
+        const mask mine = mask_of(left < 16 ? (1u << left) - 1u : 0xffffu);
+        real w[3];
+        vec3 x[3];
+        for (int k = 0; k < 3; ++k) x[k] = gather_blocks(p.position, rows.corners[static_cast<std::size_t>(k)] + i, w[k]);
+        const real weights[3] = {row.weights.x, row.weights.y, row.weights.z};
+        const vec3 point = x[0] * weights[0] + x[1] * weights[1] + x[2] * weights[2];
+        const vec3 carried = (rotate(nx, ny, nz, unrotate(fx, fy, fz, point - f)) + n) - point;
+        real inverse_mass = real(0.0f);
+        for (int k = 0; k < 3; ++k) inverse_mass = inverse_mass + w[k] * weights[k] * weights[k];
+        ContactSum sum;
+        sum.friction = load_blocks(rows.sum + 4 * i, sum.push);
+        const vec3 displacement = face_displacement_of_body(row, point, inverse_mass, sum, carried, moved);
+        store_blocks(sum.friction, sum.push, rows.sum + 4 * i);
+        store_blocks(displacement, row.swept, rows.displacement + 4 * i);
+        for (int k = 0; k < 3; ++k)
+            add_face_pushes(rows.corners[static_cast<std::size_t>(k)] + i, displacement * (w[k] * weights[k]),
+                            mine && w[k] > real(0.0f), to);
     }
 }

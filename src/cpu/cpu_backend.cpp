@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace weft {
 namespace {
@@ -27,6 +28,7 @@ class CpuBackend final : public Backend {
                (passes_.lanes == 1 ? " lane" : " lanes");
     }
     unsigned threads() const override { return team_.size(); }
+    bool moves_bodies() const override { return true; }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         make_room(*model, base);
@@ -86,6 +88,7 @@ class CpuBackend final : public Backend {
         while (islands_.size() < step.islands.size()) islands_.push_back(std::make_unique<Island>());
         for (std::size_t i = 0; i < step.islands.size(); ++i) begin_island(step, step.islands[i], *islands_[i]);
         run(step, jobs());
+        if (jobs().empty() && !step.input.bodies.empty()) run_bodies_alone(step);
         for (std::size_t i = 0; i < step.islands.size(); ++i) group_again(step, *islands_[i]);
         for (const cpu::Executor::Job& job : jobs()) {
             if (job.adhesion) add_counts(*job.adhesion);
@@ -180,7 +183,18 @@ class CpuBackend final : public Backend {
         island.near.begin(of, island.cloths, step.input);
         constexpr std::array<std::uint32_t, 1> only_part{0};
         if (of.parts.size() == 1) return make_job(step, island, only_part, next_job());
+        if (!step.input.bodies.empty()) {
+            std::vector<std::uint32_t> all(of.parts.size());
+            std::iota(all.begin(), all.end(), 0u);
+            return make_job(step, island, all, next_job());
+        }
         for (const auto& parts : island.near.groups()) make_job(step, island, parts, next_job());
+    }
+
+    void run_bodies_alone(const WorldStep& step) {
+        bodies_.prepare(step, 1);
+        bodies_.run_alone(*step.plan);
+        if (bodies_.all_finite()) bodies_.finish();
     }
 
     // Keeps the memory that earlier frames have allocated.
@@ -194,6 +208,7 @@ class CpuBackend final : public Backend {
                   cpu::Executor::Job& job) {
         job.step = island.step;
         job.again = false;
+        job.bodies = step.input.bodies.empty() ? &no_bodies_ : &bodies_;
         job.steps.clear(), job.cloths.clear(), job.links.clear(), job.swept.clear();
         bool collides = false, has_spheres = false;
         for (const std::uint32_t number : parts) {
@@ -205,7 +220,8 @@ class CpuBackend final : public Backend {
                 job.steps.push_back(&island.step->cloths[i]);
                 job.cloths.push_back(island.cloths[i]);
                 island.cloths[i]->rests = model.collision.surface && job.steps.back()->targets.empty();
-                if (island.step->parts.size() > 1) job.swept.push_back(&island.near.swept(i));
+                if (island.step->parts.size() > 1 && step.input.bodies.empty())
+                    job.swept.push_back(&island.near.swept(i));
             }
             if (part.links) job.links.push_back({part.links, &place(island.step->cloths[part.begin].cloth).links});
         }
@@ -225,6 +241,7 @@ class CpuBackend final : public Backend {
 
     // Cloths that have come near each other without stepping together are taken back, and the frame runs again.
     void group_again(const WorldStep& step, Island& island) {
+        if (!step.input.bodies.empty()) return;  // all step together
         while (island.near.merge()) {
             std::vector<cpu::Executor::Job> grown;
             for (const auto& parts : island.near.groups()) {
@@ -295,7 +312,7 @@ class CpuBackend final : public Backend {
             if (one.contact_forces && !job.cloths[i]->account.empty())
                 job.cloths[i]->account.collect(*one.contact_forces);
         }
-        if (!(all & report_non_finite)) return;
+        if (!(all & report_non_finite)) return job.bodies->finish();
         for (cpu::ClothState* state : job.cloths) state->roll_back();
         const std::string culprit = executor_.find_non_finite(step, job);
         for (std::size_t i = 0; i < job.cloths.size(); ++i) {
@@ -322,6 +339,7 @@ class CpuBackend final : public Backend {
     ListCounts counts_;                  // of the last frame
     ClothContactCounts contact_counts_;  // of the last frame
     cpu::WorldArrays arrays_;
+    cpu::Bodies bodies_, no_bodies_;
     std::array<double, stage_count> stage_ms_{};
     std::vector<std::unique_ptr<Place>> cloths_;  // by handle
 };

@@ -70,8 +70,10 @@ void Executor::run(const WorldStep& step, std::span<Job> jobs, std::array<double
 void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
     for (ClothState* cloth : job.cloths) {
         if (cloth->model->collision.surface) continue;
-        cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces);
+        cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces,
+                       !step.input.bodies.empty());
     }
+    job.bodies->prepare(step, workers);
     for (const Job::Links& links : job.links) links.state->prepare(*links.tables, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});
     for (std::size_t i = 0; i < job.swept.size(); ++i)
@@ -99,7 +101,7 @@ void Executor::begin_island(const WorldStep& step, const Job& job, std::vector<C
         // The limits follow from the state after the previous frame. A repeated frame keeps them, since its first run
         // has overwritten that state.
         if (!job.again) job.cloths[i]->begin_frame(*step.plan);
-        runs.emplace_back(passes_, *job.cloths[i], step, *job.steps[i]);
+        runs.emplace_back(passes_, *job.cloths[i], *job.bodies, step, *job.steps[i]);
     }
 }
 
@@ -118,6 +120,7 @@ void Executor::run_together(const WorldStep& step, Job& job, unsigned workers,
     for (std::size_t i = 0; i < job.cloths.size(); ++i) {
         job.cloths[i]->end_frame(*step.plan, step.input.dt);
         for (unsigned worker = 0; worker < workers; ++worker) job.reports[i] |= scratch_[worker].reports[i];
+        if (!job.bodies->all_finite()) job.reports[i] |= report_non_finite;
     }
 }
 
@@ -183,6 +186,10 @@ void Executor::run_pass(const Island& island, const IslandPass& pass, std::uint3
                              world.range(0, world.size()).view(), h, worker);
         return;
     }
+    if (is_body_pass(pass.pass.kind)) {
+        if (worker.number == 0) island.job.bodies->run(pass.pass);
+        return;
+    }
     // The island's plan has the passes of all its cloths; those of the job may have no part in contact.
     if (is_cloth_contact(pass.pass.kind)) {
         if (!island.job.cloth_contact) return;
@@ -213,6 +220,7 @@ std::string Executor::find_non_finite(const WorldStep& step, const Job& job) {
     }
     const FlushSubnormals flush;
     WorkerScratch& scratch = scratch_.front();
+    job.bodies->prepare(step, 1);
     begin_island(step, job, scratch.runs);
     const Island island{step, job, scratch.runs};
     const std::span reports(scratch.reports.data(), scratch.runs.size());

@@ -3,6 +3,7 @@
 
 #include "base/workers.h"
 #include "cpu/adhesion_list.h"
+#include "cpu/bodies.h"
 #include "cpu/cloth_contact/cloth_contact.h"
 #include "cpu/cloth_run.h"
 #include "cpu/links.h"
@@ -34,6 +35,7 @@ class Executor {
         AdhesionList* adhesion = nullptr;             ///< null if nothing sticks
         ClothContact* cloth_contact = nullptr;        ///< null if no cloth collides exactly
         ParticleContact* particle_contact = nullptr;  ///< null if no cloth collides by particles
+        Bodies* bodies = nullptr;                     ///< of the world; the job has all cloths if there are any
         bool again = false;                           ///< the frame is repeated from the same state
         std::vector<std::uint32_t> reports = {};      ///< out: per cloth; run() does not roll back non-finite ones
     };

@@ -88,6 +88,7 @@ void FaceContacts::begin(unsigned worker) {
     Part& part = parts_[worker];
     part.rows.count = 0;
     part.rows.any_swept = false;
+    part.any_of_bodies = false;
     part.groups.clear();
     part.held.clear();
 }
@@ -122,6 +123,11 @@ void hold_corner(const FaceView& faces, std::uint32_t particle, std::uint32_t pa
 bool FaceContacts::any_swept() const {
     const auto first = parts_.begin();
     return std::any_of(first, first + workers_, [](const Part& part) { return part.rows.any_swept; });
+}
+
+bool FaceContacts::any_of_bodies() const {
+    const auto first = parts_.begin();
+    return std::any_of(first, first + workers_, [](const Part& part) { return part.any_of_bodies; });
 }
 
 void FaceContacts::clear_near(Range particles) {
@@ -159,15 +165,17 @@ FaceView FaceContacts::view(const Part& part, const FacesByTile& faces, float ne
             .count = part.item_count};
 }
 
-void FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-                        std::uint32_t collider, const ContactView& contact, float nearest) {
+std::size_t FaceContacts::find(const Passes& passes, unsigned worker, const ParticleView& particles,
+                               const FacesByTile& faces, std::uint32_t collider, const ContactView& contact,
+                               float nearest, bool is_body) {
     Part& part = parts_[worker];
-    if (part.item_count == 0) return;
+    if (part.item_count == 0) return 0;
     make_room(part, part.rows.count + part.item_count);
     const std::size_t before = part.rows.count;
     passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, view(part, faces, nearest),
                                                                 part.rows);
-    if (part.rows.count == before) return;
+    if (part.rows.count == before) return 0;
+    part.any_of_bodies = part.any_of_bodies || is_body;
     if (!part.groups.empty() && part.groups.back().collider == collider)
         part.groups.back().end = part.rows.count;
     else
@@ -177,6 +185,7 @@ void FaceContacts::find(const Passes& passes, unsigned worker, const ParticleVie
         for (const std::uint32_t* corners : part.rows.corners)
             std::atomic_ref(swept_[corners[i]]).store(1, std::memory_order_relaxed);
     }
+    return part.rows.count - before;
 }
 
 void FaceContacts::hold(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
@@ -189,7 +198,7 @@ void FaceContacts::hold(const Passes& passes, unsigned worker, const ParticleVie
     passes.find_faces[static_cast<std::uint32_t>(contact.kind)](particles, contact, of, part.rows);
 }
 
-void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last,
+void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleView& particles, Bodies& bodies, bool last,
                         float depenetration, float nearest) {
     Part& part = parts_[worker];
     part.pushed.clear();
@@ -197,8 +206,23 @@ void FaceContacts::push(const Passes& passes, unsigned worker, const ParticleVie
     // Lanes beyond the last contact read valid particles.
     for (std::size_t k = 0; k < 3 && part.rows.count > 0; ++k)
         std::fill_n(part.rows.corners[k] + part.rows.count, lane_padding, 0u);
-    passes.push_faces(particles, part.rows, last, depenetration, nearest,
-                      {&target, workers_ > 1 ? add_shared : add_alone});
+    const FaceSums sums{&target, workers_ > 1 ? add_shared : add_alone};
+    if (!part.any_of_bodies) {
+        passes.push_faces(particles, part.rows, 0, part.rows.count, last, depenetration, nearest, sums);
+        return;
+    }
+    // Groups begin anywhere, so their contacts come one at a time.
+    std::size_t begin = 0;
+    for (const Group& group : part.groups) {
+        const std::uint32_t body = bodies.body_of(group.collider);
+        if (last || body == none || !bodies.feels_cloth(body)) {
+            scalar_passes().push_faces(particles, part.rows, begin, group.end, last, depenetration, nearest, sums);
+        } else {
+            scalar_passes().push_faces_of_body(particles, part.rows, begin, group.end, depenetration,
+                                               bodies.view(body, worker), bodies.found(body), bodies.now(body), sums);
+        }
+        begin = group.end;
+    }
 }
 
 Vec3 FaceContacts::push_of(const FaceRows& rows, std::size_t contact, std::size_t corner, bool last) {

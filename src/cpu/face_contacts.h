@@ -3,6 +3,7 @@
 
 #include "base/aligned.h"
 #include "base/workers.h"
+#include "cpu/bodies.h"
 #include "cpu/collider_lists.h"
 #include "cpu/passes.h"
 #include "physics/scalar.h"
@@ -36,11 +37,14 @@ class FaceContacts {
     /// Ends the calls for the collected faces.
     void drop_collected(unsigned worker) { parts_[worker].item_count = 0; }
     /// Appends the contacts of the collected faces with a collider.
-    void find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
-              std::uint32_t collider, const ContactView& contact, float nearest);
+    /// Returns how many.
+    std::size_t find(const Passes& passes, unsigned worker, const ParticleView& particles, const FacesByTile& faces,
+                     std::uint32_t collider, const ContactView& contact, float nearest, bool is_body);
     /// Adds the pushes of a worker's contacts. `last`: of the sweep that keeps faces from passing.
-    void push(const Passes& passes, unsigned worker, const ParticleView& particles, bool last, float depenetration,
-              float nearest);
+    void push(const Passes& passes, unsigned worker, const ParticleView& particles, Bodies& bodies, bool last,
+              float depenetration, float nearest);
+    /// Whether there are contacts with bodies that cloth moves. Valid for all workers after all have found theirs.
+    bool any_of_bodies() const;
     /// Moves the particles whose first push came from a contact of this worker.
     void move(unsigned worker, const ParticleView& particles);
     /// Calls visit(particle, collider, push, lever): what each contact's push does to a particle, and where the contact
@@ -75,6 +79,7 @@ class FaceContacts {
         std::vector<std::uint32_t> pushed, held;
         std::vector<std::uint32_t> items;  ///< faces to look at
         std::uint32_t item_count = 0;
+        bool any_of_bodies = false;
     };
 
     static void collect(Part& part, const std::uint8_t* marks, const FacesByTile& faces, const ColliderRun& run);

@@ -63,56 +63,61 @@ inline void lines_of_block(const ParticleView& p, const RowView& rows, std::size
     scatter_blocks(a + pull * wa, wa, p.position, rows.particles + begin);
 }
 
+// Whether all lines go on from the constraint before row `r` to that at row `r`.
+WEFT_FN bool all_go_on(const std::uint32_t* first, const std::uint32_t* second, std::size_t r) {
+    constexpr std::uint32_t all = (std::uint32_t{2} << (lane_count - 1)) - 1;
+    return bits_of(same_index(first + r, second + r - lane_padding)) == all;
+}
+
 // The same for a block in which lines end: a constraint may begin at another particle than that at which the one before
-// it ends. Gives the bits of lines_of_block() where they are the same.
+// it ends. Few do, so where all lines go on, particles are read and written once, as above. Gives the bits of
+// lines_of_block() where the particles are the same.
 template <LambdaUse use>
 inline void lines_of_cut_block(const ParticleView& p, const RowView& rows, std::size_t begin, std::size_t length,
                                const Step& step, const LineScratch& scratch) {
     const std::uint32_t *first = rows.particles, *second = rows.particles + rows.stride;
     LineRow before = line_start();
+    real wa, wb;
+    vec3 a = gather_blocks(p.position, first + begin, wa);
     for (std::size_t k = 0; k < length; ++k) {
         const std::size_t r = begin + k * lane_padding;
-        real wa, wb;
-        const vec3 a = gather_blocks(p.position, first + r, wa), b = gather_blocks(p.position, second + r, wb);
-        if (k > 0) {
-            const mask goes_on = same_index(first + r, second + r - lane_padding);
-            before.n = select(goes_on, before.n, vec3(real(0.0f)));
+        if (k > 0 && !all_go_on(first, second, r)) {
+            a = gather_blocks(p.position, first + r, wa);
+            before.n = select(same_index(first + r, second + r - lane_padding), before.n, vec3(real(0.0f)));
         }
+        const vec3 b = gather_blocks(p.position, second + r, wb);
         const real lambda = use == LambdaUse::accumulate ? load(rows.lambda + r) : real(0.0f);
         const LineRow now = eliminate_stretch(before, a, b, wa, wb, lambda,
                                               StretchTraits::load_row(rows.fields + r, rows.stride), step);
         if (k > 0) scratch.keep_factor(k - 1, before.factor);
         scratch.keep_row(k, now);
         scratch.keep_point(k, a, wa);
-        before = now;
+        before = now, a = b, wa = wb;
     }
     scratch.keep_factor(length - 1, real(0.0f));
 
     vec3 pull(real(0.0f));  // of the constraint processed before
     real next = real(0.0f);
     for (std::size_t k = length; k-- > 0;) {
-        const std::size_t r = begin + k * lane_padding;
+        const std::size_t r = begin + k * lane_padding, after = r + lane_padding;
         const LineRow row = scratch.row(k);
         next = substitute_stretch(row, next);
         if (use == LambdaUse::store) store(next, rows.lambda + r);
         if (use == LambdaUse::accumulate) store(load(rows.lambda + r) + next, rows.lambda + r);
         const vec3 mine = row.n * next;
-        real w;
-        const vec3 end = gather_blocks(p.position, second + r, w);  // no constraint has moved it yet
-        if (k + 1 == length) {
-            scatter_blocks(end + (pull - mine) * w, w, p.position, second + r);
+        if (k + 1 == length || all_go_on(first, second, after)) {
+            scatter_blocks(a + (pull - mine) * wa, wa, p.position, second + r);
         } else {
-            const mask goes_on = same_index(first + r + lane_padding, second + r);
-            real wn;
-            const vec3 start = scratch.point(k + 1, wn);
-            scatter_blocks(start + pull * wn, wn, p.position, first + r + lane_padding);
+            real w;
+            const vec3 end = gather_blocks(p.position, second + r, w);  // no constraint has moved it yet
+            scatter_blocks(a + pull * wa, wa, p.position, first + after);
+            const mask goes_on = same_index(first + after, second + r);
             scatter_blocks(end + (select(goes_on, pull, vec3(real(0.0f))) - mine) * w, w, p.position, second + r);
         }
         pull = mine;
+        a = scratch.point(k, wa);
     }
-    real w;
-    const vec3 a = scratch.point(0, w);
-    scatter_blocks(a + pull * w, w, p.position, first + begin);
+    scatter_blocks(a + pull * wa, wa, p.position, first + begin);
 }
 
 template <LambdaUse use>

@@ -64,6 +64,23 @@ struct ContactView {
     float nearest = 0, widest = 0;  ///< m: nearest_of_faces(), widest_face()
 };
 
+/// Pushes of cloth on a body, in the quanta of contact_forces.kernel.h: sums wrap around.
+struct BodySums {
+    std::array<std::uint64_t, 3> impulse{}, twist{};
+    std::uint32_t touches = 0;  ///< particles that push it
+};
+
+/// A body that gives way to cloth, in a sweep.
+struct BodyView {
+    float contacts;        ///< that share it
+    float inverse_mass;    ///< 1/kg
+    Vec3 center;           ///< m, of mass
+    Mat3 inverse_inertia;  ///< in world axes
+    float inv_h;           ///< 1/s
+    BodySums* sums;
+    bool moved;  ///< it takes part of the way; otherwise `sums` only counts
+};
+
 /// Triangles in the order of FacesByTile, and what decides about their contact with a collider.
 struct FaceView {
     const std::uint32_t* corners;  ///< [corner · stride + triangle]
@@ -215,12 +232,22 @@ struct Passes {
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact;
     /// Also adds the displacements of particles to the log.
     std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> contact_traced;
+    /// Counts the particles that touch a body.
+    std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count>
+        count_touches;
+    /// Like `contact`, but the body takes its share: adds to its sums.
+    std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count> touch_body;
     /// Appends the contacts of triangles with a collider.
     std::array<void (*)(const ParticleView&, const ContactView&, const FaceView&, FaceRows&), shape_kind_count>
         find_faces;
-    /// Adds the pushes of all contacts to the particles' sums. `last`: of the sweep that keeps faces from passing.
-    void (*push_faces)(const ParticleView&, const FaceRows&, bool last, float depenetration, float nearest,
-                       const FaceSums&);
+    /// Adds the pushes of all contacts from `begin` to `end` to the particles' sums. `last`: of the sweep that keeps
+    /// faces from passing.
+    void (*push_faces)(const ParticleView&, const FaceRows&, std::size_t begin, std::size_t end, bool last,
+                       float depenetration, float nearest, const FaceSums&);
+    /// Likewise, but each body takes its share; those from `begin` to `end`, which are contacts of one body.
+    void (*push_faces_of_body)(const ParticleView&, const FaceRows&, std::size_t begin, std::size_t end,
+                               float depenetration, const BodyView&, const Pose& found, const Pose& now,
+                               const FaceSums&);
     /// Adds to the wind of each triangle, or sets it; with AirView::sheltered, sets that. One entry per kind of wind.
     std::array<void (*)(const AirView&, const WindNow&, bool first, Range), wind_kind_count> wind;
     /// Marks triangles that have the collider within `reach` m against AirView::sheltered.

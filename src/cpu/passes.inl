@@ -375,12 +375,23 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+#define WEFT_SHAPE(name, Name) count_touches_pass<Name##Shape>,
+        .count_touches = {
+#include "physics/contact/shapes.def"
+        },
+#undef WEFT_SHAPE
+#define WEFT_SHAPE(name, Name) touch_body_pass<Name##Shape>,
+        .touch_body = {
+#include "physics/contact/shapes.def"
+        },
+#undef WEFT_SHAPE
 #define WEFT_SHAPE(name, Name) find_faces_pass<Name##Shape>,
         .find_faces = {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
         .push_faces = push_faces_pass,
+        .push_faces_of_body = push_faces_of_body_pass,
 #define WEFT_WIND(name, Name) wind_pass<Name##Wind>,
         .wind = {
 #include "physics/air/winds.def"

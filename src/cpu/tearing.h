@@ -38,9 +38,14 @@ class Tearing {
   private:
     void list_ends(const ClothModel& model);
     void begin_watching(const ClothModel& model);
-    TearView view(const ClothModel& model, const float* position, std::vector<std::uint16_t>& hot) const;
+    TearView view(const ClothModel& model, const float* position, const float* limits,
+                  std::vector<std::uint16_t>& hot) const;
     void add_watched(const ClothModel& model, std::uint32_t particle);
     void list_loaded(const Passes& passes, const ClothModel& model, const float* position);
+    void add_loaded(std::uint32_t particle);
+    void add_ends_around(const scalar::TearAccess& access, std::uint32_t particle);
+    void find_loads(const scalar::TearAccess& access, std::span<const float> weights, std::size_t from);
+    void limit_end(const scalar::TearAccess& access, std::uint32_t particle);
     void add_around(const ClothModel& model, std::uint32_t vertex);
     void open(const scalar::TearAccess& access, const scalar::TearOpening& opening, const Particles& now,
               std::span<float> weights);
@@ -52,16 +57,18 @@ class Tearing {
     std::vector<std::uint32_t> vertex_;            ///< per particle
     std::vector<std::uint16_t> hot_;               ///< per lane_padding triangles: a bit for each that is watched
     std::vector<std::uint32_t> ends_;              ///< particles at which a cut ends, ascending
+    AlignedVector<float> limits_;                  ///< as TearLaw::watch, with the limits of these ends
     std::vector<std::uint8_t> is_watched_;         ///< per particle
     std::vector<std::uint32_t> watched_;           ///< particles
     std::vector<std::uint32_t> near_;              ///< packets of the triangles at watched particles
     std::vector<std::uint8_t> is_near_;            ///< per packet
     std::vector<std::uint16_t> loaded_triangles_;  ///< as hot_, in this substep; valid in near packets
     std::vector<std::uint8_t> is_loaded_;          ///< per particle
-    std::vector<std::uint32_t> loaded_;            ///< watched particles that may open in this substep
-    std::vector<scalar::TearLoad> loads_;          ///< per particle; no load unless it is loaded
-    std::vector<std::uint32_t> chosen_;            ///< particles
-    std::vector<ParticleWeight> weights_before_;   ///< those that this frame has changed, in the order of the changes
+    /// Watched particles that may open in this substep, and ends around them.
+    std::vector<std::uint32_t> loaded_;
+    std::vector<scalar::TearLoad> loads_;         ///< per particle; no load unless it is loaded
+    std::vector<std::uint32_t> chosen_;           ///< particles
+    std::vector<ParticleWeight> weights_before_;  ///< those that this frame has changed, in the order of the changes
 };
 
 }  // namespace weft::cpu

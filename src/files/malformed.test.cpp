@@ -194,7 +194,7 @@ TEST(MalformedSimulation, bytes_that_are_not_a_saved_state) {
     EXPECT_EQ(refusal(std::span(whole).first(whole.size() / 2)), "state: is damaged: its checksum does not fit");
     std::vector<std::byte> later = whole;
     later[4] = std::byte{77};
-    EXPECT_EQ(refusal(later), "state: has version 77, this weft reads 6");
+    EXPECT_EQ(refusal(later), "state: has version 77, this weft reads 7");
     EXPECT_EQ(refusal(whole), "none");
 }
 

@@ -86,6 +86,7 @@ TEST(TurningMesh, as_a_solid_carries_cloth_along) {
     expect_carried(MeshContact::solid);
 }
 
+// Labels: slow no-asan
 TEST(TurningMesh, as_a_surface_carries_cloth_along) {
     expect_carried(MeshContact::surface);
 }
@@ -102,6 +103,7 @@ float height(Vec4 p) {
     return p.y - 0.12f * std::sin(5 * p.x) * std::cos(4 * p.z) - 0.03f * std::sin(23 * p.x + 5 * p.z);
 }
 
+// Labels: slow no-asan
 TEST(OpenMesh, of_100000_triangles_holds_cloth) {
     SceneDesc scene = with_sheet(0.6f, 21, {.position = {0.013f, 0.2f, 0.007f}, .rotation_degrees = {8, 17, 0}},
                                  SelfCollision::exact);

@@ -45,6 +45,7 @@ SolidMeshDesc ball_mesh() {
     return {.mesh = make_sphere(ball_radius, 4), .resolution = 48};
 }
 
+// Labels: slow no-asan
 TEST(MeshColliders, hold_cloth_as_the_shape_does_that_they_are_made_from) {
     const auto on_ball = drape_on({.shape = SphereDesc{ball_radius}});
     for (const ColliderDesc& collider :

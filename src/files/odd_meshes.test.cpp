@@ -115,6 +115,7 @@ void expect_alike(const Lying& one, const Lying& other, double rms, double large
     EXPECT_LT(other.deepest, 1e-3) << name;
 }
 
+// Labels: slow no-asan
 TEST(OddMeshes, without_a_part_hold_cloth_as_the_closed_ones) {
     const TriangleMesh ball = make_sphere(0.2f, 4);
     const Lying on_ball = lie_on({solid_of_mesh(ball)});

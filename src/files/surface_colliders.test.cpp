@@ -86,6 +86,7 @@ int frames_crossed(SceneWorld& world, int frames) {
     return crossed;
 }
 
+// Labels: slow no-asan
 TEST(SurfaceColliders, stop_a_sheet_thrown_at_a_plate_flat_and_edge_on) {
     std::mt19937 random(7);
     const auto angle = [&] { return static_cast<float>(random() % 360); };
@@ -277,6 +278,7 @@ SceneDesc busy_scene() {
     return scene;
 }
 
+// Labels: slow no-asan
 TEST(SurfaceColliders, give_the_same_bits_for_any_number_of_threads) {
     for (const SceneDesc& scene : {busy_scene(), hit_scene(10, false), hit_scene(5, true, 40)}) {
         std::string first;

@@ -7,6 +7,7 @@
 #include "physics/exponential.kernel.h"
 #include "physics/accumulate.kernel.h"
 #include "physics/integrate/integrate.kernel.h"
+#include "physics/body/body.kernel.h"
 #include "physics/surface/normals.kernel.h"
 #include "physics/surface/tangents.kernel.h"
 #include "physics/surface/follow.kernel.h"
@@ -42,5 +43,6 @@
 #undef WEFT_SHAPE_KERNELS
 #include "physics/contact/swept.kernel.h"
 #include "physics/contact/face.kernel.h"
+#include "physics/body/body_contact.kernel.h"
 #include "physics/air/shelter.kernel.h"
 // clang-format on

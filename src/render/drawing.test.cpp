@@ -70,6 +70,7 @@ TEST_F(VulkanDrawing, the_same_drawing_gives_the_same_bytes) {
     EXPECT_EQ(draw().rgba, first.rgba);
 }
 
+// Labels: slow no-asan
 TEST_F(VulkanDrawing, more_samples_show_the_same_more_smoothly) {
     Vec3 sums[4];
     Image8 images[4];

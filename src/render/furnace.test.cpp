@@ -89,6 +89,7 @@ TEST_F(VulkanFurnace, no_material_is_brighter_than_what_is_around_it) {
     }
 }
 
+// Labels: slow no-asan
 TEST_F(VulkanFurnace, flat_materials_show_the_albedo_that_a_grid_of_directions_finds) {
     for (const MaterialPreset& preset : material_presets()) {
         Material material = white(preset.material);

@@ -390,11 +390,18 @@ void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problem
 }
 
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
-                       const std::string& pointer, Problems& problems) {
-    for (std::size_t i = 0; i < pins.size(); ++i)
-        if (!pins[i].attach.empty() && std::ranges::find(names, pins[i].attach) == names.end())
-            problems.add(at(at(pointer, i), "attach"), "unknown collider " + in_quotes(pins[i].attach) +
-                                                           suggestion(pins[i].attach, {names.begin(), names.end()}));
+                       std::span<const SceneCollider> colliders, const std::string& pointer, Problems& problems) {
+    for (std::size_t i = 0; i < pins.size(); ++i) {
+        const std::string& to = pins[i].attach;
+        if (to.empty()) continue;
+        const std::string place = at(at(pointer, i), "attach");
+        const auto name = std::ranges::find(names, to);
+        if (name == names.end())
+            problems.add(place, "unknown collider " + in_quotes(to) + suggestion(to, {names.begin(), names.end()}));
+        else if (colliders[static_cast<std::size_t>(name - names.begin())].body)
+            problems.add(place, "must not name a body, got " + in_quotes(to) +
+                                    ": pins would not pull on it; \"static\" and \"keys\" are possible");
+    }
 }
 
 void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& problems) {
@@ -413,6 +420,28 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
     check_material(cloth.material, at(pointer, "material"), problems);
 }
 
+namespace {
+
+void check_body(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
+    const BodyDesc& body = *collider.body;
+    const std::string place = at(at(pointer, "motion"), "dynamic");
+    check_values(rigid_body_parameters, &body, place, problems);
+    if (!collider.motion.empty())
+        problems.add(place, "must not stand beside \"keys\": a body moves by forces, not by keys");
+    if (std::holds_alternative<PlaneDesc>(collider.shape))
+        problems.add(place, "must not stand beside \"plane\": a plane has no volume, so it cannot be a body");
+    const auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape);
+    if (mesh && mesh->contact == MeshContact::surface)
+        problems.add(at(at(pointer, "mesh"), "contact"),
+                     "must not be \"surface\" with a \"dynamic\" motion: bodies are solids");
+    const std::string moments = at(place, "inertia");
+    if (const auto what = inertia_problem(body.inertia); !what.empty() && !problems.concern(moments))
+        problems.add(moments, std::string(what) + ", got [" + number_text(body.inertia.x) + ", " +
+                                  number_text(body.inertia.y) + ", " + number_text(body.inertia.z) + "]");
+}
+
+}  // namespace
+
 void check_collider(const ColliderDesc& collider, const std::string& pointer, Problems& problems) {
     check_values(collider_keys, &collider, pointer, problems);
 #define WEFT_SHAPE(name, Name)                                        \
@@ -422,6 +451,7 @@ void check_collider(const ColliderDesc& collider, const std::string& pointer, Pr
 #undef WEFT_SHAPE
     check_values(pose_keys, &collider.transform, at(pointer, "transform"), problems);
     check_keys(collider.motion, pose_key_keys, at(at(pointer, "motion"), "keys"), problems);
+    if (collider.body) check_body(collider, pointer, problems);
 }
 
 void check_mesh_point(const MeshPoint& point, const std::string& pointer, Problems& problems) {
@@ -485,7 +515,7 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     const std::vector<std::string> called = collider_names(scene);
     const std::vector<std::string_view> names(called.begin(), called.end());
     for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-        check_attachments(scene.cloths[i].pins, names, at(at("/cloths", i), "pins"), problems);
+        check_attachments(scene.cloths[i].pins, names, scene.colliders, at(at("/cloths", i), "pins"), problems);
     check_names(scene.stitches, "/stitches", problems);
     const std::vector<std::string> sheets = cloth_names(scene);
     const std::vector<std::string_view> sheet_names(sheets.begin(), sheets.end());

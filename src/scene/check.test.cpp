@@ -223,6 +223,42 @@ TEST(CheckScene, ChecksBoxesAndNormals) {
                 ElementsAre("/colliders/0/plane/normal: must not be zero"));
 }
 
+TEST(CheckScene, ChecksBodies) {
+    const auto with = [](const ColliderDesc& collider) {
+        return problems_after([&](SceneDesc& s) { s.colliders[1] = collider; });
+    };
+    EXPECT_THAT(with({.name = "a", .shape = SphereDesc{}, .body = BodyDesc{.mass = 3}}), ElementsAre());
+    EXPECT_THAT(with({.name = "a", .shape = PlaneDesc{}, .body = BodyDesc{}}),
+                ElementsAre("/colliders/1/motion/dynamic: must not stand beside \"plane\": a plane has no volume, so "
+                            "it cannot be a body"));
+    EXPECT_THAT(with({.name = "a", .shape = SphereDesc{}, .motion = {{.time = 1}}, .body = BodyDesc{}}),
+                ElementsAre("/colliders/1/motion/dynamic: must not stand beside \"keys\": a body moves by forces, not "
+                            "by keys"));
+    EXPECT_THAT(with({.name = "a",
+                      .shape = SolidMeshDesc{.file = "a.obj", .contact = MeshContact::surface},
+                      .body = BodyDesc{}}),
+                ElementsAre("/colliders/1/mesh/contact: must not be \"surface\" with a \"dynamic\" motion: bodies are "
+                            "solids"));
+    EXPECT_THAT(with({.name = "a",
+                      .shape = SphereDesc{},
+                      .body = BodyDesc{.mass = -1, .density = 0, .velocity = {0, 2e4f, 0}, .restitution = 2}}),
+                ElementsAre("/colliders/1/motion/dynamic/mass: must be ≥ 0 kg, got -1",
+                            "/colliders/1/motion/dynamic/density: must be > 0 kg/m³, got 0",
+                            "/colliders/1/motion/dynamic/velocity/1: must be ≤ 10000 m/s, got 20000",
+                            "/colliders/1/motion/dynamic/restitution: must be ≤ 1, got 2"));
+    const auto with_moments = [&](Vec3 moments) {
+        return with({.name = "a", .shape = SphereDesc{}, .body = BodyDesc{.inertia = moments}});
+    };
+    EXPECT_THAT(with_moments({1, 2, 3}), ElementsAre());
+    EXPECT_THAT(with_moments({1, 2, 3.1f}),
+                ElementsAre("/colliders/1/motion/dynamic/inertia: must hold moments that a body can have: each at most "
+                            "the sum of the other two, got [1, 2, 3.1]"));
+    EXPECT_THAT(with_moments({1, 0, 1}), ElementsAre("/colliders/1/motion/dynamic/inertia: must hold three moments > 0 "
+                                                     "kg·m², or all 0, got [1, 0, 1]"));
+    EXPECT_THAT(with_moments({1, nan, 1}),
+                ElementsAre("/colliders/1/motion/dynamic/inertia/1: must be a finite number, got nan"));
+}
+
 TEST(CheckScene, ChecksNamesAndFiles) {
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths[0].name = s.cloths[1].name = "sheet"; }),
                 ElementsAre("/cloths/1/name: is taken: another before it is called \"sheet\""));

@@ -39,6 +39,7 @@ const ResistanceDesc resistance;
 const PaintedChannel painted_channel;
 const PlaneCut cut_plane;
 const PoseKey pose_key;
+const BodyDesc body;
 const Camera camera;
 const MaterialHead material_head;
 const StitchDesc stitch;
@@ -107,8 +108,9 @@ std::vector<SceneTable> all_tables() {
 #define WEFT_SHAPE(name, Name) {"/colliders/*/" #name, name##_parameters, &name##_shape},
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
-        {"/colliders/*/motion", motion_keys, nullptr},
+        {"/colliders/*/motion", collider_motion_keys, nullptr},
         {"/colliders/*/motion/keys/*", pose_key_keys, &pose_key},
+        {"/colliders/*/motion/dynamic", rigid_body_parameters, &body},
         {"/stitches/*", stitch_keys, &stitch},
         {"/stitches/*/a", stitch_end_keys, &stitch_end},
         {"/stitches/*/a/points/*", surface_point_keys, &surface_point},

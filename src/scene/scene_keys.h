@@ -5,6 +5,7 @@
 
 #include "base/parameter.h"
 #include "physics/air/winds.def"
+#include "physics/body/body.data.h"
 #include "physics/contact/shapes.def"
 #include "scene/scene_desc.h"
 
@@ -386,6 +387,11 @@ inline constexpr std::string_view shape_keys[] = {
 
 inline constexpr Parameter motion_keys[] = {
     {.key = "keys", .kind = ParameterKind::list, .what = "poses at given times, at least one"},
+};
+
+inline constexpr Parameter collider_motion_keys[] = {
+    motion_keys[0],
+    {.key = "dynamic", .kind = ParameterKind::object, .what = "a body: gravity and what it touches move it"},
 };
 
 inline constexpr Parameter pose_key_keys[] = {

@@ -291,6 +291,8 @@ struct ContactArgs {
     uint capacity;  // slots
     uint substep;
     uint first_iteration;
+    uint particles;  // those of the points that can have faces; the others are particles in reserve, and anchors
+    uint unused;
 };
 
 // Contact of faces with colliders.

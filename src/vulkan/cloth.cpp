@@ -51,6 +51,21 @@ Result<void> Cloth::particles_moved() {
     return surface_ ? surface_->particles_moved() : Result<void>();
 }
 
+Result<void> Cloth::follow(std::shared_ptr<ModelBuffers> buffers) {
+    const bool longer = buffers->model()->particle_count != model().particle_count;
+    const auto before = state_->shared_buffers();
+    state_->set_buffers(std::move(buffers));
+    auto done = longer ? make_readable() : Result<void>();
+    if (done) done = update_normals();
+    if (!done) {
+        state_->set_buffers(before);
+        return done;
+    }
+    surface_ = nullptr;
+    torn = false;
+    return {};
+}
+
 Result<void> Cloth::make_surface(std::shared_ptr<const DrawnMesh> mesh) {
     auto made = DrawnSurface::create(device_, programs_, *state_, std::move(mesh));
     if (!made) return made.errors();

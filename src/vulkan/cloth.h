@@ -42,6 +42,12 @@ class Cloth {
         normals_stale_ = !with_normals;
     }
 
+    /// Sets the buffers of a model whose openings, or coarse levels alone, are the only difference to the present one.
+    /// The device must have made the openings. A call that fails changes nothing.
+    Result<void> follow(std::shared_ptr<ModelBuffers> buffers);
+    /// The last frame has made openings that the model does not have yet.
+    bool torn = false;
+
     /// Call after the arrays of the world got new addresses. The device must be idle.
     Result<void> particles_moved();
 

@@ -79,6 +79,8 @@ class ClothState {
     Result<void> set_material(gpu::Device& device, std::shared_ptr<const ClothModel> model);
     /// Replaces buffers that other cloths share by `buffers`. Keeps the pins.
     Result<void> set_material(gpu::Device& device, std::shared_ptr<ModelBuffers> buffers);
+    /// Sets the buffers of a model whose particles and constraints the state has already.
+    void set_buffers(std::shared_ptr<ModelBuffers> buffers) { buffers_ = std::move(buffers); }
     Result<void> set_weights(gpu::Device& device, std::span<const ParticleWeight> changed);
     Result<void> place_points(gpu::Device& device, std::uint32_t first, std::span<const Vec3> places);
     Result<ClothSnapshot> save(gpu::Device& device) const;

@@ -108,32 +108,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
                               std::span<const std::uint32_t> copied) override {
         Cloth& old = cloth(handle);
         assert(model->capacity() == old.model().capacity());
-        const auto before = old.save();
-        if (!before) return before.errors();
-        ClothSnapshot snapshot = *before;
-        for (std::size_t i = 0; i < copied.size(); ++i) {
-            const std::size_t to = old.model().particle_count + i, from = copied[i];
-            for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
-                (*array)[to] = (*array)[from];
-            snapshot.position[to].w = 0;
-        }
-        for (std::uint32_t p = 0; p < model->particle_count; ++p)
-            snapshot.position[p].w = snapshot.position[p].w > 0 ? 1 / model->mass[p] : 0;
-        for (std::uint32_t p = model->particle_count; p < model->first_anchor(); ++p) snapshot.position[p].w = 0;
-        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
-            array->resize(model->point_count());
-        // The new cloth overwrites the particles of the old one. After a failure, the old one is restored.
-        auto next = make_cloth(std::move(model), old.state().base());
-        Result<void> done;
-        if (!next) done = next.errors();
-        if (done) done = (*next)->restore(snapshot);
-        if (!done) {
-            (void)old.restore(*before);
-            return done;
-        }
+        const bool follows = copied.empty() && (old.torn || differs_in_levels_only(*model, old.model()));
+        if (!model->tear_law || !follows) return replace_topology(handle, std::move(model), copied);
+        auto buffers = ModelBuffers::create(*device_, std::move(model));
+        if (!buffers) return buffers.errors();
         forget_runs(old);
-        cloths_[handle.value] = std::move(*next);
-        return {};
+        return old.follow(std::move(*buffers));
     }
 
     Result<void> place_points(ClothHandle handle, std::uint32_t first, std::span<const Vec3> places) override {
@@ -264,6 +244,47 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         return made;
     }
 
+    // Makes a cloth of the model, with the particles of the present one.
+    Result<void> replace_topology(ClothHandle handle, std::shared_ptr<const ClothModel> model,
+                                  std::span<const std::uint32_t> copied) {
+        Cloth& old = cloth(handle);
+        const auto before = old.save();
+        if (!before) return before.errors();
+        ClothSnapshot snapshot = *before;
+        for (std::size_t i = 0; i < copied.size(); ++i) {
+            const std::size_t to = old.model().particle_count + i, from = copied[i];
+            for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
+                (*array)[to] = (*array)[from];
+            snapshot.position[to].w = 0;
+        }
+        for (std::uint32_t p = 0; p < model->particle_count; ++p)
+            snapshot.position[p].w = snapshot.position[p].w > 0 ? 1 / model->mass[p] : 0;
+        for (std::uint32_t p = model->particle_count; p < model->first_anchor(); ++p) snapshot.position[p].w = 0;
+        for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
+            array->resize(model->point_count());
+        // The new cloth overwrites the particles of the old one. After a failure, the old one is restored.
+        auto next = make_cloth(std::move(model), old.state().base());
+        Result<void> done;
+        if (!next) done = next.errors();
+        if (done) done = (*next)->restore(snapshot);
+        if (!done) {
+            (void)old.restore(*before);
+            return done;
+        }
+        forget_runs(old);
+        cloths_[handle.value] = std::move(*next);
+        return {};
+    }
+
+    // Whether the triangles, masses and constraints are the same arrays.
+    static bool differs_in_levels_only(const ClothModel& a, const ClothModel& b) {
+        const auto same = [](const ConstraintTable& one, const ConstraintTable& other) {
+            return one.particles.shares(other.particles) && one.fields.shares(other.fields);
+        };
+        return a.faces.shares(b.faces) && a.mass.shares(b.mass) && a.anchor_count == b.anchor_count &&
+               std::ranges::equal(a.constraints, b.constraints, same);
+    }
+
     // Anchors of different sets do not correspond, so new ones start at the positions in the model.
     static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& model, bool same_anchors) {
         const std::size_t kept = same_anchors ? model.point_count() : model.first_anchor();
@@ -329,6 +350,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
     void submit(const WorldStep& step, Group& group) {
+        for (const FrameRun::Member& member : group.members) member.cloth->torn = false;
         for (const ClothStep* one : group.steps) {
             one->frame->reports = report_none;
             one->frame->detail.clear();
@@ -433,6 +455,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
                 name_culprit(group, i);
             } else if (const auto* tearing = group.run->tearing()) {
                 frame.openings = tearing->openings(i);
+                group.members[i].cloth->torn = !frame.openings.empty();
             }
         }
         const auto not_finite = [](const ClothStep* step) { return step->frame->reports & report_non_finite; };
@@ -452,7 +475,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             const ClothHandle handle = group.steps[i]->cloth;
             // A repeated frame keeps its limits, which follow from the lambda of the frame before.
             const auto limits = vulkan::download(*device_, cloth(handle).state().arena(), cloth(handle).state().limits);
-            auto done = limits ? set_topology(handle, cloth(handle).state().buffers().model(), {})
+            auto done = limits ? replace_topology(handle, cloth(handle).state().buffers().model(), {})
                                : Result<void>(limits.errors());
             const vulkan::ClothState& state = cloth(handle).state();
             if (done) done = vulkan::upload(*device_, state.arena(), state.limits, *limits);

@@ -5,6 +5,7 @@
 #include "scene/scene_keys.h"
 #include "scene/set_value.h"
 #include "solver/model/cuts.h"
+#include "weft/body_building.h"
 #include "weft/stitching.h"
 
 #include <algorithm>
@@ -91,8 +92,9 @@ bool differs_in_pins_alone(const SceneCloth& a, const SceneCloth& b) {
     same.pins = b.pins;
     return same == without_meshes(b);
 }
-bool same_body(const ColliderDesc& a, const ColliderDesc& b) {
-    return a.shape == b.shape && (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));
+bool can_become(const ColliderDesc& a, const ColliderDesc& b) {
+    return a.shape == b.shape && a.body == b.body &&
+           (b.motion.empty() || (a.motion == b.motion && a.transform == b.transform));
 }
 
 }  // namespace
@@ -113,7 +115,10 @@ SceneWorld::~SceneWorld() = default;
 Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, const std::filesystem::path& folder,
                                       const MakeBackend& make) {
     if (Errors errors = apply(options, scene.solver); !errors.empty()) return errors;
-    auto backend = make ? make(options) : make_backend(options);
+    Options on = options;
+    const bool bodies = std::ranges::any_of(scene.colliders, [](const ColliderDesc& one) { return !!one.body; });
+    if (bodies && on.backend == "auto" && on.device.empty()) on.backend = "cpu";  // the other one moves no bodies
+    auto backend = make ? make(on) : make_backend(on);
     if (!backend) return backend.errors();
     name_unnamed(scene);
     SceneWorld made;
@@ -248,6 +253,7 @@ Result<ColliderId> SceneWorld::add(SceneCollider collider, const std::string& po
     if (!surface) return surface.errors();
     Collider made = make_collider(collider, std::move(*data));
     made.surface = std::move(*surface);
+    if (auto body = add_body(made, collider, world_->colliders(), pointer, notes_); !body) return body.errors();
     auto id = world_->try_add(std::move(made));
     if (!id) return placed_at(pointer, id.errors());
     collider_serials_.push_back(next_serial());
@@ -526,7 +532,7 @@ void SceneWorld::remove_what_is_not_in(const SceneDesc& next) {
     };
     for (std::size_t i = scene_.colliders.size(); i-- > 0;) {
         const SceneCollider* there = find_named(next.colliders, scene_.colliders[i].name);
-        if (!stays(scene_.colliders[i], there, there && same_body(scene_.colliders[i], *there)))
+        if (!stays(scene_.colliders[i], there, there && can_become(scene_.colliders[i], *there)))
             remove(world_->collider_id(i));
     }
     for (std::size_t i = scene_.cloths.size(); i-- > 0;) {

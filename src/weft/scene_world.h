@@ -32,8 +32,8 @@ namespace weft {
 class SceneWorld {
   public:
     /// `scene` must have been checked; it may have no cloths. Options::solver overrides its solver settings. `where` of
-    /// errors is a JSON pointer. `make`: used instead of make_backend(), if not empty. If a cloth has self-collision,
-    /// Options::backend `auto` selects the CPU, unless Options::device names a device.
+    /// errors is a JSON pointer. `make`: used instead of make_backend(), if not empty. If a collider is a
+    /// body, Options::backend `auto` selects the CPU, unless Options::device names a device.
     static Result<SceneWorld> create(SceneDesc scene, const Options& options, const std::filesystem::path& folder = {},
                                      const MakeBackend& make = {});
 

@@ -22,6 +22,7 @@ struct ShapeSource {
     std::vector<std::string>& notes;
     unsigned threads;
     const FieldCache& fields;
+    bool body;  // of a body
 
     void note(const std::string& what) const { notes.push_back("collider '" + collider + "': " + what); }
 };
@@ -85,7 +86,9 @@ void add_normals(TriangleMesh& mesh) {
     }
 }
 
-bool is_surface(const SolidMeshDesc& mesh, bool open) {
+// A body is a solid: its triangles would need contact that pushes it.
+bool is_surface(const SolidMeshDesc& mesh, bool open, bool body) {
+    if (body) return false;
     return mesh.contact == MeshContact::surface || (mesh.contact == MeshContact::automatic && open);
 }
 
@@ -128,7 +131,7 @@ Result<SharedShape> build_shape(const SolidMeshDesc& solid, const ShapeSource& s
     if (!mesh) return mesh.errors();
     auto field = field_of(*mesh, solid.resolution, source);
     if (!field) return field.errors();
-    note_field(*field, is_surface(solid, !field->closed), source);
+    note_field(*field, is_surface(solid, !field->closed, source.body), source);
     add_normals(*mesh);
     field->data.bounds = bounds_of(mesh->positions);
     field->data.surface = std::move(*mesh);
@@ -150,7 +153,7 @@ Result<SharedShape> ShapeLibrary::data_of(const ColliderDesc& collider, const Me
     ColliderShape shape = without_contact(collider.shape);
     const auto known = std::ranges::find(known_, shape, &Entry::shape);
     if (known != known_.end()) return known->data.lock();
-    const ShapeSource source{files, collider.name, notes, threads_, fields_};
+    const ShapeSource source{files, collider.name, notes, threads_, fields_, collider.body.has_value()};
     auto built = std::visit([&](const auto& one) { return build_shape(one, source); }, collider.shape);
     if (!built) return within(pointer, built.errors());
     if (*built) known_.push_back({std::move(shape), *built});
@@ -177,7 +180,7 @@ void note_rounding(const Bounds& box, const std::string& name, std::vector<std::
 Result<std::shared_ptr<const ClothModel>> surface_of(const ColliderDesc& collider, const ShapeData* data,
                                                      const std::string& pointer, std::vector<std::string>& notes) {
     const auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape);
-    if (!mesh || !is_surface(*mesh, data->open)) return std::shared_ptr<const ClothModel>();
+    if (!mesh || !is_surface(*mesh, data->open, collider.body.has_value())) return std::shared_ptr<const ClothModel>();
     auto surface = build_collider_surface(collider.name, data->surface, collider.friction);
     if (!surface) return within(pointer + "/mesh", surface.errors());
     if (const std::uint32_t count = surface->report.duplicate_triangles; count > 0)

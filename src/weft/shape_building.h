@@ -1,6 +1,7 @@
 // Builds the data of collider shapes that have some.
 #pragma once
 
+#include "collide/body_features.h"
 #include "collide/shape_data.h"
 #include "weft/cloth_building.h"
 #include "weft/field_cache.h"
@@ -13,8 +14,6 @@
 #include <vector>
 
 namespace weft {
-
-using ColliderShape = decltype(ColliderDesc::shape);
 
 /// Colliders with the same shape share its data.
 class ShapeLibrary {

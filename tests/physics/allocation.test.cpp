@@ -62,6 +62,7 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 namespace weft::physical {
 namespace {
 
+// Labels: slow no-asan
 TEST(Allocation, is_over_when_the_first_frame_is) {
     if (!WEFT_COUNTS) GTEST_SKIP() << "a sanitizer counts here";
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {

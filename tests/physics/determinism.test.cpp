@@ -1,5 +1,5 @@
 // The same scene gives the same bits, whatever the number of threads and the instruction set.
-// Labels of this file: threads
+// Labels of this file: threads no-asan
 
 #include "sheet.h"
 

@@ -79,6 +79,7 @@ TEST(Grab, on_a_spring_gives_way_by_its_compliance) {
     EXPECT_NEAR(sag, 0.02 * weight, 0.05 * 0.02 * weight);
 }
 
+// Labels on Vulkan: no-asan
 TEST(Grab, never_pulls_more_than_its_limit) {
     for (const float limit : {0.5f, 20.0f}) {
         SheetDesc hung = hung_upright({.lines = true, .hierarchy = true});
@@ -242,6 +243,7 @@ TEST(Grab, in_a_saved_state_is_checked) {
     EXPECT_TRUE(sheet.world.restore(good).ok());
 }
 
+// Labels on Vulkan: no-asan
 TEST(Grab, stays_when_pins_model_and_solver_change) {
     Grabbed sheet = grab_sheet(flat());
     run(sheet.world, 0.2);

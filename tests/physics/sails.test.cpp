@@ -210,6 +210,7 @@ Sail blow(const SailDesc& desc) {
     return sail;
 }
 
+// Labels: slow no-asan
 TEST(Spinnaker, is_a_parabola_whose_tension_carries_the_pressure) {
     for (const double slack : {1.05, 1.2, 1.5}) {
         const Sail sail = blow({.slack = slack});

@@ -148,6 +148,7 @@ TEST(Stitches, of_one_cloth_close_it_to_a_tube) {
     EXPECT_EQ(world.frame().reports, 0u);
 }
 
+// Labels: slow no-asan
 TEST(Stitches, have_the_same_bits_on_every_thread_count) {
     const auto hash = [](unsigned workers) {
         Patchwork work = fill(make_world({.solver = {.substeps = 20}}, CpuOptions{.workers = workers}), 0);

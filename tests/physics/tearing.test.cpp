@@ -197,6 +197,7 @@ TEST(Tearing, of_a_strip_pulled_apart_begins_when_it_frees_the_energy_of_the_rip
     EXPECT_LT(most, 1.15 * least);
 }
 
+// Labels: slow no-asan
 TEST(Tearing, of_notches_begins_at_a_load_that_falls_with_the_root_of_their_length) {
     double begun[2];
     for (const int longer : {0, 1})
@@ -207,6 +208,7 @@ TEST(Tearing, of_notches_begins_at_a_load_that_falls_with_the_root_of_their_leng
 
 // A square sheet of which a band across its middle is free, `degrees` off the mesh. The sheet is cut in along the band
 // and pulled apart across it.
+// Labels: slow no-asan
 TEST(Tearing, runs_straight_across_the_pull_whatever_the_direction_of_the_mesh) {
     constexpr float half = 0.12f;
     for (const double degrees : {0.0, 20.0, 45.0}) {
@@ -314,6 +316,34 @@ TEST_P(TearingState, goes_on_with_the_same_bits_after_a_restore_and_in_every_num
         run(world, 0.1);
         EXPECT_EQ(world.state_hash(), hash);
     }
+}
+
+// Coarse levels are pruned in the frames of a tear. They are built again once the cloth tears no more, and after eight
+// frames at the latest; a restored world knows when.
+TEST(Tearing, builds_coarse_levels_again_in_the_same_frame_after_a_restore) {
+    World world = make_world(heavy());
+    world.add(make_heavy_sheet());
+    const auto is_pruned = [](const World& of) { return of.frame().cloths[0].model->pruned != nullptr; };
+    int pruned = 0, longest = 0, built_again = 0;
+    for (int i = 0; i < 40; ++i) {
+        const bool before = is_pruned(world);
+        const Snapshot now = world.save();
+        world.step(1.0 / 60);
+        pruned = is_pruned(world) ? pruned + 1 : 0;
+        longest = std::max(longest, pruned);
+        built_again += before && !is_pruned(world);
+        if (!before) continue;
+        World other = make_world(heavy());
+        other.add(make_heavy_sheet());
+        ASSERT_TRUE(other.restore(*snapshot_from_bytes(to_bytes(now))).ok());
+        EXPECT_TRUE(is_pruned(other));
+        other.step(1.0 / 60);
+        EXPECT_EQ(is_pruned(other), is_pruned(world)) << "frame " << i;
+        EXPECT_EQ(other.state_hash(), world.state_hash()) << "frame " << i;
+    }
+    EXPECT_GT(longest, 0);
+    EXPECT_LE(longest, 8);
+    EXPECT_GT(built_again, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(, TearingState, ::testing::Values("splitting", "eroding", "painted"));

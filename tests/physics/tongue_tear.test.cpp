@@ -145,6 +145,7 @@ TEST(TongueTear, DISABLED_measures_all) {
 
 // Known error: the limit at the end of a cut is one of tension in the plane of the cloth. Here the tongues are folded
 // away from the end, and their tension along the cut counts instead of the force that parts them.
+// Labels: slow no-asan
 TEST(TongueTear, needs_several_times_half_of_the_tear_energy) {
     for (const TongueDesc& desc : {TongueDesc{.cells = 8, .substeps = 80}, TongueDesc{.cells = 16, .substeps = 80}}) {
         const TongueTear tear = tear_tongues(desc);

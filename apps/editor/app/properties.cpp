@@ -225,6 +225,20 @@ void choose_alternative(Ui& ui, Session& session, const std::string& place, cons
                    {{place + "/" + std::string(group.one_of[before]), {}}, {place + "/" + std::string(key), value}});
 }
 
+/// `place`: the motion of a collider.
+void choose_motion(Ui& ui, Session& session, const std::string& place) {
+    const std::string collider = place.substr(0, place.rfind('/'));
+    const Document& document = *session.document();
+    const std::size_t before = motion_of(document, collider);
+    std::size_t chosen = before;
+    const Field field{.name = "kind",
+                      .label = "Kind",
+                      .what = "it stays, moves by keys, or is a body that gravity and what it touches move"};
+    const Change change = choice(ui, field, chosen, motions_of(document, collider), 0);
+    if (change == Change::none || chosen == before) return;
+    session.change(title_of(session, place, "motion"), change_motion(document, collider, chosen));
+}
+
 }  // namespace
 
 bool Properties::open(Ui& ui, const std::string& place, const std::string& label, bool at_first) {
@@ -252,7 +266,10 @@ void Properties::show(Ui& ui, Session& session) {
 
 void Properties::object(Ui& ui, Session& session, const std::string& place, int depth) {
     const PropertyGroup group = properties_of(*session.document(), place);
-    if (!group.one_of.empty()) choose_alternative(ui, session, place, group);
+    if (pattern_of(place) == "/colliders/*/motion")
+        choose_motion(ui, session, place);
+    else if (!group.one_of.empty())
+        choose_alternative(ui, session, place, group);
     for (const Property& property : group.values) PropertyRow(ui, session, place, property).show();
     for (const ChildProperty& child : group.children) {
         const std::string below = at(place, child.key());

@@ -27,6 +27,7 @@ const std::vector<OneOf>& alternatives_of_objects() {
         {"/cloths/*/seams/*", {"points", "plane"}},
         {"/stitches/*/a", {"vertices", "points"}},
         {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
+        {"/colliders/*/motion", {"keys", "dynamic"}},
     };
     return all;
 }
@@ -264,6 +265,29 @@ std::vector<std::string> names_for(const Document& document, const std::string& 
         for (const SceneCloth& cloth : document.scene.cloths) names.push_back(cloth.name);
     }
     return names;
+}
+
+std::vector<std::string_view> motions_of(const Document& document, const std::string& collider) {
+    const bool plane = find(document.json, collider + "/plane");
+    return plane ? std::vector<std::string_view>{"static", "keys"}
+                 : std::vector<std::string_view>{"static", "keys", "dynamic"};
+}
+
+std::size_t motion_of(const Document& document, const std::string& collider) {
+    if (find(document.json, collider + "/motion/keys")) return 1;
+    return find(document.json, collider + "/motion/dynamic") ? 2 : 0;
+}
+
+std::vector<Edit> change_motion(const Document& document, const std::string& collider, std::size_t motion) {
+    const std::string place = collider + "/motion";
+    if (motion == 0) return {{place, {}}};
+    if (motion == 1) return {{place, Json{{"keys", Json::array({Json{{"time", 0}}})}}}};
+    Json body = Json::object();
+    const Json* mesh = find(document.json, collider + "/mesh");
+    if (mesh) body["mass"] = 1;
+    std::vector<Edit> edits{{place, Json{{"dynamic", body}}}};
+    if (mesh && mesh->value("contact", "") == "surface") edits.push_back({collider + "/mesh/contact", {}});
+    return edits;
 }
 
 std::optional<Json> new_element(const Document& document, const std::string& list) {

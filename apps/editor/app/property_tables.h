@@ -56,6 +56,14 @@ std::span<const std::string_view> parts_of(const std::string& place, const Param
 /// Names that a text may have: fabrics, materials, colliders, cloths; empty: any text.
 std::vector<std::string> names_for(const Document& document, const std::string& place, std::string_view key);
 
+/// How a collider can move, as a choice shows it: `static`, `keys` and `dynamic`. A plane cannot be `dynamic`.
+std::vector<std::string_view> motions_of(const Document& document, const std::string& collider);
+/// The number of the present one among those.
+std::size_t motion_of(const Document& document, const std::string& collider);
+/// The edits that make a collider move as the choice with this number says. The new motion passes the checks of a
+/// scene: a first key at the transform, or a body. A mesh becomes a body of 1 kg, which needs no volume, and a solid.
+std::vector<Edit> change_motion(const Document& document, const std::string& collider, std::size_t motion);
+
 /// A new element for a list, which passes the checks of a scene; nullopt: the list cannot be extended by a button.
 std::optional<Json> new_element(const Document& document, const std::string& list);
 

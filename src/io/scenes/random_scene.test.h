@@ -38,7 +38,8 @@ class RandomScene {
         name_unnamed(scene);
         for (SceneCloth& cloth : scene.cloths) {
             for (PinDesc& pin : cloth.pins) {
-                if (pin.motion.empty() && !scene.colliders.empty() && maybe()) pin.attach = scene.colliders[0].name;
+                if (pin.motion.empty() && !scene.colliders.empty() && !scene.colliders[0].body && maybe())
+                    pin.attach = scene.colliders[0].name;
             }
         }
         for (std::uint32_t i = below(3); i > 0; --i) draw(scene.stitches.emplace_back(), scene);
@@ -281,6 +282,13 @@ class RandomScene {
                   PoseKey{.time = 0,
                           .position = collider.transform.position,
                           .rotation_degrees = collider.transform.rotation_degrees});
+        if (collider.motion.empty() && !std::holds_alternative<PlaneDesc>(collider.shape) && maybe()) {
+            fill(rigid_body_parameters, &collider.body.emplace());
+            const Vec3 moments = collider.body->inertia;
+            if (!inertia_problem(moments).empty()) collider.body->inertia = {moments.x, moments.x, moments.x};
+            if (auto* mesh = std::get_if<SolidMeshDesc>(&collider.shape))
+                if (mesh->contact == MeshContact::surface) mesh->contact = MeshContact::solid;
+        }
     }
 
     // Some get a name, each a different one.

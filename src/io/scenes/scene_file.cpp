@@ -30,22 +30,23 @@ void read_head(ObjectReader& scene) {
                                                               number_text(head.weft));
 }
 
-// The keys of a motion, if there is one that is not "static". `like`: values that a key does not give.
-template <class Key>
-void read_motion(ObjectReader& o, std::span<const Parameter> table, const Key& like, std::vector<Key>& result) {
+// Calls read(motion) for a motion, if there is one that is not "static". `wanted`: the keys that it can have.
+template <class Read>
+void read_motion(ObjectReader& o, const char* wanted, Read&& read) {
     const json* found = o.find("motion");
     if (!found || *found == "static") return;
-    const std::string place = at(o.pointer(), "motion");
-    if (!found->is_object()) {
-        o.problems().add(place, "must be \"static\" or an object with keys, got " + json_text(*found));
-        return;
-    }
-    o.object("motion", [&](ObjectReader& motion) {
-        motion.know(motion_keys);
-        motion.objects("keys", [&](ObjectReader& key) { key.values(table, &result.emplace_back(like)); });
-        if (motion.find("keys") == nullptr || (motion.find("keys")->is_array() && motion.find("keys")->empty()))
-            motion.problems().add(at(place, "keys"), "must hold at least one key");
-    });
+    if (found->is_object()) return o.object("motion", read);
+    o.problems().add(at(o.pointer(), "motion"),
+                     std::string("must be \"static\" or an object with ") + wanted + ", got " + json_text(*found));
+}
+
+// `like`: values that a key does not give.
+template <class Key>
+void read_keys(ObjectReader& motion, std::span<const Parameter> table, const Key& like, std::vector<Key>& result) {
+    motion.objects("keys", [&](ObjectReader& key) { key.values(table, &result.emplace_back(like)); });
+    const json* keys = motion.find("keys");
+    if (keys == nullptr || (keys->is_array() && keys->empty()))
+        motion.problems().add(at(motion.pointer(), "keys"), "must hold at least one key");
 }
 
 // Keys of a kind of wind, which are a problem if the wind is of another kind.
@@ -66,9 +67,11 @@ void read_wind(ObjectReader& o, WindDesc& wind) {
 #include "physics/air/winds.def"
 #undef WEFT_WIND
     o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &wind.transform); });
-    read_motion(o, wind_key_keys,
-                WindKey{.position = wind.transform.position, .rotation_degrees = wind.transform.rotation_degrees},
-                wind.motion);
+    const WindKey like{.position = wind.transform.position, .rotation_degrees = wind.transform.rotation_degrees};
+    read_motion(o, "keys", [&](ObjectReader& motion) {
+        motion.know(motion_keys);
+        read_keys(motion, wind_key_keys, like, wind.motion);
+    });
     o.object("box", [&](ObjectReader& box) { box.values(wind_box_keys, &wind.box.emplace()); });
     o.object("gust", [&](ObjectReader& gust) { gust.values(gust_keys, &wind.gust); });
     o.object("turbulence", [&](ObjectReader& t) { t.values(turbulence_keys, &wind.turbulence); });
@@ -239,10 +242,16 @@ void read_collider(ObjectReader& o, SceneCollider& collider) {
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
     o.object("transform", [&](ObjectReader& t) { t.values(pose_keys, &collider.transform); });
-    read_motion(
-        o, pose_key_keys,
-        PoseKey{.position = collider.transform.position, .rotation_degrees = collider.transform.rotation_degrees},
-        collider.motion);
+    const PoseKey like{.position = collider.transform.position,
+                       .rotation_degrees = collider.transform.rotation_degrees};
+    read_motion(o, "\"keys\" or \"dynamic\"", [&](ObjectReader& motion) {
+        motion.know(collider_motion_keys);
+        const std::string_view by = motion.one_of({"keys", "dynamic"});
+        if (by == "keys") read_keys(motion, pose_key_keys, like, collider.motion);
+        if (by == "dynamic")
+            motion.object(by,
+                          [&](ObjectReader& body) { body.values(rigid_body_parameters, &collider.body.emplace()); });
+    });
     read_material(o, default_material(collider), collider.material);
 }
 

@@ -428,9 +428,11 @@ TEST(SceneFile, KnowsWhatCannotMove) {
     const auto collider = [](const std::string& motion) {
         return errors_of(R"({"weft": 1, "cloths": [{}], "colliders": [{"plane": {}, "motion": )" + motion + "}]}");
     };
-    EXPECT_THAT(collider("3"),
-                ElementsAre("s.json: /colliders/0/motion: must be \"static\" or an object with keys, got 3"));
-    EXPECT_THAT(collider("{}"), ElementsAre("s.json: /colliders/0/motion/keys: must hold at least one key"));
+    EXPECT_THAT(
+        collider("3"),
+        ElementsAre("s.json: /colliders/0/motion: must be \"static\" or an object with \"keys\" or \"dynamic\", "
+                    "got 3"));
+    EXPECT_THAT(collider("{}"), ElementsAre("s.json: /colliders/0/motion: must have one of \"keys\" or \"dynamic\""));
     EXPECT_THAT(collider(R"({"keys": []})"),
                 ElementsAre("s.json: /colliders/0/motion/keys: must hold at least one key"));
     EXPECT_THAT(

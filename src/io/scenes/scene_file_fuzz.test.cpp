@@ -25,7 +25,8 @@ constexpr std::string_view seed_scene = R"({
           "material": { "preset": "silk", "weft_color": [1, 0, 0], "uv_tiling": [2, 3], "color_map": "a.png" } },
         { "mesh": { "file": "bunny.obj", "up": "z" }, "fabric": "silk", "pins": [ { "color": [1, 0, 0.5] } ] } ],
     "colliders": [ { "plane": { "normal": [0, 2, 0] }, "friction": 0.7,
-                     "material": { "color": [0.5, 0.5, 0.5], "roughness": 0.4, "weave": "twill" } }, { "sphere": { "radius": 0.1 } } ],
+                     "material": { "color": [0.5, 0.5, 0.5], "roughness": 0.4, "weave": "twill" } }, { "sphere": { "radius": 0.1 },
+                     "motion": { "dynamic": { "mass": 2, "inertia": [1, 1, 1.5], "spin": [0, 90, 0], "reaction": false } } } ],
     "camera": { "position": [1, 2, 3], "target": [0, 1, 0], "fov": 30 },
     "light": { "sun": { "azimuth": 10, "color": [1, 1, 0.5] }, "sky": { "intensity": 0.5, "zenith": [0, 0, 1] },
                "environment": { "file": "hall.hdr", "rotation": 90, "visible": false }, "exposure": -1, "ambient_occlusion": 0.5 }

@@ -34,6 +34,7 @@ const Kinds kinds[] = {
     {"/cloths/*/seams/*", {"points", "plane"}},
     {"/cloths/*/resistance/*", {"vertices", "group", "box", "color", "channel"}},
     {"/colliders/*", {std::begin(shape_keys), std::end(shape_keys)}},
+    {"/colliders/*/motion", {"keys", "dynamic"}},
     {"/stitches/*/a", {"vertices", "points"}},
     {"/stitches/*/b", {"vertices", "points"}},
 };

@@ -162,6 +162,10 @@ TEST(SceneSchema, TakesWhatTheReaderTakes) {
             with_collider(
                 R"("sphere": { "radius": 1e-9 }, "friction": [1, 1], "transform": { "position": [1, 2, 3] })"),
             with_collider(R"("sphere": {}, "name": "ball")"),
+            with_collider(R"("sphere": {}, "motion": { "keys": [ { "time": 1 } ] })"),
+            with_collider(R"("sphere": {}, "motion": { "dynamic": {} })"),
+            with_collider(
+                R"("box": {}, "motion": { "dynamic": { "mass": 1e9, "spin": [0, -360, 0], "reaction": false } })"),
             with_wind(R"("velocity": [1, 0, 0])"),
             with_wind(R"("kind": "directional", "motion": "static", "shelter": 2)"),
             with_wind(
@@ -243,6 +247,14 @@ TEST(SceneSchema, RefusesWhatTheReaderRefuses) {
              with_collider(R"("plane": {}, "sphere": {})"),
              with_collider(R"("sphere": { "radius": 0 })"),
              with_collider(R"("sphere": {}, "transform": { "scale": 2 })"),
+             with_collider(R"("sphere": {}, "motion": {})"),
+             with_collider(R"("sphere": {}, "motion": "dynamic")"),
+             with_collider(R"("sphere": {}, "motion": { "keys": [ {} ], "dynamic": {} })"),
+             with_collider(R"("sphere": {}, "motion": { "dynamic": { "mass": -1 } })"),
+             with_collider(R"("sphere": {}, "motion": { "dynamic": { "density": 0 } })"),
+             with_collider(R"("sphere": {}, "motion": { "dynamic": { "spin": 360 } })"),
+             with_collider(R"("sphere": {}, "motion": { "dynamic": { "restitution": 1.1 } })"),
+             with_wind(R"("motion": { "dynamic": {} })"),
              with_wind(R"("kind": "storm")"),
              with_wind(R"("velocity": [1e6, 0, 0])"),
              with_wind(R"("diameter": 1)"),

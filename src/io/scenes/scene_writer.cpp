@@ -59,6 +59,7 @@ class SceneWriter {
     template <class Key>
     Child motion(const std::vector<Key>& keys, std::span<const Parameter> table, const Key& like,
                  const std::string& place);
+    JsonNode dynamic(const BodyDesc& body, const std::string& place);
     JsonNode points(const std::vector<Vec3>& points, const std::string& place);
     template <class Shape>
     Child points_of(const Shape& shape, const std::string& place);
@@ -338,6 +339,12 @@ Child SceneWriter::motion(const std::vector<Key>& keys, std::span<const Paramete
     return node;
 }
 
+JsonNode SceneWriter::dynamic(const BodyDesc& body, const std::string& place) {
+    JsonNode node = JsonNode::object();
+    node.add("dynamic", object(rigid_body_parameters, body, BodyDesc(), at(place, "dynamic")));
+    return node;
+}
+
 JsonNode SceneWriter::points(const std::vector<Vec3>& points, const std::string& place) {
     return list(points, place, [](Vec3 p, const std::string&) {
         JsonNode point = JsonNode::list();
@@ -371,6 +378,7 @@ JsonNode SceneWriter::collider(const SceneCollider& desc, std::size_t index, con
                   [&](std::string_view key, const std::string& where) -> Child {
                       if (key == "transform")
                           return unless_empty(object(pose_keys, desc.transform, defaults.transform, where));
+                      if (key == "motion" && desc.body) return dynamic(*desc.body, where);
                       if (key == "motion")
                           return motion(desc.motion, pose_key_keys,
                                         PoseKey{.position = desc.transform.position,

@@ -37,6 +37,19 @@ struct ContactSum {
     real push;      // m    along the normal
 };
 
+// Replaces the friction of a contact by `wanted`, clamped to what its push allows.
+WEFT_FN void rub_along(inout_(vec3) x, inout_(ContactSum) sum, vec3 wanted, ContactBody body)
+{
+    real len2 = dot(wanted, wanted);
+    real hold = body.static_friction * sum.push;
+    real rub = body.kinetic_friction * sum.push;
+    mask slides = len2 > hold * hold;
+    vec3 friction = select(slides, wanted * min(real(1), rub * inversesqrt(max(len2, real(1e-30)))), wanted);
+    friction = select(sum.push > real(0), friction, vec3(real(0)));
+    x = x + (friction - sum.friction);
+    sum.friction = friction;
+}
+
 //   x, start           the particle now and at the start of the substep
 //   gap, gap_start     its distance to the body minus half the thickness, now and then
 //   normal             out of the body, unit, world
@@ -54,13 +67,5 @@ WEFT_FN void project_contact(inout_(vec3) x, vec3 start, real w, inout_(ContactS
     // Friction is one displacement per substep; every iteration refines it and clamps it to Coulomb's disc.
     vec3 moved = x - start - carried;
     vec3 slip = moved - normal * dot(moved, normal);
-    vec3 wanted = sum.friction - slip;
-    real len2 = dot(wanted, wanted);
-    real hold = body.static_friction * sum.push;
-    real rub = body.kinetic_friction * sum.push;
-    mask slides = len2 > hold * hold;
-    vec3 friction = select(slides, wanted * min(real(1), rub * inversesqrt(max(len2, real(1e-30)))), wanted);
-    friction = select(sum.push > real(0), friction, vec3(real(0)));
-    x = x + (friction - sum.friction);
-    sum.friction = friction;
+    rub_along(x, sum, sum.friction - slip, body);
 }

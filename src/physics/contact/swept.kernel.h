@@ -82,13 +82,23 @@ WEFT_FN mask may_touch(real gap, ContactSum sum, real way, Solid solid, ContactB
            gap + body.half_thickness < real(2) * solid.steepness * way;
 }
 
-// Contact of a particle that may touch the body.
-//   x, start       the particle now and at the start of the substep
-//   local, local_at_start   the same in the body's frame
+// How a particle that may touch a body meets it: a plane that it must not go behind.
+struct ContactPlane {
+    mask stopped;       // it touches on its way
+    vec3 at;            // where it touches, or its start, in the body's frame
+    real distance;      // there, m
+    vec3 normal_there;  // in the body's frame
+    real gap;           // at the end of the substep, less half the thickness, m
+    real gap_at_start;  // m
+    vec3 normal;        // in the body's frame
+};
+
+//   local, local_at_start   the particle now and at the start of the substep, in the body's frame
 //   gap, normal    at `local`: distance minus half the thickness; in the body's frame
-WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec3 start, real w,
-                              inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal)
+WEFT_FN ContactPlane contact_plane(Solid solid, ContactBody body, ContactSum sum, vec3 local, vec3 local_at_start,
+                                   real gap, vec3 normal)
 {
+    ContactPlane plane;
     vec3 normal_at_start;
     real distance_at_start = solid_distance(solid, local_at_start, normal_at_start);
     vec3 way = local - local_at_start;
@@ -97,32 +107,51 @@ WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec
     real length_of_way = sqrt(dot(way, way));
     mask fast = may_touch(gap, sum, length_of_way, solid, body) &&
                 may_pass(distance_at_start, length_of_way, solid, body.half_thickness);
-    mask stopped = fast;
-    vec3 at = local_at_start;
-    real distance_there = distance_at_start;
-    vec3 normal_there = normal_at_start;
+    plane.stopped = fast;
+    plane.at = local_at_start;
+    plane.distance = distance_at_start;
+    plane.normal_there = normal_at_start;
     if (any(fast)) {
         Touch touch = first_touch(solid, local_at_start, local, distance_at_start, normal_at_start,
                                   touching_distance(distance_at_start, body.half_thickness));
-        stopped = fast && touch.touches;
-        at = local_at_start + way * touch.time;
-        distance_there = touch.distance;
-        normal_there = touch.normal;
-        gap = select(stopped, dot(touch.normal, local - at) + touch.distance - body.half_thickness, gap);
-        normal = select(stopped, touch.normal, normal);
+        plane.stopped = fast && touch.touches;
+        plane.at = local_at_start + way * touch.time;
+        plane.distance = touch.distance;
+        plane.normal_there = touch.normal;
+        gap = select(plane.stopped, dot(touch.normal, local - plane.at) + touch.distance - body.half_thickness, gap);
+        normal = select(plane.stopped, touch.normal, normal);
     }
-    project_contact(x, start, w, sum, gap, distance_at_start - body.half_thickness,
-                    rotate(body.rx, body.ry, body.rz, normal), carried_by(body, local), body);
-    if (!any(stopped)) return;
+    plane.gap = gap;
+    plane.gap_at_start = distance_at_start - body.half_thickness;
+    plane.normal = normal;
+    return plane;
+}
 
-    // The particle may slide along the plane where it touched, but not into another part of the body. One that began
-    // inside may go where it is pushed.
+// A particle that touched on its way may slide along the plane where it touched, but not into another part of the body.
+// One that began inside may go where it is pushed.
+WEFT_FN void keep_out(Solid solid, ContactBody body, inout_(vec3) x, real w, ContactPlane plane)
+{
+    if (!any(plane.stopped)) return;
     vec3 to = to_body(body, x);
-    vec3 slide = to - at;
-    mask slides_far = stopped && w > real(0) && distance_there > real(0) &&
-                      sqrt(dot(slide, slide)) * solid.steepness > distance_there;
+    vec3 slide = to - plane.at;
+    mask slides_far = plane.stopped && w > real(0) && plane.distance > real(0) &&
+                      sqrt(dot(slide, slide)) * solid.steepness > plane.distance;
     if (!any(slides_far)) return;
-    Touch touch = first_touch(solid, at, to, distance_there, normal_there, real(0.5) * distance_there);
-    vec3 there = rotate(body.rx, body.ry, body.rz, at + slide * touch.time) + body.position;
+    Touch touch =
+        first_touch(solid, plane.at, to, plane.distance, plane.normal_there, real(0.5) * plane.distance);
+    vec3 there = rotate(body.rx, body.ry, body.rz, plane.at + slide * touch.time) + body.position;
     x = select(slides_far && touch.touches, there, x);
+}
+
+// Contact of a particle that may touch the body.
+//   x, start       the particle now and at the start of the substep
+//   local, local_at_start   the same in the body's frame
+//   gap, normal    at `local`: distance minus half the thickness; in the body's frame
+WEFT_FN void contact_particle(Solid solid, ContactBody body, inout_(vec3) x, vec3 start, real w,
+                              inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal)
+{
+    ContactPlane plane = contact_plane(solid, body, sum, local, local_at_start, gap, normal);
+    project_contact(x, start, w, sum, plane.gap, plane.gap_at_start,
+                    rotate(body.rx, body.ry, body.rz, plane.normal), carried_by(body, local), body);
+    keep_out(solid, body, x, w, plane);
 }

@@ -56,14 +56,18 @@ struct ClothEdit {
     /// Constraints to add: copies of constraint `row` with these particles and this stiffness factor.
     std::vector<RowEdit> added = {};
     std::vector<RowEdit> rows = {};
+    /// > 0: the openings are those of so many frames, in which coarse levels were pruned instead of built again
+    /// (pruned_limits.h). Only without other edits.
+    std::uint32_t pruned_frames = 0;
     friend bool operator==(const ClothEdit&, const ClothEdit&) = default;
 };
 
 /// Returns the model with these changes. Particle masses are recomputed from the triangles; a particle without
 /// triangles keeps its mass. If particles or triangles change, coarse levels are removed, and tethers stay unless
-/// `rows` removes them; openings alone rebuild both for each piece. All other data is shared with `from`. Fails on
-/// indices out of range, on constraints of one batch that would share a particle, and if the model's reserve is used
-/// up. `appended` and `triangles` also fail unless each vertex of the render mesh is one particle.
+/// `rows` removes them; openings alone rebuild both for each piece, or prune the levels (`pruned_frames`). All other
+/// data is shared with `from`. Fails on indices out of range, on constraints of one batch that would share a particle,
+/// and if the model's reserve is used up. `appended` and `triangles` also fail unless each vertex of the render mesh is
+/// one particle.
 Result<std::shared_ptr<const ClothModel>> with_edit(const ClothModel& from, const ClothEdit& edit);
 
 /// The same for openings alone, with exactly these particles pinned, copies included.

@@ -69,6 +69,7 @@ class PartingMesh;
 struct TearTable;
 struct TearLaw;
 struct TearPaint;
+struct PrunedLevels;
 
 struct ClothModelDesc {
     std::string name = {};
@@ -117,6 +118,8 @@ struct ClothModel {
     std::array<ConstraintTable, constraint_kind_count> constraints;
     SharedArray<CoarseLevel> hierarchy;  ///< finest level first; empty if not requested or of no use
     std::vector<PinSpan> pin_spans;      ///< only with a hierarchy
+    /// Null unless the coarse levels are older than the triangles, and were pruned (pruned_limits.h).
+    std::shared_ptr<const PrunedLevels> pruned;
     Elasticity elasticity;
     /// Triangle corners for the surface passes: [corner · face_stride + triangle], padded with dummies.
     SharedArray<std::uint32_t> faces;

@@ -390,5 +390,23 @@ TEST(Openings, along_a_plane_are_straight_where_the_mesh_has_rows) {
     }
 }
 
+// Copies take part in contact from the next frame on.
+TEST(Openings, list_copies_for_contact) {
+    for (const SelfCollision contact : {SelfCollision::fast, SelfCollision::exact}) {
+        TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::alternating);
+        auto topology = build_topology(mesh, {.reorder = false});
+        ClothModelDesc desc{.name = "sheet", .collision = {contact}, .reserve = {.particles = 40, .openings = true}};
+        desc.mesh = std::move(mesh);
+        const auto whole = *build_cloth_model(std::move(desc), std::move(*topology));
+        const auto cut = *with_edit(*whole, {.openings = openings_along_plane(*whole, whole->start, {}, {1, 0, 0})});
+        ASSERT_GT(cut->particle_count, whole->particle_count);
+        EXPECT_EQ(cut->along_curve->size(), cut->particle_count);
+        if (contact != SelfCollision::exact) continue;
+        std::size_t owned = 0;
+        for (const Tile& tile : *cut->tiles) owned += tile.own_vertices;
+        EXPECT_EQ(owned, cut->particle_count);
+    }
+}
+
 }  // namespace
 }  // namespace weft

@@ -82,6 +82,13 @@ void rebuild_limits(ClothModel& model) {
     model.pin_spans = find_pin_spans(levels, mesh.topology.rest_positions);
     for (CoarseLevel& level : levels) level.ways = {};
     model.hierarchy = std::move(levels);
+    model.pruned = nullptr;
+}
+
+std::shared_ptr<const ClothModel> with_rebuilt_limits(const ClothModel& model) {
+    auto rebuilt = std::make_shared<ClothModel>(model);
+    rebuild_limits(*rebuilt);
+    return rebuilt;
 }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include "solver/model/contact_rest.h"
 #include "solver/model/masses.h"
 #include "solver/model/opened_cloth.h"
+#include "solver/model/pruned_limits.h"
 #include "solver/model/rebuilt_limits.h"
 
 #include <algorithm>
@@ -63,6 +64,7 @@ class Editor {
                 return known.errors();
         if (auto done = append(edit.appended, false); !done) return done.errors();
         if (auto done = set_triangles(edit.triangles); !done) return done.errors();
+        const std::uint32_t first_copy = model_->particle_count;
         if (has_openings) {
             if (auto done = open(edit.openings); !done) return done.errors();
         }
@@ -73,6 +75,9 @@ class Editor {
             if (other) {
                 model_->hierarchy = {};
                 model_->pin_spans = {};
+                model_->pruned = nullptr;
+            } else if (edit.pruned_frames > 0 && can_prune_limits(*model_)) {
+                prune_limits(*model_, edit.openings, first_copy);
             } else {
                 rebuild_limits(*model_);
             }
@@ -124,8 +129,8 @@ class Editor {
         model_->faces = std::move(arrays.faces);
         take_removals();
         model_->strayed = std::move(arrays.strayed);
-        model_->make_tiles_if_needed();
         if (auto done = append(copies, true); !done) return done;  // a copy may be one of an earlier copy
+        model_->make_tiles_if_needed();
         // Particles that have lost their last triangle keep the mass that they had with it.
         model_->mass = AlignedVector<float>(arrays.mass.begin(), arrays.mass.begin() + model_->particle_count);
         return {};

@@ -8,7 +8,7 @@ namespace {
 // One thread solves a coarse level if sharing it costs more than it saves.
 bool is_single(std::span<const PlannedCloth> cloths, const Pass& pass) {
     if (pass.kind == PassKind::place || pass.kind == PassKind::search_particles || is_cloth_contact(pass.kind) ||
-        is_grab(pass.kind))
+        is_grab(pass.kind) || is_body_pass(pass.kind))
         return true;
     if (pass.source != RowSource::level || pass.kind == PassKind::prolongation) return false;
     std::size_t nodes = 0;

@@ -38,8 +38,8 @@ std::uint32_t stage_of(const Pass& pass) {
 
 std::string_view stage_name(std::uint32_t stage) {
     constexpr std::array<std::string_view, stage_count - constraint_kind_count> others = {
-        "find",          "air",        "predict", "hierarchy", "average", "grab", "contact",
-        "cloth contact", "velocities", "tear",    "damp",      "surface", "fused"};
+        "find",   "air",           "predict",    "hierarchy", "average", "grab",    "contact",
+        "bodies", "cloth contact", "velocities", "tear",      "damp",    "surface", "fused"};
     return stage < constraint_kind_count ? constraint_info(static_cast<ConstraintKind>(stage)).name
                                          : others[stage - constraint_kind_count];
 }

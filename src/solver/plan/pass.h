@@ -62,6 +62,8 @@ enum class Data : std::uint8_t {
     face_sums,      ///< of their pushes, per particle
     hot,            ///< triangles whose load may soon exceed a limit
     pairs,          ///< of features of cloth that are near each other
+    bodies,         ///< rigid bodies that move by forces
+    body_sums,      ///< of what touches them
 };
 
 struct Access {
@@ -88,6 +90,7 @@ enum Stage : std::uint32_t {
     stage_average,
     stage_grab,
     stage_contact,
+    stage_bodies,
     stage_cloth_contact,
     stage_velocities,
     stage_tear,

@@ -32,6 +32,7 @@ class Planner {
         if (settings_.air) plan.substep.push_back({.kind = PassKind::air});
         if (settings_.air) plan.substep.push_back({.kind = PassKind::push});
         plan.substep.push_back({.kind = PassKind::predict});
+        if (settings_.bodies) plan.substep.push_back({.kind = PassKind::predict_bodies});
         if (std::ranges::any_of(cloths_, &PlannedCloth::kinematic)) plan.substep.push_back({.kind = PassKind::targets});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
         const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
@@ -52,6 +53,7 @@ class Planner {
             plan.substep.push_back({.kind = PassKind::hold_particles});
             plan.substep.push_back({.kind = PassKind::settle_particles});
         }
+        if (settings_.bodies) plan.substep.push_back({.kind = PassKind::finish_bodies});
         if (grabbed()) plan.substep.push_back({.kind = PassKind::free_grabs});
         if (tears) plan.substep.push_back({.kind = PassKind::tear});
         plan.substep.push_back({.kind = PassKind::velocities});
@@ -176,21 +178,41 @@ class Planner {
 
     // Contacts come last in an iteration, so that no particle is inside a collider after it.
     void add_contact(bool first, Passes& passes) const {
+        if (settings_.bodies) add_body_contact(first, passes);
         if (settings_.contacts) passes.push_back({.kind = PassKind::contact, .first_iteration = first});
+    }
+
+    // Before contact with colliders that do not give way. The first move of the bodies only adds up how many particles
+    // touch each of them.
+    static void add_body_contact(bool first, Passes& passes) {
+        if (first) {
+            passes.push_back({.kind = PassKind::count_touches});
+            passes.push_back({.kind = PassKind::move_bodies});
+        }
+        for (std::uint32_t sweep = 0; sweep < (first ? body_sweeps : 1); ++sweep) {
+            passes.push_back({.kind = PassKind::touch_bodies, .first_iteration = first && sweep == 0});
+            passes.push_back({.kind = PassKind::move_bodies, .batch = 1});
+        }
     }
 
     // After contact of particles, so that only faces which are deeper than their corners are pushed.
     void add_face_contact(Passes& passes) const {
         if (!settings_.faces) return;
+        const auto move_bodies = [&](std::uint32_t batch) {
+            if (settings_.bodies) passes.push_back({.kind = PassKind::move_bodies, .batch = batch});
+        };
         passes.push_back({.kind = PassKind::find_faces});
+        move_bodies(0);
         for (std::uint32_t sweep = 0; sweep <= face_sweeps; ++sweep) {
             passes.push_back({.kind = PassKind::push_faces, .batch = sweep});
             passes.push_back({.kind = PassKind::move_faces, .batch = sweep});
+            move_bodies(1);
         }
         for (std::uint32_t hold = 0; hold < face_holds; ++hold) {
             passes.push_back({.kind = PassKind::hold_faces, .batch = hold});
             passes.push_back({.kind = PassKind::settle_faces, .batch = hold});
         }
+        move_bodies(1);
     }
 
     void add_constraints(bool first, Passes& passes) const {

@@ -25,6 +25,9 @@ inline constexpr std::uint32_t face_sweeps = 3;
 /// How often particles of faces that have passed in spite of that are held.
 inline constexpr std::uint32_t face_holds = 2;
 
+/// Sweeps over the contacts of cloth with bodies, each of which moves the bodies, at the first contact of a substep.
+inline constexpr std::uint32_t body_sweeps = 3;
+
 /// Settings that select the passes of a plan, together with the cloths. Models without coarse levels have no work in
 /// the passes of `solver.hierarchy`.
 struct StepSettings {
@@ -34,6 +37,7 @@ struct StepSettings {
     bool air = false;       ///< there is air
     bool wind = false;      ///< the air moves
     bool adhesion = false;  ///< a collider has adhesion
+    bool bodies = false;    ///< colliders that move by forces
     bool surface = true;    ///< compute normals
     friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
@@ -73,6 +77,11 @@ bool has_face_contact(const WorldPlan& plan);
 constexpr bool is_cloth_contact(PassKind kind) {
     return kind == PassKind::detect || kind == PassKind::cloth_contact || kind == PassKind::limit ||
            kind == PassKind::separate;
+}
+
+/// Whether a pass goes over bodies, and not over the cloths that touch them.
+constexpr bool is_body_pass(PassKind kind) {
+    return kind == PassKind::predict_bodies || kind == PassKind::move_bodies || kind == PassKind::finish_bodies;
 }
 
 /// Whether a pass is one of grabs.

@@ -13,7 +13,7 @@ namespace weft {
 namespace {
 
 // "weft" and the format version. On a machine of the other byte order neither matches.
-constexpr std::uint32_t magic = 0x74666577, version = 6;
+constexpr std::uint32_t magic = 0x74666577, version = 7;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
     StateHash hash;
@@ -84,6 +84,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
     out.one(snapshot.time);
     out.list(snapshot.colliders);
     out.list(snapshot.grabs);
+    out.list(snapshot.bodies);
     out.one<std::uint64_t>(snapshot.cloths.size());
     for (const ClothSnapshot& cloth : snapshot.cloths) {
         out.list(cloth.position);
@@ -105,6 +106,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
             out.list(edit.openings);
             out.list(edit.rows);
             out.list(edit.added);
+            out.one(edit.pruned_frames);
         }
     }
     Writer file;
@@ -129,6 +131,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
     snapshot.time = in.one<double>();
     snapshot.colliders = in.list<Pose>();
     snapshot.grabs = in.list<SavedGrab>();
+    snapshot.bodies = in.list<SavedBody>();
     const auto cloths = in.one<std::uint64_t>();
     for (std::uint64_t i = 0; i < cloths && !in.too_short(); ++i) {
         ClothSnapshot& cloth = snapshot.cloths.emplace_back();
@@ -153,6 +156,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
             edit.openings = in.list<Opening>();
             edit.rows = in.list<RowEdit>();
             edit.added = in.list<RowEdit>();
+            edit.pruned_frames = in.one<std::uint32_t>();
         }
     }
     if (!in.ended_well()) return Error{"state", "is damaged: its parts do not fit together"};
@@ -195,6 +199,12 @@ bool sound(const SavedGrab& grab) {
            step.spring.compliance <= largest && step.spring.damping >= 0 && step.spring.damping <= largest &&
            grab.id < none;
 }
+bool sound(const SavedBody& body) {
+    const BodyState& state = body.state;
+    const Vec4& q = state.turn;
+    return sound(state.place) && sound(state.velocity) && sound(state.spin) && sound(state.v_dropped) &&
+           sound(state.x_dropped) && std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-3f;
+}
 bool sound_time(double seconds) {
     return seconds >= 0 && std::isfinite(seconds);
 }
@@ -215,6 +225,9 @@ Result<void> check_numbers(const Snapshot& snapshot) {
     if (const auto i = first_unsound(snapshot.grabs))
         return Error{"state",
                      "grab " + std::to_string(*i) + " must have finite places, weights that sum to 1 and a force"};
+    if (const auto i = first_unsound(snapshot.bodies))
+        return Error{"state",
+                     "body " + std::to_string(*i) + " must have a rotation and finite numbers of at most 1e18"};
     for (std::size_t i = 0; i < snapshot.grabs.size(); ++i)
         if (std::ranges::count(snapshot.grabs, snapshot.grabs[i].id, &SavedGrab::id) > 1)
             return Error{"state", "grab " + std::to_string(i) + " has the id of another one"};

@@ -3,6 +3,7 @@
 
 #include "base/transform.h"
 #include "solver/model/cloth_edit.h"
+#include "solver/state/body_state.h"
 #include "solver/state/grab.h"
 #include "solver/state/kinematic_targets.h"
 
@@ -44,12 +45,19 @@ struct SavedGrab {
     GrabStep step = {};
 };
 
+/// A body, with the index of its collider.
+struct SavedBody {
+    std::uint32_t collider = 0;
+    BodyState state = {};
+};
+
 struct Snapshot {
     std::uint64_t frame = 0;
     double time = 0;
     std::vector<ClothSnapshot> cloths;
     std::vector<Pose> colliders;
     std::vector<SavedGrab> grabs = {};
+    std::vector<SavedBody> bodies = {};
 };
 
 std::vector<std::byte> to_bytes(const Snapshot& snapshot);

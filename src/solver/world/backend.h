@@ -31,6 +31,12 @@ struct ClothHandle {
     std::uint32_t value = 0;
 };
 
+/// A collider that is a body, in a frame.
+struct BodyStep {
+    std::uint32_t collider = 0;  ///< number
+    BodyState* state = nullptr;  ///< at the start of the frame; step() or finish() writes the one at its end
+};
+
 /// Input of a frame that is common to all cloths.
 struct StepInput {
     double dt = 0;                        ///< s, > 0: length of the frame
@@ -39,6 +45,7 @@ struct StepInput {
     std::span<const WindNow> winds = {};  ///< evaluated in the middle of the frame
     std::span<const Collider> colliders = {};
     const ColliderPlaces* places = nullptr;               ///< of the colliders, in this frame
+    std::span<const BodyStep> bodies = {};                ///< by ascending collider
     bool contact_forces = false;                          ///< record contacts
     bool contact_marks = false;                           ///< record what contact between cloths does to each particle
     std::uint32_t list_capacity = default_list_capacity;  ///< initial capacity of dynamic lists
@@ -95,6 +102,8 @@ class Backend {
     virtual std::string_view name() const = 0;  ///< as on the command line
     virtual std::string device() const = 0;     ///< description for the user
     virtual unsigned threads() const = 0;
+    /// Whether it moves bodies (StepInput::bodies).
+    virtual bool moves_bodies() const { return false; }
     /// Bytes of device memory in use, besides host memory.
     virtual std::uint64_t device_bytes() const { return 0; }
 

@@ -1,5 +1,6 @@
 #include "solver/world/collider.h"
 
+#include "collide/body_features.h"
 #include "physics/contact/shapes.def"
 #include "physics/scalar.h"
 
@@ -31,10 +32,18 @@ Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData
         collider.bounds.min = collider.bounds.min + data->bounds.min;
         collider.bounds.max = collider.bounds.max + data->bounds.max;
     }
+    if (!std::holds_alternative<SolidMeshDesc>(desc.shape)) collider.features = features_of(desc.shape, data.get());
     collider.data = std::move(data);
     collider.pose = {rotation_from_degrees(desc.transform.rotation_degrees), desc.transform.position};
     collider.pose = pose_at(collider, 0);
     return collider;
+}
+
+void start_body(Collider& collider) {
+    constexpr float radians_per_degree = 0.017453292519943295f;
+    Body& body = *collider.body;
+    body.state = body_state_at(collider.pose, body.mass, body.desc.velocity, body.desc.spin * radians_per_degree);
+    collider.pose = pose_of(body.state, body.mass);
 }
 
 double signed_distance(const Collider& collider, Vec3 world) {

@@ -5,6 +5,7 @@
 #include "collide/shape_data.h"
 #include "scene/scene_desc.h"
 #include "solver/model/cloth_model.h"
+#include "solver/world/body.h"
 #include "solver/world/keys.h"
 
 #include <array>
@@ -47,6 +48,8 @@ struct Collider {
     Pose pose;                                   ///< current pose
     std::vector<PoseKey> motion = {};            ///< by ascending time; empty: no motion by keys
     std::optional<Pose> next_pose = {};          ///< pose at the end of the next frame, set by World::move()
+    std::optional<Body> body = {};               ///< nullopt: it moves as it is told
+    BodyFeatures features = {};                  ///< what touches bodies first; none of a plane or of a mesh at rest
     /// If not null, cloths that meet surfaces (ClothCollision) meet these triangles instead of the shape.
     std::shared_ptr<const ClothModel> surface = {};
 };
@@ -77,8 +80,12 @@ inline ShapeBlocks blocks_of(const Collider& collider) {
     return collider.data ? collider.data->blocks() : ShapeBlocks{};
 }
 
-/// `data`: of the shape, if its kernel reads any.
+/// Without a body, and without the features of a mesh (weft/body_building.h). `data`: of the shape, if its kernel reads
+/// any.
 Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData> data = {});
+
+/// Puts a body at the collider's pose, with the velocity and the spin that its description begins with.
+void start_body(Collider& collider);
 
 /// Pose of the collider at a time in s. Positions and angles are interpolated linearly between keys, and constant
 /// before the first and after the last key.

@@ -66,6 +66,7 @@ void ColliderPlaces::sort_by_motion() {
     for (std::uint32_t i = 0; i < count_; ++i) {
         const Collider& collider = colliders_[i];
         resting_poses_[i] = collider.pose;
+        if (collider.body) continue;
         if (collider.next_pose || !collider.motion.empty()) {
             moving_place_[i] = static_cast<std::uint32_t>(moving_.size());
             moving_.push_back(i);

@@ -51,7 +51,7 @@ class ColliderPlaces {
     }
 
     /// Appends all colliders that may touch the box at any time of the frame, by ascending index. Some of them may not.
-    /// `surfaces`: also those with a Collider::surface.
+    /// `surfaces`: also those with a Collider::surface. Bodies, whose motion the backend knows, are left out.
     void find(const Bounds& box, std::vector<std::uint32_t>& to, bool surfaces = true) const;
 
   private:

@@ -198,9 +198,11 @@ void World::remove(StitchId id) {
 
 Result<ColliderId> World::try_add(Collider collider) {
     complete_and_resolve();
+    if (auto able = can_move(collider.body); !able) return able.errors();
     auto surface = make_surface(collider);
     if (!surface) return surface.errors();
     const ColliderId id = colliders_.add(std::move(collider));
+    if (Collider& added = colliders_[colliders_.find(id)]; added.body) start_body(added);
     if (surface->model) {
         surface->collider = id;
         surfaces_.push_back(std::move(*surface));
@@ -249,6 +251,7 @@ void World::move(ColliderId id, const Pose& to) {
     assert(contains(id));
     Collider& collider = colliders_[colliders_.find(id)];
     collider.motion.clear();
+    if (collider.body) return place_body(id, to, {}, {});
     collider.next_pose = to;
 }
 
@@ -298,6 +301,7 @@ void World::replan() {
         .air = air,
         .wind = air && !settings_.air->wind.empty(),
         .adhesion = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.adhesion; }),
+        .bodies = std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.body; }),
         .surface = settings_.surface};
     const std::size_t places = std::size_t{settings_.solver.substeps} + 1;
     std::vector<PlannedCloth> planned, planned_surfaces;
@@ -390,6 +394,9 @@ void World::make_islands() {
 std::vector<std::array<std::uint32_t, 2>> World::colliding_parts(std::span<const std::uint32_t> part_of,
                                                                  std::uint32_t parts) const {
     std::vector<std::array<std::uint32_t, 2>> ties;
+    // Any cloth may touch any body, so they step together.
+    if (std::ranges::any_of(colliders_, [](const Collider& c) { return !!c.body; }))
+        for (std::uint32_t part = 1; part < parts; ++part) ties.push_back({0, part});
     DisjointSets grouped(static_cast<std::uint32_t>(parts));
     for (std::uint32_t b = 0; b < cloths_.size(); ++b) {
         for (std::uint32_t a = 0; a < b; ++a) {
@@ -436,6 +443,7 @@ void World::advance(double dt) {
     places_->begin_frame(colliders_.values(), frame_.time, dt, settings_.solver.substeps);
     for (Cloth& cloth : cloths_) place_motions(cloth, dt);
     begin_grabs();
+    begin_bodies();
     place_surfaces();
     for (std::size_t i = 0; i < winds_.size(); ++i) {
         winds_[i] = wind_at(settings_.air->wind[i], frame_.time + 0.5 * dt);
@@ -472,6 +480,7 @@ void World::advance(double dt) {
                        .winds = winds_,
                        .colliders = colliders_.values(),
                        .places = places_.get(),
+                       .bodies = bodies_,
                        .contact_forces = settings_.contact_forces,
                        .contact_marks = settings_.contact_marks,
                        .list_capacity = settings_.list_capacity,
@@ -481,7 +490,7 @@ void World::advance(double dt) {
     backend_->step(step_);
     running_ = true;
     for (std::size_t i = 0; i < colliders_.size(); ++i) {
-        colliders_[i].pose = places_->end_pose(i);
+        if (!colliders_[i].body) colliders_[i].pose = places_->end_pose(i);
         colliders_[i].next_pose.reset();
     }
     frame_.step_ms = ms_since(begin);
@@ -498,6 +507,7 @@ void World::complete() const {
     if (tangle_.tangle() || frame_.cloth_contacts.tangled > 0) watch_tangle();
     tangle_.count(frame_.cloth_contacts);
     if (settings_.contact_marks) collect_contact_marks();
+    end_bodies();
     read_grabs();
     take_openings();
     frame_.tangled_at = place_of(frame_.cloth_contacts.tangled_particle);
@@ -550,6 +560,7 @@ std::string World::state_hash() const {
         hash_edits(cloth, hash);
     }
     hash_grabs(hash);
+    hash_bodies(hash);
     return hash.text();
 }
 

@@ -111,6 +111,18 @@ class World {
     /// collider then stays there. Ends its motion by keys.
     void move(ColliderId id, const Pose& to);
 
+    /// Makes the collider a body that moves by forces, at its current pose, or nullopt: one that moves as it is told.
+    /// The body starts with the velocity and the spin of its description. The collider must have a surface of no mesh
+    /// (Collider::surface). Ends a motion by keys. Fails on a backend that moves no bodies.
+    Result<void> set_body(ColliderId id, std::optional<Body> body);
+    /// Puts a body elsewhere, with another velocity in m/s and angular velocity in rad/s. Cloth and bodies that are
+    /// there are pushed out slowly.
+    void place_body(ColliderId id, const Pose& pose, Vec3 velocity, Vec3 rate);
+    /// Changes the velocity and the spin of a body by an impulse in N·s at a point in world space.
+    void push_body(ColliderId id, Vec3 impulse, Vec3 point);
+    /// Waits for the frame.
+    const Body& body(ColliderId id) const;
+
     void configure(WorldSettings settings);
 
     /// Advances by dt seconds, > 0 and finite. On a device it returns as soon as the frame is submitted. Queries of
@@ -136,6 +148,7 @@ class World {
     const ContactForces& contact_forces() const;
 
     const WorldSettings& settings() const { return settings_; }
+    /// Poses of bodies may be those of an earlier frame until a call has waited for the last one.
     const std::vector<Collider>& colliders() const { return colliders_.values(); }
     ColliderId collider_id(std::size_t place) const { return colliders_.id_of(place); }
     std::size_t cloth_count() const { return cloths_.size(); }
@@ -217,6 +230,9 @@ class World {
     // world_edits.cpp
     static Result<std::shared_ptr<const ClothModel>> edited_model(const Cloth& cloth,
                                                                   const std::vector<ClothEdit>& edits);
+    static Result<std::shared_ptr<const ClothModel>> opened_model(const Cloth& cloth,
+                                                                  const std::vector<Opening>& openings,
+                                                                  std::uint32_t pruned);
     Result<void> set_edits(Cloth& cloth, const std::vector<ClothEdit>& edits, std::shared_ptr<const ClothModel> model);
     static Result<std::shared_ptr<const ClothModel>> with_fabric_unedited(const Cloth& cloth, const ClothModel& model);
     std::vector<ParticleWeight> pin_copies(Cloth& cloth, const ClothModel& model, std::size_t plain_copies) const;
@@ -253,6 +269,14 @@ class World {
     std::vector<SavedGrab> save_grabs() const;
     Result<void> check_grabs(const Snapshot& snapshot, std::span<const std::shared_ptr<const ClothModel>> models) const;
     void restore_grabs(const std::vector<SavedGrab>& saved);
+    // world_bodies.cpp
+    Result<void> can_move(const std::optional<Body>& body) const;
+    void begin_bodies();
+    void end_bodies() const;
+    void hash_bodies(StateHash& hash) const;
+    std::vector<SavedBody> save_bodies() const;
+    Result<void> check_bodies(const Snapshot& snapshot) const;
+    void restore_bodies(const std::vector<SavedBody>& saved);
     // world_contact.cpp
     std::shared_ptr<const Seams> seams_of(std::span<const std::uint32_t> cloths,
                                           std::span<const PlacedStitch> stitches) const;
@@ -270,7 +294,7 @@ class World {
     WorldSettings settings_;
     mutable IdList<Cloth, struct ClothTag> cloths_;
     mutable std::vector<ClothId> torn_;  ///< cloths whose models changed by tearing since the last replan()
-    IdList<Collider, struct ColliderTag> colliders_;
+    mutable IdList<Collider, struct ColliderTag> colliders_;
     mutable std::vector<Surface> surfaces_;  ///< of colliders, in the order in which they were added
     std::unique_ptr<ColliderPlaces> places_ = std::make_unique<ColliderPlaces>();
     std::vector<WindNow> winds_;
@@ -281,6 +305,7 @@ class World {
     WorldPlan plan_;
     std::uint64_t plan_serial_ = 0;
     std::vector<Island> islands_;
+    std::vector<BodyStep> bodies_;   // scratch of a frame
     std::vector<IslandStep> steps_;  // scratch of a frame
     WorldStep step_;                 // scratch of a frame
     mutable TangleWatch tangle_;

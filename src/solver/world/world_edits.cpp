@@ -1,5 +1,7 @@
 // Edits of the constraints, triangles and particles of cloths.
 #include "base/hash.h"
+#include "solver/model/pruned_limits.h"
+#include "solver/model/rebuilt_limits.h"
 #include "solver/model/tear_law.h"
 #include "solver/world/world.h"
 
@@ -22,6 +24,33 @@ std::span<const std::uint32_t> copies_since(const ClothModel& before, const Clot
 
 bool is_only_openings(const ClothEdit& edit) {
     return edit.appended.empty() && edit.triangles.empty() && edit.added.empty() && edit.rows.empty();
+}
+
+// Frames with tears, one after another, before coarse levels are built again. On cloth of 129² that takes as long as
+// the rest of a frame.
+constexpr std::uint32_t most_pruned_frames = 8;
+
+// In how many frames the coarse levels have been pruned since they were built.
+std::uint32_t pruned_frames(const std::vector<ClothEdit>& edits) {
+    return edits.empty() ? 0 : edits.back().pruned_frames;
+}
+
+// Adds openings to the last edits. They are one edit, or two while the coarse levels are pruned: the openings before,
+// and those since.
+void add_openings(std::vector<ClothEdit>& edits, const std::vector<Opening>& openings, std::uint32_t pruned) {
+    const auto append = [&](const std::vector<Opening>& more) {
+        if (edits.empty() || !is_only_openings(edits.back())) edits.emplace_back();
+        auto& all = edits.back().openings;
+        all.insert(all.end(), more.begin(), more.end());
+    };
+    if (pruned == 1) edits.emplace_back();
+    if (pruned == 0 && pruned_frames(edits) > 0) {
+        const ClothEdit before = std::move(edits.back());
+        edits.pop_back();
+        append(before.openings);
+    }
+    append(openings);
+    edits.back().pruned_frames = pruned;
 }
 
 }  // namespace
@@ -58,13 +87,24 @@ std::vector<ParticleWeight> World::pin_copies(Cloth& cloth, const ClothModel& mo
     return copies;
 }
 
-// The backend has opened the edges already. The model follows, so that the frame has its triangles.
+// The model of a cloth after the openings of a frame. `pruned`: as in ClothEdit; 0: coarse levels are built again.
+Result<std::shared_ptr<const ClothModel>> World::opened_model(const Cloth& cloth, const std::vector<Opening>& openings,
+                                                              std::uint32_t pruned) {
+    if (!openings.empty()) return with_edit(*cloth.model, {.openings = openings, .pruned_frames = pruned});
+    return with_rebuilt_limits(*cloth.model);
+}
+
+// The backend has opened the edges already. The model follows, so that the frame has its triangles. Coarse levels are
+// pruned at first. They are built again after the first frame without tears, or after `most_pruned_frames` with tears.
 void World::take_openings() const {
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         Cloth& cloth = cloths_[i];
         const std::vector<Opening>& openings = frame_.cloths[i].openings;
-        if (openings.empty()) continue;
-        auto model = with_edit(*cloth.model, {.openings = openings});
+        const std::uint32_t before = pruned_frames(cloth.edits);
+        if (openings.empty() && before == 0) continue;
+        const bool prunes = !openings.empty() && before < most_pruned_frames && can_prune_limits(*cloth.model);
+        const std::uint32_t pruned = prunes ? before + 1 : 0;
+        auto model = opened_model(cloth, openings, pruned);
         auto set = model ? backend_->set_topology(cloth.handle, *model, {}) : Result<void>(model.errors());
         if (!set) {  // for example too little memory on the device
             frame_.cloths[i].reports |= report_device_failed;
@@ -73,9 +113,7 @@ void World::take_openings() const {
         }
         (void)pin_copies(cloth, **model, 0);
         if (!cloth.unedited) cloth.unedited = cloth.model;
-        if (cloth.edits.empty() || !is_only_openings(cloth.edits.back())) cloth.edits.emplace_back();
-        auto& all = cloth.edits.back().openings;
-        all.insert(all.end(), openings.begin(), openings.end());
+        add_openings(cloth.edits, openings, pruned);
         cloth.model = std::move(*model);
         frame_.cloths[i].model = cloth.model.get();
         torn_.push_back(cloths_.id_of(i));
@@ -195,6 +233,7 @@ void World::hash_edits(const Cloth& cloth, StateHash& hash) {
             for (std::size_t i = 0; i < 2; ++i) hash.add(opening.links[i]), hash.add(opening.strayed[i]);
         for (const RowEdit& row : edit.rows) hash_row(row, hash);
         for (const RowEdit& row : edit.added) hash_row(row, hash);
+        if (edit.pruned_frames > 0) hash.add(edit.pruned_frames);
     }
 }
 

@@ -37,6 +37,7 @@ Result<void> World::go_to(const WorldMoment& moment) {
         colliders_[i].name = moment.colliders[i].name;
         colliders_[i].motion = moment.colliders[i].motion;
         colliders_[i].adhesion = moment.colliders[i].adhesion;
+        colliders_[i].body = moment.colliders[i].body;
     }
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         Cloth& cloth = cloths_[i];

@@ -18,6 +18,7 @@ Snapshot World::snapshot() {
         snapshot.cloths.back().edits = cloth.edits;
     }
     for (const Collider& collider : colliders_) snapshot.colliders.push_back(collider.pose);
+    snapshot.bodies = save_bodies();
     return snapshot;
 }
 
@@ -116,6 +117,7 @@ Result<void> World::bring_back(const Snapshot& snapshot) {
         edited.push_back(std::move(*model));
     }
     if (auto found = check_grabs(snapshot, edited); !found) return found;
+    if (auto found = check_bodies(snapshot); !found) return found;
     if (auto restored = restore_cloths(snapshot, edited); !restored) return restored;
     restore_grabs(snapshot.grabs);
     places_->reset();
@@ -123,6 +125,7 @@ Result<void> World::bring_back(const Snapshot& snapshot) {
         colliders_[i].pose = snapshot.colliders[i];
         colliders_[i].next_pose.reset();
     }
+    restore_bodies(snapshot.bodies);
     put_surfaces();
     frame_.index = snapshot.frame;
     frame_.time = snapshot.time;

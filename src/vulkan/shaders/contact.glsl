@@ -61,7 +61,7 @@ void run_contact(uint p)
         near = near || may_touch;
     }
     store_point(contact_args.at.position, p, x);
-    if (!is_none(uvec2(contact_args.at.face_sums)))
+    if (p < contact_args.at.particles && !is_none(uvec2(contact_args.at.face_sums)))
         contact_args.at.face_sums.at[WEFT_FACE_SUM * p + 5u] = near ? WEFT_NEAR_FACES : 0u;
 }
 

@@ -188,6 +188,7 @@ TEST_F(FindEdgesOnDevice, says_how_long_it_took) {
     EXPECT_EQ(times.device_ms > 0, device().limits().timestamp_period > 0);
 }
 
+// Labels: slow no-asan
 TEST_F(FindEdgesOnDevice, of_a_grid_of_half_a_million_triangles) {
     expect_same(make_grid({1, 1}, {513, 513}, GridDiagonal::alternating), "grid of 513 x 513");
 }

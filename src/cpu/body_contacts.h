@@ -1,0 +1,92 @@
+// Contacts of bodies with one another and with colliders.
+#pragma once
+
+#include "solver/state/body_kernels.h"
+#include "solver/world/backend.h"
+
+#include <weft/bounds.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace weft::cpu {
+
+/// A body during a frame.
+struct BodyInStep {
+    std::uint32_t collider = 0;
+    const Collider* of = nullptr;
+    scalar::BodyMotion motion;
+    scalar::BodyInertia inertia;
+    float inverse_mass = 0;
+    float radius = 0;      ///< m: of a ball around the center of mass that holds the shape
+    Pose found;            ///< Bodies::found()
+    Pose now, before;      ///< in the substep, and at its start
+    scalar::vec3 v, rate;  ///< m/s and rad/s at the start of the substep, before contact
+    Mat3 inverse_inertia;  ///< in world axes
+    float contacts = 0;    ///< of cloth, that share the body in this substep
+};
+
+/// Computes BodyInStep::now and inverse_inertia from the motion.
+void place(BodyInStep& body);
+/// push_body() for a substep of h s.
+void push(BodyInStep& body, const scalar::BodyPush& by, float h);
+
+/// Pairs are searched once per frame, and again when a body leaves its box. Contacts are found in every substep, where
+/// the bodies are then. No result depends on which pairs are listed besides those that touch.
+class BodyContacts {
+  public:
+    /// Begins a frame. `bodies` must stay where they are.
+    void begin_frame(const StepInput& input, std::span<BodyInStep> bodies, std::span<const std::uint32_t> body_of,
+                     float h);
+    /// `reach`: where each body is expected in the rest of the frame.
+    void find_pairs(std::span<const Bounds> reach);
+    /// Finds the contacts of a substep, after the bodies have been predicted.
+    void find_contacts(std::uint32_t substep);
+    bool empty() const { return rows_.empty(); }
+    /// One sweep over the contacts, one after another.
+    void project();
+    /// Likewise for the velocities at the end of a substep.
+    void bounce();
+
+  private:
+    /// A body whose features meet the shape of a collider, body or not; or the other way around.
+    struct Pair {
+        std::uint32_t features, shape;  ///< colliders
+        friend auto operator<=>(const Pair&, const Pair&) = default;
+    };
+    struct Row {
+        std::uint32_t a, b;  ///< bodies; none: a collider that does not give way
+        std::uint32_t collider_a, collider_b;
+        Vec3 local_a, local_b;       ///< m: where they touch; a's feature has a radius around its point
+        scalar::vec3 normal;         ///< world, from b to a
+        float radius, gap_at_start;  ///< m
+        float approach;              ///< m/s along the normal at the start of the substep; negative: they come nearer
+        float static_friction, kinetic_friction, restitution;
+        float taken = 0;              ///< N·s, by bounce()
+        float push = 0;               ///< kg·m
+        scalar::vec3 friction{0.0f};  ///< kg·m
+    };
+    const Pose& now(std::uint32_t collider) const;
+    const Pose& before(std::uint32_t collider) const;
+    scalar::MovedBody side_of(std::uint32_t body) const;
+    scalar::vec3 way_of(std::uint32_t collider, scalar::vec3 x) const;
+    scalar::vec3 velocity_at(std::uint32_t collider, scalar::vec3 x) const;
+    scalar::vec3 velocity_before(std::uint32_t collider, scalar::vec3 x) const;
+    template <class Apply>
+    void apply(const Row& row, scalar::vec3 touched, scalar::vec3 impulse, Apply&& to);
+    void find_contacts(const Pair& pair);
+    void touch(const Pair& pair, Vec3 local, float radius, float margin);
+    void search_edge(const Pair& pair, const RoundEdge& edge, float margin);
+
+    const StepInput* input_ = nullptr;
+    std::span<BodyInStep> bodies_;
+    std::span<const std::uint32_t> body_of_;
+    float h_ = 0;
+    std::uint32_t substep_ = 0;
+    std::vector<Pair> pairs_;
+    std::vector<std::uint32_t> found_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace weft::cpu

@@ -1,0 +1,107 @@
+// Contact with a body that is moved by what touches it (law: body.md).
+
+// A body as one of its contacts sees it.
+struct MovedBody {
+    real contacts;       // so many share the body: each moves a part of it of this fraction of its mass (Tonge et al. 2012)
+    real inverse_mass;   // 1/kg
+    vec3 center;         // m, of mass
+    vec3 ix, iy, iz;     // columns of the inverse tensor of inertia, world axes, 1/(kg m2)
+};
+
+// 1/kg: the inverse mass with which the body answers a push at `lever` from its center, along a unit vector.
+WEFT_FN real weight_of(MovedBody moved, vec3 lever, vec3 along)
+{
+    vec3 turning = cross(lever, along);
+    return moved.contacts * (moved.inverse_mass + dot(turning, rotate(moved.ix, moved.iy, moved.iz, turning)));
+}
+
+// Like project_contact(), but the particle makes only its share of the way, by its inverse mass and that of its part of
+// the body. The body makes the rest, by the opposite impulse. In later iterations a contact also takes back a push that
+// others have made unnecessary.
+WEFT_FN void project_body_contact(inout_(vec3) x, vec3 start, real w, inout_(ContactSum) sum, real gap, real gap_start,
+                                  vec3 normal, vec3 carried, ContactBody body, MovedBody moved)
+{
+    mask moves = w > real(0);
+    vec3 lever = x - moved.center;
+    real goal = min(real(0), gap_start + body.depenetration);
+    real share = w / select(moves, w + weight_of(moved, lever, normal), real(1));
+    real dn = select(moves, max((goal - gap) * share, -sum.push), real(0));
+    x = x + normal * dn;
+    sum.push = sum.push + dn;
+
+    vec3 way = x - start - carried;
+    vec3 slip = way - normal * dot(way, normal);
+    vec3 along = slip * inversesqrt(max(dot(slip, slip), real(1e-30)));
+    real part = w / select(moves, w + weight_of(moved, lever, along), real(1));
+    rub_along(x, sum, sum.friction - slip * part, body);
+}
+
+// contact_particle() for a body that is moved.
+WEFT_FN void contact_moved_body(Solid solid, ContactBody body, MovedBody moved, inout_(vec3) x, vec3 start, real w,
+                                inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal)
+{
+    ContactPlane plane = contact_plane(solid, body, sum, local, local_at_start, gap, normal);
+    project_body_contact(x, start, w, sum, plane.gap, plane.gap_at_start,
+                         rotate(body.rx, body.ry, body.rz, plane.normal), carried_by(body, local), body, moved);
+    keep_out(solid, body, x, w, plane);
+}
+
+// A contact of a body with another one or with a collider. It keeps a point of the first on one side of a plane.
+struct BodyRow {
+    vec3 normal;        // world, toward the first
+    real gap_at_start;  // of the substep, m
+    real static_friction, kinetic_friction;
+    real depenetration;  // m
+};
+
+// A body that does not give way.
+WEFT_FN MovedBody immovable()
+{
+    MovedBody body;
+    vec3 zero = vec3(real(0), real(0), real(0));
+    body.contacts = real(0);
+    body.inverse_mass = real(0);
+    body.center = zero;
+    body.ix = zero;
+    body.iy = zero;
+    body.iz = zero;
+    return body;
+}
+
+// What the first body gains: kg m, the impulse times the length of the substep. The second one loses it.
+//   sum   of the substep so far, kg m
+//   gap   m;  way   of the first body's point relative to the second's since the start of the substep, m
+//   lever_a, lever_b   of the point, from the centers of mass
+WEFT_FN vec3 project_body_row(BodyRow row, inout_(ContactSum) sum, real gap, vec3 way, MovedBody a, MovedBody b,
+                              vec3 lever_a, vec3 lever_b)
+{
+    real goal = min(real(0), row.gap_at_start + row.depenetration);
+    real w = weight_of(a, lever_a, row.normal) + weight_of(b, lever_b, row.normal);
+    real change = max((goal - gap) / max(w, real(1e-30)), -sum.push);
+    sum.push = sum.push + change;
+
+    vec3 slip = way - row.normal * dot(way, row.normal);
+    vec3 along = slip * inversesqrt(max(dot(slip, slip), real(1e-30)));
+    real across = weight_of(a, lever_a, along) + weight_of(b, lever_b, along);
+    ContactBody friction;
+    friction.static_friction = row.static_friction;
+    friction.kinetic_friction = row.kinetic_friction;
+    vec3 gained = row.normal * change;
+    rub_along(gained, sum, sum.friction - slip * (real(1) / max(across, real(1e-30))), friction);
+    return gained;
+}
+
+// face_displacement() for a body that is moved.
+//   carried   how far the body has moved the row's point since the row was made
+WEFT_FN vec3 face_displacement_of_body(FaceRow row, vec3 point, real inverse_mass, inout_(ContactSum) sum, vec3 carried,
+                                       MovedBody moved)
+{
+    ContactBody body;
+    body.static_friction = row.static_friction;
+    body.kinetic_friction = row.kinetic_friction;
+    body.depenetration = row.depenetration;
+    vec3 x = point;
+    project_body_contact(x, row.start, inverse_mass, sum, dot(row.normal, point - carried) + row.offset,
+                         row.gap_at_start, row.normal, carried, body, moved);
+    return (x - point) * select(inverse_mass > real(0), real(1) / max(inverse_mass, real(1e-30)), real(0));
+}

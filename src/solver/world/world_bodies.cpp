@@ -1,0 +1,105 @@
+// The part of World that concerns rigid bodies.
+#include "solver/state/body_kernels.h"
+#include "solver/world/world.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace weft {
+
+Result<void> World::can_move(const std::optional<Body>& body) const {
+    if (!body || backend_->moves_bodies()) return {};
+    return Error{"motion/dynamic", "needs the CPU: the " + std::string(backend_->name()) +
+                                       " backend moves no bodies yet (--backend cpu)"};
+}
+
+Result<void> World::set_body(ColliderId id, std::optional<Body> body) {
+    assert(contains(id) && !(body && surface_of(id)));
+    if (auto able = can_move(body); !able) return able;
+    complete_and_resolve();
+    Collider& collider = colliders_[colliders_.find(id)];
+    collider.motion.clear();
+    collider.next_pose.reset();
+    collider.body = std::move(body);
+    if (collider.body) start_body(collider);
+    places_->reset();
+    replan();
+    return {};
+}
+
+void World::place_body(ColliderId id, const Pose& pose, Vec3 velocity, Vec3 rate) {
+    assert(contains(id));
+    complete_and_resolve();
+    Collider& collider = colliders_[colliders_.find(id)];
+    assert(collider.body);
+    collider.body->state = body_state_at(pose, collider.body->mass, velocity, rate);
+    collider.pose = pose_of(collider.body->state, collider.body->mass);
+}
+
+void World::push_body(ColliderId id, Vec3 impulse, Vec3 point) {
+    assert(contains(id));
+    complete_and_resolve();
+    Body& body = *colliders_[colliders_.find(id)].body;
+    scalar::BodyMotion motion = scalar::motion_of(body.state);
+    const Vec3 lever = point - body.state.place.xyz();
+    scalar::hit_body(motion, 1 / body.mass.mass,
+                     {scalar::vector_of(impulse), scalar::vector_of(cross(lever, impulse))});
+    body.state = scalar::state_of(motion);
+}
+
+const Body& World::body(ColliderId id) const {
+    complete();
+    const Collider& of = collider(id);
+    assert(of.body);
+    return *of.body;
+}
+
+void World::begin_bodies() {
+    bodies_.clear();
+    for (std::size_t i = 0; i < colliders_.size(); ++i)
+        if (colliders_[i].body) bodies_.push_back({static_cast<std::uint32_t>(i), &colliders_[i].body->state});
+}
+
+void World::end_bodies() const {
+    for (const BodyStep& step : bodies_) {
+        Collider& collider = colliders_[step.collider];
+        collider.pose = pose_of(collider.body->state, collider.body->mass);
+    }
+}
+
+void World::hash_bodies(StateHash& hash) const {
+    for (const Collider& collider : colliders_) {
+        if (!collider.body) continue;
+        const BodyState& state = collider.body->state;
+        for (const Vec4& v : {state.place, state.turn, state.velocity, state.spin, state.v_dropped, state.x_dropped})
+            hash.add(v.x), hash.add(v.y), hash.add(v.z), hash.add(v.w);
+    }
+}
+
+std::vector<SavedBody> World::save_bodies() const {
+    std::vector<SavedBody> saved;
+    for (std::size_t i = 0; i < colliders_.size(); ++i)
+        if (colliders_[i].body) saved.push_back({static_cast<std::uint32_t>(i), colliders_[i].body->state});
+    return saved;
+}
+
+Result<void> World::check_bodies(const Snapshot& snapshot) const {
+    const auto bodies = static_cast<std::size_t>(
+        std::ranges::count_if(colliders_, [](const Collider& collider) { return !!collider.body; }));
+    if (snapshot.bodies.size() != bodies)
+        return Error{"state", "has " + std::to_string(snapshot.bodies.size()) + " bodies, here there are " +
+                                  std::to_string(bodies)};
+    std::uint32_t next = 0;
+    for (const SavedBody& saved : snapshot.bodies) {
+        if (saved.collider < next || saved.collider >= colliders_.size() || !colliders_[saved.collider].body)
+            return Error{"state", "has a body in collider " + std::to_string(saved.collider) + ", which is none"};
+        next = saved.collider + 1;
+    }
+    return {};
+}
+
+void World::restore_bodies(const std::vector<SavedBody>& saved) {
+    for (const SavedBody& one : saved) colliders_[one.collider].body->state = one.state;
+}
+
+}  // namespace weft

@@ -1,0 +1,133 @@
+#include "vulkan/cloth_args.h"
+
+#include <algorithm>
+
+namespace weft::vulkan {
+
+ParticleArgs ClothArgs::particle_args() const {
+    return {.position = state(PointArray::position),
+            .start = state(PointArray::start),
+            .velocity = state(PointArray::velocity),
+            .compensation = state(PointArray::compensation),
+            .frame = input_.frame(),
+            .report = input_.report(),
+            .count = model_.point_count(),
+            .unused = 0};
+}
+
+KeepArgs ClothArgs::keep_args() const {
+    return {.position = state(PointArray::position),
+            .start = state(PointArray::start),
+            .velocity = state(PointArray::velocity),
+            .compensation = state(PointArray::compensation),
+            .good_position = state(PointArray::good_position),
+            .good_velocity = state(PointArray::good_velocity),
+            .good_compensation = state(PointArray::good_compensation),
+            .weights = state(cloth_.weights),
+            .lambda = state(cloth_.lambda),
+            .report = input_.report(),
+            .island_report = island_.report,
+            .count = model_.point_count(),
+            .lambdas = static_cast<std::uint32_t>(model_.table(ConstraintKind::stretch).lambda_count())};
+}
+
+LimitArgs ClothArgs::limit_args() const {
+    const ConstraintTable& table = model_.table(ConstraintKind::stretch);
+    const TableBuffers& rows = buffers_.tables[static_cast<std::uint32_t>(ConstraintKind::stretch)];
+    const StretchMaterial& fabric = model_.fabric.stretch;
+    const double softest = std::min(fabric.stretch[0], fabric.stretch[1]);
+    const Elasticity& elastic = model_.elasticity;
+    return {.position = state(PointArray::position),
+            .particles = of_model(rows.particles),
+            .rest = of_model(rows.fields),
+            .lambda = state(cloth_.lambda),
+            .span_ends = of_model(buffers_.span_ends),
+            .span_lengths = of_model(buffers_.span_lengths),
+            .limits = state(cloth_.limits),
+            .frame = input_.frame(),
+            .rows = table.stride,
+            .first_dummy = table.first_dummy,
+            .stride = table.stride,
+            .spans = static_cast<std::uint32_t>(model_.pin_spans.size()),
+            .softest = static_cast<float>(softest),
+            .model_tension = static_cast<float>(elastic.tension),
+            .stretched = static_cast<float>(std::max(elastic.warp, elastic.weft)),
+            .unused = 0};
+}
+
+FaceArgs ClothArgs::face_args() const {
+    return {.position = state(PointArray::position),
+            .velocity = state(PointArray::velocity),
+            .faces = of_model(buffers_.faces),
+            .mass = of_model(buffers_.face_mass),
+            .wind = work(work_.wind),
+            .by_face = state(cloth_.by_face),
+            .frame = input_.frame(),
+            .winds = input_.winds(),
+            .colliders = island_.colliders,
+            .stride = model_.face_stride,
+            .count = model_.face_stride};
+}
+
+AroundArgs ClothArgs::around_args() const {
+    return {.by_face = state(cloth_.by_face),
+            .offsets = of_model(buffers_.around_offsets),
+            .items = of_model(buffers_.around_items),
+            .normals = state(PointArray::normals),
+            .position = state(PointArray::position),
+            .start = state(PointArray::start),
+            .velocity = state(PointArray::velocity),
+            .compensation = state(PointArray::compensation),
+            .count = model_.particle_count,
+            .unused = 0};
+}
+
+std::uint64_t ClothArgs::lambda_of(ConstraintKind kind) const {
+    return kind == ConstraintKind::stretch ? state(cloth_.lambda)
+                                           : work(work_.lambda[static_cast<std::uint32_t>(kind)]);
+}
+
+std::uint32_t ClothArgs::use_of_lambda(const Pass& pass, std::uint32_t substep) const {
+    const bool links = pass.source == RowSource::links;
+    return vulkan::use_of_lambda(plan_, pass, substep, links ? rounds_of_links(plan_) : rounds_of(plan_, model_));
+}
+
+RowArgs ClothArgs::row_args(ConstraintKind kind) const {
+    const auto index = static_cast<std::uint32_t>(kind);
+    const TableBuffers& rows = buffers_.tables[index];
+    return {.position = state(PointArray::position),
+            .velocity = state(PointArray::velocity),
+            .particles = of_model(rows.particles),
+            .fields = of_model(rows.fields),
+            .lambda = lambda_of(kind),
+            .corrections = 0,
+            .sums = 0,
+            .share = 0,
+            .blocks = 0,
+            .frame = input_.frame(),
+            .limits = state(cloth_.limits),
+            .plain_positive = stiffness_[index][0],
+            .plain_negative = stiffness_[index][1],
+            .stride = model_.constraints[index].stride,
+            .begin = 0,
+            .count = 0,
+            .lambda_use = WEFT_LAMBDA_DISCARD,
+            .hand_out = WEFT_ROWS_SINGLE,
+            .unused = 0};
+}
+
+std::uint32_t ClothArgs::hand_out(RowArgs& args, const Batch& batch, std::uint64_t blocks) {
+    args.begin = batch.begin;
+    args.count = batch.rows;
+    if (batch.serial) {
+        args.hand_out = WEFT_ROWS_SERIAL;
+        return 1;
+    }
+    if (batch.blocks == 0) return batch.rows;
+    args.hand_out = WEFT_ROWS_LINES;
+    args.blocks = blocks + std::uint64_t{batch.first_block} * 2 * sizeof(std::uint32_t);
+    args.count = batch.blocks;
+    return batch.blocks * lane_padding;
+}
+
+}  // namespace weft::vulkan

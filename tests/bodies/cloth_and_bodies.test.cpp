@@ -1,0 +1,153 @@
+// Bodies that feel the cloth.
+#include "body_worlds.h"
+
+namespace weft::physical {
+namespace {
+
+SheetDesc pinned_sheet(std::uint32_t side) {
+    return {.resolution = {side, side},
+            .fabric = find_fabric("cotton")->fabric,
+            .layout = {.lines = true, .hierarchy = true},
+            .pinned = [](Vec3 p) { return std::max(std::abs(p.x), std::abs(p.z)) > 0.499f; }};
+}
+
+// Of a sheet and a ball that meet in free space. Errors in parts of the linear momentum that the heavier one had at
+// first, for angular momentum at a distance of 1 m.
+struct Meeting {
+    double linear = 0, angular = 0;  ///< the largest errors
+    double energy = 0;               ///< the largest, in parts of that at the start
+    double energy_left = 0;
+};
+
+Meeting meet(Fabric fabric, float mass, bool spins, std::uint32_t substeps, int frames) {
+    World world = make_world({.solver = {.substeps = substeps}, .gravity = {}, .contact_forces = spins});
+    world.add(make_sheet({.resolution = {17, 17},
+                          .rotation_degrees = {20, 0, 10},
+                          .velocity = {0, -1, 0.3f},
+                          .fabric = fabric,
+                          .layout = {.lines = true, .hierarchy = true}}));
+    world.add(make_ball(0.2f, mass, {0.05f, -0.4f, 0.1f},
+                        {.velocity = {0.1f, 0.5f, 0}, .spin = {0, spins ? 400.0f : 0, 90}}));
+    world.frame();
+    const Momentum start = momentum_of(world);
+    const double heavier = std::max(double{fabric.body.density} * 1.05, double{mass} * 0.5);
+    Meeting meeting;
+    for (int frame = 0; frame < frames; ++frame) {
+        world.step(1.0 / 60);
+        const Momentum now = momentum_of(world);
+        meeting.linear = std::max(meeting.linear, distance_between(now.linear, start.linear) / heavier);
+        meeting.angular = std::max(meeting.angular, distance_between(now.angular, start.angular) / heavier);
+        meeting.energy = std::max(meeting.energy, now.energy / start.energy);
+        meeting.energy_left = now.energy / start.energy;
+    }
+    return meeting;
+}
+
+TEST(ClothAndBody, keep_the_momentum_that_they_have_together) {
+    // Soft, with long substeps, and not for long: the sheet's own constraints lose momentum by rounding.
+    Fabric soft = find_fabric("cotton")->fabric;
+    soft.stretch = {.stretch = {0.05f, 0.05f}, .compression = {0.05f, 0.05f}, .shear = 0.05f};
+    soft.bend = {};
+    for (const float mass : {0.01f, 1.0f, 100.0f}) {
+        for (const bool spins : {false, true}) {
+            const Meeting meeting = meet(soft, mass, spins, 4, 60);
+            EXPECT_LT(meeting.linear, 1e-4) << mass << ' ' << spins;
+            EXPECT_LT(meeting.angular, 1e-3) << mass << ' ' << spins;
+            EXPECT_LT(meeting.energy, 1.01) << mass << ' ' << spins;
+        }
+    }
+}
+
+TEST(ClothAndBody, lose_energy_when_they_meet) {
+    for (const float mass : {0.01f, 1.0f, 100.0f}) {
+        const Meeting meeting = meet(find_fabric("cotton")->fabric, mass, true, 20, 120);
+        EXPECT_LT(meeting.energy, 1.001) << mass;
+        EXPECT_LT(meeting.energy_left, 1) << mass;
+    }
+}
+
+TEST(ClothAndBody, a_sheet_bears_a_ball) {
+    for (const float mass : {0.001f, 0.1f, 1.0f}) {
+        World world = make_world({.air = AirDesc{}, .contact_forces = true});
+        world.add(make_sheet(pinned_sheet(33)));
+        const ColliderId ball = world.add(make_ball(0.1f, mass, {0.03f, 0.12f, 0.02f}, {.damping = 0.5f}));
+        run(world, 9);
+        double weight = 0, speed = 0;
+        for (int frame = 0; frame < 60; ++frame) {
+            world.step(1.0 / 60);
+            world.summary();
+            weight += double{world.contact_forces().colliders.front().force.y} / 60;
+            speed = std::max(speed, double{speed_of(world.body(ball))});
+        }
+        EXPECT_NEAR(weight / (mass * 9.81), 1, 0.01) << mass;
+        EXPECT_LT(speed, mass < 1 ? 6e-3 : 3e-2) << mass;
+        EXPECT_GT(world.body(ball).state.place.y, -0.2) << mass;
+    }
+}
+
+TEST(ClothAndBody, a_fast_ball_does_not_pass_a_curtain) {
+    World world = make_world(WorldSettings{});
+    world.add(make_sheet({.resolution = {33, 33},
+                          .rotation_degrees = {90, 0, 0},
+                          .fabric = find_fabric("cotton")->fabric,
+                          .layout = {.lines = true, .hierarchy = true},
+                          .pinned = [](Vec3 p) { return p.z < -0.499f; }}));
+    const ColliderId ball = world.add(make_ball(0.1f, 0.5f, {0, 0, -1.03f}, {.velocity = {0, 0.5f, 60}}));
+    int met = 0;
+    for (int frame = 0; frame < 100; ++frame) {
+        world.step(1.0 / 1200);
+        const Vec3 at = world.body(ball).state.place.xyz();
+        if (at.z < 0) continue;
+        if (at.z > 0.4f) break;
+        ++met;
+        for (const Vec4& x : world.frame().cloths[0].positions) {
+            if (std::hypot(x.x - at.x, x.y - at.y) > 0.05f) continue;
+            EXPECT_GT(x.z, at.z) << frame;
+        }
+    }
+    EXPECT_GT(met, 5);
+    EXPECT_LT(world.body(ball).state.velocity.z, 59.5f);
+}
+
+TEST(ClothAndBody, the_same_bits_on_any_number_of_threads_and_after_a_restore) {
+    std::string hash;
+    for (const unsigned workers : {0u, 1u, 3u}) {
+        World world = make_world(WorldSettings{}, CpuOptions{.workers = workers});
+        world.add(make_sheet(pinned_sheet(33)));
+        for (int i = 0; i < 8; ++i)
+            world.add(make_ball(0.05f, 0.05f * static_cast<float>(i + 1),
+                                {0.12f * static_cast<float>(i % 3) - 0.12f, 0.2f + 0.03f * static_cast<float>(i),
+                                 0.12f * static_cast<float>(i / 3) - 0.12f}));
+        world.add(make_box({0.06f, 0.04f, 0.05f}, 0.3f, {0.2f, 0.3f, 0.2f}));
+        run(world, 0.75);
+        const Snapshot middle = world.save();
+        run(world, 0.75);
+        const std::string end = world.state_hash();
+        if (hash.empty()) hash = end;
+        EXPECT_EQ(end, hash) << workers;
+        ASSERT_TRUE(world.restore(*snapshot_from_bytes(to_bytes(middle))).ok());
+        run(world, 0.75);
+        EXPECT_EQ(world.state_hash(), hash) << workers;
+    }
+}
+
+TEST(ClothAndBody, a_body_without_reaction_does_not_feel_the_cloth) {
+    World world = make_world(WorldSettings{});
+    world.add(make_sheet(pinned_sheet(17)));
+    const ColliderId ball = world.add(make_ball(0.1f, 0.001f, {0, 0.2f, 0}, {.reaction = false}));
+    run(world, 0.25);
+    EXPECT_NEAR(world.body(ball).state.velocity.y, -9.81 * 0.25, 1e-3);
+}
+
+TEST(ClothAndBody, a_stray_snapshot_is_refused) {
+    World world = make_world(WorldSettings{});
+    world.add(make_ball(0.1f, 1, {}));
+    Snapshot snapshot = world.save();
+    snapshot.bodies.clear();
+    const auto restored = world.restore(snapshot);
+    ASSERT_FALSE(restored.ok());
+    EXPECT_NE(restored.error().message().find("bodies"), std::string::npos) << restored.error().message();
+}
+
+}  // namespace
+}  // namespace weft::physical
