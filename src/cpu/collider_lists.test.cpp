@@ -1,5 +1,7 @@
 #include "cpu/collider_lists.h"
 
+#include "cpu/bodies.h"
+
 #include <gtest/gtest.h>
 
 namespace weft::cpu {
@@ -25,7 +27,7 @@ struct Tiles {
             x = {x.x + by.x, x.y + by.y, x.z + by.z, x.w};
         }
     }
-    void cover() { part.cover(scalar_passes(), view(), places, {.fall = {}, .substeps = 1, .margin = 0.1f}); }
+    void cover() { part.cover(scalar_passes(), view(), places, Bodies(), {.fall = {}, .substeps = 1, .margin = 0.1f}); }
     std::vector<std::uint32_t> near(std::uint32_t tile) const {
         std::vector<std::uint32_t> found;
         for (const ColliderRun& run : part.runs()) {

@@ -153,7 +153,12 @@ class Compiler : ClothArgs {
             case PassKind::settle_particles:
             case PassKind::watch_tears:
             case PassKind::tear:
-                break;  // for all cloths only
+            case PassKind::predict_bodies:  // Backend::moves_bodies()
+            case PassKind::count_touches:
+            case PassKind::touch_bodies:
+            case PassKind::move_bodies:
+            case PassKind::finish_bodies:
+                break;  // for all cloths only, or never
             case PassKind::targets:
                 add_targets(list, pass, substep);
                 break;

@@ -20,7 +20,7 @@ struct Meeting {
 };
 
 Meeting meet(Fabric fabric, float mass, bool spins, std::uint32_t substeps, int frames) {
-    World world = make_world({.solver = {.substeps = substeps}, .gravity = {}, .contact_forces = spins});
+    World world = make_world({.gravity = {}, .solver = {.substeps = substeps}, .contact_forces = spins});
     world.add(make_sheet({.resolution = {17, 17},
                           .rotation_degrees = {20, 0, 10},
                           .velocity = {0, -1, 0.3f},

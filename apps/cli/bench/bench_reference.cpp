@@ -137,6 +137,11 @@ class TrafficCounter {
             case PassKind::list:
             case PassKind::aim:
                 return {};  // of dynamic lists
+            case PassKind::predict_bodies:
+            case PassKind::count_touches:
+            case PassKind::touch_bodies:
+            case PassKind::move_bodies:
+            case PassKind::finish_bodies:
             case PassKind::find_faces:
             case PassKind::push_faces:
             case PassKind::move_faces:
