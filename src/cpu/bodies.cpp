@@ -12,8 +12,9 @@ using scalar::vector_of;
 // A body is expected in a box around its free flight, larger by this part of its way and of its radius.
 constexpr float reach_per_way = 0.25f, reach_per_radius = 0.25f;
 
-// Sweeps over the contacts of bodies with one another and with colliders, for each sweep of cloth over the bodies.
-constexpr int sweeps_of_contacts = 4;
+// Sweeps over the contacts of bodies with one another and with colliders: after each sweep of particles over the
+// bodies, after each sweep of faces, of which there are more, and for velocities.
+constexpr int sweeps_after_particles = 3, sweeps_after_faces = 1, sweeps_of_velocities = 4;
 
 float radius_about(Vec3 center, const Bounds& box) {
     const auto far = [](float low, float high, float at) { return std::max(std::abs(high - at), std::abs(at - low)); };
@@ -73,9 +74,10 @@ void Bodies::run(const Pass& pass) {
         case PassKind::predict_bodies:
             return predict();
         case PassKind::move_bodies:
-            return pass.batch == 0 ? count_touches() : take_sums();
+            if (pass.batch == 0) return count_touches();
+            return take_sums(pass.batch == 1 ? sweeps_after_particles : sweeps_after_faces);
         default:  // finish_bodies
-            for (int sweep = 0; sweep < sweeps_of_contacts; ++sweep) contacts_.bounce();
+            for (int sweep = 0; sweep < sweeps_of_velocities; ++sweep) contacts_.bounce();
             ++substep_;
             return watch_reach();
     }
@@ -84,7 +86,7 @@ void Bodies::run(const Pass& pass) {
 void Bodies::run_alone(const WorldPlan& plan) {
     for (std::uint32_t substep = 0; substep < plan.substeps; ++substep) {
         predict();
-        for (std::uint32_t sweep = 0; sweep < body_sweeps; ++sweep) take_sums();
+        for (std::uint32_t sweep = 0; sweep < body_sweeps; ++sweep) take_sums(sweeps_after_particles);
         run({.kind = PassKind::finish_bodies});
     }
 }
@@ -116,7 +118,7 @@ void Bodies::count_touches() {
 }
 
 // What the cloth's sweep has added up moves the bodies, then their contacts with one another and with colliders do.
-void Bodies::take_sums() {
+void Bodies::take_sums(int sweeps) {
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
         BodySums all;
         for (auto& sums : sums_) {
@@ -128,7 +130,7 @@ void Bodies::take_sums() {
             push(bodies_[i], {from_quanta(all.impulse), from_quanta(all.twist)}, h_);
     }
     count_touches();
-    for (int sweep = 0; sweep < sweeps_of_contacts; ++sweep) contacts_.project();
+    for (int sweep = 0; sweep < sweeps; ++sweep) contacts_.project();
 }
 
 bool Bodies::all_finite() const {

@@ -54,7 +54,7 @@ class Bodies {
   private:
     void predict();
     void count_touches();
-    void take_sums();
+    void take_sums(int sweeps);
     void watch_reach();
 
     std::vector<BodyInStep> bodies_;

@@ -37,8 +37,13 @@ constexpr float open_margin = 1e-4f;
 void place(BodyInStep& body) {
     const Mat3 rotation = columns_of(body.motion.turn);
     body.now = {rotation, vector_of(body.motion.place) - rotation * body.of->body->mass.center};
-    const auto column = [&](Vec3 axis) { return vector_of(rate_of(body.motion.turn, vector_of(axis), body.inertia)); };
-    body.inverse_inertia = {column({1, 0, 0}), column({0, 1, 0}), column({0, 0, 1})};
+    // R I⁻¹ Rᵀ, column by column.
+    const auto column = [&](Vec3 row) {
+        const vec3 along = times_symmetric(body.inertia.inverse_moments, body.inertia.inverse_products, vector_of(row));
+        return rotation * vector_of(along);
+    };
+    const Mat3 back = transposed(rotation);
+    body.inverse_inertia = {column(back.x), column(back.y), column(back.z)};
 }
 
 void push(BodyInStep& body, const scalar::BodyPush& by, float h) {

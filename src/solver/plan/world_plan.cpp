@@ -206,13 +206,13 @@ class Planner {
         for (std::uint32_t sweep = 0; sweep <= face_sweeps; ++sweep) {
             passes.push_back({.kind = PassKind::push_faces, .batch = sweep});
             passes.push_back({.kind = PassKind::move_faces, .batch = sweep});
-            move_bodies(1);
+            move_bodies(2);
         }
         for (std::uint32_t hold = 0; hold < face_holds; ++hold) {
             passes.push_back({.kind = PassKind::hold_faces, .batch = hold});
             passes.push_back({.kind = PassKind::settle_faces, .batch = hold});
         }
-        move_bodies(1);
+        move_bodies(2);
     }
 
     void add_constraints(bool first, Passes& passes) const {
