@@ -208,7 +208,7 @@ class CpuBackend final : public Backend {
                   cpu::Executor::Job& job) {
         job.step = island.step;
         job.again = false;
-        job.bodies = step.input.bodies.empty() ? &no_bodies_ : &bodies_;
+        job.bodies = step.input.bodies.empty() ? nullptr : &bodies_;
         job.steps.clear(), job.cloths.clear(), job.links.clear(), job.swept.clear();
         bool collides = false, has_spheres = false;
         for (const std::uint32_t number : parts) {
@@ -339,7 +339,7 @@ class CpuBackend final : public Backend {
     ListCounts counts_;                  // of the last frame
     ClothContactCounts contact_counts_;  // of the last frame
     cpu::WorldArrays arrays_;
-    cpu::Bodies bodies_, no_bodies_;
+    cpu::Bodies bodies_;
     std::array<double, stage_count> stage_ms_{};
     std::vector<std::unique_ptr<Place>> cloths_;  // by handle
 };

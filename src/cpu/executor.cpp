@@ -73,6 +73,7 @@ void Executor::prepare(const WorldStep& step, Job& job, unsigned workers) {
         cloth->prepare(*step.plan, step.input.colliders.size(), workers, step.input.contact_forces,
                        !step.input.bodies.empty());
     }
+    if (!job.bodies) job.bodies = &no_bodies_;
     job.bodies->prepare(step, workers);
     for (const Job::Links& links : job.links) links.state->prepare(*links.tables, *step.plan);
     if (job.adhesion) job.adhesion->prepare({passes_, step, job.cloths});

@@ -35,9 +35,9 @@ class Executor {
         AdhesionList* adhesion = nullptr;             ///< null if nothing sticks
         ClothContact* cloth_contact = nullptr;        ///< null if no cloth collides exactly
         ParticleContact* particle_contact = nullptr;  ///< null if no cloth collides by particles
-        Bodies* bodies = nullptr;                     ///< of the world; the job has all cloths if there are any
-        bool again = false;                           ///< the frame is repeated from the same state
-        std::vector<std::uint32_t> reports = {};      ///< out: per cloth; run() does not roll back non-finite ones
+        Bodies* bodies = nullptr;                 ///< of the world; then the job has all cloths. Null: there are none
+        bool again = false;                       ///< the frame is repeated from the same state
+        std::vector<std::uint32_t> reports = {};  ///< out: per cloth; run() does not roll back non-finite ones
     };
 
     /// Runs islands that are too small to be worth the team's barriers on one thread each: those below
@@ -76,6 +76,7 @@ class Executor {
     std::uint32_t smallest_shared_;
     std::vector<WorkerScratch> scratch_;
     std::vector<Job*> small_;  // of the frame, the largest first
+    Bodies no_bodies_;
     ContactArrays contact_arrays_;
     ParticleArrays particle_arrays_;
 };
