@@ -1,5 +1,6 @@
 #include "collide/moments.h"
 
+#include "base/wide_vector.h"
 #include "mesh/weld.h"
 
 #include <algorithm>
@@ -11,27 +12,7 @@
 namespace weft {
 namespace {
 
-struct Place {
-    double x = 0, y = 0, z = 0;
-};
-Place operator+(const Place& a, const Place& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Place operator-(const Place& a, const Place& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Place operator*(const Place& a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-double dot(const Place& a, const Place& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Place cross(const Place& a, const Place& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double length(const Place& a) {
-    return std::sqrt(dot(a, a));
-}
+using Place = WideVec3;
 
 void add_volume(Moments& sum, double volume) {
     sum.volume += volume;

@@ -3,6 +3,8 @@
 // center, here with the first three terms.
 #include "collide/winding_number.h"
 
+#include "base/wide_vector.h"
+
 #include <weft/bounds.h>
 
 #include <algorithm>
@@ -17,30 +19,7 @@ namespace {
 // Larger groups make a smaller tree, smaller groups faster queries.
 constexpr std::uint32_t most_triangles = 12;
 
-struct Wide {
-    double x = 0, y = 0, z = 0;
-};
-Wide operator+(const Wide& a, const Wide& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Wide operator-(const Wide& a, const Wide& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Wide operator*(const Wide& a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-double dot(const Wide& a, const Wide& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Wide cross(const Wide& a, const Wide& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Wide wide(Vec3 v) {
-    return {double{v.x}, double{v.y}, double{v.z}};
-}
-Vec3 narrow(const Wide& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+using Wide = WideVec3;
 
 // Half of the solid angle of the triangle, positive as seen from behind it (van Oosterom and Strackee, "The Solid Angle
 // of a Plane Triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983).

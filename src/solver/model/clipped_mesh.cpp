@@ -1,5 +1,6 @@
 #include "solver/model/clipped_mesh.h"
 
+#include "base/wide_vector.h"
 #include "collide/closest_point.h"
 #include "mesh/polygon.h"
 #include "mesh/weld.h"
@@ -14,34 +15,8 @@
 namespace weft {
 namespace {
 
-/// A point or vector in double precision.
-struct Place {
-    double x = 0, y = 0, z = 0;
-};
-Place wide(Vec3 v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-Vec3 narrow(const Place& p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-Place operator+(const Place& a, const Place& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Place operator-(const Place& a, const Place& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Place operator*(const Place& a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-double dot(const Place& a, const Place& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Place cross(const Place& a, const Place& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double length(const Place& a) {
-    return std::sqrt(dot(a, a));
-}
+using Place = WideVec3;
+
 Place unit(const Place& a) {
     const double l = length(a);
     return l > 0 ? a * (1 / l) : Place{};
