@@ -585,29 +585,5 @@ TEST_F(SceneFolder, SaysWhatIsNoFile) {
     EXPECT_EQ(load_scene(folder_ / "empty.json").error().what, "is empty");
 }
 
-#ifdef WEFT_SOURCE_DIR
-
-TEST(Scenes, AllLoad) {
-    int count = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(WEFT_SOURCE_DIR "/scenes")) {
-        if (entry.path().extension() != ".json") continue;
-        const Result<SceneDesc> scene = load_scene(entry.path());
-        EXPECT_TRUE(scene) << scene.error().message();
-        ++count;
-    }
-    EXPECT_GE(count, 3);
-}
-
-TEST(Scenes, ExampleOfTheReferenceLoads) {
-    std::ifstream file(WEFT_SOURCE_DIR "/docs/scene.md");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    const std::string fence = "```jsonc\n";
-    const std::size_t start = text.find(fence) + fence.size();
-    const Result<SceneDesc> scene = parse_scene(text.substr(start, text.find("```", start) - start), "docs/scene.md");
-    EXPECT_TRUE(scene) << scene.error().message();
-}
-
-#endif
-
 }  // namespace
 }  // namespace weft

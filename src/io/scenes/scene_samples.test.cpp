@@ -1,10 +1,13 @@
-// Every JSON sample of the pages must be a scene, or a part of one, that the reader accepts.
+// Every scene of the repository, and every JSON sample of the pages, must be a scene, or a part of one, that the reader
+// accepts.
 #include "io/scenes/read_scene.test.h"
 #include "scene/scene_keys.h"
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -86,6 +89,26 @@ TEST(SceneSamples, begin_every_section_of_the_scene_reference) {
         const std::string place = table.place.empty() ? "/" : std::string(table.place);
         EXPECT_TRUE(with_sample.contains("`" + place + "`")) << place;
     }
+}
+
+TEST(Scenes, AllLoad) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(WEFT_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".json") continue;
+        const Result<SceneDesc> scene = load_scene(entry.path());
+        EXPECT_TRUE(scene) << scene.error().message();
+        ++count;
+    }
+    EXPECT_GE(count, 3);
+}
+
+TEST(Scenes, ExampleOfTheReferenceLoads) {
+    std::ifstream file(WEFT_SOURCE_DIR "/docs/scene.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string fence = "```jsonc\n";
+    const std::size_t start = text.find(fence) + fence.size();
+    const Result<SceneDesc> scene = parse_scene(text.substr(start, text.find("```", start) - start), "docs/scene.md");
+    EXPECT_TRUE(scene) << scene.error().message();
 }
 
 }  // namespace
