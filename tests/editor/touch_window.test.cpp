@@ -1,10 +1,5 @@
 // Selection, groups, brush and anchors in the editor's window, driven by mouse and keys alone.
-#include "base/temporary_folder.test.h"
-
-#include "driven_editor.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "editor_fixture.h"
 
 #include <cmath>
 #include <numbers>
@@ -27,7 +22,7 @@ std::string front_scene(const std::string& more = R"("pins": [{"vertices": [0, 1
         "camera": {"position": [0, 1, 3], "target": [0, 1, 0], "fov": 30} })";
 }
 
-class TouchWindow : public testing::Test {
+class TouchWindow : public EditorWindow {
   protected:
     /// Opens the scene and waits at its first frame.
     DrivenEditor& start(const std::string& scene) {
@@ -55,18 +50,9 @@ class TouchWindow : public testing::Test {
         for (std::size_t i = 1; i < line.size(); ++i) editor->move(line[i]);
         editor->release();
     }
-    void undo_everything() {
-        while (editor->is_enabled("toolbar/undo")) editor->key("ctrl+z");
-    }
     void expect_nothing_is_left() {
         undo_everything();
-        const Log log = editor->log();
-        Stage played = editor->played();
-        auto plain = open_stage(log.head, {});
-        ASSERT_TRUE(plain);
-        while (plain->frame() < played.frame()) ASSERT_TRUE(plain->step());
-        EXPECT_EQ(played.document()->json, log.head.document->json);
-        EXPECT_EQ(played.hash(), plain->hash());
+        EditorWindow::expect_nothing_is_left();
     }
     void pick(const std::string& name, const std::string& value) {
         editor->click(name);
@@ -74,8 +60,6 @@ class TouchWindow : public testing::Test {
         EXPECT_EQ(editor->value(name), value);
     }
 
-    TemporaryFolder folder;
-    std::optional<DrivenEditor> editor;
     std::size_t first_steps = 0;
 };
 
