@@ -13,9 +13,7 @@ namespace {
 
 class ExportJobTest : public testing::Test {
   protected:
-    void SetUp() override {
-        if (!std::filesystem::exists(program)) GTEST_SKIP() << program << " is not built";
-    }
+    void SetUp() override { ASSERT_TRUE(std::filesystem::exists(program)) << program << " is not built"; }
     /// Waits for the end; fails after a minute.
     static void wait_for(ExportJob& job) {
         for (int i = 0; i < 6000 && job.running(); ++i) {

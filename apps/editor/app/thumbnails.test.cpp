@@ -21,7 +21,7 @@ using State = Thumbnails::State;
 class ThumbnailsTest : public testing::Test {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(program)) GTEST_SKIP() << program << " is not built";
+        ASSERT_TRUE(std::filesystem::exists(program)) << program << " is not built";
         std::ofstream(scene) << R"({"weft": 1, "cloths": [{"mesh": {"grid": {"resolution": [8, 8]}}}]})";
         std::ofstream(broken) << R"({"weft": 1, "cloths": 3})";
     }
