@@ -18,9 +18,10 @@ struct PrunedLevels {
 /// Tethers cannot be pruned.
 bool can_prune_limits(const ClothModel& model);
 
-/// Ends coarse limits whose way over the cloth can cross the openings, and gives copies the parents of their originals.
-/// The levels keep their sizes. `first_copy`: the first particle that the openings have appended. The result depends
-/// on the levels as they were built and on all openings since, in any number of calls.
+/// Removes the coarse limits that bound a distance by a path over the cloth which may cross an opening. Copies of
+/// particles move with the nodes of the coarse levels that move their originals. The levels keep their sizes.
+/// `first_copy`: the first particle that the openings have appended. The result depends on the levels as they were
+/// built and on all openings since, in any number of calls.
 void prune_limits(ClothModel& model, std::span<const Opening> openings, std::uint32_t first_copy);
 
 }  // namespace weft
