@@ -97,6 +97,12 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
         case PassKind::targets:
             run_targets(substep, mine);
             break;
+        case PassKind::take_taut:
+            passes_.take_taut(view_, &cloth_.taut[0].x, mine);
+            break;
+        case PassKind::free_taut:
+            for (std::uint32_t p = mine.begin; p < mine.end; ++p) cloth_.now().position[p].w = cloth_.weights()[p];
+            break;
         case PassKind::count_touches:
         case PassKind::touch_bodies:
             run_body_contacts(pass, substep, mine, worker);
@@ -144,6 +150,8 @@ void ClothRun::run_blocks(const Pass& pass, std::uint32_t substep, std::span<con
     const auto kind = static_cast<std::uint32_t>(pass.constraint);
     if (pass.kind == PassKind::damp) {
         passes_.damp[kind](view_, rows, range, numbers_.viscous);
+    } else if (pass.kind == PassKind::weigh_taut) {
+        passes_.weigh_taut(view_, rows, range, input_.gravity, numbers_.h, &cloth_.taut[0].x);
     } else if (plan_.method == Method::pbd) {
         passes_.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else if (plan_.projection == Projection::lines) {
@@ -184,6 +192,8 @@ void ClothRun::run_range(const Pass& pass, std::uint32_t substep, Range range, b
     const RowView rows = cloth_.rows(pass.constraint);
     if (pass.kind == PassKind::damp) {
         passes.damp[kind](view_, rows, range, numbers_.viscous);
+    } else if (pass.kind == PassKind::weigh_taut) {
+        passes.weigh_taut(view_, rows, range, input_.gravity, numbers_.h, &cloth_.taut[0].x);
     } else if (plan_.method == Method::pbd) {
         passes.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else {

@@ -43,6 +43,7 @@ class ClothRun {
     void for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const;
     void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void move_faces(bool last, Worker worker) const;
+    void log_contact(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) const;
     void push_back(std::uint32_t particle, std::uint32_t collider, Vec3 by) const;
     void settle_faces(std::uint32_t substep, Worker worker) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {

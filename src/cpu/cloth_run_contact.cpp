@@ -95,7 +95,8 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .static_friction = static_friction,
             .kinetic_friction = kinetic_friction,
             .half_thickness = numbers_.half_thickness,
-            .depenetration = numbers_.depenetration};
+            .depenetration = numbers_.depenetration,
+            .free = bodies_.empty() ? nullptr : cloth_.weights().data()};
 }
 
 // Calls collect(run) for runs near the same colliders, then visit(near) for each collider that their faces may touch,
@@ -175,10 +176,16 @@ void ClothRun::move_faces(bool last, Worker worker) const {
     if (cloth_.account.empty() && !contacts.any_of_bodies()) return contacts.move(worker.number, view_);
     if (worker.number != 0) return;
     contacts.for_each_push(view_, last, [&](std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) {
-        if (!cloth_.account.empty()) cloth_.near_colliders.trace(particle, collider, by, lever);
+        log_contact(particle, collider, by, lever);
         push_back(particle, collider, by);
     });
     for (unsigned other = 0; other < worker.count; ++other) contacts.move(other, view_);
+}
+
+void ClothRun::log_contact(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever) const {
+    if (cloth_.account.empty()) return;
+    const float heavier = scalar::mass_ratio(view_.position[4 * std::size_t{particle} + 3], cloth_.weights()[particle]);
+    cloth_.near_colliders.trace(particle, collider, by * heavier, lever);
 }
 
 // The collider gets the opposite of what it did to a particle, if it is a body. One thread at a time.
@@ -207,8 +214,7 @@ void ClothRun::settle_faces(std::uint32_t substep, Worker worker) const {
                 held_place(body, to_body_at_start(body, {start[0], start[1], start[2]}), to_body(body, at), part);
             const Vec3 place{held.x, held.y, held.z};
             const Vec3 before{x[0], x[1], x[2]};
-            if (!cloth_.account.empty())
-                cloth_.near_colliders.trace(p, collider, place - before, before - now.position);
+            log_contact(p, collider, place - before, before - now.position);
             push_back(p, collider, place - before);
             x[0] = place.x, x[1] = place.y, x[2] = place.z;
         });

@@ -352,6 +352,7 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
         const std::size_t count = rounds_of(plan, *model) > 1 ? table.lambda_count() : 0;
         if (table.kind != ConstraintKind::stretch && of_table.size() != count) of_table.assign(count, 0.0f);
     }
+    taut.resize(has(plan.substep, PassKind::take_taut) ? model->capacity() : 0);
     std::uint32_t longest = 0;
     for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)
         longest = std::max(longest, block.length);

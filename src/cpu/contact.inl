@@ -15,17 +15,6 @@ WEFT_FN ContactBody make_body(const ContactView& c) {
             real(c.kinetic_friction),    real(c.half_thickness), real(c.depenetration)};
 }
 
-// Adds the displacements by a contact to the particles' contact log.
-WEFT_FN void trace_pass(const ContactView& c, std::size_t i, vec3 before, vec3 x) {
-    real unused;
-    ContactTrace trace;
-    trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
-    trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
-    trace_contact(trace, before, x, spread(c.now.position));
-    store_blocks_unordered(trace.moved, real(0.0f), c.moved + 4 * i);
-    store_blocks_unordered(trace.turned, real(0.0f), c.turned + 4 * i);
-}
-
 inline std::uint32_t first_outside_pass(const float* position, std::span<const Bounds> boxes, Range range,
                                         std::uint32_t first) {
     for (std::uint32_t tile = first; tile < boxes.size(); ++tile) {
@@ -56,6 +45,23 @@ inline std::uint32_t first_outside_pass(const float* position, std::span<const B
 // Which particle of a group stands in a lane after load_blocks_unordered().
 constexpr std::size_t unordered_particle(std::size_t lane) {
     return lane_count < 4 ? lane : lane % 4 * (lane_count / 4) + lane / 4;
+}
+
+// Adds the displacements by a contact to the particles' contact log.
+//   particle   first one of the lanes, in the cloth;  i   in the log
+WEFT_FN void trace_pass(const ContactView& c, std::size_t particle, std::size_t i, vec3 before, vec3 x, real w) {
+    real unused, heavier = real(1.0f);
+    if (c.free) {
+        alignas(64) float free[16];
+        for (std::size_t lane = 0; lane < lane_count; ++lane) free[lane] = c.free[particle + unordered_particle(lane)];
+        heavier = mass_ratio(w, load(free));
+    }
+    ContactTrace trace;
+    trace.moved = load_blocks_unordered(c.moved + 4 * i, unused);
+    trace.turned = load_blocks_unordered(c.turned + 4 * i, unused);
+    trace_contact(trace, before, x, spread(c.now.position), heavier);
+    store_blocks_unordered(trace.moved, real(0.0f), c.moved + 4 * i);
+    store_blocks_unordered(trace.turned, real(0.0f), c.turned + 4 * i);
 }
 
 WEFT_FN void mark_near_faces(const ContactView& c, const Solid& solid, std::size_t at, real distance, real way,
@@ -95,7 +101,7 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         }
         if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * at);
         if constexpr (traced) {
-            if (touches) trace_pass(c, at, before, x);
+            if (touches) trace_pass(c, i, at, before, x, w);
         }
     }
 }
@@ -176,7 +182,7 @@ inline void touch_body_pass(const ParticleView& p, const ContactView& c, const B
             contact_moved_body(solid, body, moved, lane.x, lane.start, lane.w, sum, lane.local, lane.local_at_start,
                                lane.gap, lane.normal);
             store_blocks_unordered(lane.x, lane.w, p.position + 4 * i);
-            if (c.moved) trace_pass(c, i - range.begin, before, lane.x);
+            if (c.moved) trace_pass(c, i, at, before, lane.x, lane.w);
             if (b.moved) add_to_body(b, lane.x - before, lane.x, lane.w);
             const mask touches = sum.push > real(0.0f);
             b.sums->touches += static_cast<std::uint32_t>(__builtin_popcount(bits_of(touches)));

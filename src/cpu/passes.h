@@ -57,8 +57,9 @@ struct ContactView {
     float half_thickness, depenetration;  ///< m
     float* sums = nullptr;                ///< a ContactSum per particle of the range; nullptr with a single iteration
     bool first_iteration = true;          ///< of the substep: sums begin anew
-    float* moved = nullptr;   ///< ContactTrace, blocks of four per particle of the range; contact_traced only
-    float* turned = nullptr;  ///< likewise
+    float* moved = nullptr;       ///< ContactTrace, blocks of four per particle of the range; contact_traced only
+    float* turned = nullptr;      ///< likewise
+    const float* free = nullptr;  ///< 1/kg, by particle of the cloth: inverse masses if particles may weigh more now
     /// Set for the particles of the range whose faces may touch, or that contact moves; nullptr if no face is to touch.
     std::uint8_t* near_faces = nullptr;
     float nearest = 0, widest = 0;  ///< m: nearest_of_faces(), widest_face()
@@ -226,6 +227,10 @@ struct Passes {
     void (*prolongation)(float* particle_position, const ProlongationView&, Range);
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
+    /// Adds the masses of taut edges to the sums of their ends: blocks of TautSum, by particle.
+    void (*weigh_taut)(const ParticleView&, const RowView&, Range, Vec3 gravity, float h, float* taut);
+    /// Adds these sums to the masses, and clears them.
+    void (*take_taut)(const ParticleView&, float* taut, Range);
     /// Boxes of tiles of lane_padding particles, the first of which begins the range: the first tile from `first` on
     /// that has a particle with a mass outside of its box; the number of tiles if there is none.
     std::uint32_t (*first_outside)(const float* position, std::span<const Bounds> boxes, Range, std::uint32_t first);

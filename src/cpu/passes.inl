@@ -300,6 +300,41 @@ inline void damp_pass(const ParticleView& p, const RowView& rows, Range range, f
     }
 }
 
+inline void weigh_taut_pass(const ParticleView& p, const RowView& rows, Range range, Vec3 gravity, float h,
+                            float* taut) {
+    const Step step = make_step(h);
+    const vec3 acceleration(real(gravity.x), real(gravity.y), real(gravity.z));
+    for (std::size_t r = range.begin; r < range.end; r += lane_count) {
+        const std::uint32_t* index[2] = {rows.particles + r, rows.particles + rows.stride + r};
+        vec3 moved[2], start[2];
+        for (int k = 0; k < 2; ++k) {
+            real w, unused;
+            const vec3 x = gather_blocks(p.position, index[k], w);
+            start[k] = gather_blocks(p.start, index[k], unused);
+            moved[k] = moved_by_velocity(x, start[k], w, acceleration, step);
+        }
+        const real mass = taut_mass(start[0], start[1], StretchTraits::load_row(rows.fields + r, rows.stride), step);
+        for (int k = 0; k < 2; ++k) {
+            TautSum sum;
+            sum.moved = gather_blocks(taut, index[k], sum.mass);
+            scatter_blocks(sum.moved + moved[1 - k] * mass, sum.mass + mass, taut, index[k]);
+        }
+    }
+}
+
+// Leaves the sums at zero.
+inline void take_taut_pass(const ParticleView& p, float* taut, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real w, unused;
+        TautSum sum;
+        sum.moved = load_blocks_unordered(taut + 4 * i, sum.mass);
+        vec3 x = load_blocks_unordered(p.position + 4 * i, w);
+        take_taut_mass(x, w, load_blocks_unordered(p.start + 4 * i, unused), sum);
+        store_blocks_unordered(x, w, p.position + 4 * i);
+        store_blocks_unordered(vec3(real(0.0f)), real(0.0f), taut + 4 * i);
+    }
+}
+
 WEFT_FN vec3 spread(Vec3 v) { return vec3(real(v.x), real(v.y), real(v.z)); }
 
 #include "cpu/contact.inl"
@@ -364,6 +399,8 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .node_correction = node_correction_pass,
         .prolongation = prolongation_pass,
         .damp = {},
+        .weigh_taut = weigh_taut_pass,
+        .take_taut = take_taut_pass,
         .first_outside = first_outside_pass,
 #define WEFT_SHAPE(name, Name) contact_pass<Name##Shape, false>,
         .contact = {

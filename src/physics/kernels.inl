@@ -24,6 +24,7 @@
 #include "physics/coarse_limit/coarse_limit.kernel.h"
 #include "physics/stretch/stretch.kernel.h"
 #include "physics/stretch/line.kernel.h"
+#include "physics/stretch/taut.kernel.h"
 #include "physics/tear/tear.kernel.h"
 #include "physics/bend/bend.kernel.h"
 #include "physics/plate/plate.kernel.h"

@@ -158,6 +158,9 @@ class Compiler : ClothArgs {
             case PassKind::touch_bodies:
             case PassKind::move_bodies:
             case PassKind::finish_bodies:
+            case PassKind::weigh_taut:
+            case PassKind::take_taut:
+            case PassKind::free_taut:
                 break;  // for all cloths only, or never
             case PassKind::targets:
                 add_targets(list, pass, substep);

@@ -142,6 +142,9 @@ class TrafficCounter {
             case PassKind::touch_bodies:
             case PassKind::move_bodies:
             case PassKind::finish_bodies:
+            case PassKind::weigh_taut:
+            case PassKind::take_taut:
+            case PassKind::free_taut:
             case PassKind::find_faces:
             case PassKind::push_faces:
             case PassKind::move_faces:

@@ -7,10 +7,11 @@ struct ContactTrace {
     vec3 turned;  // m2   cross products of the particle's offset from the collider's position and the displacement
 };
 
-WEFT_FN void trace_contact(inout_(ContactTrace) trace, vec3 before, vec3 x, vec3 position)
+// `heavier`: the mass with which the particle moved, in parts of its mass.
+WEFT_FN void trace_contact(inout_(ContactTrace) trace, vec3 before, vec3 x, vec3 position, real heavier)
 {
     // The two floats are close together, so their difference is exact and the same as in the velocity update.
-    vec3 by = x - before;
+    vec3 by = (x - before) * heavier;
     trace.moved = trace.moved + by;
     trace.turned = trace.turned + cross(x - position, by);
 }

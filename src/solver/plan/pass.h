@@ -26,8 +26,9 @@ enum class PassFor : std::uint8_t { all_cloths, exact_cloths, fast_cloths };
 
 struct Pass {
     PassKind kind;
-    ConstraintKind constraint{};  ///< of project, correct and damp, and of all passes of a dynamic list
-    std::uint32_t batch = 0;      ///< of project, coarse_limit and damp; round of cloth_contact; sweep of push_faces
+    ConstraintKind constraint{};  ///< of project, correct, damp and the taut ones, and of all passes of a dynamic list
+    std::uint32_t batch =
+        0;  ///< of project, coarse_limit, damp, weigh_taut; round of cloth_contact; sweep of push_faces
     bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0
     std::uint32_t level = 0;      ///< of restriction, interpolation, coarse_limit, node_correction
     RowSource source = RowSource::model;
@@ -60,6 +61,7 @@ enum class Data : std::uint8_t {
     list_rows,      ///< of a dynamic list: the constraints
     face_contacts,  ///< of faces with colliders
     face_sums,      ///< of their pushes, per particle
+    taut,           ///< masses of taut edges, summed by particle
     hot,            ///< triangles whose load may soon exceed a limit
     pairs,          ///< of features of cloth that are near each other
     bodies,         ///< rigid bodies that move by forces

@@ -35,6 +35,7 @@ class Planner {
         if (settings_.bodies) plan.substep.push_back({.kind = PassKind::predict_bodies});
         if (std::ranges::any_of(cloths_, &PlannedCloth::kinematic)) plan.substep.push_back({.kind = PassKind::targets});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
+        add_taut_weights(plan.substep);
         const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
         const bool exact = std::ranges::any_of(cloths_, collides);
         for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) {
@@ -54,6 +55,7 @@ class Planner {
             plan.substep.push_back({.kind = PassKind::settle_particles});
         }
         if (settings_.bodies) plan.substep.push_back({.kind = PassKind::finish_bodies});
+        if (weighs_taut()) plan.substep.push_back({.kind = PassKind::free_taut, .constraint = ConstraintKind::stretch});
         if (grabbed()) plan.substep.push_back({.kind = PassKind::free_grabs});
         if (tears) plan.substep.push_back({.kind = PassKind::tear});
         plan.substep.push_back({.kind = PassKind::velocities});
@@ -100,6 +102,21 @@ class Planner {
     }
     static Pass dynamic(PassKind pass, ConstraintKind kind, bool first = true) {
         return {.kind = pass, .constraint = kind, .first_iteration = first, .source = RowSource::dynamic};
+    }
+
+    // Plain constraints have no elasticity, and those side by side share no weights.
+    bool weighs_taut() const {
+        return settings_.bodies && settings_.solver.method == Method::xpbd &&
+               settings_.solver.projection != Projection::jacobi;
+    }
+
+    void add_taut_weights(Passes& passes) const {
+        if (!weighs_taut()) return;
+        const auto kind = ConstraintKind::stretch;
+        const std::uint32_t batches = most([&](const ClothModel& model) { return batches_of(model, kind); });
+        for (std::uint32_t batch = 0; batch < batches; ++batch)
+            passes.push_back({.kind = PassKind::weigh_taut, .constraint = kind, .batch = batch});
+        passes.push_back({.kind = PassKind::take_taut, .constraint = kind});
     }
 
     // Coarse levels know nothing of the hands of grabs and would throw them about, so they do not move what is grabbed.
@@ -357,6 +374,7 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
         case PassKind::grab:
         case PassKind::free_grabs:
             return cloth.grabbed;
+        case PassKind::weigh_taut:
         case PassKind::project:
             return pass.batch < model.table(pass.constraint).batches.size();
         case PassKind::damp:

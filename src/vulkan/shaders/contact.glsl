@@ -16,7 +16,7 @@ void trace(uint at, bool touches, vec3 before, vec3 x, vec3 position)
     uint turned = contact_args.at.capacity * WEFT_COLLIDER_TILE + at;
     ContactTrace sum = ContactTrace(vec3(0.0), vec3(0.0));
     if (!begins) sum = ContactTrace(contact_args.at.contact_log.at[at].xyz, contact_args.at.contact_log.at[turned].xyz);
-    if (touches) trace_contact(sum, before, x, position);
+    if (touches) trace_contact(sum, before, x, position, real(1));
     contact_args.at.contact_log.at[at] = vec4(sum.moved, 0.0);
     contact_args.at.contact_log.at[turned] = vec4(sum.turned, 0.0);
 }

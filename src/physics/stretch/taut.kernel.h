@@ -1,0 +1,43 @@
+// Mass of taut cloth (taut.md).
+
+// Edges add at most this many times its mass to a particle.
+#define WEFT_TAUT_MOST 256.0
+
+// What the edges of a particle add to it.
+struct TautSum {
+    vec3 moved;  // kg m, masses times how far the other ends move
+    real mass;   // kg
+};
+
+// kg: the mass that an edge adds to its ends, T h²/rest, with T the tension at the start of the substep.
+WEFT_FN real taut_mass(vec3 a, vec3 b, StretchRow row, Step step)
+{
+    StretchState now = measure_stretch(a, b, row, step);
+    mask taut = now.c > real(0) && !now.slack && row.rest > real(0);
+    real mass = now.c / max(now.alpha * row.rest, max(now.c * real(1e-6), real(1e-30)));
+    return select(taut, mass, real(0));
+}
+
+// How far a particle moves by its velocity before this substep. Pinned ones do not fall.
+WEFT_FN vec3 moved_by_velocity(vec3 x, vec3 start, real w, vec3 gravity, Step step)
+{
+    return x - start - gravity * select(w > real(0), step.h * step.h, real(0));
+}
+
+// Adds its edges' mass to a particle. It moves with the other ends of the edges, and does not fall.
+WEFT_FN void take_taut_mass(inout_(vec3) x, inout_(real) w, vec3 start, TautSum sum)
+{
+    real ratio = min(w * sum.mass, real(WEFT_TAUT_MOST));
+    mask taut = ratio > real(0);
+    real part = real(1) / (real(1) + ratio);
+    vec3 beside = sum.moved * (real(1) / select(taut, sum.mass, real(1)));
+    x = select(taut, start + (x - start + beside * ratio) * part, x);
+    w = select(taut, w * part, w);
+}
+
+// How many times its mass a particle weighs that has the inverse mass w in place of `free`.
+WEFT_FN real mass_ratio(real w, real free)
+{
+    mask moves = w > real(0);
+    return select(moves, free / select(moves, w, real(1)), real(1));
+}

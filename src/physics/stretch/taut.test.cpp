@@ -1,0 +1,111 @@
+#include "physics/testing.h"
+
+#include <vector>
+
+namespace weft {
+namespace {
+
+using namespace testing_kernels;
+using reference::StretchRow;
+using reference::TautSum;
+
+TEST(TautMass, is_the_tension_times_the_square_of_the_time_over_the_length) {
+    Random random(1);
+    for (int i = 0; i < 100; ++i) {
+        const double rest = random.number(0.01, 1), compliance = random.number(1e-5, 1e-2),
+                     h = random.number(1e-4, 1e-2);
+        const double length = rest * random.number(1.001, 2);
+        const vec3 a = random.vector(1), b = a + vec3(length, 0, 0);
+        const double tension = (length - rest) / compliance;
+        EXPECT_NEAR(
+            reference::taut_mass(a, b, StretchRow{rest, compliance, 1}, make_step(h)) / (tension * h * h / rest), 1,
+            1e-9);
+    }
+}
+
+TEST(TautMass, is_none_of_an_edge_that_does_not_pull) {
+    const vec3 a(0, 0, 0), b(0, 1, 0);
+    const auto mass = [&](const StretchRow& row) { return reference::taut_mass(a, b, row, make_step(0.01)); };
+    EXPECT_EQ(mass({1, 1e-4, 1e-4}), 0);    // at rest
+    EXPECT_EQ(mass({1.5, 1e-4, 1e-4}), 0);  // slack
+    EXPECT_EQ(mass({0.5, -1, 1e-4}), 0);    // does not pull
+    EXPECT_EQ(mass({0, 1e-4, 1e-4}), 0);    // padding
+    EXPECT_GT(mass({0.5, 1e-4, 1e-4}), 0);
+}
+
+TEST(TautMass, of_an_inextensible_edge_is_finite) {
+    const double mass = reference::taut_mass(vec3(0, 0, 0), vec3(0, 1, 0), StretchRow{0.5, 0, 0}, make_step(0.01));
+    EXPECT_GT(mass, 1e3);
+    EXPECT_LT(mass, 1e7);
+    vec3 x(0, 0, 1);
+    double w = 2;
+    reference::take_taut_mass(x, w, vec3(0, 0, 0), TautSum{vec3(0, 0, 0), mass});
+    EXPECT_NEAR(w, 2 / 257.0, 1e-12);
+    EXPECT_NEAR(x.z, 1 / 257.0, 1e-12);
+}
+
+TEST(TautMass, of_slack_edges_changes_no_bit) {
+    Random random(2);
+    for (int i = 0; i < 100; ++i) {
+        const vec3 before = random.vector(1), start = random.vector(1);
+        vec3 x = before;
+        double w = i % 2 * random.number(0, 10);
+        const double w_before = w;
+        reference::take_taut_mass(x, w, start, TautSum{vec3(0, 0, 0), 0});
+        EXPECT_EQ(norm(x - before), 0);
+        EXPECT_EQ(w, w_before);
+    }
+}
+
+// The particle and its three neighbors move alike, so what is added does too.
+TEST(TautMass, does_not_hold_back_what_moves_together) {
+    Random random(3);
+    for (int i = 0; i < 100; ++i) {
+        const vec3 start = random.vector(1), way = random.vector(1);
+        TautSum sum{vec3(0, 0, 0), 0};
+        for (int k = 0; k < 3; ++k) {
+            const double mass = random.number(0, 10);
+            sum.moved = sum.moved + way * mass, sum.mass += mass;
+        }
+        vec3 x = start + way;
+        double w = random.number(0.1, 10);
+        const double heavier = 1 + w * sum.mass, free = w;
+        reference::take_taut_mass(x, w, start, sum);
+        EXPECT_LT(norm(x - start - way), 1e-12);
+        EXPECT_NEAR(reference::mass_ratio(w, free), heavier, 1e-12 * heavier);
+    }
+}
+
+// The step of a Jacobi iteration from the predicted ways: (M + L) u = M ũ for its own row.
+TEST(TautMass, takes_a_jacobi_step_of_the_geometric_stiffness) {
+    Random random(4);
+    for (int i = 0; i < 100; ++i) {
+        const double mass = random.number(0.1, 1), tau[2] = {random.number(0, 5), random.number(0, 5)};
+        const vec3 start = random.vector(1), way = random.vector(1), beside[2] = {random.vector(1), random.vector(1)};
+        vec3 x = start + way;
+        double w = 1 / mass;
+        reference::take_taut_mass(x, w, start, TautSum{beside[0] * tau[0] + beside[1] * tau[1], tau[0] + tau[1]});
+        const vec3 u = x - start;
+        EXPECT_LT(norm((u - way) * mass + (u - beside[0]) * tau[0] + (u - beside[1]) * tau[1]), 1e-10);
+    }
+}
+
+TEST(TautMass, of_pinned_particles_stays_infinite) {
+    vec3 x(1, 2, 3);
+    double w = 0;
+    reference::take_taut_mass(x, w, vec3(0, 0, 0), TautSum{vec3(5, 5, 5), 7});
+    EXPECT_EQ(w, 0);
+    EXPECT_EQ(norm(x - vec3(1, 2, 3)), 0);
+    EXPECT_EQ(reference::mass_ratio(0, 0), 1);
+}
+
+// Gravity of a substep is taken out, but pinned particles have none.
+TEST(TautMass, moves_by_the_velocity_before) {
+    const vec3 gravity(0, -9.81, 0), start(1, 2, 3), way(0.1, 0.2, -0.1);
+    const vec3 fall = gravity * (0.01 * 0.01);
+    EXPECT_LT(norm(reference::moved_by_velocity(start + way + fall, start, 2, gravity, make_step(0.01)) - way), 1e-12);
+    EXPECT_LT(norm(reference::moved_by_velocity(start + way, start, 0, gravity, make_step(0.01)) - way), 1e-12);
+}
+
+}  // namespace
+}  // namespace weft
