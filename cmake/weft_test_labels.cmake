@@ -7,7 +7,7 @@
 #     TEST(Suite, name) {
 #
 # `// Labels of this file: …` applies to every test of the file; `// Labels on Vulkan: …` to a test only in the run on
-# the Vulkan backend. docs/architecture.md explains each label. A test that is not `slow` gets `quick`.
+# the Vulkan backend. docs/architecture.md explains each label. A test that is neither `slow` nor `long` gets `quick`.
 #
 # Input: weft_discovered (names of tests), weft_prefix (of these names), weft_labels (of all of them), weft_sources.
 
@@ -54,7 +54,7 @@ foreach(test IN LISTS weft_discovered)
     if(name IN_LIST labelled)
         list(APPEND labels ${labels_of_${name}})
     endif()
-    if(NOT "slow" IN_LIST labels)
+    if(NOT "slow" IN_LIST labels AND NOT "long" IN_LIST labels)
         list(APPEND labels quick)
     endif()
     set_tests_properties("${test}" PROPERTIES LABELS "${labels}")

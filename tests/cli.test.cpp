@@ -489,6 +489,7 @@ TEST_F(Cli, info_lists_what_there_is) {
 
 #ifdef WEFT_VULKAN
 
+// Labels: no-asan
 TEST_F(Cli, runs_on_vulkan_and_says_so) {
     const Json on_cpu = stats("--frames 3 --backend cpu"), on_vulkan = stats("--frames 3 --backend vulkan");
     EXPECT_EQ(on_vulkan["backend"], "vulkan");
@@ -500,6 +501,7 @@ TEST_F(Cli, runs_on_vulkan_and_says_so) {
               std::string::npos);
 }
 
+// Labels: no-asan
 TEST_F(Cli, stats_say_the_same_on_vulkan) {
     const Json on_cpu = stats("--frames 3 --backend cpu"), on_vulkan = stats("--frames 3 --backend vulkan");
     const auto keys = [](const Json& object) {

@@ -23,6 +23,7 @@ class CliBench : public weft::Cli {
     }
 };
 
+// Labels: no-asan
 TEST_F(CliBench, writes_every_figure) {
     const Json report = bench("sheet.json");
     EXPECT_EQ(report["weft_bench"], 1);
@@ -173,6 +174,7 @@ TEST_F(CliBench, finds_edges_on_vulkan_too) {
               std::string::npos);
 }
 
+// Labels: no-asan
 TEST_F(CliBench, writes_and_compares_what_vulkan_takes) {
     const std::string build = " --build 20 33 --substeps 1 --backend ";
     const Json report = bench(build + "vulkan");
@@ -212,6 +214,7 @@ TEST_F(CliBench, writes_and_compares_what_vulkan_takes) {
 }
 #endif
 
+// Labels: no-asan
 TEST_F(CliBench, compares_with_a_former_report) {
     bench("sheet.json");
     const Outcome same = compare();

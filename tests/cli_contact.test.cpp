@@ -35,7 +35,8 @@ TEST_F(Cli, cloth_falls_on_cloth_without_crossings) {
 }
 
 // Cloth drawn through a hoop of cloth, an overhand knot, a towel that is twisted, a tube that crumples. All of them
-// touch cloth within half a second. `scripts/test --long` runs a second of each. Labels: slow no-asan
+// touch cloth within half a second. `scripts/test --long` runs a second of each.
+// Labels: slow no-asan long
 TEST_F(Cli, cloth_of_the_contact_scenes_never_crosses) {
     for (const auto& entry : fs::directory_iterator(fs::path(WEFT_SOURCE_DIR) / "scenes" / "contact")) {
         if (entry.path().extension() != ".json") continue;

@@ -89,6 +89,7 @@ TEST_F(CliVulkanPictureFiles, a_color_map_shows_no_edges_of_triangles) {
     }
 }
 
+// Labels: no-asan
 TEST_F(CliVulkanPictureFiles, broken_ones_too) {
     write("broken.png", "\x89PNG and no more");
     write("empty.png", "");

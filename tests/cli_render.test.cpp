@@ -136,6 +136,7 @@ TEST_F(CliPictures, a_picture_a_sequence_and_a_film_in_one_run) {
     EXPECT_EQ(read_file(folder_ / "new/04.png"), read_file(folder_ / "last.png"));
 }
 
+// Labels: no-asan
 TEST_F(CliPictures, the_cloth_is_seen_and_moves) {
     render("--frames 20 --out all/%02d.png");
     const Image8 start = picture("all/00.png"), end = picture("all/20.png");
@@ -163,6 +164,7 @@ TEST_F(CliPictures, without_a_camera_what_falls_stays_in_the_picture) {
     EXPECT_EQ(read_file(folder_ / "film/3.png"), read_file(folder_ / "film_last.png")) << "one camera for a run";
 }
 
+// Labels: no-asan
 TEST_F(CliPictures, fewer_pictures_a_second_are_those_nearest_in_time) {
     render("--frames 6 --out all/%d.png");
     render("--frames 6 --fps 30 --out half/%d.png");
@@ -177,6 +179,7 @@ TEST_F(CliPictures, fewer_pictures_a_second_are_those_nearest_in_time) {
     EXPECT_FALSE(fs::exists(folder_ / "film/3.png"));
 }
 
+// Labels: no-asan
 TEST_F(CliPictures, the_camera_goes_around) {
     render("--frames 4 --out still/%d.png");
     render("--frames 4 --orbit 80 --out orbit/%d.png");
@@ -199,6 +202,7 @@ TEST_F(CliPictures, without_a_background_alpha_says_where_something_is) {
     EXPECT_EQ(full.at(0, 0)[3], 255);
 }
 
+// Labels: no-asan
 TEST_F(CliPictures, both_backends_give_the_same_picture_but_for_rounding) {
     render("--frames 5 --backend cpu --out cpu.png");
     render("--frames 5 --backend vulkan --out vulkan.png");

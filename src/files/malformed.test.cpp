@@ -253,13 +253,13 @@ class MillionVertices : public MalformedScene {
     }
 };
 
-// Labels: slow
+// Labels: slow no-asan
 TEST_F(MillionVertices, of_a_file) {
     folder.write("large.ply", large_ply());
     expect_to_run(R"("file": "large.ply")");
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST_F(MillionVertices, of_a_grid) {
     expect_to_run(R"("grid": {"resolution": [)" + std::to_string(side) + ", " + std::to_string(side) + "]}");
 }

@@ -82,6 +82,7 @@ void expect_carried(MeshContact contact) {
     EXPECT_NEAR(turned(before, world->world().frame().cloths[0].positions), 90, 8);
 }
 
+// Labels: no-asan
 TEST(TurningMesh, as_a_solid_carries_cloth_along) {
     expect_carried(MeshContact::solid);
 }

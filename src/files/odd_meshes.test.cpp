@@ -129,6 +129,7 @@ TEST(OddMeshes, without_a_part_hold_cloth_as_the_closed_ones) {
     expect_alike(lie_on({solid_of_mesh(half)}), lie_on({solid_of_mesh(closed(half))}), 1e-3, 5e-3, "half shell");
 }
 
+// Labels: no-asan
 TEST(OddMeshes, with_flipped_triangles_and_parts_inside_have_the_same_field) {
     const TriangleMesh ball = make_sphere(0.2f, 4);
     TriangleMesh flipped = ball, inverted = ball;
@@ -142,6 +143,7 @@ TEST(OddMeshes, with_flipped_triangles_and_parts_inside_have_the_same_field) {
     EXPECT_EQ(lie_on({solid_of_mesh(joined(ball, make_sphere(0.15f, 3), {}))}).positions, on_ball.positions);
 }
 
+// Labels: no-asan
 TEST(OddMeshes, of_overlapping_parts_hold_cloth_as_the_parts) {
     const TriangleMesh ball = make_sphere(0.15f, 4), box = make_box({0.2f, 0.2f, 0.2f}, {2, 2, 2});
     const Vec3 aside{0.12f, 0.03f, 0.02f};
@@ -157,6 +159,7 @@ TEST(OddMeshes, of_overlapping_parts_hold_cloth_as_the_parts) {
     expect_alike(together(box), parts(box), 0.01, 0.025, "two boxes");
 }
 
+// Labels: no-asan
 TEST(OddMeshes, mirrored_and_scaled_unevenly_are_those_with_such_vertices) {
     const TriangleMesh mesh =
         joined(make_sphere(0.2f, 4), make_box({0.1f, 0.1f, 0.2f}, {2, 2, 2}), {0.2f, 0.05f, 0.05f});

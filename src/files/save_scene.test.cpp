@@ -26,6 +26,7 @@ std::string hash_of(const fs::path& scene, int frames, const Options& options = 
     return simulation->state_hash();
 }
 
+// Labels: no-asan
 TEST(SaveScene, EverySceneOfTheLibraryRunsTheSame) {
     TemporaryFolder folder;
     const fs::path copy = folder.path() / "copy.json";
@@ -44,6 +45,7 @@ TEST(SaveScene, EverySceneOfTheLibraryRunsTheSame) {
     EXPECT_GE(scenes, 9);
 }
 
+// Labels: no-asan
 TEST(SaveScene, RandomScenesRunTheSame) {
     TemporaryFolder folder;
     const fs::path path = folder.path() / "s.json", copy = folder.path() / "b" / "s.json";

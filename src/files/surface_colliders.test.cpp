@@ -110,6 +110,7 @@ TEST(SurfaceColliders, stop_a_sheet_thrown_at_a_plate_flat_and_edge_on) {
     }
 }
 
+// Labels: no-asan
 TEST(SurfaceColliders, hold_from_both_sides) {
     for (const float from : {1.0f, -1.0f}) {
         SceneDesc scene = scene_of(exact_sheet(0.5f, 20, {.position = {0, 0.05f * from, 0}}, {0, -3 * from, 0}),
@@ -134,6 +135,7 @@ TEST(SurfaceColliders, keep_half_of_the_thickness_of_the_cloth) {
     EXPECT_NEAR(sum / static_cast<double>(positions.size()), 0.001, 0.0001) << "the sheet is 2 mm thick";
 }
 
+// Labels: no-asan
 TEST(SurfaceColliders, hold_on_thin_plates_shells_and_needles) {
     const struct {
         const char* name;
@@ -159,6 +161,7 @@ TEST(SurfaceColliders, hold_on_thin_plates_shells_and_needles) {
     }
 }
 
+// Labels: no-asan
 TEST(SurfaceColliders, that_turn_carry_cloth_along) {
     ColliderDesc turning = surface_collider(half_shell(0.2f), {});
     turning.friction = {1, 1};
@@ -177,6 +180,7 @@ TEST(SurfaceColliders, that_turn_carry_cloth_along) {
     EXPECT_NEAR(std::abs(turned) * 180 / std::numbers::pi_v<float>, 90, 8);
 }
 
+// Labels: no-asan
 TEST(SurfaceColliders, that_move_take_cloth_with_them_and_stop) {
     SceneWorld world =
         made(scene_of(exact_sheet(0.4f, 16, {.position = {0, 0.01f, 0}}), surface_collider(plate_mesh(1))));
@@ -220,6 +224,7 @@ TEST(SurfaceColliders, that_move_fast_carry_cloth_along) {
     }
 }
 
+// Labels: no-asan
 TEST(SurfaceColliders, that_jump_within_a_frame_carry_cloth_along) {
     SceneDesc scene = scene_of(exact_sheet(0.5f, 14, {.position = {0.02f, 0.3f, 0}}, {0, -2, 0}),
                                surface_collider(half_shell(0.2f), {.rotation_degrees = {180, 0, 0}}));
@@ -293,6 +298,7 @@ TEST(SurfaceColliders, give_the_same_bits_for_any_number_of_threads) {
 }
 
 // A blade of 30 cm that turns through a hanging sheet.
+// Labels: no-asan
 TEST(SurfaceColliders, that_turn_fast_carry_cloth_along) {
     for (const float turns : {1.0f, 5.0f}) {  // per second
         ColliderDesc blade = surface_collider(make_grid({0.6f, 0.06f}, {7, 2}, GridDiagonal::uniform));

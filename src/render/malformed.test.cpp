@@ -164,6 +164,7 @@ TEST_F(VulkanMalformedDrawings, light_beyond_all_measure) {
     EXPECT_EQ(picture(32, 18).at(16, 9)[3], 255);
 }
 
+// Labels: no-asan
 TEST_F(VulkanMalformedDrawings, what_a_renderer_took_it_gives_back) {
     renderer.reset();
     const std::uint64_t before = device->memory().used();

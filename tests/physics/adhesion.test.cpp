@@ -47,6 +47,7 @@ std::uint64_t expected_rows(const World& world) {
     return rows;
 }
 
+// Labels on Vulkan: long
 TEST(Adhesion, finds_the_nearest_points_anew_in_every_frame) {
     Fall fall = make_fall(make_world({.solver = {.substeps = 10}}), 1.0f);
     std::uint64_t most = 0;
@@ -60,7 +61,7 @@ TEST(Adhesion, finds_the_nearest_points_anew_in_every_frame) {
     EXPECT_EQ(fall.world.frame().reports, report_none);
 }
 
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(Adhesion, carries_the_sheet_along_with_the_spheres) {
     Fall fall = make_fall(make_world({.solver = {.substeps = 10}}));
     run(fall.world, 0.4);
@@ -79,7 +80,7 @@ TEST(Adhesion, carries_the_sheet_along_with_the_spheres) {
     EXPECT_NEAR(after.y - before.y, 0.15f, 0.03f);
 }
 
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(Adhesion, holds_a_sheet_from_above_and_soft_springs_let_it_go) {
     for (const float compliance : {0.0f, 1.0f}) {
         World world = make_world({.solver = {.substeps = 10}});
@@ -109,7 +110,7 @@ TEST(Adhesion, leaves_pinned_particles_alone) {
 }
 
 // A full list costs time, but loses no constraint and changes no bit of the result.
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(Adhesion, has_the_same_bits_however_long_the_list_is) {
     std::string expected;
     for (const Projection projection : {Projection::automatic, Projection::jacobi}) {
@@ -149,7 +150,7 @@ TEST(Adhesion, goes_on_with_the_same_bits_after_a_restore) {
     EXPECT_EQ(other.world.state_hash(), fall.world.state_hash());
 }
 
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(Adhesion, of_two_cloths_in_an_island_is_that_of_each) {
     std::uint64_t rows[2] = {};
     for (const bool tied : {false, true}) {
@@ -167,6 +168,7 @@ TEST(Adhesion, of_two_cloths_in_an_island_is_that_of_each) {
     EXPECT_EQ(rows[1], rows[0]);
 }
 
+// Labels on Vulkan: long
 TEST(Adhesion, with_a_frame_that_is_not_finite_goes_back_to_where_it_began) {
     Fall fall = make_fall(make_world({.solver = {.substeps = 5}, .list_capacity = 1}));
     run(fall.world, 0.3);

@@ -90,7 +90,7 @@ TEST(ClothContact, a_sheet_thrown_down_gains_no_energy) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothContact, a_stack_keeps_its_order) {
     for (const float speed : {0.0f, -10.0f}) {
         World world = stack(speed, 10);

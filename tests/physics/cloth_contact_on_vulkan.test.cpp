@@ -51,7 +51,7 @@ TEST(ClothContactOnVulkan, cloth_driven_into_cloth_is_the_same_as_on_the_cpu) {
     EXPECT_GT(result.counts.contacts, 0u);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothContactOnVulkan, bits_depend_neither_on_when_lists_are_made_nor_on_their_room) {
     const auto drop = [](const WorldSettings& settings, const VulkanOptions& options) {
         World world = on_vulkan(settings, options);
@@ -74,7 +74,7 @@ TEST(ClothContactOnVulkan, bits_depend_neither_on_when_lists_are_made_nor_on_the
         EXPECT_EQ(drop(with_substeps(4), {.execution = execution}).hash, expected.hash) << execution;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothContactOnVulkan, a_restored_world_goes_on_with_the_same_bits) {
     const auto make = [] {
         World world = on_vulkan(with_substeps(4));
@@ -92,7 +92,7 @@ TEST(ClothContactOnVulkan, a_restored_world_goes_on_with_the_same_bits) {
     EXPECT_EQ(hash_after(other, 4), expected);
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(ClothContactOnVulkan, tangled_cloth_comes_apart_as_on_the_cpu) {
     for (const std::array<std::uint32_t, 2> layers : {std::array{0u, 0u}, std::array{0u, 1u}}) {
         const auto add = [&](World& world) { add_crossed_sheets(world, 6, {70, 30, 0}, {0.4f, 0.3f, 0}, layers); };
@@ -117,7 +117,7 @@ TEST(ClothContactOnVulkan, many_tangled_pairs_come_apart_as_on_the_cpu) {
     EXPECT_EQ(result.hash, expected.hash);
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(ClothContactOnVulkan, cloths_without_contact_do_not_take_part) {
     const auto add = [](World& world) {
         SheetDesc plain = falling(8, {0, 0, 0});

@@ -81,6 +81,7 @@ TEST(ContactForces, of_a_sheet_at_rest_is_its_weight) {
     }
 }
 
+// Labels on Vulkan: long
 TEST(ContactForces, of_a_draped_sheet_is_its_weight_on_the_mean) {
     World world = make_world({.solver = {.substeps = 10}, .contact_forces = true});
     world.add(make_collider({.shape = SphereDesc{0.2f}, .friction = {1, 1}}));
@@ -115,6 +116,7 @@ TEST(ContactForces, of_free_fall_is_none) {
     }
 }
 
+// Labels on Vulkan: long
 TEST(ContactForces, of_two_tables_adds_up_to_the_weight) {
     World world = make_world({.solver = {.substeps = 10}, .contact_forces = true});
     const ColliderId left = world.add(table({-0.16f, -0.5f, 0}, {0.1f, 0.5f, 0.3f}));
@@ -149,6 +151,7 @@ TEST(ContactForces, of_a_weight_on_a_lever_is_a_torque) {
 // In each frame the momentum that the cloth gains, without that from gravity, is the opposite of what the colliders
 // gain: falling, landing, dragged along and turned. The tolerance is rounding: one ulp of a position, 3e-8 m, is
 // 1.4e-5 m/s in such a substep.
+// Labels on Vulkan: long
 TEST(ContactForces, balances_the_momentum_of_the_cloth) {
     for (const Projection projection : {Projection::lines, Projection::jacobi}) {
         World world =
@@ -232,6 +235,7 @@ TEST(ContactForces, is_of_the_frame_before_until_somebody_waits) {
     EXPECT_EQ(world.contact_forces().contacts.size(), 81u);
 }
 
+// Labels on Vulkan: long
 TEST(ContactForces, changes_nothing_and_may_come_and_go) {
     const auto play = [](bool ever, std::vector<std::uint32_t>* contacts) {
         World world = make_world({.solver = {.substeps = 5, .iterations = 2}});
@@ -363,6 +367,7 @@ TEST(ContactForces, is_forgotten_where_another_state_is_restored) {
 }
 
 // Each shape with several cloths. All threads share large cloths; small ones run side by side.
+// Labels on Vulkan: long
 TEST(ContactForces, has_the_same_bits_on_any_number_of_threads_and_lanes) {
     const auto forces = [](const CpuOptions& options) {
         World world = make_world({.solver = {.substeps = 4, .iterations = 2}, .contact_forces = true}, options);

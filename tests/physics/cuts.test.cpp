@@ -114,6 +114,7 @@ TEST(Cuts, leave_no_pull_between_the_pieces) {
     EXPECT_LT(left, 1e-4);
 }
 
+// Labels: no-asan
 TEST(Cuts, go_on_with_the_same_bits_after_a_restore_and_in_every_number_of_threads) {
     const auto model = make_curtain(33, {.lines = true, .hierarchy = true});
     std::string hash;

@@ -173,6 +173,7 @@ TEST(FaceContact, has_the_same_bits_on_any_number_of_threads) {
     }
 }
 
+// Labels on Vulkan: long
 TEST(FaceContact, goes_on_from_a_saved_state) {
     World world = make_world({.solver = {.substeps = 10}});
     add_corner_and_shot(world);

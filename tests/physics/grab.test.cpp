@@ -79,7 +79,7 @@ TEST(Grab, on_a_spring_gives_way_by_its_compliance) {
     EXPECT_NEAR(sag, 0.02 * weight, 0.05 * 0.02 * weight);
 }
 
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(Grab, never_pulls_more_than_its_limit) {
     for (const float limit : {0.5f, 20.0f}) {
         SheetDesc hung = hung_upright({.lines = true, .hierarchy = true});

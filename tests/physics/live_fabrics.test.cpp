@@ -82,6 +82,7 @@ TEST(LiveFabrics, of_one_cloth_leave_others_of_its_model_alone) {
     EXPECT_NE(a[0].positions[200], b[0].positions[200]);
 }
 
+// Labels on Vulkan: long
 TEST(LiveFabrics, of_every_part_show_at_once) {
     const auto height_with = [](auto&& change, bool twice) {
         World world =
@@ -112,6 +113,7 @@ TEST(LiveFabrics, of_every_part_show_at_once) {
 }
 
 // The levels are not rebuilt here: a cloth must hang still with the levels of any other fabric.
+// Labels on Vulkan: long
 TEST(LiveFabrics, hang_quietly_by_coarse_levels_of_another_fabric) {
     Fabric soft = heavy_and_soft(), rigid;
     rigid.stretch.inextensible = true;

@@ -47,6 +47,7 @@ TEST(LivePins, are_carried_by_keys_from_where_they_are) {
     EXPECT_LT(world.frame().cloths[0].positions[100].y, at.y + 0.25f);
 }
 
+// Labels on Vulkan: long
 TEST(LivePins, that_give_way_come_and_go_with_the_rows_that_there_are) {
     World world = make_world({.solver = {.substeps = 20}}, hung_upright({.lines = true}));
     const ClothId id = world.frame().cloths[0].id;

@@ -31,6 +31,7 @@ constexpr std::array models = {BendModel::dihedral, BendModel::plate, BendModel:
 const SheetDesc hung_by_edge{.pinned = [](Vec3 p) { return p.z < -0.49f; }};
 
 // One world for all cases of a test: a device compiles its shaders for each world anew, which takes seconds.
+// Labels on Vulkan: long
 TEST_F(Malformed, absurd_time_steps) {
     World world = make_world({.solver = {.substeps = 20}});
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {}}));
@@ -100,6 +101,7 @@ TEST_F(Malformed, everything_pinned_and_nothing_pinned) {
     step_and_check(nothing, 1.0 / 60);
 }
 
+// Labels on Vulkan: long
 TEST_F(Malformed, extreme_fabrics) {
     World world = make_world({});
     world.add(make_collider({.name = "ball", .shape = SphereDesc{0.3f}, .transform = {.position = {0, -0.1f, 0}}}));
@@ -121,7 +123,7 @@ TriangleMesh scaled(TriangleMesh mesh, float scale, Vec3 offset) {
     return mesh;
 }
 
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST_F(Malformed, meshes_by_every_method) {
     const TriangleMesh grid = make_grid({1, 1}, {5, 5}, GridDiagonal::cross);
     const TriangleMesh meshes[] = {messy_mesh(),

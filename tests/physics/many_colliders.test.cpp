@@ -65,7 +65,7 @@ void expect_same_result(const PegResult& a, const PegResult& b) {
         EXPECT_EQ(a.forces.contacts[i].impulse, b.forces.contacts[i].impulse) << i;
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(ManyColliders, lists_change_no_bit) {
     for (const std::uint32_t iterations : {1u, 3u}) {
         const PegResult listed = result_over_pegs(false, iterations, SelfCollision::off);
@@ -74,13 +74,13 @@ TEST(ManyColliders, lists_change_no_bit) {
     }
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(ManyColliders, lists_change_no_bit_beside_contact_of_cloth) {
     expect_same_result(result_over_pegs(false, 1, SelfCollision::exact),
                        result_over_pegs(true, 1, SelfCollision::exact));
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(ManyColliders, threads_change_no_bit) {
     const PegResult one = result_over_pegs(false, 2, SelfCollision::off);
     for (const unsigned workers : {1u, 3u})

@@ -56,11 +56,13 @@ double carried(float friction) {
     return center_of_mass(world.frame().cloths[0]).x;
 }
 
+// Labels on Vulkan: long
 TEST(MovingCollider, carries_what_rests_on_it_by_friction_alone) {
     EXPECT_NEAR(carried(0.5f), 1, 0.03) << "it lags by the little that it slips while it is brought up to speed";
     EXPECT_NEAR(carried(0), 0, 1e-4);
 }
 
+// Labels on Vulkan: long
 TEST(MovingCollider, pushes_cloth_ahead_and_does_not_tunnel) {
     World world = make_world({.solver = {.substeps = 20}});
     world.add(make_collider({.shape = SphereDesc{0.2f}, .motion = {{0, {0, 0, -1}, {}}, {0.5f, {0, 0, 1}, {}}}}));

@@ -112,6 +112,7 @@ TEST(NearParts, a_frame_runs_again_if_cloths_come_near_unexpectedly) {
 }
 
 // A world that was saved while cloths were apart goes on with the same groups.
+// Labels: no-asan
 TEST(NearParts, a_restored_world_continues_with_the_same_bits) {
     World world = driven_world(SelfCollision::exact, 0);
     world.step(1.0 / 60);

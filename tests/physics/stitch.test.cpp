@@ -121,6 +121,7 @@ TEST(Stitches, with_compliance_give_way_by_their_share_of_the_weight) {
     EXPECT_NEAR(mean / 18, compliance * weight / 18, 0.1 * compliance * weight / 18);
 }
 
+// Labels on Vulkan: long
 TEST(Stitches, between_points_inside_triangles_hold) {
     Patchwork work = make_patchwork();
     const auto inside = [](std::uint32_t column, std::uint32_t row) {
@@ -188,6 +189,7 @@ TEST(Stitches, of_a_cloth_that_is_not_finite_take_the_island_back) {
     EXPECT_EQ(work.world.state_hash(), before);
 }
 
+// Labels on Vulkan: long
 TEST(Stitches, survive_iterations_methods_and_projections) {
     for (const Method method : {Method::xpbd, Method::pbd}) {
         for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {

@@ -105,6 +105,7 @@ TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
 
 // With Γ = 50 the strip bends by nearly 90° close to the clamp. Ten cells are too few for this curve: the drop is 3 %
 // too small. Labels: slow no-asan
+// Labels: no-asan
 TEST_P(Cantilever, of_plate_follows_the_curve_within_two_percent) {
     for (const Case& one : cases) {
         const bool too_coarse = one.point.gamma > 20 && one.resolution.cells < 14;

@@ -291,6 +291,7 @@ std::shared_ptr<const ClothModel> painted_sheet(const ClothModel& whole) {
 
 class TearingState : public ::testing::TestWithParam<const char*> {};
 
+// Labels: no-asan
 TEST_P(TearingState, goes_on_with_the_same_bits_after_a_restore_and_in_every_number_of_threads) {
     const bool erodes = GetParam() == std::string_view("eroding"), painted = GetParam() == std::string_view("painted");
     auto model = make_heavy_sheet(0, {}, erodes);

@@ -230,7 +230,7 @@ void expect_same_bits(const std::vector<AirDesc>& airs, const std::function<void
     }
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(WindSources, are_the_same_on_both_backends) {
     std::vector<AirDesc> airs{lively_air()};
     // One kind at a time, so that none hides behind the others.
@@ -259,7 +259,7 @@ TEST(WindSources, are_the_same_on_both_backends_where_they_degenerate) {
     expect_same_bits(airs, add, 3);
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(WindSources, may_be_many_and_change_while_the_world_moves) {
     AirDesc air;
     for (int i = 0; i < 100; ++i)

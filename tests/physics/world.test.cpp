@@ -201,6 +201,7 @@ TEST(World, changes_material_and_pins_while_cloth_moves) {
     EXPECT_LT(measure_strain(world.frame()).stretch.max, 0.1);
 }
 
+// Labels on Vulkan: long
 TEST(World, takes_cloth_along_with_a_collider_that_is_moved) {
     SheetDesc desc = small({0, 0.002f, 0});
     desc.fabric.contact.friction[0] = desc.fabric.contact.friction[1] = 2;
@@ -224,6 +225,7 @@ TEST(World, takes_cloth_along_with_a_collider_that_is_moved) {
     EXPECT_LT(center_of_mass(world.frame().cloths[0]).y, y - 0.3f) << "nothing to stand on";
 }
 
+// Labels on Vulkan: long
 TEST(World, keeps_pins_where_their_collider_left_them) {
     const auto model = make_sheet({.size = {0.2f, 0.2f}, .resolution = {3, 3}, .pinned = [](Vec3) { return true; }});
     World world = make_world({});

@@ -21,6 +21,7 @@ class SceneViewTest : public gpu::OnDevice {
     }
 };
 
+// Labels: no-asan
 TEST_F(SceneViewTest, draws_the_same_when_the_owner_of_the_scene_has_moved) {
     const std::filesystem::path file = std::filesystem::path(WEFT_BINARY_DIR) / "moved.json";
     std::ofstream(file) << scene_text({.name = "moved", .look = "\"satin\""});
@@ -44,6 +45,7 @@ TEST_F(SceneViewTest, draws_the_same_when_the_owner_of_the_scene_has_moved) {
     EXPECT_FALSE(before.empty());
 }
 
+// Labels: long no-asan
 TEST_F(SceneViewTest, frees_what_has_left_the_world) {
     constexpr int cloths = 1000, models = 40, balls = 40;
     const TriangleMesh mesh = make_grid({0.1f, 0.1f}, {9, 9}, GridDiagonal::alternating);
@@ -86,6 +88,7 @@ TEST_F(SceneViewTest, frees_what_has_left_the_world) {
 }
 
 // The surface of a field takes the place of the collider's mesh, follows its pose, and leaves with it.
+// Labels: no-asan
 TEST_F(SceneViewTest, draws_and_frees_distance_fields) {
     const TriangleMesh mesh = make_sphere(0.2f, 4);
     auto field = build_distance_field(mesh.positions, mesh.triangles, {.cells = 24, .threads = 1});

@@ -44,6 +44,7 @@ class VulkanPicturesOfSurfaces : public testing::Test {
     std::optional<SceneWorld> session;
 };
 
+// Labels: no-asan
 TEST_F(VulkanPicturesOfSurfaces, from_the_device_and_from_the_host_are_the_same) {
     open("vulkan");
     if (HasFatalFailure()) return;
@@ -59,6 +60,7 @@ TEST_F(VulkanPicturesOfSurfaces, from_the_device_and_from_the_host_are_the_same)
     EXPECT_TRUE(alike(distance_of(from_device, drawn({})))) << "and so is the CPU's";
 }
 
+// Labels: no-asan
 TEST_F(VulkanPicturesOfSurfaces, in_one_pass_and_in_two_are_the_same) {
     open("vulkan");
     if (HasFatalFailure()) return;
@@ -84,6 +86,7 @@ std::shared_ptr<const ClothModel> sheet_to_part() {
 }
 
 // A view that has drawn the whole cloth draws the parts as a new view does.
+// Labels: long
 TEST(VulkanPictures, of_cloth_that_parts_are_those_of_a_new_view) {
     const std::vector<std::vector<std::string>> overlays = {
         {}, {"wireframe", "normals", "pins", "constraints"}, {"strain"}, {"bending"}, {"tension"}};

@@ -284,7 +284,7 @@ TEST(ContactsOverlay, shows_a_tip_between_particles_where_it_touches) {
 }
 
 // A box that lies under a fine sheet: both kinds of contacts, and no push is lost or counted twice.
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(ContactsOverlay, shows_all_of_the_push) {
     World world = make_world({.solver = {.substeps = 10}, .contact_forces = true});
     world.add(make_collider({.shape = BoxDesc{{0.1f, 0.1f, 0.1f}},

@@ -93,7 +93,7 @@ void expect_same(const WorldSettings& settings, const std::vector<const char*>& 
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanContactForces, has_the_bits_of_the_cpu_however_a_frame_is_executed) {
     expect_same({.solver = {.substeps = 4, .hierarchy = false}, .contact_forces = true}, {"streamed"});
     expect_same(
@@ -124,6 +124,7 @@ TEST(VulkanContactForces, adds_up_what_many_workgroups_find) {
 }
 
 // Three grounds, each higher than the one before by less than gravity pulls in a substep: each of them pushes all.
+// Labels: no-asan
 TEST(VulkanContactForces, says_when_the_list_is_full_and_has_room_in_the_next_frame) {
     for (const char* execution : {"streamed", "fused"}) {
         World world(checked_vulkan_backend({.execution = execution}),
@@ -162,6 +163,7 @@ TEST(VulkanContactForces, says_when_the_list_is_full_and_has_room_in_the_next_fr
 }
 
 // The device writes the next frame to another buffer than the one that is read.
+// Labels: no-asan
 TEST(VulkanContactForces, is_read_while_the_next_frame_runs) {
     World world(checked_vulkan_backend(), {.solver = {.substeps = 3}, .contact_forces = true});
     World reference(cpu_backend(), world.settings());
@@ -193,6 +195,7 @@ TEST(VulkanContactForces, is_read_while_the_next_frame_runs) {
 }
 
 // Edits and queries between advance() and the end of the frame lose nothing and do not touch buffers in use.
+// Labels: no-asan
 TEST(VulkanContactForces, of_a_world_that_changes_while_a_frame_runs_is_sound) {
     const auto play = [](std::unique_ptr<Backend> backend) {
         World world(std::move(backend), {.solver = {.substeps = 3}, .contact_forces = true});
@@ -238,6 +241,7 @@ TEST(VulkanContactForces, of_a_world_that_changes_while_a_frame_runs_is_sound) {
     EXPECT_EQ(vulkan_bits, bits);
 }
 
+// Labels: no-asan
 TEST(VulkanContactForces, of_a_frame_that_is_not_finite_is_none_and_the_next_has_its_own) {
     for (const char* execution : {"streamed", "fused"}) {
         World world(checked_vulkan_backend({.execution = execution}),

@@ -55,6 +55,7 @@ std::array<std::vector<Vec4>, 2> run(std::unique_ptr<Backend> backend, const Wor
     return {positions(0), positions(1)};
 }
 
+// Labels: no-asan
 TEST(Fabrics, change_on_the_device_as_on_the_cpu) {
     for (const Projection projection : {Projection::lines, Projection::jacobi}) {
         for (const BendModel bend : {BendModel::dihedral, BendModel::distance}) {

@@ -96,12 +96,13 @@ void expect_as_many_dispatches(std::uint32_t side, std::span<const char* const> 
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ManyCloths, take_no_more_dispatches_than_one) {
     expect_as_many_dispatches(12, std::array{"streamed", "grouped"});
 }
 
 // Small cloths: software devices run one workgroup per cloth slowly.
+// Labels: long no-asan
 TEST(ManyCloths, take_one_dispatch_when_fused) {
     expect_as_many_dispatches(6, std::array{"streamed", "fused"});
 }

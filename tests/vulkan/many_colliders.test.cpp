@@ -147,7 +147,7 @@ TEST(VulkanManyColliders, have_the_bits_of_the_cpu_in_a_fused_frame) {
     if (found.exact) expect_the_same(found, expected, "fused");
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanManyColliders, lists_change_no_bit) {
     PegsCase test{{.solver = {.substeps = 2, .iterations = 2}, .contact_forces = true}};
     test.pegs = 150;
@@ -160,7 +160,7 @@ TEST(VulkanManyColliders, lists_change_no_bit) {
 
 // The first lists have too few slots. All cloths go back to the start of the frame, also those whose lists were not
 // full.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanManyColliders, a_full_list_makes_the_frame_run_again) {
     PegsCase test = small_case();
     const PegsFound expected = play_pegs_on_cpu(test);
@@ -193,7 +193,7 @@ PegsFound play_plate(std::unique_ptr<Backend> backend, std::uint32_t iterations,
     return found;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanManyColliders, a_tile_that_leaves_its_box_keeps_what_its_contacts_add_up) {
     const auto compare = [](const char* execution, std::uint32_t iterations, std::uint32_t side, std::size_t contacts) {
         const PegsFound expected = play_plate(std::move(*make_cpu_backend()), iterations, side);
@@ -248,7 +248,7 @@ PegsFound play_changes(std::unique_ptr<Backend> backend) {
     return found;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanManyColliders, may_change_between_frames) {
     const PegsFound expected = play_changes(std::move(*make_cpu_backend())),
                     found = play_changes(checked_vulkan_backend());
@@ -262,6 +262,7 @@ int submits_of_a_frame(World& world) {
     return counting_device::submits;
 }
 
+// Labels: no-asan
 TEST(VulkanManyColliders, are_copied_only_if_they_have_changed) {
     World world(checked_vulkan_backend({.intercept = counting_device::intercept}), {.solver = {.substeps = 2}});
     world.add(sheet_over_pegs(9, {0, 1, 0}, {}, world.settings().layout()));
@@ -276,6 +277,7 @@ TEST(VulkanManyColliders, are_copied_only_if_they_have_changed) {
     EXPECT_EQ(submits_of_a_frame(world), at_rest + 1) << "the poses too";
 }
 
+// Labels: no-asan
 TEST(VulkanManyColliders, need_no_cloth) {
     World world(checked_vulkan_backend(), {.solver = {.substeps = 2}});
     const ColliderId ball = world.add(make_collider({.shape = SphereDesc{0.1f}}));
@@ -287,6 +289,7 @@ TEST(VulkanManyColliders, need_no_cloth) {
 }
 
 // Sums and the contact log have room for what is near a tile.
+// Labels: no-asan
 TEST(VulkanManyColliders, far_away_take_little_memory) {
     const auto bytes = [](int colliders) {
         World world(checked_vulkan_backend(), {.solver = {.substeps = 2, .iterations = 2}, .contact_forces = true});
@@ -303,6 +306,7 @@ TEST(VulkanManyColliders, far_away_take_little_memory) {
 }
 
 // A number that is not finite makes no list endless, and is named.
+// Labels: no-asan
 TEST(VulkanManyColliders, survive_numbers_that_are_not_finite) {
     World world(checked_vulkan_backend(), {.solver = {.substeps = 2}});
     for (Collider& collider : field_of_pegs(100)) world.add(std::move(collider));

@@ -96,6 +96,7 @@ class VulkanMeasures : public testing::TestWithParam<const char*> {
     }
 };
 
+// Labels: no-asan
 TEST_P(VulkanMeasures, are_those_of_the_host_frame_by_frame) {
     const Sheet sheets[] = {{grid(30), {0, 29}},
                             {grid(15, GridDiagonal::cross), {0}},

@@ -28,7 +28,7 @@ Vec3 center_of(std::span<const Vec4> positions) {
     return sum * (1.0f / static_cast<float>(positions.size()));
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(VulkanMeshColliders, have_the_bits_of_the_cpu) {
     const ColliderDesc shapes[] = {
         {.shape = SolidMeshDesc{.mesh = make_sphere(0.25f, 3), .resolution = 24}},

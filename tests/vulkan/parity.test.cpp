@@ -189,6 +189,7 @@ class Parity : public testing::TestWithParam<const char*> {
     bool exact_ = false;
 };
 
+// Labels: no-asan
 TEST_P(Parity, of_every_constraint_in_every_way) {
     ASSERT_TRUE(vulkan_);
     constexpr std::pair<Way, const char*> ways[] = {{Way::project, "project"},
@@ -219,6 +220,7 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
     }
 }
 
+// Labels: no-asan
 TEST_P(Parity, of_rows_that_run_one_after_another) {
     ASSERT_TRUE(vulkan_);
     // All constraints share one particle, so each has its own color.
@@ -231,6 +233,7 @@ TEST_P(Parity, of_rows_that_run_one_after_another) {
         compare(state, way, false, "star");
 }
 
+// Labels: no-asan
 TEST_P(Parity, of_lines) {
     ASSERT_TRUE(vulkan_);
     for (unsigned seed = 0; seed < 6; ++seed) {

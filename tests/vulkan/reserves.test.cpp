@@ -46,7 +46,7 @@ std::string hash_after_contact(std::unique_ptr<Backend> backend, const ReserveCa
     return world.state_hash();
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(Reserves, have_the_bits_of_the_cpu_with_every_contact_and_tearing) {
     const ReserveCase cases[] = {
         {SelfCollision::off, {}},

@@ -65,7 +65,7 @@ TEST(VulkanScenes, are_as_on_the_cpu) {
 }
 
 // The order of the arithmetic does not depend on the grouping of passes into dispatches.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
     const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / "sheet_on_sphere.json";
     const auto run = [&](const char* execution, std::uint32_t substeps) {
@@ -87,6 +87,7 @@ TEST(VulkanScenes, do_not_tell_how_they_are_executed) {
 
 // Shared memory may hold the particles of a cloth, its lines and its coarse levels, or some of them: with 32 KiB it has
 // room for the 1936 particles of 44 x 44 and nothing else. The sheets hang, so that their levels are at work.
+// Labels: long no-asan
 TEST(VulkanScenes, do_not_depend_on_what_fits_into_shared_memory) {
     const auto run = [](std::uint32_t side, const SolverDesc& solver, const Options& on) {
         auto made = Simulation::create({.solver = solver}, on);
@@ -123,7 +124,7 @@ TEST(VulkanScenes, do_not_depend_on_what_fits_into_shared_memory) {
 }
 
 // All substeps between the first and the last one run the same commands, also with keyed motion.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
     for (const auto& [name, substeps] : {std::pair("turning_drum", 4u), {"curtain", 6u}}) {
         SCOPED_TRACE(name);
@@ -143,7 +144,7 @@ TEST(VulkanScenes, do_not_tell_that_substeps_are_repeated) {
 }
 
 // Averaged Jacobi with contacts, tethers and attachments.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanScenes, do_not_tell_how_averages_are_executed) {
     struct Way {
         const char *scene, *method, *accumulate;
@@ -174,7 +175,7 @@ TEST(VulkanScenes, do_not_tell_how_averages_are_executed) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanScenes, give_the_same_bits_twice) {
     for (const char* name : {"sheet_on_sphere", "flag"}) {
         const auto scene = std::filesystem::path(WEFT_SOURCE_DIR) / "scenes" / (std::string(name) + ".json");

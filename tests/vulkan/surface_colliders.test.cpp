@@ -53,7 +53,7 @@ void expect_same(const SceneDesc& scene, int frames, const char* what) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanSurfaceColliders, have_the_bits_of_the_cpu) {
     expect_same(sheet_over(make_grid({1, 1}, {2, 2}, GridDiagonal::uniform), 10), 8, "plate");
     expect_same(sheet_over(bowl(), 2), 20, "bowl");
@@ -71,7 +71,7 @@ TEST(VulkanSurfaceColliders, have_the_bits_of_the_cpu) {
     EXPECT_EQ(one->world().state_hash(), two->world().state_hash()) << "other cloth meets the solid";
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanSurfaceColliders, that_move_fast_carry_cloth_along) {
     SceneDesc scene = sheet_over(make_grid({0.3f, 0.3f}, {2, 2}, GridDiagonal::uniform), 0);
     scene.solver.substeps = 10;

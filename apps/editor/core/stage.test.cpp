@@ -18,6 +18,7 @@ void run(Stage& stage, int frames) {
     for (int i = 0; i < frames; ++i) must(stage.step());
 }
 
+// Labels: no-asan
 TEST(Stage, undoes_and_redoes_every_kind_of_action_to_the_bit) {
     for (const std::uint64_t start : {0, 5}) {
         for (const Action& action : sample_actions()) {
@@ -59,7 +60,7 @@ TEST(Stage, goes_on_after_an_undo_as_if_nothing_had_been) {
     }
 }
 
-// Labels: slow
+// Labels: slow no-asan
 TEST(Stage, undoes_a_thousand_random_actions) {
     const std::vector<Action> samples = sample_actions();
     Stage stage = open_small({.record = true});
@@ -107,6 +108,7 @@ TEST(Stage, takes_a_gesture_as_one_step) {
     EXPECT_EQ(stage.hash(), before);
 }
 
+// Labels: no-asan
 TEST(Stage, undoes_a_setting_alone) {
     Stage stage = open_small();
     must(stage.apply(change_of("/cloths/0/fabric/density", 0.3)));
@@ -296,6 +298,7 @@ TEST(Timelines, drop_the_oldest_frames_without_a_disk) {
 
 #ifdef WEFT_VULKAN
 // While the scene is opened, and at each of a few submits in a row: while a frame runs, and while its result is read.
+// Labels: no-asan
 TEST(Stages, go_on_on_the_cpu_when_the_device_is_lost) {
     bool in_frame = false;
     for (const int submits : {40, 60, 61, 62, 63, 64, 65}) {

@@ -86,6 +86,7 @@ class ViewThreadTest : public gpu::OnDevice {
     int opened = 0;
 };
 
+// Labels: no-asan
 TEST_F(ViewThreadTest, ends_with_an_image_of_the_best_quality_and_is_then_idle) {
     ViewThread thread(options());
     EXPECT_EQ(thread.image(), nullptr);
@@ -106,6 +107,7 @@ TEST_F(ViewThreadTest, ends_with_an_image_of_the_best_quality_and_is_then_idle) 
     EXPECT_EQ(thread.count(), count) << "it draws though nothing has changed";
 }
 
+// Labels: no-asan
 TEST_F(ViewThreadTest, shows_paint_as_colors_of_the_cloth) {
     ViewThread thread(options());
     ViewRequest request = base;
@@ -126,6 +128,7 @@ TEST_F(ViewThreadTest, shows_paint_as_colors_of_the_cloth) {
     EXPECT_GT(other[2], 110) << "values of another cloth are not shown";
 }
 
+// Labels: no-asan
 TEST_F(ViewThreadTest, draws_each_change) {
     ViewThread thread(options());
     thread.request(base);
@@ -168,6 +171,7 @@ TEST_F(ViewThreadTest, draws_each_change) {
     EXPECT_EQ(thread.image()->image.width, 120u) << "a window without pixels";
 }
 
+// Labels: no-asan
 TEST_F(ViewThreadTest, leaves_out_what_is_hidden) {
     ViewThread thread(options());
     const auto image_without = [&](std::vector<std::string> hidden) {
@@ -256,6 +260,7 @@ VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInf
     return lost ? VK_ERROR_DEVICE_LOST : healthy_submit(queue, count, info, fence);
 }
 
+// Labels: no-asan
 TEST_F(ViewThreadTest, survives_a_lost_device) {
     lost = false;
     intercept = [](VolkDeviceTable& table) {
@@ -279,6 +284,7 @@ TEST_F(ViewThreadTest, survives_a_lost_device) {
     EXPECT_EQ(opened, 2);
 }
 
+// Labels: no-asan
 TEST_F(ViewThreadTest, ends_without_an_image) {
     const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < 20; ++i) ViewThread thread(options());

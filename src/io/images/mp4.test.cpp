@@ -100,6 +100,7 @@ TEST(Film, TheLastThatFfmpegSaysIsInTheError) {
                 AllOf(HasSubstr("line 19999"), Not(HasSubstr("line 19000"))));
 }
 
+// Labels: no-asan
 TEST(Film, FfmpegThatReadsNothingOrEndsAtOnceIsAnError) {
     EXPECT_THAT(failure("exit 0").what, HasSubstr("before it had read all of its input"));
     EXPECT_THAT(failure("exec <&-; sleep 0.2; exit 7").what, HasSubstr("status 7"));
@@ -108,11 +109,13 @@ TEST(Film, FfmpegThatReadsNothingOrEndsAtOnceIsAnError) {
                 HasSubstr("video: lost"));
 }
 
+// Labels: no-asan
 TEST(Film, FfmpegThatHangsUpAndStaysIsEnded) {
     EXPECT_THAT(failure("echo bye >&2; exec <&-; exec sleep 1000").what,
                 AllOf(HasSubstr("stopped reading its input"), HasSubstr("bye")));
 }
 
+// Labels: no-asan
 TEST(Film, FfmpegThatTalksMuchDoesNotStopTheFilm) {
     const TestFolder folder;
     // More than a pipe holds, before it reads.
@@ -124,6 +127,7 @@ TEST(Film, FfmpegThatTalksMuchDoesNotStopTheFilm) {
     EXPECT_EQ(read_text(folder / "film.mp4"), "\0\0\0\x08moov"s);
 }
 
+// Labels: no-asan
 TEST(Film, FfmpegThatCannotDoItIsFoundOutBeforehand) {
     const TestFolder folder;
     const FakeFfmpeg fake("");

@@ -245,6 +245,7 @@ TEST(TextEditOfScenes, changes_nothing_without_a_change) {
     for_each_scene([](const std::string& text) { EXPECT_EQ(changed(text, json_of(text)), text); });
 }
 
+// Labels: no-asan
 TEST(TextEditOfScenes, changes_one_line_for_a_plain_value) {
     for_each_scene([](const std::string& text) {
         const Json json = json_of(text);
@@ -260,6 +261,7 @@ TEST(TextEditOfScenes, changes_one_line_for_a_plain_value) {
     });
 }
 
+// Labels: no-asan
 TEST(TextEditOfScenes, changes_one_line_to_add_a_key) {
     for_each_scene([](const std::string& text) {
         const Json json = json_of(text);
@@ -275,6 +277,7 @@ TEST(TextEditOfScenes, changes_one_line_to_add_a_key) {
     });
 }
 
+// Labels: no-asan
 TEST(TextEditOfScenes, adds_at_most_one_line_to_remove_a_member) {
     for_each_scene([](const std::string& text) {
         const Json json = json_of(text);
