@@ -85,6 +85,17 @@ struct Measures {
     double max_penetration = 0;                  ///< m, largest depth below the true surface of a collider
 };
 
+/// A rigid body: a collider that gravity, cloth, colliders and other bodies move.
+struct BodyMotion {
+    Vec3 position;  ///< m, of the collider
+    Vec4 rotation;  ///< unit quaternion x, y, z, w: from the collider's axes to the world's
+    Vec3 center;    ///< m, of mass
+    Vec3 velocity;  ///< m/s, of the center of mass
+    Vec3 spin;      ///< °/s, angular velocity about the world's axes
+    double mass;    ///< kg
+    double energy;  ///< J, kinetic
+};
+
 /// A world of cloths and colliders. Functions that take an id return an error or an empty value if the id does not name
 /// an object of this simulation, or its object was removed. A function that returns an error has not changed the
 /// simulation. A Simulation is not thread-safe: use it from one thread at a time.
@@ -153,8 +164,23 @@ class WEFT_API Simulation {
     /// particles than the cloth has room for (ClothDesc::tear_room).
     Result<void> cut(ClothId id, const CutDesc& cut, CutPositions positions = CutPositions::current);
     /// Moves the collider from its current pose to this one during the next frame; cloth in contact moves with it. The
-    /// collider then stays there. Position in m; rotation in degrees, R = Rz·Ry·Rx. Ends a motion by keys.
+    /// collider then stays there. Position in m; rotation in degrees, R = Rz·Ry·Rx. Ends a motion by keys. A body is
+    /// put there at once, at rest.
     Result<void> move(ColliderId id, Vec3 position, Vec3 rotation_degrees = {});
+    /// Makes the collider a body at its current place, with the velocity and the spin of the description; nullopt: it
+    /// is no body any more and stays where it is. Ends a motion by keys. Fails on values out of range, for planes and
+    /// for shapes that have no mass, for a collider that pins are attached to, and on Vulkan.
+    Result<void> set_body(ColliderId id, const std::optional<BodyDesc>& body);
+    /// Puts a body elsewhere at once. Position in m; rotation in degrees, R = Rz·Ry·Rx; velocity of the center of mass
+    /// in m/s; spin in °/s about the world's axes. What is there already is pushed out slowly. move() does the same,
+    /// without velocity and spin. Fails if the collider is no body.
+    Result<void> place_body(ColliderId id, Vec3 position, Vec3 rotation_degrees = {}, Vec3 velocity = {},
+                            Vec3 spin = {});
+    /// Changes the velocity and the spin of a body by an impulse in N·s at a point in world space, in m. The impulse
+    /// of a force over a frame is the force times its seconds. Fails if the collider is no body.
+    Result<void> push(ColliderId id, Vec3 impulse, Vec3 point);
+    /// nullopt if the id names no body.
+    std::optional<BodyMotion> body(ColliderId id) const;
     /// Friction coefficients of the collider, 0…100.
     Result<void> set_friction(ColliderId id, float static_friction, float kinetic_friction);
     Result<void> set_gravity(Vec3 gravity);  ///< m/s²

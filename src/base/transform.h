@@ -22,6 +22,8 @@ constexpr Mat3 transposed(const Mat3& m) {
     return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
 }
 
+inline constexpr float radians_per_degree = 0.017453292519943295f;
+
 /// R = Rz·Ry·Rx, angles in degrees about the fixed axes. Multiples of 90° are exact.
 Mat3 rotation_from_degrees(Vec3 degrees);
 

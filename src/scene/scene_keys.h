@@ -444,6 +444,16 @@ inline constexpr Parameter grab_target_keys[] = {
      .what = "where the point is pulled to"},
 };
 
+/// Of a Vec3.
+inline constexpr Parameter impulse_keys[] = {
+    {.key = "impulse", .kind = ParameterKind::vector, .count = 3, .min = -1e12, .max = 1e12, .unit = "N·s",
+     .what = "what the momentum changes by"},
+};
+inline constexpr Parameter point_keys[] = {
+    {.key = "point", .kind = ParameterKind::vector, .count = 3, .min = -far_away, .max = far_away, .unit = "m",
+     .what = "where the impulse acts"},
+};
+
 inline constexpr Parameter material_keys[] = {
     {.key = "preset", .kind = ParameterKind::text, .offset = offsetof(MaterialHead, preset),
      .what = "material whose values are used for keys that are not given; by default that of the fabric, `matte` "

@@ -68,6 +68,8 @@ class SceneWorld {
     Result<GrabId> grab(ClothId id, const MeshPoint& point, Vec3 to, const GrabDesc& spring);
     /// Moves the collider during the next frame; it then stays there. Ends its motion by keys.
     void move(ColliderId id, Vec3 position, Vec3 rotation_degrees);
+    /// Fails and changes nothing for values that no body has, and for a collider that pins are attached to.
+    Result<void> set_body(ColliderId id, const std::optional<BodyDesc>& body);
     void set_friction(ColliderId id, std::array<float, 2> friction);
     void set_gravity(Vec3 gravity);
     void set_air(const std::optional<AirDesc>& air);

@@ -221,6 +221,34 @@ std::size_t RunStatistics::order_lost(const Frame& frame) const {
     return order.lost();
 }
 
+// null if there are none.
+Json bodies_json(const World& world) {
+    std::size_t count = 0;
+    std::array<double, 3> momentum{}, angular{};
+    double energy = 0, fastest = 0;
+    for (const Collider& collider : world.colliders()) {
+        if (!collider.body) continue;
+        const auto& [mass, state, desc] = *collider.body;
+        const std::array<double, 3> x{state.place.x, state.place.y, state.place.z};
+        const std::array<double, 3> v{state.velocity.x, state.velocity.y, state.velocity.z};
+        const std::array<double, 3> spin{state.spin.x, state.spin.y, state.spin.z};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            momentum[i] += double{mass.mass} * v[i];
+            angular[i] += double{mass.mass} * (x[j] * v[k] - x[k] * v[j]) + spin[i];
+        }
+        energy += kinetic_energy(state, mass);
+        fastest = std::max(fastest, std::hypot(v[0], v[1], v[2]));
+        ++count;
+    }
+    if (count == 0) return nullptr;
+    return {{"count", count},
+            {"momentum", momentum},
+            {"angular_momentum", angular},
+            {"kinetic_energy", energy},
+            {"max_speed", fastest}};
+}
+
 Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_file) const {
     const World& world = session.world();
     const Frame& frame = world.frame();
@@ -280,6 +308,7 @@ Json RunStatistics::gather(const SceneWorld& session, const std::string& scene_f
     stats["kinetic_energy"] = measures.kinetic_energy;
     stats["mean_speed"] = mean_speed_of_end;
     stats["max_speed"] = measures.max_speed;
+    stats["bodies"] = bodies_json(world);
     stats["penetration"] = {
         {"max", penetration.max},
         {"at_most", penetration.at_most},

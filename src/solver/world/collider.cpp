@@ -40,7 +40,6 @@ Collider make_collider(const ColliderDesc& desc, std::shared_ptr<const ShapeData
 }
 
 void start_body(Collider& collider) {
-    constexpr float radians_per_degree = 0.017453292519943295f;
     Body& body = *collider.body;
     body.state = body_state_at(collider.pose, body.mass, body.desc.velocity, body.desc.spin * radians_per_degree);
     collider.pose = pose_of(body.state, body.mass);

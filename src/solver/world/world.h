@@ -113,8 +113,12 @@ class World {
 
     /// Makes the collider a body that moves by forces, at its current pose, or nullopt: one that moves as it is told.
     /// The body starts with the velocity and the spin of its description. The collider must have a surface of no mesh
-    /// (Collider::surface). Ends a motion by keys. Fails on a backend that moves no bodies.
-    Result<void> set_body(ColliderId id, std::optional<Body> body);
+    /// (Collider::surface). Ends a motion by keys. Fails on a backend that moves no bodies. `features` as in Collider.
+    Result<void> set_body(ColliderId id, std::optional<Body> body, BodyFeatures features);
+    /// Keeps the features.
+    Result<void> set_body(ColliderId id, std::optional<Body> body) {
+        return set_body(id, std::move(body), collider(id).features);
+    }
     /// Puts a body elsewhere, with another velocity in m/s and angular velocity in rad/s. Cloth and bodies that are
     /// there are pushed out slowly.
     void place_body(ColliderId id, const Pose& pose, Vec3 velocity, Vec3 rate);

@@ -13,7 +13,7 @@ Result<void> World::can_move(const std::optional<Body>& body) const {
                                        " backend moves no bodies yet (--backend cpu)"};
 }
 
-Result<void> World::set_body(ColliderId id, std::optional<Body> body) {
+Result<void> World::set_body(ColliderId id, std::optional<Body> body, BodyFeatures features) {
     assert(contains(id) && !(body && surface_of(id)));
     if (auto able = can_move(body); !able) return able;
     complete_and_resolve();
@@ -21,6 +21,7 @@ Result<void> World::set_body(ColliderId id, std::optional<Body> body) {
     collider.motion.clear();
     collider.next_pose.reset();
     collider.body = std::move(body);
+    collider.features = std::move(features);
     if (collider.body) start_body(collider);
     places_->reset();
     replan();
