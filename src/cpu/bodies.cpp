@@ -64,6 +64,7 @@ void Bodies::prepare(const WorldStep& step, unsigned workers) {
         body.inverse_mass = 1 / mass.mass;
         body.radius = radius_about(mass.center, body.of->bounds);
         place(body);
+        turn_inertia(body);
     }
     contacts_.begin_frame(input, bodies_, body_of_, h_);
     watch_reach();
@@ -102,6 +103,7 @@ void Bodies::predict() {
                      1 / (1 + h_ * desc.spin_damping), step);
         body.contacts = 0;
         place(body);
+        turn_inertia(body);
     }
     for (auto& sums : sums_) std::ranges::fill(sums, BodySums{});
     contacts_.find_contacts(substep_);

@@ -37,6 +37,10 @@ constexpr float open_margin = 1e-4f;
 void place(BodyInStep& body) {
     const Mat3 rotation = columns_of(body.motion.turn);
     body.now = {rotation, vector_of(body.motion.place) - rotation * body.of->body->mass.center};
+}
+
+void turn_inertia(BodyInStep& body) {
+    const Mat3& rotation = body.now.rotation;
     // R I⁻¹ Rᵀ, column by column.
     const auto column = [&](Vec3 row) {
         const vec3 along = times_symmetric(body.inertia.inverse_moments, body.inertia.inverse_products, vector_of(row));
@@ -214,7 +218,9 @@ void BodyContacts::project() {
             {row.normal, row.gap_at_start, row.static_friction, row.kinetic_friction, depenetration}, sum,
             dot(row.normal, xa - xb) - row.radius, way, a, b, touched - a.center, touched - b.center);
         row.friction = sum.friction, row.push = sum.push;
-        apply(row, touched, by * (1 / h_), [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, h_); });
+        if (dot(by, by) > 0)
+            apply(row, touched, by * (1 / h_),
+                  [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, h_); });
     }
 }
 

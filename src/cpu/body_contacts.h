@@ -23,12 +23,15 @@ struct BodyInStep {
     Pose found;            ///< Bodies::found()
     Pose now, before;      ///< in the substep, and at its start
     scalar::vec3 v, rate;  ///< m/s and rad/s at the start of the substep, before contact
-    Mat3 inverse_inertia;  ///< in world axes
+    Mat3 inverse_inertia;  ///< in world axes, at the start of the contacts of the substep
     float contacts = 0;    ///< of cloth, that share the body in this substep
 };
 
-/// Computes BodyInStep::now and inverse_inertia from the motion.
+/// Computes BodyInStep::now from the motion.
 void place(BodyInStep& body);
+/// Computes BodyInStep::inverse_inertia from `now`. Once a substep is enough: it only weighs contacts, and a body turns
+/// little in a substep.
+void turn_inertia(BodyInStep& body);
 /// push_body() for a substep of h s.
 void push(BodyInStep& body, const scalar::BodyPush& by, float h);
 
