@@ -408,7 +408,7 @@ struct BodyDesc {
     float mass = 0;          ///< kg, 0…1e9; 0: the volume of the shape times `density`
     float density = 1000;    ///< kg/m³, > 0…1e6
     Vec3 center = {};        ///< m: the center of mass, from where the shape has it, in the collider's frame
-    Vec3 inertia = {};       ///< kg·m², moments about the collider's axes; 0: those of the shape, by the mass
+    Vec3 inertia = {};       ///< kg·m², about the center of mass, along the collider's axes; 0: of the shape
     Vec3 velocity = {};      ///< m/s at the start, of the center of mass
     Vec3 spin = {};          ///< °/s at the start, about the world's axes
     float damping = 0;       ///< 1/s, 0…1e6: the rate at which the velocity decays
