@@ -104,6 +104,7 @@ Resting rest_on_sheet(std::uint32_t side, float mass, std::uint32_t substeps, do
     return resting;
 }
 
+// Labels: slow no-asan
 TEST(ClothAndBody, a_sheet_bears_a_ball) {
     for (const float mass : {0.001f, 0.1f, 1.0f, 10.0f}) {
         const Resting resting = rest_on_sheet(33, mass, 20, 6);
@@ -113,6 +114,7 @@ TEST(ClothAndBody, a_sheet_bears_a_ball) {
 }
 
 // Heights that 240 substeps give: see taut.md.
+// Labels: slow no-asan
 TEST(ClothAndBody, a_sheet_sags_alike_under_a_ball_however_long_the_substeps_are) {
     for (const std::uint32_t substeps : {5u, 10u, 20u, 40u}) {
         EXPECT_NEAR(rest_on_sheet(33, 1, substeps, 4).height, 0.0061, 0.002) << substeps;
@@ -120,6 +122,7 @@ TEST(ClothAndBody, a_sheet_sags_alike_under_a_ball_however_long_the_substeps_are
     }
 }
 
+// Labels: slow no-asan
 TEST(ClothAndBody, a_fine_sheet_bears_as_much) {
     EXPECT_NEAR(rest_on_sheet(65, 10, 20, 4).height, -0.0936, 0.004);
 }
@@ -148,7 +151,7 @@ TEST(ClothAndBody, a_fast_ball_does_not_pass_a_curtain) {
     EXPECT_LT(world.body(ball).state.velocity.z, 59.5f);
 }
 
-// Labels: no-asan
+// Labels: slow no-asan
 TEST(ClothAndBody, the_same_bits_on_any_number_of_threads_and_after_a_restore) {
     std::string hash;
     for (const unsigned workers : {0u, 1u, 3u}) {
