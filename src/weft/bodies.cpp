@@ -13,19 +13,12 @@ namespace {
 
 // Of an id that names no body.
 Error no_body(const World& world, ColliderId id) {
-    if (!world.contains(id)) return {"collider", "is not in this simulation; it was removed or belongs to another one"};
+    if (!world.contains(id)) return no_such("collider");
     return {"collider", "is no body: only a collider with a \"dynamic\" motion can be pushed and placed"};
 }
 
 bool is_body(const World& world, ColliderId id) {
     return world.contains(id) && world.collider(id).body;
-}
-
-Result<void> checked_body(const ColliderDesc& desc) {
-    Problems problems;
-    check_collider(desc, "", problems);
-    if (!problems.none()) return std::move(problems).take();
-    return {};
 }
 
 }  // namespace
@@ -35,7 +28,8 @@ Result<void> SceneWorld::set_body(ColliderId id, const std::optional<BodyDesc>& 
     ColliderDesc desc = document;
     desc.body = body;
     if (body) desc.motion.clear();
-    if (auto sound = checked_body(desc); !sound) return sound;
+    const auto sound = checked([&](Problems& problems) { check_collider(desc, "", problems); });
+    if (!sound) return sound;
     if (body) {
         for (const SceneCloth& cloth : scene_.cloths)
             if (std::ranges::find(cloth.pins, desc.name, &PinDesc::attach) != cloth.pins.end())
@@ -56,7 +50,7 @@ Result<void> SceneWorld::set_body(ColliderId id, const std::optional<BodyDesc>& 
 }
 
 Result<void> Simulation::set_body(ColliderId id, const std::optional<BodyDesc>& body) {
-    if (!impl_->world().contains(id)) return no_body(impl_->world(), id);
+    if (!impl_->world().contains(id)) return no_such("collider");
     return impl_->scene.set_body(id, body);
 }
 
@@ -65,10 +59,11 @@ Result<void> Simulation::place_body(ColliderId id, Vec3 position, Vec3 rotation_
     const TransformDesc transform{.position = position, .rotation_degrees = rotation_degrees};
     BodyDesc start;
     start.velocity = velocity, start.spin = spin;
-    Problems problems;
-    check_values(pose_keys, &transform, "", problems);
-    check_values(rigid_body_parameters, &start, "", problems);
-    if (!problems.none()) return std::move(problems).take();
+    const auto sound = checked([&](Problems& problems) {
+        check_values(pose_keys, &transform, "", problems);
+        check_values(rigid_body_parameters, &start, "", problems);
+    });
+    if (!sound) return sound;
     impl_->world().place_body(id, {rotation_from_degrees(rotation_degrees), position}, velocity,
                               spin * radians_per_degree);
     return {};
@@ -76,10 +71,11 @@ Result<void> Simulation::place_body(ColliderId id, Vec3 position, Vec3 rotation_
 
 Result<void> Simulation::push(ColliderId id, Vec3 impulse, Vec3 point) {
     if (!is_body(impl_->world(), id)) return no_body(impl_->world(), id);
-    Problems problems;
-    check_values(impulse_keys, &impulse, "", problems);
-    check_values(point_keys, &point, "", problems);
-    if (!problems.none()) return std::move(problems).take();
+    const auto sound = checked([&](Problems& problems) {
+        check_values(impulse_keys, &impulse, "", problems);
+        check_values(point_keys, &point, "", problems);
+    });
+    if (!sound) return sound;
     impl_->world().push_body(id, impulse, point);
     return {};
 }

@@ -14,10 +14,6 @@ namespace weft {
 
 namespace {
 
-Error no_such(const char* what) {
-    return {what, "is not in this simulation; it was removed or belongs to another one"};
-}
-
 SceneCloth resolved(const ClothDesc& desc, const Fabric& fabric) {
     return {.name = desc.name,
             .mesh = desc.mesh,
@@ -57,14 +53,6 @@ std::string own_name(const std::string& wanted, const std::string& kind, std::sp
     }
     for (std::size_t number = taken.size();; ++number)
         if (std::string name = kind + ' ' + std::to_string(number); !is_taken(name)) return name;
-}
-
-template <class Check>
-Result<void> checked(Check&& check) {
-    Problems problems;
-    check(problems);
-    if (!problems.none()) return std::move(problems).take();
-    return {};
 }
 
 Surface view(const DrawnSurface& surface) {

@@ -1,6 +1,7 @@
 // Implementation of the public Simulation.
 #pragma once
 
+#include "scene/problems.h"
 #include "solver/measures/penetration.h"
 #include "weft/drawn_frame.h"
 #include "weft/scene_world.h"
@@ -8,9 +9,24 @@
 #include <weft/simulation.h>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace weft {
+
+/// The error of a function whose id names no object.
+inline Error no_such(const char* what) {
+    return {what, "is not in this simulation; it was removed or belongs to another one"};
+}
+
+/// The problems that check(problems) finds.
+template <class Check>
+Result<void> checked(Check&& check) {
+    Problems problems;
+    check(problems);
+    if (!problems.none()) return std::move(problems).take();
+    return {};
+}
 
 struct Simulation::Impl {
     SceneWorld scene;
