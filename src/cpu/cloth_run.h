@@ -39,6 +39,7 @@ class ClothRun {
     bool is_body(const NearCollider& near) const { return bodies_.body_of(near.collider) != none; }
     /// Without what run_contacts() adds.
     ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;
+    void mark_near_faces(const ColliderRun& run, const NearCollider& near, ContactView& view) const;
     template <class Collect, class Visit>
     void for_each_near_face(unsigned worker, Collect&& collect, Visit&& visit) const;
     void run_face_contact(const Pass& pass, std::uint32_t substep, Worker worker) const;

@@ -45,11 +45,7 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
             view.sums = part.sums(near);
             view.moved = part.moved(near);
             view.turned = part.turned(near);
-            view.near_faces = cloth_.face_contacts.near_faces(run);
-            view.nearest = nearest_of_faces(numbers_.half_thickness);
-            // What faces do not touch only moves particles.
-            const bool touches_faces = faces_touch(model(), input_.colliders[near.collider]);
-            view.widest = touches_faces ? widest_face(model()) : -static_cast<float>(far_away);
+            mark_near_faces(run, near, view);
             const auto& loops = traces ? passes_.contact_traced : passes_.contact;
             loops[static_cast<std::uint32_t>(view.kind)](view_, view, {run.begin, run.end});
         }
@@ -75,9 +71,19 @@ void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range 
             view.sums = part.sums(near);
             view.moved = traces ? part.moved(near) : nullptr;
             view.turned = traces ? part.turned(near) : nullptr;
+            mark_near_faces(run, near, view);
             passes_.touch_body[kind](view_, view, body, {run.begin, run.end});
         }
     }
+}
+
+// Lets contact of the run mark particles whose faces the collider may touch. What faces do not touch only moves
+// particles.
+void ClothRun::mark_near_faces(const ColliderRun& run, const NearCollider& near, ContactView& view) const {
+    view.near_faces = cloth_.face_contacts.near_faces(run);
+    view.nearest = nearest_of_faces(numbers_.half_thickness);
+    const bool touches_faces = faces_touch(model(), input_.colliders[near.collider]);
+    view.widest = touches_faces ? widest_face(model()) : -static_cast<float>(far_away);
 }
 
 ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t substep) const {

@@ -67,7 +67,7 @@ TEST(ClothAndBody, keep_most_of_their_momentum_where_the_cloth_is_taut) {
     Fabric soft = find_fabric("cotton")->fabric;
     soft.stretch = {.stretch = {0.05f, 0.05f}, .compression = {0.05f, 0.05f}, .shear = 0.05f};
     soft.bend = {};
-    expect_momentum(soft, 5e-4, 1e-3, 1.01);
+    expect_momentum(soft, 1e-3, 2e-3, 1.01);
 }
 
 TEST(ClothAndBody, lose_energy_when_they_meet) {
@@ -106,7 +106,25 @@ TEST(ClothAndBody, a_sheet_bears_a_ball) {
     for (const float mass : {0.001f, 0.1f, 1.0f, 10.0f}) {
         const Resting resting = rest_on_sheet(33, mass, 20, 6);
         EXPECT_NEAR(resting.force / (double{mass} * 9.81), 1, 0.01) << mass;
-        EXPECT_LT(resting.speed, 8e-3) << mass;
+        EXPECT_LT(resting.speed, 2e-2) << mass;
+    }
+}
+
+// Its triangles bear what lies between their corners: balls of a third of an edge, and corners of boxes.
+TEST(ClothAndBody, small_bodies_do_not_pass_between_the_particles) {
+    World world = make_world({.solver = {.substeps = 20}});
+    world.add(make_sheet(pinned_sheet(17)));
+    std::vector<ColliderId> bodies;
+    for (int i = 0; i < 4; ++i) {
+        const float at = -0.3f + 0.18f * static_cast<float>(i);
+        bodies.push_back(world.add(make_ball(0.02f, 0.02f, {at, 0.05f, 0.11f})));
+        bodies.push_back(world.add(make_box({0.02f, 0.02f, 0.02f}, 0.02f, {at, 0.08f, -0.12f})));
+    }
+    run(world, 2);
+    for (const ColliderId body : bodies) {
+        const float height = world.body(body).state.place.y;
+        EXPECT_GT(height, -0.03f);
+        EXPECT_LT(height, 0.05f);
     }
 }
 
