@@ -75,7 +75,10 @@ void Bodies::run(const Pass& pass) {
         case PassKind::predict_bodies:
             return predict();
         case PassKind::move_bodies:
-            if (pass.batch == 0) return count_touches();
+            if (pass.batch == 0) {
+                for (BodyInStep& body : bodies_) body.found = body.now;
+                return count_touches();
+            }
             return take_sums(pass.batch == 1 ? sweeps_after_particles : sweeps_after_faces);
         default:  // finish_bodies
             for (int sweep = 0; sweep < sweeps_of_velocities; ++sweep) contacts_.bounce();
@@ -114,7 +117,6 @@ void Bodies::count_touches() {
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
         std::uint32_t touches = 0;
         for (auto& sums : sums_) touches += sums[i].touches, sums[i].touches = 0;
-        bodies_[i].found = bodies_[i].now;
         bodies_[i].contacts = std::max(bodies_[i].contacts, static_cast<float>(touches));
     }
 }
