@@ -29,8 +29,9 @@ scalar::ContactBody between_poses(const Pose& before, const Pose& now) {
     return body;
 }
 
-// m: a contact that is open by less is listed, because pushes in the substep may close it.
-constexpr float open_margin = 1e-4f;
+float restitution_of(const Collider& collider) {
+    return collider.body ? collider.body->desc.restitution : 0;
+}
 
 }  // namespace
 
@@ -60,18 +61,39 @@ void BodyContacts::begin_frame(const StepInput& input, std::span<BodyInStep> bod
     input_ = &input;
     bodies_ = bodies;
     body_of_ = body_of;
-    h_ = h;
+    step_ = {h, 1 / h, 1 / h / h, 0, 1};
     pairs_.clear();
     rows_.clear();
 }
 
-const Pose& BodyContacts::now(std::uint32_t collider) const {
-    const std::uint32_t body = body_of_[collider];
-    return body == none ? input_->places->pose(collider, substep_ + 1) : bodies_[body].now;
+BodyInStep* BodyContacts::body_of(std::uint32_t collider) const {
+    const std::uint32_t number = body_of_[collider];
+    return number == none ? nullptr : &bodies_[number];
 }
-const Pose& BodyContacts::before(std::uint32_t collider) const {
-    const std::uint32_t body = body_of_[collider];
-    return body == none ? input_->places->pose(collider, substep_) : bodies_[body].before;
+
+scalar::BodySide BodyContacts::side_of(std::uint32_t collider) const {
+    const BodyInStep* body = body_of(collider);
+    if (!body) {
+        const ColliderPlaces& places = *input_->places;
+        return {between_poses(places.pose(collider, substep_), places.pose(collider, substep_ + 1)),
+                scalar::immovable(), vec3(0.0f), vec3(0.0f), false};
+    }
+    const Mat3& inverse = body->inverse_inertia;
+    return {
+        between_poses(body->before, body->now),
+        {1, body->inverse_mass, body->motion.place, vector_of(inverse.x), vector_of(inverse.y), vector_of(inverse.z)},
+        body->v,
+        body->rate,
+        true};
+}
+
+scalar::BodySide BodyContacts::side_now(std::uint32_t collider) const {
+    scalar::BodySide side = side_of(collider);
+    if (const BodyInStep* body = body_of(collider)) {
+        side.v = body->motion.v;
+        side.rate = rate_of(body->motion.turn, body->motion.spin, body->inertia);
+    }
+    return side;
 }
 
 void BodyContacts::find_pairs(std::span<const Bounds> reach) {
@@ -100,176 +122,74 @@ void BodyContacts::find_contacts(std::uint32_t substep) {
     for (const Pair& pair : pairs_) find_contacts(pair);
 }
 
+// Of a pair of a body and a collider the body gives how far both are apart; of two bodies the one with the features.
 void BodyContacts::find_contacts(const Pair& pair) {
-    // Of a pair of a body and a collider the body tells how far both are apart; of two bodies that with the features.
     const bool first = body_of_[pair.features] != none;
-    const std::uint32_t ball = first ? pair.features : pair.shape, solid = first ? pair.shape : pair.features;
-    const BodyInStep& body = bodies_[body_of_[ball]];
-    const Vec3 center = vector_of(body.motion.place);
-    const Collider& other = input_->colliders[solid];
-    float way = length(vector_of(body.v)) * h_ + length(vector_of(body.rate)) * h_ * body.radius;
-    const std::uint32_t other_body = body_of_[solid];
-    if (other_body != none) {
-        const BodyInStep& b = bodies_[other_body];
-        way += length(vector_of(b.v)) * h_ + length(vector_of(b.rate)) * h_ * b.radius;
+    const BodyInStep& body = *body_of(first ? pair.features : pair.shape);
+    const std::uint32_t other = first ? pair.shape : pair.features;
+    const scalar::BodySide a = side_of(pair.features), b = side_of(pair.shape);
+    const scalar::BodySide& of_body = first ? a : b;
+    const scalar::BodySide& of_other = first ? b : a;
+    const vec3 center = body.motion.place;
+    float way = way_of_body(of_body, body.radius, step_);
+    if (const BodyInStep* other_body = body_of(other)) {
+        way += way_of_body(of_other, other_body->radius, step_);
     } else {
-        way += length(to_world(now(solid), to_local(before(solid), center)) - center);
+        way += scalar::way_of_collider(of_other.poses, center);
     }
-    vec3 unused;
-    const float distance = scalar::solid_distance(solid_of(other), vector_of(to_local(now(solid), center)), unused);
-    const float margin = open_margin + 0.5f * way;
-    if (distance > steepness_of(other) * (body.radius + margin + 2 * way)) return;
-    const BodyFeatures& features = input_->colliders[pair.features].features;
-    for (const RoundPoint& point : features.points) touch(pair, point.place, point.radius, margin);
-    for (const RoundEdge& edge : features.edges) search_edge(pair, edge, margin);
-}
-
-// Contact of a ball of the features with the shape.
-void BodyContacts::touch(const Pair& pair, Vec3 local, float radius, float margin) {
-    const Collider &mine = input_->colliders[pair.features], &other = input_->colliders[pair.shape];
-    const scalar::Solid solid = solid_of(other);
-    const Pose& pose = now(pair.shape);
-    scalar::ContactBody body = between_poses(before(pair.shape), pose);
-    body.half_thickness = radius;
-    const vec3 x = vector_of(to_world(now(pair.features), local));
-    const vec3 start = vector_of(to_world(before(pair.features), local));
-    const vec3 at = to_body(body, x), at_start = to_body_at_start(body, start);
-    vec3 normal;
-    const float gap = scalar::solid_distance(solid, at, normal) - radius;
-    const vec3 way = at - at_start;
-    if (gap > margin + 2 * solid.steepness * std::sqrt(dot(way, way))) return;
-    const scalar::ContactPlane plane = contact_plane(solid, body, {vec3(0.0f), 0}, at, at_start, gap, normal);
-    if (!(plane.gap < margin)) return;
-    const vec3 world_normal = rotate(body.rx, body.ry, body.rz, plane.normal), touched = x - world_normal * radius;
-    const vec3 foot = at - plane.normal * (plane.gap + radius);
-    const auto restitution = [](const Collider& one) { return one.body ? one.body->desc.restitution : 0; };
-    rows_.push_back(
-        {.a = body_of_[pair.features],
-         .b = body_of_[pair.shape],
-         .collider_a = pair.features,
-         .collider_b = pair.shape,
-         .local_a = local,
-         .local_b = vector_of(foot),
-         .normal = world_normal,
-         .radius = radius,
-         .gap_at_start = plane.gap_at_start,
-         .approach = dot(world_normal, velocity_before(pair.features, touched) - velocity_before(pair.shape, touched)),
-         .static_friction = std::sqrt(mine.friction[0] * other.friction[0]),
-         .kinetic_friction = std::sqrt(mine.friction[1] * other.friction[1]),
-         .restitution = std::max(restitution(mine), restitution(other))});
-}
-
-// Where an edge is nearest to the shape between its ends, which are features of their own. Each step goes to where the
-// tangents at the ends of the interval meet: a distance whose slope only grows lies above both.
-void BodyContacts::search_edge(const Pair& pair, const RoundEdge& edge, float margin) {
-    struct End {
-        float part, distance, slope;
+    const Collider &mine = input_->colliders[pair.features], &theirs = input_->colliders[pair.shape];
+    const float margin = body_margin(solid_of(input_->colliders[other]), of_other.poses, center, body.radius, way);
+    if (margin < 0) return;
+    const scalar::Solid solid = solid_of(theirs);
+    const auto add = [&](Vec3 local, float radius) {
+        Row row{pair.features, pair.shape, {}};
+        if (!touch_body(solid, a, b, vector_of(local), radius, margin, step_, row.touch)) return;
+        row.touch.static_friction = std::sqrt(mine.friction[0] * theirs.friction[0]);
+        row.touch.kinetic_friction = std::sqrt(mine.friction[1] * theirs.friction[1]);
+        row.touch.restitution = std::max(restitution_of(mine), restitution_of(theirs));
+        rows_.push_back(row);
     };
-    const scalar::Solid solid = solid_of(input_->colliders[pair.shape]);
-    const Pose &mine = now(pair.features), &other = now(pair.shape);
-    const Vec3 from = to_local(other, to_world(mine, edge.from)), to = to_local(other, to_world(mine, edge.to));
-    const float taper = edge.radius_to - edge.radius_from;
-    const auto evaluate = [&](float part) {
-        vec3 normal;
-        const float distance = scalar::solid_distance(solid, vector_of(from + (to - from) * part), normal);
-        return End{part, distance - edge.radius_from - taper * part, dot(normal, vector_of(to - from)) - taper};
-    };
-    End low = evaluate(0), high = evaluate(1);
-    const float ends = std::min(low.distance, high.distance);
-    constexpr int steps = 6;
-    End best = low.distance < high.distance ? low : high;
-    for (int i = 0; i < steps && low.slope < 0 && high.slope > 0; ++i) {
-        const float width = high.part - low.part;
-        const float part =
-            std::clamp((high.distance - high.slope * width - low.distance) / (low.slope - high.slope), 0.0f, width);
-        if (low.distance + low.slope * part > margin) return;
-        const End next = evaluate(low.part + part);
-        if (next.distance < best.distance) best = next;
-        (next.slope < 0 ? low : high) = next;
+    for (const RoundPoint& point : mine.features.points) add(point.place, point.radius);
+    for (const RoundEdge& edge : mine.features.edges) {
+        const scalar::BodyEdge at{vector_of(edge.from), vector_of(edge.to), edge.radius_from, edge.radius_to};
+        const float part = nearest_on_edge(solid, a.poses, b.poses, at, margin);
+        if (part >= 0)
+            add(edge.from + (edge.to - edge.from) * part,
+                edge.radius_from + (edge.radius_to - edge.radius_from) * part);
     }
-    // What lies flat touches with its ends.
-    if (!(best.distance < std::min(margin, ends - open_margin))) return;
-    touch(pair, edge.from + (edge.to - edge.from) * best.part, edge.radius_from + taper * best.part, margin);
-}
-
-scalar::MovedBody BodyContacts::side_of(std::uint32_t number) const {
-    if (number == none) return scalar::immovable();
-    const BodyInStep& body = bodies_[number];
-    const Mat3& inverse = body.inverse_inertia;
-    return {1, body.inverse_mass, body.motion.place, vector_of(inverse.x), vector_of(inverse.y), vector_of(inverse.z)};
-}
-
-// How far the point of the collider that is now at `x` has moved since the start of the substep.
-vec3 BodyContacts::way_of(std::uint32_t collider, vec3 x) const {
-    const Vec3 there = vector_of(x);
-    return vector_of(there - to_world(before(collider), to_local(now(collider), there)));
 }
 
 void BodyContacts::project() {
-    const float depenetration = depenetration_speed * h_;
+    const float depenetration = depenetration_speed * step_.h;
     for (Row& row : rows_) {
-        const scalar::MovedBody a = side_of(row.a), b = side_of(row.b);
-        const vec3 xa = vector_of(to_world(now(row.collider_a), row.local_a));
-        const vec3 xb = vector_of(to_world(now(row.collider_b), row.local_b));
-        const vec3 touched = xa - row.normal * row.radius;
-        scalar::ContactSum sum{row.friction, row.push};
-        const vec3 way = way_of(row.collider_a, touched) - way_of(row.collider_b, touched);
-        const vec3 by = project_body_row(
-            {row.normal, row.gap_at_start, row.static_friction, row.kinetic_friction, depenetration}, sum,
-            dot(row.normal, xa - xb) - row.radius, way, a, b, touched - a.center, touched - b.center);
-        row.friction = sum.friction, row.push = sum.push;
+        vec3 touched;
+        const vec3 by = project_bodies(row.touch, side_of(row.a), side_of(row.b), depenetration, touched);
         if (dot(by, by) > 0)
-            apply(row, touched, by * (1 / h_),
-                  [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, h_); });
+            apply(row, touched, by * step_.inv_h,
+                  [&](BodyInStep& body, const scalar::BodyPush& one) { push(body, one, step_.h); });
     }
 }
 
 template <class Apply>
 void BodyContacts::apply(const Row& row, vec3 touched, vec3 impulse, Apply&& to) {
-    const auto one = [&](std::uint32_t number, vec3 by) {
-        if (number == none) return;
-        BodyInStep& body = bodies_[number];
-        to(body, scalar::BodyPush{by, cross(touched - body.motion.place, by)});
+    const auto one = [&](std::uint32_t collider, vec3 by) {
+        BodyInStep* body = body_of(collider);
+        if (body) to(*body, scalar::BodyPush{by, cross(touched - body->motion.place, by)});
     };
     one(row.a, impulse);
     one(row.b, -impulse);
 }
 
-// After Müller et al. 2020, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", section 3.6: the
-// velocities at a contact become what restitution makes of those before it, or zero. Projections alone leave some, and
-// what stands would tremble. What gravity adds in two substeps does not bounce. No contact takes back more than it
-// gave.
+// What gravity adds in two substeps does not bounce.
 void BodyContacts::bounce() {
-    const float slow = 2 * h_ * length(input_->gravity);
+    const float slow = 2 * step_.h * length(input_->gravity);
     for (Row& row : rows_) {
-        if (!(row.push > 0)) continue;
-        const scalar::MovedBody a = side_of(row.a), b = side_of(row.b);
-        const vec3 touched = vector_of(to_world(now(row.collider_a), row.local_a)) - row.normal * row.radius;
-        const vec3 speed = velocity_at(row.collider_a, touched) - velocity_at(row.collider_b, touched);
-        const float wanted = row.approach < -slow ? -row.restitution * row.approach : 0;
-        const float w = weight_of(a, touched - a.center, row.normal) + weight_of(b, touched - b.center, row.normal);
-        const float impulse =
-            std::max((wanted - dot(row.normal, speed)) / std::max(w, 1e-30f), -row.push / h_ - row.taken);
-        row.taken += impulse;
-        apply(row, touched, row.normal * impulse,
+        if (!(row.touch.push > 0)) continue;
+        vec3 touched;
+        const vec3 impulse = bounce_bodies(row.touch, side_now(row.a), side_now(row.b), slow, step_, touched);
+        apply(row, touched, impulse,
               [](BodyInStep& body, const scalar::BodyPush& one) { hit_body(body.motion, body.inverse_mass, one); });
     }
-}
-
-// m/s, of the collider's point at `x` now.
-vec3 BodyContacts::velocity_at(std::uint32_t collider, vec3 x) const {
-    const std::uint32_t number = body_of_[collider];
-    if (number == none) return way_of(collider, x) * (1 / h_);
-    const BodyInStep& body = bodies_[number];
-    return body.motion.v + cross(rate_of(body.motion.turn, body.motion.spin, body.inertia), x - body.motion.place);
-}
-
-// m/s, likewise at the start of the substep, before contact.
-vec3 BodyContacts::velocity_before(std::uint32_t collider, vec3 x) const {
-    const std::uint32_t number = body_of_[collider];
-    if (number == none) return way_of(collider, x) * (1 / h_);
-    const BodyInStep& body = bodies_[number];
-    return body.v + cross(body.rate, x - body.motion.place);
 }
 
 }  // namespace weft::cpu

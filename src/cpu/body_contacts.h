@@ -59,33 +59,21 @@ class BodyContacts {
         friend auto operator<=>(const Pair&, const Pair&) = default;
     };
     struct Row {
-        std::uint32_t a, b;  ///< bodies; none: a collider that does not give way
-        std::uint32_t collider_a, collider_b;
-        Vec3 local_a, local_b;       ///< m: where they touch; a's feature has a radius around its point
-        scalar::vec3 normal;         ///< world, from b to a
-        float radius, gap_at_start;  ///< m
-        float approach;              ///< m/s along the normal at the start of the substep; negative: they come nearer
-        float static_friction, kinetic_friction, restitution;
-        float taken = 0;              ///< N·s, by bounce()
-        float push = 0;               ///< kg·m
-        scalar::vec3 friction{0.0f};  ///< kg·m
+        std::uint32_t a, b;  ///< colliders
+        scalar::BodyTouch touch;
     };
-    const Pose& now(std::uint32_t collider) const;
-    const Pose& before(std::uint32_t collider) const;
-    scalar::MovedBody side_of(std::uint32_t body) const;
-    scalar::vec3 way_of(std::uint32_t collider, scalar::vec3 x) const;
-    scalar::vec3 velocity_at(std::uint32_t collider, scalar::vec3 x) const;
-    scalar::vec3 velocity_before(std::uint32_t collider, scalar::vec3 x) const;
+    scalar::BodySide side_of(std::uint32_t collider) const;
+    /// The same with the velocities of now.
+    scalar::BodySide side_now(std::uint32_t collider) const;
+    BodyInStep* body_of(std::uint32_t collider) const;
     template <class Apply>
     void apply(const Row& row, scalar::vec3 touched, scalar::vec3 impulse, Apply&& to);
     void find_contacts(const Pair& pair);
-    void touch(const Pair& pair, Vec3 local, float radius, float margin);
-    void search_edge(const Pair& pair, const RoundEdge& edge, float margin);
 
     const StepInput* input_ = nullptr;
     std::span<BodyInStep> bodies_;
-    std::span<const std::uint32_t> body_of_;
-    float h_ = 0;
+    std::span<const std::uint32_t> body_of_;  ///< by collider
+    scalar::Step step_{};
     std::uint32_t substep_ = 0;
     std::vector<Pair> pairs_;
     std::vector<std::uint32_t> found_;

@@ -6,6 +6,8 @@
 
 namespace weft::scalar {
 
+#include "physics/body/pairs.kernel.h"
+
 inline vec3 vector_of(Vec3 v) {
     return {v.x, v.y, v.z};
 }
