@@ -28,7 +28,7 @@ class CpuBackend final : public Backend {
                (passes_.lanes == 1 ? " lane" : " lanes");
     }
     unsigned threads() const override { return team_.size(); }
-    bool moves_bodies() const override { return true; }
+    std::uint32_t most_bodies() const override { return none; }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
         make_room(*model, base);

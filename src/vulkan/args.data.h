@@ -20,6 +20,7 @@ using Uints = std::uint64_t;
 using FrameRef = std::uint64_t;
 using ColliderRef = std::uint64_t;
 using CollidersRef = std::uint64_t;
+using BodiesRef = std::uint64_t;
 using NearTileRef = std::uint64_t;
 using PoseRef = std::uint64_t;
 using WindRef = std::uint64_t;
@@ -42,6 +43,7 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer Uints {
 layout(buffer_reference) buffer FrameRef;
 layout(buffer_reference) buffer ColliderRef;
 layout(buffer_reference) buffer CollidersRef;
+layout(buffer_reference) buffer BodiesRef;
 layout(buffer_reference) buffer NearTileRef;
 layout(buffer_reference) buffer PoseRef;
 layout(buffer_reference) buffer WindRef;
@@ -81,6 +83,7 @@ struct FrameIn {
     float surface_motion;    // m: the most that a point of a collider's surface moves in a substep
     uint meets_surfaces;     // 1: the cloth meets the triangles of colliders that have a surface, not their shapes
     uint unused;
+    Floats weights;  // 1/kg: inverse masses without those of taut edges; 0: particles have no others
 };
 
 // Words of a report.
@@ -195,11 +198,11 @@ struct GrabArgs {
 // Constraints of one kind: a batch, or all of them.
 struct RowArgs {
     Vec4s position;
-    Vec4s velocity;     // damp only
+    Vec4s velocity;     // damp only; weigh_taut: places at the start of the substep
     Uints particles;    // [slot · stride + row]
     Floats fields;      // [field · stride + row]
     Floats lambda;      // [multiplier · stride + row]; 0 if it is not stored
-    Vec4s corrections;  // correct only: [slot · stride + row]
+    Vec4s corrections;  // correct only: [slot · stride + row]; weigh_taut: TautArgs::sums
     Uints sums;         // correct only, in fixed point: four per particle; 0 for floats
     Floats share;       // correct only: [row]; 0 for plain constraints
     Uints blocks;       // lines only: begin and length of each block, with WEFT_CUT_BLOCK
@@ -226,6 +229,16 @@ struct LineArgs {
     uint stride;
     uint count;  // blocks
     uint lambda_use;
+    uint unused;
+};
+
+// Masses of taut edges.
+struct TautArgs {
+    Vec4s position;
+    Vec4s start;
+    Vec4s sums;  // TautSum, 0 between the passes
+    Floats weights;
+    uint count;
     uint unused;
 };
 
@@ -292,8 +305,13 @@ struct ContactArgs {
     uint substep;
     uint first_iteration;
     uint particles;  // those of the points that can have faces; the others are particles in reserve, and anchors
-    uint unused;
+    uint parts;      // WEFT_CONTACT_…
 };
+
+// The first pass of contact in a substep. In the first substep of a frame the lists begin with it.
+#define WEFT_CONTACT_BEGINS 1u
+#define WEFT_CONTACT_BODIES 2u  // the world has bodies
+#define WEFT_CONTACT_KEEPS_MARKS 4u  // passes before have marked particles whose faces may touch
 
 // Contact of faces with colliders.
 struct FaceContactArgs {

@@ -31,6 +31,15 @@ KeepArgs ClothArgs::keep_args() const {
             .lambdas = static_cast<std::uint32_t>(model_.table(ConstraintKind::stretch).lambda_count())};
 }
 
+TautArgs ClothArgs::taut_args() const {
+    return {.position = state(PointArray::position),
+            .start = state(PointArray::start),
+            .sums = work(work_.taut),
+            .weights = state(cloth_.weights),
+            .count = model_.point_count(),
+            .unused = 0};
+}
+
 LimitArgs ClothArgs::limit_args() const {
     const ConstraintTable& table = model_.table(ConstraintKind::stretch);
     const TableBuffers& rows = buffers_.tables[static_cast<std::uint32_t>(ConstraintKind::stretch)];

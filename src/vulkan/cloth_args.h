@@ -27,6 +27,7 @@ class ClothArgs {
 
     ParticleArgs particle_args() const;
     KeepArgs keep_args() const;
+    TautArgs taut_args() const;
     LimitArgs limit_args() const;
     FaceArgs face_args() const;
     AroundArgs around_args() const;

@@ -61,12 +61,14 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             work.lambda[static_cast<std::uint32_t>(table.kind)] =
                 work.arena.reserve(table.lambda_count() * sizeof(float));
     }
+    if (has(plan.substep, PassKind::take_taut)) work.taut = work.arena.reserve(model.capacity() * block);
     if (shape.colliders > 0) {
         const std::uint64_t sums = std::uint64_t{slots} * WEFT_COLLIDER_TILE * block;
         work.slot_count = slots;
         work.near_tiles = work.arena.reserve(near_tiles_of(model) * sizeof(NearTileIn));
         work.near_slots = work.arena.reserve(slots * sizeof(std::uint32_t));
-        if (rounds_of(plan, model) > 1) work.contact_sums = work.arena.reserve(sums);
+        if (rounds_of(plan, model) > 1 || has(plan.substep, PassKind::touch_bodies))
+            work.contact_sums = work.arena.reserve(sums);
         if (shape.contact_forces) work.contact_log = work.arena.reserve(2 * sums);
         if (has_face_contact(plan)) {
             const std::uint64_t blocks = WEFT_FACE_CONTACT_BLOCKS + (shape.contact_forces ? 1 : 0);

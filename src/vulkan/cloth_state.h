@@ -35,6 +35,7 @@ struct WorkBuffers {
     Slot near_tiles;                                 ///< lists of colliders near each tile (colliders.data.h)
     Slot near_slots;                                 ///< colliders in the lists
     std::uint32_t slot_count = 0;                    ///< room of near_slots
+    Slot taut;                                       ///< TautArgs::sums
     Slot contact_sums;                               ///< by slot and particle in the tile
     Slot contact_log;               ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
     Slot face_contacts, face_sums;  ///< FaceContactArgs

@@ -10,6 +10,7 @@
 
 #define WEFT_COLLIDER_STICKS 1u   // cloth sticks to it
 #define WEFT_COLLIDER_SURFACE 2u  // Collider::surface
+#define WEFT_COLLIDER_BODY 4u     // its poses are those of a body
 
 #ifdef __cplusplus
 namespace weft::vulkan {
@@ -32,9 +33,9 @@ struct ColliderIn {
     float steepness;  // swept.kernel.h
     float roundness;  // m
     float layer_distance;  // m, swept.kernel.h
+    uint body;             // its number
     uint unused0;
     uint unused1;
-    uint unused2;
 };
 
 struct CollidersIn {
@@ -43,7 +44,8 @@ struct CollidersIn {
     // A bounding volume hierarchy in depth-first order, two per node. Low corner, and as bits the node at which a search
     // goes on that has finished or rejected this one. High corner, and as bits the collider in the node's box, or
     // 0xffffffff for an inner node. Boxes contain a collider's way in the frame; those that no box contains come last.
-    Vec4s nodes;
+    Vec4s nodes;       // without bodies
+    BodiesRef bodies;  // 0: none
     uint node_count;
     uint unused;
 };
@@ -54,8 +56,8 @@ struct NearTileIn {
     vec4 high;
     uint first;
     uint count;
-    uint unused0;
-    uint unused1;
+    uint reach_serial;  // BodiesIn::reach_serial of the list
+    uint unused;
 };
 
 #ifdef __cplusplus
@@ -64,12 +66,14 @@ struct NearTileIn {
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer ColliderRef {
     ColliderIn at[];
 };
-layout(buffer_reference, std430, buffer_reference_align = 8) readonly buffer CollidersRef {
+layout(buffer_reference, std430, buffer_reference_align = 8) buffer CollidersRef {
     CollidersIn at;
 };
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer NearTileRef {
     NearTileIn at[];
 };
 #endif
+
+#include "vulkan/bodies/bodies.data.h"
 
 #endif

@@ -153,15 +153,17 @@ class Compiler : ClothArgs {
             case PassKind::settle_particles:
             case PassKind::watch_tears:
             case PassKind::tear:
-            case PassKind::predict_bodies:  // Backend::moves_bodies()
-            case PassKind::count_touches:
-            case PassKind::touch_bodies:
+            case PassKind::predict_bodies:
             case PassKind::move_bodies:
             case PassKind::finish_bodies:
+                break;  // for all cloths only, or never
             case PassKind::weigh_taut:
+                add_taut_weights(list, pass, substep);
+                break;
             case PassKind::take_taut:
             case PassKind::free_taut:
-                break;  // for all cloths only, or never
+                add(list, std::string(pass_info(pass.kind).name), taut_args(), points, pass, substep);
+                break;
             case PassKind::targets:
                 add_targets(list, pass, substep);
                 break;
@@ -181,6 +183,8 @@ class Compiler : ClothArgs {
             case PassKind::average:
                 add_average(list, pass, substep);
                 break;
+            case PassKind::count_touches:
+            case PassKind::touch_bodies:
             case PassKind::contact:
                 add_contacts(list, pass, substep);
                 break;
@@ -232,6 +236,16 @@ class Compiler : ClothArgs {
         std::string program = pass.kind == PassKind::damp ? "damp_" : plain ? "plain_" : "project_";
         if (pass.kind == PassKind::project && !plain) args.lambda_use = use_of_lambda(pass, substep);
         add(list, program + std::string(constraint_info(pass.constraint).name), args, invocations, pass, substep);
+    }
+
+    void add_taut_weights(List& list, const Pass& pass, std::uint32_t substep) {
+        const TableBuffers& buffers = buffers_.tables[static_cast<std::uint32_t>(pass.constraint)];
+        RowArgs args = row_args(pass.constraint);
+        args.velocity = state(PointArray::start);
+        args.corrections = work(work_.taut);
+        const Batch& batch = model_.table(pass.constraint).batches[pass.batch];
+        const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));
+        add(list, "weigh_taut", args, invocations, pass, substep);
     }
 
     // Links refer to particles by their numbers in the world.
@@ -326,6 +340,13 @@ class Compiler : ClothArgs {
         add(list, pass_info(pass.kind).name, args, 1, pass, substep);
     }
 
+    // Contact with bodies comes before that with other colliders.
+    std::uint32_t parts_of_contact(const Pass& pass) const {
+        if (island_.bodies == 0) return pass.first_iteration ? WEFT_CONTACT_BEGINS : 0;
+        return WEFT_CONTACT_BODIES | (pass.kind == PassKind::count_touches ? WEFT_CONTACT_BEGINS : 0) |
+               (pass.kind == PassKind::contact ? WEFT_CONTACT_KEEPS_MARKS : 0);
+    }
+
     void add_contacts(List& list, const Pass& pass, std::uint32_t substep) {
         const ContactArgs args{.position = state(PointArray::position),
                                .start = state(PointArray::start),
@@ -342,10 +363,10 @@ class Compiler : ClothArgs {
                                .substep = substep,
                                .first_iteration = pass.first_iteration ? 1u : 0u,
                                .particles = model_.particle_count,
-                               .unused = 0};
+                               .parts = parts_of_contact(pass)};
         if (shape_.colliders == 0) return;
         add(list, "cover", args, near_tiles_of(model_), pass, substep);
-        add(list, "contact", args, args.count, pass, substep);
+        add(list, std::string(pass_info(pass.kind).name), args, args.count, pass, substep);
     }
 
     void add_face_contact(List& list, const Pass& pass, std::uint32_t substep) {

@@ -62,6 +62,7 @@ struct IslandPart {
     const LinkTables* tables = nullptr;  ///< only for the first of several cloths that are stitched together
     const LinkBuffers* links = nullptr;  ///< likewise
     std::uint64_t colliders = 0;         ///< address of the world's colliders
+    std::uint64_t bodies = 0;            ///< that of its bodies
 };
 
 Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const WorkBuffers& work,
@@ -77,7 +78,7 @@ std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32
 /// Whether a pass is recorded once for all cloths of a frame.
 inline bool is_for_all(const Pass& pass) {
     return pass.source == RowSource::dynamic || is_cloth_contact(pass.kind) || is_particle_contact(pass.kind) ||
-           pass.kind == PassKind::watch_tears || pass.kind == PassKind::tear;
+           is_body_pass(pass.kind) || pass.kind == PassKind::watch_tears || pass.kind == PassKind::tear;
 }
 
 /// Workgroups that a command fills.

@@ -37,9 +37,9 @@ class FrameInput {
     void attach(std::byte* host, std::uint64_t address) { host_ = host, address_ = address; }
 
     /// The device must have finished the previous frame. `substep_seconds`: that frame's lambda_seconds().
-    /// `again`: second run of a frame, from the same state.
+    /// `again`: second run of a frame, from the same state. `weights`: FrameIn::weights.
     void write(const ClothModel& model, const WorldPlan& plan, const StepInput& input, const ClothStep& cloth,
-               double substep_seconds, bool again);
+               double substep_seconds, bool again, std::uint64_t weights);
 
     std::uint64_t report() const { return address_; }
     std::uint64_t frame() const { return address_ + frame_; }

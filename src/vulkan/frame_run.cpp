@@ -90,7 +90,9 @@ Result<void> FrameRun::compile_members(const Lists& lists) {
         auto work = WorkBuffers::create(device_, member.cloth->model(), plan_, member.shape, slots);
         if (!work) return work.errors();
         work_.push_back(std::move(*work));
-        IslandPart island{.report = buffers_.input(first_of_island(i)).report(), .colliders = lists.colliders};
+        IslandPart island{.report = buffers_.input(first_of_island(i)).report(),
+                          .colliders = lists.colliders,
+                          .bodies = lists.bodies ? lists.bodies->address() : 0};
         if (member.links) {
             auto links = LinkBuffers::create(device_, *member.links, plan_);
             if (!links) return links.errors();
@@ -112,7 +114,18 @@ Result<void> FrameRun::make_lists(const Lists& lists) {
     if (auto made = make_adhesion(lists); !made) return made;
     if (auto made = make_cloth_contact(lists); !made) return made;
     if (auto made = make_particle_contact(lists); !made) return made;
+    if (auto made = make_bodies(lists); !made) return made;
     return make_tearing();
+}
+
+Result<void> FrameRun::make_bodies(const Lists& lists) {
+    if (!lists.bodies || lists.bodies->empty()) return {};
+    bodies_ = lists.bodies;
+    bodies_serial_ = bodies_->serial();
+    colliders_ = lists.colliders;
+    std::vector<std::uint64_t> reports;
+    for (std::size_t i = 0; i < members_.size(); ++i) reports.push_back(buffers_.input(i).report());
+    return bodies_->set_reports(device_, reports);
 }
 
 Result<void> FrameRun::make_tearing() {
@@ -164,6 +177,7 @@ Result<void> FrameRun::record_for_all(gpu::Commands& commands, const Pass& pass,
     if (pass.source == RowSource::dynamic) return adhesion_->record(commands, pass, substep, member);
     // A replay of one cloth alone leaves contact out, whose results are always finite for finite positions.
     if (member != none) return {};
+    if (is_body_pass(pass.kind)) return bodies_->record(device_, programs_, commands, colliders_, pass, substep);
     if (is_particle_contact(pass.kind)) return particle_contact_->record(commands, pass, substep);
     if (!is_cloth_contact(pass.kind)) return tearing_->record(commands, pass);
     return cloth_contact_->record(commands, pass, substep);
@@ -206,7 +220,7 @@ Result<void> FrameRun::begin_recording(bool timings, std::size_t stages) {
     if (auto begun = commands_->begin(); !begun) return begun;
     buffers_.record_begin(*commands_);
     if (cloth_contact_) cloth_contact_->record_begin(*commands_);
-    return {};
+    return bodies_ ? bodies_->record_begin(device_, programs_, *commands_, colliders_) : Result<void>();
 }
 
 Result<void> FrameRun::end_recording() {
@@ -218,6 +232,7 @@ Result<void> FrameRun::end_recording() {
     }
     if (particle_contact_) particle_contact_->record_end(*commands_);
     if (tearing_) tearing_->record_end(*commands_);
+    if (bodies_) bodies_->record_end(*commands_);
     if (adhesion_ || cloth_contact_ || particle_contact_ || tearing_) commands_->host_barrier();
     return commands_->end();
 }
@@ -301,8 +316,10 @@ Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const C
     seconds_.clear();
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
-        buffers_.input(i).write(member.cloth->model(), plan_, input, *steps[i], member.cloth->state().substep_seconds,
-                                again);
+        const ClothState& cloth = member.cloth->state();
+        const bool taut = work_[i].taut.bytes > 0;
+        buffers_.input(i).write(cloth.model(), plan_, input, *steps[i], cloth.substep_seconds, again,
+                                taut ? cloth.address(cloth.weights) : 0);
         seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/commands.h"
+#include "vulkan/bodies/bodies.h"
 #include "vulkan/cloth.h"
 #include "vulkan/cloth_contact/cloth_contact.h"
 #include "vulkan/command_lists.h"
@@ -50,6 +51,7 @@ class FrameRun {
         std::uint32_t adhesion = 0;        ///< constraints
         ClothContactRoom cloth_contact{};
         std::uint32_t particle_pairs = 0;
+        Bodies* bodies = nullptr;    ///< of the world; null if there are none
         bool search_always = false;  ///< see VulkanOptions
         bool records_marks = false;  ///< StepInput::contact_marks
     };
@@ -64,6 +66,7 @@ class FrameRun {
     bool is_for(std::uint64_t serial, std::span<const Member> members, Execution execution,
                 const Tangle* tangle) const {
         if (cloth_contact_ && !cloth_contact_->room().holds(tangle)) return false;
+        if (bodies_ && bodies_->serial() != bodies_serial_) return false;
         const auto same = [](const Member& a, const Member& b) {
             return a.cloth == b.cloth && a.shape == b.shape && a.island == b.island;
         };
@@ -81,6 +84,7 @@ class FrameRun {
     const ClothContact* cloth_contact() const { return cloth_contact_.get(); }
     const ParticleContact* particle_contact() const { return particle_contact_.get(); }
     const Tearing* tearing() const { return tearing_.get(); }
+    Bodies* bodies() const { return bodies_; }
     /// Whether a cloth had too few slots for its lists of near colliders in the last finished frame. Then the state is
     /// undefined until roll_back_and_grow().
     bool near_list_was_full() const;
@@ -90,6 +94,7 @@ class FrameRun {
     bool list_was_full() const {
         return near_list_was_full() || (adhesion_ && adhesion_->wanted() > adhesion_->capacity()) ||
                (particle_contact_ && particle_contact_->wanted() > particle_contact_->capacity()) ||
+               (bodies_ && bodies_->list_was_full()) ||
                (cloth_contact_ && !cloth_contact_->room().holds(cloth_contact_->wanted()));
     }
     /// Call when the device has finished the frame. Adds the stages' times to `stage_ms`.
@@ -118,6 +123,7 @@ class FrameRun {
     Result<void> make_adhesion(const Lists& lists);
     Result<void> make_cloth_contact(const Lists& lists);
     Result<void> make_particle_contact(const Lists& lists);
+    Result<void> make_bodies(const Lists& lists);
     Result<void> make_tearing();
     Result<void> record_for_all(gpu::Commands& commands, const Pass& pass, std::uint32_t substep,
                                 std::uint32_t member = none) const;
@@ -148,6 +154,9 @@ class FrameRun {
     std::unique_ptr<ClothContact> cloth_contact_;        ///< null if no cloth collides exactly
     std::unique_ptr<ParticleContact> particle_contact_;  ///< null if no cloth collides by particles
     std::unique_ptr<Tearing> tearing_;                   ///< null if no cloth tears
+    Bodies* bodies_ = nullptr;                           ///< of the world; null if there are none
+    std::uint64_t bodies_serial_ = 0;                    ///< at which the commands were recorded
+    std::uint64_t colliders_ = 0;                        ///< address of the world's colliders
     CommandLists lists_;
     Dispatches dispatches_;
     std::optional<gpu::Commands> commands_;

@@ -48,6 +48,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     std::string_view name() const override { return "vulkan"; }
     std::string device() const override { return device_->info().name + ", " + device_->info().driver; }
     unsigned threads() const override { return 1; }
+    std::uint32_t most_bodies() const override { return most_device_bodies; }
     std::uint64_t device_bytes() const override { return device_->memory().used(); }
 
     Result<ClothHandle> add_cloth(std::shared_ptr<const ClothModel> model, std::uint32_t base) override {
@@ -134,8 +135,8 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         counts_ = {};
         contact_counts_ = {};
         group(step);
-        if (groups_.empty()) return;
-        const auto copied = colliders_.update(*device_, step.input.colliders, *step.input.places);
+        if (groups_.empty()) return run_bodies_alone(step);
+        const auto copied = update_colliders(step);
         for (Group& group : groups_) {
             if (!copied) {
                 fail(group, copied.error());
@@ -201,6 +202,23 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
   private:
+    Result<void> update_colliders(const WorldStep& step) {
+        if (auto done = bodies_.update(*device_, step); !done) return done;
+        return colliders_.update(*device_, step.input.colliders, *step.input.places, bodies_.address());
+    }
+
+    // There is no frame to report a failure to: the bodies stay where they are.
+    void run_bodies_alone(const WorldStep& step) {
+        if (step.input.bodies.empty()) return;
+        for (bool full = true; full;) {
+            if (!update_colliders(step)) return;
+            if (!bodies_.run_alone(*device_, programs_, colliders_.address(), step.plan->substeps)) return;
+            full = bodies_.list_was_full();
+            if (full) bodies_.grow();
+        }
+        if (bodies_.all_finite()) bodies_.finish();
+    }
+
     Cloth& cloth(ClothHandle handle) const {
         assert(handle.value < cloths_.size() && cloths_[handle.value]);
         return *cloths_[handle.value];
@@ -308,6 +326,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     // Contact of faces is too long a program: with it, drivers need minutes to compile the fused one.
     Execution execution_for(const WorldStep& step, const IslandStep& island) const {
         const bool single_cloth = island.cloths.size() == 1 && !island.parts.front().links && !has_lists(step) &&
+                                  step.input.bodies.empty() &&
                                   !cloth(island.cloths.front().cloth).model().along_curve &&
                                   !cloth(island.cloths.front().cloth).model().tear_law && !has_face_contact(*step.plan);
         if (execution_ != Execution::automatic && (single_cloth || execution_ != Execution::fused)) return execution_;
@@ -384,6 +403,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
              .adhesion = std::max(list_capacity_, first_list_capacity(step.input.list_capacity)),
              .cloth_contact = contact_room_,
              .particle_pairs = particle_pairs_,
+             .bodies = bodies_.empty() ? nullptr : &bodies_,
              .search_always = search_always_,
              .records_marks = step.input.contact_marks});
         if (!run) return run.errors();
@@ -393,6 +413,12 @@ class VulkanBackend final : public Backend, public VulkanInterop {
 
     void forget_runs(const Cloth& cloth) {
         std::erase_if(runs_, [&](const auto& run) { return run->has(&cloth); });
+    }
+
+    // The bodies are at the start of the frame again.
+    Result<FrameRun*> find_run_again(const Group& group) {
+        if (auto updated = update_colliders(*step_); !updated) return updated.errors();
+        return find_run(*step_, group);
     }
 
     // If a list was full, the device has restored the state before the frame. Runs the frame again with a longer list.
@@ -406,7 +432,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             if (group.run->near_list_was_full()) {
                 if (auto grown = group.run->roll_back_and_grow(); !grown) return fail(group, grown.error()), false;
             }
-            const auto before = std::tuple(list_capacity_, contact_room_, particle_pairs_);
+            const auto before = std::tuple(list_capacity_, contact_room_, particle_pairs_, bodies_.room());
             if (const auto* list = group.run->adhesion(); list && list->wanted() > list->capacity())
                 list_capacity_ = grown_list_capacity(list->wanted());
             if (const auto* contact = group.run->cloth_contact())
@@ -414,12 +440,15 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             if (const auto* particles = group.run->particle_contact();
                 particles && particles->wanted() > particles->capacity())
                 particle_pairs_ = grown_list_capacity(particles->wanted());
+            if (group.run->bodies() && bodies_.list_was_full()) bodies_.grow();
             undo_tears(group);
             group.run = nullptr;
             for (const FrameRun::Member& member : group.members) forget_runs(*member.cloth);
-            auto run = find_run(*step_, group);
+            auto run = find_run_again(group);
             if (!run) {  // the next frame may need less
-                std::tie(list_capacity_, contact_room_, particle_pairs_) = before;
+                std::tie(list_capacity_, contact_room_, particle_pairs_) =
+                    std::tuple(std::get<0>(before), std::get<1>(before), std::get<2>(before));
+                bodies_.set_room(std::get<3>(before));
                 for (std::size_t i = 0; i < group.members.size(); ++i)
                     group.members[i].cloth->state().near_slots = slots_before[i];
                 return fail(group, run.error()), false;
@@ -459,7 +488,9 @@ class VulkanBackend final : public Backend, public VulkanInterop {
             }
         }
         const auto not_finite = [](const ClothStep* step) { return step->frame->reports & report_non_finite; };
-        if (std::ranges::any_of(group.steps, not_finite)) undo_tears(group, true);
+        const bool failed = std::ranges::any_of(group.steps, not_finite);
+        if (failed) undo_tears(group, true);
+        if (!failed && group.run->bodies()) bodies_.finish();
     }
 
     // The device has restored the particles of a frame, but not what openings have changed. `only_not_finite`: of
@@ -527,6 +558,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     vulkan::ClothContactRoom contact_room_;  ///< the same for contact between cloths
     std::uint32_t particle_pairs_ = 0;       ///< the same for contact between particles
     vulkan::WorldColliders colliders_;
+    vulkan::Bodies bodies_;
     ClothContactCounts contact_counts_;  ///< of the last frame
 };
 

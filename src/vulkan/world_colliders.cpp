@@ -14,7 +14,7 @@ namespace weft::vulkan {
 namespace {
 
 // Sizes of the GLSL layout.
-static_assert(sizeof(ColliderIn) == 80 && sizeof(PoseIn) == 64 && sizeof(CollidersIn) == 32 &&
+static_assert(sizeof(ColliderIn) == 80 && sizeof(PoseIn) == 64 && sizeof(CollidersIn) == 40 &&
               sizeof(NearTileIn) == 48);
 static_assert(WEFT_TILE_SLACK == tile_slack_per_way && WEFT_COLLIDER_TILE == lane_padding);
 
@@ -51,17 +51,17 @@ NodeIn* write_tree(const Bvh& tree, std::span<const std::uint32_t> numbers, std:
 }  // namespace
 
 Result<void> WorldColliders::update(gpu::Device& device, std::span<const Collider> colliders,
-                                    const ColliderPlaces& places) {
+                                    const ColliderPlaces& places, std::uint64_t bodies) {
     assert(colliders.size() == places.size());
     auto done = shapes_.hold(device, colliders);
-    if (done && !colliders.empty()) done = copy_changes(device, colliders, places);
+    if (done && !colliders.empty()) done = copy_changes(device, colliders, places, bodies);
     if (!done || colliders.empty()) order_ = 0;  // the next frame writes everything
     if (colliders.empty()) buffer_ = {}, upload_ = {}, head_ = {}, head_upload_ = {};
     return done;
 }
 
 Result<void> WorldColliders::copy_changes(gpu::Device& device, std::span<const Collider> colliders,
-                                          const ColliderPlaces& places) {
+                                          const ColliderPlaces& places, std::uint64_t bodies) {
     const bool all = order_ != places.order();
     std::array<Range, 2> ranges;
     if (all) {
@@ -78,7 +78,7 @@ Result<void> WorldColliders::copy_changes(gpu::Device& device, std::span<const C
             ranges[1] = {layout_.moving_nodes, layout_.end};
         }
     }
-    const bool with_head = write_head();
+    const bool with_head = write_head(bodies);
     if (ranges[0].begin == ranges[0].end && ranges[1].begin == ranges[1].end && !with_head) return {};
     if (auto submitted = submit(ranges, with_head); !submitted) return submitted;
     order_ = places.order();
@@ -129,30 +129,30 @@ void WorldColliders::write_colliders(std::span<const Collider> colliders, const 
     const std::span<ColliderIn> to = array<ColliderIn>(layout_.colliders, colliders.size());
     const auto moving_first =
         static_cast<std::uint32_t>((layout_.moving_poses - layout_.resting_poses) / sizeof(PoseIn));
-    std::uint32_t resting = 0, moving = 0;
+    std::uint32_t resting = 0, moving = 0, bodies = 0;
     friction_.clear();
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const Collider& collider = colliders[i];
         const auto& n = collider.numbers;
         const bool moves = places.moves(i);
         friction_.push_back(collider.friction);
-        to[i] = {
-            .numbers = {n[0], n[1], n[2], n[3]},
-            .static_friction = collider.friction[0],
-            .kinetic_friction = collider.friction[1],
-            .shape = static_cast<std::uint32_t>(collider.shape),
-            .flags = (collider.adhesion ? WEFT_COLLIDER_STICKS : 0u) | (collider.surface ? WEFT_COLLIDER_SURFACE : 0u),
-            .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
-            .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
-            .data = shapes_.address(collider.data.get()),
-            .first_pose = moves ? moving_first + moving++ * (places.substeps() + 1) : resting++,
-            .pose_step = moves ? 1u : 0u,
-            .steepness = steepness_of(collider),
-            .roundness = roundness_of(collider),
-            .layer_distance = layer_distance_of(collider),
-            .unused0 = 0,
-            .unused1 = 0,
-            .unused2 = 0};
+        to[i] = {.numbers = {n[0], n[1], n[2], n[3]},
+                 .static_friction = collider.friction[0],
+                 .kinetic_friction = collider.friction[1],
+                 .shape = static_cast<std::uint32_t>(collider.shape),
+                 .flags = (collider.adhesion ? WEFT_COLLIDER_STICKS : 0u) |
+                          (collider.surface ? WEFT_COLLIDER_SURFACE : 0u) | (collider.body ? WEFT_COLLIDER_BODY : 0u),
+                 .adhesion_distance = collider.adhesion ? collider.adhesion->distance : 0,
+                 .adhesion_compliance = collider.adhesion ? collider.adhesion->compliance : 0,
+                 .data = shapes_.address(collider.data.get()),
+                 .first_pose = moves ? moving_first + moving++ * (places.substeps() + 1) : resting++,
+                 .pose_step = moves ? 1u : 0u,
+                 .steepness = steepness_of(collider),
+                 .roundness = roundness_of(collider),
+                 .layer_distance = layer_distance_of(collider),
+                 .body = collider.body ? bodies++ : 0,
+                 .unused0 = 0,
+                 .unused1 = 0};
     }
 }
 
@@ -197,11 +197,12 @@ WorldColliders::Range WorldColliders::changed_friction(std::span<const Collider>
 }
 
 // Returns whether it has changed.
-bool WorldColliders::write_head() {
+bool WorldColliders::write_head(std::uint64_t bodies) {
     const std::uint64_t first = buffer_.address();
     const CollidersIn now = {.colliders = first + layout_.colliders,
                              .poses = first + layout_.resting_poses,
                              .nodes = first + layout_.nodes,
+                             .bodies = bodies,
                              .node_count = static_cast<std::uint32_t>(node_count_),
                              .unused = 0};
     if (order_ != 0 && std::memcmp(&now, &written_, sizeof now) == 0) return false;

@@ -19,7 +19,9 @@ class WorldColliders {
   public:
     /// Brings the device's copy up to date for the frame that `places` is in. Copies only what has changed since the
     /// last call, and submits nothing if nothing has. The device must have finished the frame before.
-    Result<void> update(gpu::Device& device, std::span<const Collider> colliders, const ColliderPlaces& places);
+    /// `bodies`: address of BodiesIn; 0 without bodies.
+    Result<void> update(gpu::Device& device, std::span<const Collider> colliders, const ColliderPlaces& places,
+                        std::uint64_t bodies);
 
     /// Address of CollidersIn; 0 without colliders. It changes only if an update() finds no colliders.
     std::uint64_t address() const { return head_.address(); }
@@ -34,14 +36,15 @@ class WorldColliders {
         std::uint64_t begin = 0, end = 0;
     };
 
-    Result<void> copy_changes(gpu::Device& device, std::span<const Collider> colliders, const ColliderPlaces& places);
+    Result<void> copy_changes(gpu::Device& device, std::span<const Collider> colliders, const ColliderPlaces& places,
+                              std::uint64_t bodies);
     void lay_out(const ColliderPlaces& places);
     Result<void> make_room(gpu::Device& device);
     void write_colliders(std::span<const Collider> colliders, const ColliderPlaces& places);
     void write_resting(const ColliderPlaces& places);
     void write_moving(const ColliderPlaces& places);
     Range changed_friction(std::span<const Collider> colliders);
-    bool write_head();
+    bool write_head(std::uint64_t bodies);
     Result<void> submit(std::span<const Range> ranges, bool with_head);
     template <class T>
     std::span<T> array(std::uint64_t offset, std::size_t count) const {

@@ -59,8 +59,8 @@ Result<SceneWorld> SceneWorld::create(SceneDesc scene, const Options& options, c
                                       const MakeBackend& make) {
     if (Errors errors = apply(options, scene.solver); !errors.empty()) return errors;
     Options on = options;
-    const bool bodies = std::ranges::any_of(scene.colliders, [](const ColliderDesc& one) { return !!one.body; });
-    if (bodies && on.backend == "auto" && on.device.empty()) on.backend = "cpu";  // the other one moves no bodies
+    const auto bodies = std::ranges::count_if(scene.colliders, [](const ColliderDesc& one) { return !!one.body; });
+    if (bodies > most_device_bodies && on.backend == "auto" && on.device.empty()) on.backend = "cpu";
     auto backend = make ? make(on) : make_backend(on);
     if (!backend) return backend.errors();
     name_unnamed(scene);

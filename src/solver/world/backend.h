@@ -31,6 +31,9 @@ struct ClothHandle {
     std::uint32_t value = 0;
 };
 
+/// The most bodies that a device moves.
+inline constexpr std::uint32_t most_device_bodies = 256;
+
 /// A collider that is a body, in a frame.
 struct BodyStep {
     std::uint32_t collider = 0;  ///< number
@@ -102,8 +105,8 @@ class Backend {
     virtual std::string_view name() const = 0;  ///< as on the command line
     virtual std::string device() const = 0;     ///< description for the user
     virtual unsigned threads() const = 0;
-    /// Whether it moves bodies (StepInput::bodies).
-    virtual bool moves_bodies() const { return false; }
+    /// The most bodies of a world (StepInput::bodies) that it moves.
+    virtual std::uint32_t most_bodies() const { return 0; }
     /// Bytes of device memory in use, besides host memory.
     virtual std::uint64_t device_bytes() const { return 0; }
 

@@ -198,7 +198,8 @@ void World::remove(StitchId id) {
 
 Result<ColliderId> World::try_add(Collider collider) {
     complete_and_resolve();
-    if (auto able = can_move(collider.body); !able) return able.errors();
+    if (collider.body)
+        if (auto able = can_move(body_count() + 1); !able) return able.errors();
     auto surface = make_surface(collider);
     if (!surface) return surface.errors();
     const ColliderId id = colliders_.add(std::move(collider));

@@ -113,7 +113,8 @@ class World {
 
     /// Makes the collider a body that moves by forces, at its current pose, or nullopt: one that moves as it is told.
     /// The body starts with the velocity and the spin of its description. The collider must have a surface of no mesh
-    /// (Collider::surface). Ends a motion by keys. Fails on a backend that moves no bodies. `features` as in Collider.
+    /// (Collider::surface). Ends a motion by keys. Fails if the backend moves no more bodies. `features` as in
+    /// Collider.
     Result<void> set_body(ColliderId id, std::optional<Body> body, BodyFeatures features);
     /// Keeps the features.
     Result<void> set_body(ColliderId id, std::optional<Body> body) {
@@ -274,7 +275,8 @@ class World {
     Result<void> check_grabs(const Snapshot& snapshot, std::span<const std::shared_ptr<const ClothModel>> models) const;
     void restore_grabs(const std::vector<SavedGrab>& saved);
     // world_bodies.cpp
-    Result<void> can_move(const std::optional<Body>& body) const;
+    Result<void> can_move(std::size_t bodies) const;
+    std::size_t body_count() const;
     void begin_bodies();
     void end_bodies() const;
     void hash_bodies(StateHash& hash) const;

@@ -7,17 +7,26 @@
 
 namespace weft {
 
-Result<void> World::can_move(const std::optional<Body>& body) const {
-    if (!body || backend_->moves_bodies()) return {};
-    return Error{"motion/dynamic", "needs the CPU: the " + std::string(backend_->name()) +
-                                       " backend moves no bodies yet (--backend cpu)"};
+// One more body, or as many as before.
+Result<void> World::can_move(std::size_t bodies) const {
+    const std::uint32_t most = backend_->most_bodies();
+    if (bodies <= most) return {};
+    return Error{"motion/dynamic", "would be body number " + std::to_string(bodies) + ", but the " +
+                                       std::string(backend_->name()) + " backend moves at most " +
+                                       std::to_string(most) + " (--backend cpu moves any number)"};
+}
+
+std::size_t World::body_count() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(colliders_, [](const Collider& collider) { return !!collider.body; }));
 }
 
 Result<void> World::set_body(ColliderId id, std::optional<Body> body, BodyFeatures features) {
     assert(contains(id) && !(body && surface_of(id)));
-    if (auto able = can_move(body); !able) return able;
-    complete_and_resolve();
     Collider& collider = colliders_[colliders_.find(id)];
+    if (body && !collider.body)
+        if (auto able = can_move(body_count() + 1); !able) return able;
+    complete_and_resolve();
     collider.motion.clear();
     collider.next_pose.reset();
     collider.body = std::move(body);
@@ -85,8 +94,7 @@ std::vector<SavedBody> World::save_bodies() const {
 }
 
 Result<void> World::check_bodies(const Snapshot& snapshot) const {
-    const auto bodies = static_cast<std::size_t>(
-        std::ranges::count_if(colliders_, [](const Collider& collider) { return !!collider.body; }));
+    const std::size_t bodies = body_count();
     if (snapshot.bodies.size() != bodies)
         return Error{"state", "has " + std::to_string(snapshot.bodies.size()) + " bodies, here there are " +
                                   std::to_string(bodies)};

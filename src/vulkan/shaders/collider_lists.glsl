@@ -8,10 +8,26 @@ PoseIn pose_after(CollidersRef world, ColliderIn collider, uint substeps)
     return world.at.poses.at[collider.first_pose + substeps * collider.pose_step];
 }
 
+bool is_body(ColliderIn collider) { return (collider.flags & WEFT_COLLIDER_BODY) != 0u; }
+
+// `which`: WEFT_BODY_BEFORE, WEFT_BODY_NOW or WEFT_BODY_FOUND.
+PoseIn pose_of_body(BodiesRef bodies, uint body, uint which)
+{
+    return bodies.at.poses.at[WEFT_BODY_POSES * body + which];
+}
+
+PoseIn pose_in_substep(CollidersRef world, ColliderIn collider, uint substep, bool at_end)
+{
+    if (is_body(collider))
+        return pose_of_body(world.at.bodies, collider.body, at_end ? WEFT_BODY_NOW : WEFT_BODY_BEFORE);
+    return pose_after(world, collider, at_end ? substep + 1u : substep);
+}
+
 // The collider as a particle of the cloth meets it in a substep.
 ContactBody body_of(CollidersRef world, ColliderIn collider, FrameRef frame, uint substep)
 {
-    PoseIn now = pose_after(world, collider, substep + 1u), before = pose_after(world, collider, substep);
+    PoseIn now = pose_in_substep(world, collider, substep, true);
+    PoseIn before = pose_in_substep(world, collider, substep, false);
     return ContactBody(now.x.xyz, now.y.xyz, now.z.xyz, now.position.xyz, before.x.xyz, before.y.xyz, before.z.xyz,
                        before.position.xyz, sqrt(frame.at.static_friction * collider.static_friction),
                        sqrt(frame.at.kinetic_friction * collider.kinetic_friction), frame.at.half_thickness,

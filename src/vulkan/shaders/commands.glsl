@@ -23,6 +23,7 @@ WEFT_COMMAND(ParticleArgs)
 WEFT_COMMAND(TargetArgs)
 WEFT_COMMAND(GrabArgs)
 WEFT_COMMAND(AverageArgs)
+WEFT_COMMAND(TautArgs)
 WEFT_COMMAND(ContactArgs)
 WEFT_COMMAND(FaceContactArgs)
 WEFT_COMMAND(KeepArgs)
@@ -47,6 +48,9 @@ WEFT_COMMAND(RowArgs)
 #endif
 #ifndef WEFT_PUSHES_average_args
 #define average_args AverageArgsRef(command)
+#endif
+#ifndef WEFT_PUSHES_taut_args
+#define taut_args TautArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_contact_args
 #define contact_args ContactArgsRef(command)

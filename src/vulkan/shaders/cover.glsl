@@ -98,6 +98,14 @@ uint find_colliders(vec3 low, vec3 high, uvec2 listed, uint to)
         if (to != WEFT_NO_SLOT) contact_args.at.slots.at[to + found] = collider;
         ++found;
     }
+    for (uint body = 0u; has_bodies() && body < contact_args.at.colliders.at.bodies.at.count; ++body) {
+        vec4 reach_low = contact_args.at.colliders.at.bodies.at.bodies.at[body].reach_low;
+        vec4 reach_high = contact_args.at.colliders.at.bodies.at.bodies.at[body].reach_high;
+        uint collider = contact_args.at.colliders.at.bodies.at.bodies.at[body].collider;
+        if (!overlap(reach_low, reach_high, low, high) || is_listed(listed, collider)) continue;
+        if (to != WEFT_NO_SLOT) contact_args.at.slots.at[to + found] = collider;
+        ++found;
+    }
     return found;
 }
 
@@ -122,7 +130,7 @@ void sort_slots(uint begin, uint count)
 // What contact with a slot has added up so far goes along. `from` WEFT_NO_SLOT: a new slot, which starts at 0.
 void carry_over(uint from, uint to)
 {
-    bool keeps = !is_none(uvec2(contact_args.at.sums)) && contact_args.at.first_iteration == 0u;
+    bool keeps = !is_none(uvec2(contact_args.at.sums)) && (contact_args.at.first_iteration == 0u || has_bodies());
     bool traces = !is_none(uvec2(contact_args.at.contact_log)), is_new = from == WEFT_NO_SLOT;
     uint turned = contact_args.at.capacity * WEFT_COLLIDER_TILE;
     if (begins_frame() || !(keeps || traces)) return;  // contact writes them before it reads them
@@ -172,15 +180,24 @@ bool extend_list(uint tile, uvec2 listed, vec3 low, vec3 high)
 
 void run_cover(uint tile)
 {
-    bool begins = begins_frame();
-    if (!begins && !has_left_box(tile)) return;
+    bool begins = begins_frame(), bodies_left = false;
+    uint serial = 0u;
+    if (has_bodies()) {
+        serial = contact_args.at.colliders.at.bodies.at.reach_serial;
+        bodies_left = contact_args.at.tiles.at[tile].reach_serial != serial;
+        contact_args.at.tiles.at[tile].reach_serial = serial;
+    }
+    bool left = begins || has_left_box(tile);
+    if (!left && !bodies_left) return;
     uvec2 listed = begins ? uvec2(0u) : slots_near(contact_args.at.tiles, tile_begin(tile));
     if (begins) contact_args.at.tiles.at[tile].first = contact_args.at.tiles.at[tile].count = 0u;
-    vec3 low, high;
-    bool any_mass = find_box(tile, low, high);
-    if (any_mass && !begins) {
-        low = min(low, contact_args.at.tiles.at[tile].low.xyz);
-        high = max(high, contact_args.at.tiles.at[tile].high.xyz);
+    vec3 low = contact_args.at.tiles.at[tile].low.xyz, high = contact_args.at.tiles.at[tile].high.xyz;
+    bool any_mass = all(lessThanEqual(low, high)) && low.x > -everywhere;
+    if (left) {
+        vec3 low_now, high_now;
+        any_mass = find_box(tile, low_now, high_now);
+        low = any_mass && !begins ? min(low, low_now) : low_now;
+        high = any_mass && !begins ? max(high, high_now) : high_now;
     }
     // A frame with numbers that are not finite is rolled back.
     bool finite = is_finite(vec4(low, 0.0)) && is_finite(vec4(high, 0.0));

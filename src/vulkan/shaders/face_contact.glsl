@@ -3,10 +3,12 @@
 #ifndef WEFT_FACE_CONTACT_GLSL
 #define WEFT_FACE_CONTACT_GLSL
 
-#include "vulkan/shaders/collider_lists.glsl"
+#include "vulkan/shaders/contact.glsl"
+#include "vulkan/shaders/sums_of_bodies.glsl"
 
 uint face_substep() { return face_contact_args.at.substep + substeps_before; }
 float nearest_of_faces() { return face_contact_args.at.frame.at.nearest_of_faces; }
+bool meets_bodies() { return !is_none(uvec2(face_contact_args.at.colliders.at.bodies)); }
 bool logs_faces() { return !is_none(uvec2(face_contact_args.at.contact_log)); }
 
 // A face by its number in the order of tiles.
@@ -126,6 +128,8 @@ void run_find_faces(uint f)
         FaceContact contact = contact_of(collider, body, face, nearest_of_faces(), -body.half_thickness);
         if (!touches_beside_corners(contact)) continue;
         store_contact(place, face_row(body, contact, face.x, face.start, to_body(body, face.x)));
+        if (is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body))
+            add_touch(face_contact_args.at.colliders.at.bodies, collider.body);
         if (!contact.swept) continue;
         atomicOr(face_contact_args.at.sums.at[swept_word()], 1u);
         mark_swept(corner.x);
@@ -143,6 +147,20 @@ void add_to_faces(uint particle, vec3 push)
                   uint(int(to_contact_quanta(push[axis], WEFT_PUSH_QUANTA_PER_METER))));
     uint size = uint(int(to_contact_quanta(sqrt(size2), WEFT_PUSH_QUANTA_PER_METER))) + 1u;
     atomicMax(face_contact_args.at.sums.at[WEFT_FACE_SUM * particle + 3u], size);
+}
+
+ColliderIn collider_of_slot(uint slot)
+{
+    return face_contact_args.at.colliders.at.colliders.at[face_contact_args.at.slots.at[slot]];
+}
+
+// How far a body has moved its point that was at `point` when the contacts were found.
+vec3 carried_since_found(uint body, vec3 point)
+{
+    PoseIn found = pose_of_body(face_contact_args.at.colliders.at.bodies, body, WEFT_BODY_FOUND);
+    PoseIn now = pose_of_body(face_contact_args.at.colliders.at.bodies, body, WEFT_BODY_NOW);
+    vec3 local = unrotate(found.x.xyz, found.y.xyz, found.z.xyz, point - found.position.xyz);
+    return (rotate(now.x.xyz, now.y.xyz, now.z.xyz, local) + now.position.xyz) - point;
 }
 
 void run_push_faces(uint f)
@@ -171,7 +189,13 @@ void run_push_faces(uint f)
             for (uint k = 0u; k < 3u; ++k) inverse_mass = inverse_mass + face.w[k] * row.weights[k] * row.weights[k];
             vec4 kept = face_contact_args.at.contacts.at[place + 3u];
             ContactSum sum = ContactSum(kept.xyz, kept.w);
-            by = face_displacement(row, point, inverse_mass, sum);
+            ColliderIn collider = collider_of_slot(slot);
+            if (is_body(collider) && feels_cloth(face_contact_args.at.colliders.at.bodies, collider.body)) {
+                by = face_displacement_of_body(row, point, inverse_mass, sum, carried_since_found(collider.body, point),
+                                               moved_body(face_contact_args.at.colliders.at.bodies, collider.body));
+            } else {
+                by = face_displacement(row, point, inverse_mass, sum);
+            }
             face_contact_args.at.contacts.at[place + 3u] = vec4(sum.friction, sum.push);
             a = by * (face.w.x * row.weights.x);
             b = by * (face.w.y * row.weights.y);
@@ -199,6 +223,15 @@ void log_push(uint p, uint collider, vec3 by, vec3 lever)
     }
 }
 
+// What the collider did to a particle that is at `x`: adds it to the log, and the opposite to the collider if it is a body.
+void note_push(uint p, uint collider, vec3 by, vec3 lever, vec4 x)
+{
+    if (logs_faces()) log_push(p, collider, by * heavier(face_contact_args.at.frame, p, x.w), lever);
+    ColliderIn of = face_contact_args.at.colliders.at.colliders.at[collider];
+    if (is_body(of) && feels_cloth(face_contact_args.at.colliders.at.bodies, of.body))
+        add_to_body(face_contact_args.at.colliders.at.bodies, of.body, by, x.xyz + by, x.w);
+}
+
 // The particle's next face after `f`, by number, or 0xffffffff.
 uint next_face_of(uint p, uint f)
 {
@@ -211,7 +244,7 @@ uint next_face_of(uint p, uint f)
 }
 
 // What the contacts of the particle's faces do to it, one after another, in the order of faces.
-void log_pushes(uint p, float share)
+void note_pushes(uint p, float share, vec4 x)
 {
     bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
     for (uint f = next_face_of(p, 0xffffffffu); f != 0xffffffffu; f = next_face_of(p, f)) {
@@ -224,8 +257,8 @@ void log_pushes(uint p, float share)
             FaceRow row = load_contact(place);
             vec3 by = face_contact_args.at.contacts.at[place + 4u].xyz;
             vec3 push = last ? row.normal * by[mine] : by * row.weights[mine];
-            log_push(p, face_contact_args.at.slots.at[slot], push * share,
-                     face_contact_args.at.contacts.at[place + 6u].xyz);
+            vec3 lever = logs_faces() ? face_contact_args.at.contacts.at[place + 6u].xyz : vec3(0.0);
+            note_push(p, face_contact_args.at.slots.at[slot], push * share, lever, x);
         }
     }
 }
@@ -243,7 +276,7 @@ void run_move_faces(uint p)
     face_contact_args.at.sums.at[WEFT_FACE_SUM * p + 3u] = 0u;
     bool last = face_contact_args.at.sweep == WEFT_FACE_SWEEPS;
     float share = face_share(float(longest) * float(1.0 / WEFT_PUSH_QUANTA_PER_METER), total);
-    if (logs_faces()) log_pushes(p, last ? share : share * x.w);
+    if (logs_faces() || meets_bodies()) note_pushes(p, last ? share : share * x.w, x);
     store_point(face_contact_args.at.position, p, vec4(x.xyz + total * share, x.w));
 }
 
@@ -285,7 +318,7 @@ void run_settle_faces(uint p)
     ColliderIn collider = face_contact_args.at.colliders.at.colliders.at[number];
     ContactBody body = body_of(face_contact_args.at.colliders, collider, face_contact_args.at.frame, face_substep());
     vec3 place = held_place(body, to_body_at_start(body, face_contact_args.at.start.at[p].xyz), to_body(body, x.xyz), part);
-    if (logs_faces()) log_push(p, number, place - x.xyz, x.xyz - body.position);
+    note_push(p, number, place - x.xyz, x.xyz - body.position, x);
     store_point(face_contact_args.at.position, p, vec4(place, x.w));
 }
 

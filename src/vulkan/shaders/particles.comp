@@ -5,6 +5,7 @@
 #include "vulkan/shaders/dispatch.glsl"
 #include "vulkan/shaders/particles.glsl"
 #include "vulkan/shaders/cover.glsl"
+#include "vulkan/shaders/body_contact.glsl"
 #include "vulkan/shaders/face_contact.glsl"
 #include "vulkan/shaders/faces.glsl"
 #include "vulkan/shaders/grabs.glsl"

@@ -76,6 +76,20 @@ void run_targets(uint i)
     store_point(target_args.at.position, target.particle, vec4(x, load_point(target_args.at.position, target.particle).w));
 }
 
+// Adds the masses of its taut edges to a particle, and leaves the sums at zero.
+void run_take_taut(uint p)
+{
+    vec4 sum = taut_args.at.sums.at[p], x = load_point(taut_args.at.position, p);
+    take_taut_mass(x.xyz, x.w, taut_args.at.start.at[p].xyz, TautSum(sum.xyz, sum.w));
+    store_point(taut_args.at.position, p, x);
+    taut_args.at.sums.at[p] = vec4(0.0);
+}
+
+void run_free_taut(uint p)
+{
+    store_point(taut_args.at.position, p, vec4(load_point(taut_args.at.position, p).xyz, taut_args.at.weights.at[p]));
+}
+
 void run_average(uint p)
 {
     uint begin = average_args.at.offsets.at[p], end = average_args.at.offsets.at[p + 1u];

@@ -2,23 +2,10 @@
 // Marks contacts, and adds up their momentum on each collider in integers.
 #extension GL_GOOGLE_include_directive : require
 #include "vulkan/shaders/contact_forces/account.glsl"
+#include "vulkan/shaders/sum_words.glsl"
 
 // Of each slot that the workgroup works on.
 shared uint sums[WEFT_GROUP / WEFT_COLLIDER_TILE * WEFT_SUM_WORDS];
-
-// The number as 64 bits, low word first. It must be less than 2^63. The two words represent the float exactly.
-uvec2 words_of(float quanta)
-{
-    float size = abs(quanta);
-    float high = floor(size * (1.0 / 4294967296.0));
-    uvec2 words = uvec2(uint(size - high * 4294967296.0), uint(high));
-    if (quanta < 0.0) {
-        words = ~words;
-        words.x += 1u;
-        if (words.x == 0u) words.y += 1u;
-    }
-    return words;
-}
 
 // Each overflow of the low word adds one to the high word, so the sum does not depend on the order.
 void add_here(uint at, float quanta)
