@@ -306,14 +306,14 @@ inline void weigh_taut_pass(const ParticleView& p, const RowView& rows, Range ra
     const vec3 acceleration(real(gravity.x), real(gravity.y), real(gravity.z));
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         const std::uint32_t* index[2] = {rows.particles + r, rows.particles + rows.stride + r};
-        vec3 moved[2], start[2];
+        vec3 moved[2];
         for (int k = 0; k < 2; ++k) {
             real w, unused;
             const vec3 x = gather_blocks(p.position, index[k], w);
-            start[k] = gather_blocks(p.start, index[k], unused);
-            moved[k] = moved_by_velocity(x, start[k], w, acceleration, step);
+            const vec3 start = gather_blocks(p.start, index[k], unused);
+            moved[k] = moved_by_velocity(x, start, w, acceleration, step);
         }
-        const real mass = taut_mass(start[0], start[1], StretchTraits::load_row(rows.fields + r, rows.stride), step);
+        const real mass = taut_mass(StretchTraits::load_row(rows.fields + r, rows.stride), load(rows.lambda + r));
         for (int k = 0; k < 2; ++k) {
             TautSum sum;
             sum.moved = gather_blocks(taut, index[k], sum.mass);

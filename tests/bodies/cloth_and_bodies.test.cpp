@@ -137,6 +137,34 @@ TEST(ClothAndBody, a_sheet_sags_alike_under_a_ball_however_long_the_substeps_are
     }
 }
 
+// s, until the lower end of a meter of cotton has passed below the edge that holds it for the second time. It falls
+// from the horizontal.
+double second_passage(bool with_body) {
+    World world = make_world({.solver = {.substeps = 5}});
+    world.add(make_sheet({.resolution = {33, 33}, .layout = {.lines = true, .hierarchy = true}, .pinned = [](Vec3 p) {
+                              return p.z < -0.49f;
+                          }}));
+    if (with_body) world.add(make_ball(0.1f, 1, {70, 0, 0}));
+    world.frame();
+    int passages = 0;
+    float before = 0.5f;
+    for (int frame = 1; frame <= 180; ++frame) {
+        world.step(1.0 / 60);
+        const ClothFrame& cloth = world.frame().cloths[0];
+        const float now = cloth.positions[cloth.model->particle_count - 1].z + 0.5f;
+        if (before * now < 0 && ++passages == 2) return frame / 60.0;
+        before = now;
+    }
+    return 0;
+}
+
+// The mass of taut edges holds cloth back that is accelerated. Tension must not be overestimated.
+TEST(ClothAndBody, a_body_far_away_hardly_slows_a_sheet_that_swings) {
+    const double alone = second_passage(false), beside = second_passage(true);
+    EXPECT_NEAR(alone, 1.4, 0.03);
+    EXPECT_NEAR(beside, alone, 0.04);
+}
+
 // Labels: slow no-asan
 TEST(ClothAndBody, a_fine_sheet_bears_as_much) {
     EXPECT_NEAR(rest_on_sheet(65, 10, 20, 4).height, -0.0936, 0.004);

@@ -9,13 +9,11 @@ struct TautSum {
     real mass;   // kg
 };
 
-// kg: the mass that an edge adds to its ends, T h²/rest, with T the tension at the start of the substep.
-WEFT_FN real taut_mass(vec3 a, vec3 b, StretchRow row, Step step)
+// kg: the mass that an edge adds to its ends, T h²/rest. Lambda of the substep before is -T h².
+WEFT_FN real taut_mass(StretchRow row, real lambda)
 {
-    StretchState now = measure_stretch(a, b, row, step);
-    mask taut = now.c > real(0) && !now.slack && row.rest > real(0);
-    real mass = now.c / max(now.alpha * row.rest, max(now.c * real(1e-6), real(1e-30)));
-    return select(taut, mass, real(0));
+    mask taut = lambda < real(0) && row.rest > real(0);
+    return select(taut, -lambda / max(row.rest, real(1e-30)), real(0));
 }
 
 // How far a particle moves by its velocity before this substep. Pinned ones do not fall.

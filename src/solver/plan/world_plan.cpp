@@ -18,6 +18,7 @@ class Planner {
     WorldPlan run() {
         WorldPlan plan{settings_.solver, 0, {}, {}, {}};
         plan.projection = resolve(plan.projection, plan.method);
+        plan.weighs_taut = weighs_taut();
         for (const ConstraintKind kind : found()) {
             for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
                 plan.frame_begin.push_back(dynamic(pass, kind));
@@ -428,8 +429,8 @@ SubstepPasses passes_of(const WorldPlan& plan, std::uint32_t substep) {
 LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds) {
     if (!pass.first_iteration) return LambdaUse::accumulate;
     if (pass.source == RowSource::level) return LambdaUse::store;
-    const bool read_later =
-        pass.source == RowSource::model && pass.constraint == ConstraintKind::stretch && substep + 1 == plan.substeps;
+    const bool read_later = pass.source == RowSource::model && pass.constraint == ConstraintKind::stretch &&
+                            (substep + 1 == plan.substeps || plan.weighs_taut);
     return rounds > 1 || read_later ? LambdaUse::store : LambdaUse::discard;
 }
 

@@ -61,6 +61,7 @@ struct WorldPlan : SolverDesc {
     std::vector<Pass> frame_begin;
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
+    bool weighs_taut = false;  ///< taut edges add mass, by lambda of the substep before
 };
 
 /// `links`: of all islands that have any.

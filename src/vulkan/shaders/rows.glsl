@@ -158,16 +158,15 @@ void add_quanta(Uints sums, uint p, vec3 change)
 void weigh_taut_row(uint r)
 {
     uint p[2];
-    vec3 start[2], moved[2];
+    vec3 moved[2];
     Step h = substep_of(row_args.at.frame);
     vec3 gravity = vec3(row_args.at.frame.at.gravity_x, row_args.at.frame.at.gravity_y, row_args.at.frame.at.gravity_z);
     for (uint k = 0u; k < 2u; ++k) {
         p[k] = row_args.at.particles.at[k * row_args.at.stride + r];
         vec4 point = load_point(row_args.at.position, p[k]);
-        start[k] = row_args.at.velocity.at[p[k]].xyz;
-        moved[k] = moved_by_velocity(point.xyz, start[k], point.w, gravity, h);
+        moved[k] = moved_by_velocity(point.xyz, row_args.at.velocity.at[p[k]].xyz, point.w, gravity, h);
     }
-    float mass = taut_mass(start[0], start[1], load_stretch(r), h);
+    float mass = taut_mass(load_stretch(r), row_args.at.lambda.at[r]);
     for (uint k = 0u; k < 2u; ++k) {
         vec4 sum = row_args.at.corrections.at[p[k]];
         row_args.at.corrections.at[p[k]] = vec4(sum.xyz + moved[1u - k] * mass, sum.w + mass);
