@@ -159,9 +159,22 @@ void BodyContacts::find_contacts(const Pair& pair) {
     }
 }
 
+// Whether a sweep may change anything. Most contacts are open, so this comes before the sides are put together.
+bool BodyContacts::acts(const Row& row, float depenetration) const {
+    const scalar::BodyTouch& touch = row.touch;
+    if (touch.push > 0) return true;
+    const auto place = [&](std::uint32_t collider, vec3 local) {
+        const BodyInStep* body = body_of(collider);
+        return vector_of(to_world(body ? body->now : input_->places->pose(collider, substep_ + 1), vector_of(local)));
+    };
+    const float gap = dot(touch.normal, place(row.a, touch.local_a) - place(row.b, touch.local_b)) - touch.radius;
+    return gap < std::min(0.0f, touch.gap_at_start + depenetration);
+}
+
 void BodyContacts::project() {
     const float depenetration = depenetration_speed * step_.h;
     for (Row& row : rows_) {
+        if (!acts(row, depenetration)) continue;
         vec3 touched;
         const vec3 by = project_bodies(row.touch, side_of(row.a), side_of(row.b), depenetration, touched);
         if (dot(by, by) > 0)

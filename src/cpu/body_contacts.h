@@ -62,6 +62,7 @@ class BodyContacts {
         std::uint32_t a, b;  ///< colliders
         scalar::BodyTouch touch;
     };
+    bool acts(const Row& row, float depenetration) const;
     scalar::BodySide side_of(std::uint32_t collider) const;
     /// The same with the velocities of now.
     scalar::BodySide side_now(std::uint32_t collider) const;
