@@ -109,7 +109,8 @@ def main(arguments):
     bpy.ops.import_scene.gltf(filepath=path, import_shading='SMOOTH')
     scene = bpy.context.scene
     for thing in scene.objects:
-        if thing.type == 'MESH':
+        # Of an animation, only cloth has shape keys; welded colliders would lose their hard edges.
+        if thing.type == 'MESH' and thing.data.shape_keys is not None:
             thing.modifiers.new('weld', 'WELD').merge_threshold = WELD
     step = max(1, len(times) // FIT_FRAMES)
     add_camera(scene, corners_over(scene, times[::step] + [times[frame] for frame in frames]))

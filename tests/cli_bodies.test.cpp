@@ -2,6 +2,12 @@
 
 #include "cli_fixture.h"
 
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace {
 
 using weft::Cli;
@@ -25,6 +31,42 @@ TEST_F(Cli, stats_tell_the_momentum_and_energy_of_bodies) {
     EXPECT_NEAR(bodies["angular_momentum"][2], 3 * 2 * v, 1e-2);
     EXPECT_NEAR(bodies["kinetic_energy"], v * v, 1e-2);
     EXPECT_NEAR(bodies["max_speed"], -v, 1e-3);
+}
+
+/// The names of the nodes in a .glb, in their order.
+std::vector<std::string> nodes_of(const std::filesystem::path& path) {
+    const std::string file = read_file(path);
+    std::uint32_t bytes = 0;
+    std::memcpy(&bytes, &file.at(12), sizeof bytes);  // length of the JSON chunk, which follows the header
+    std::vector<std::string> names;
+    const Json content = Json::parse(file.substr(20, bytes));
+    for (const Json& node : content["nodes"]) names.push_back(node["name"]);
+    return names;
+}
+
+TEST_F(Cli, a_glb_has_the_bodies_and_on_demand_the_other_colliders) {
+    using Names = std::vector<std::string>;
+    const std::string without = "run sheet.json --frames 3 --quiet --out plain.glb";
+    ASSERT_EQ(weft(without).status, 0);
+    EXPECT_EQ(nodes_of(folder_ / "plain.glb"), Names{"sheet"}) << "the ball is no body";
+    ASSERT_EQ(weft(without + " --colliders").status, 0);
+    EXPECT_EQ(nodes_of(folder_ / "plain.glb"), (Names{"sheet", "ball"}));
+
+    Json scene = Json::parse(read_file(folder_ / "sheet.json"), nullptr, true, true);
+    scene["colliders"].push_back({{"name", "stone"},
+                                  {"box", {{"half_extents", {0.1, 0.1, 0.1}}}},
+                                  {"transform", {{"position", {0, 1, 0}}}},
+                                  {"motion", {{"dynamic", {{"mass", 0.2}}}}}});
+    scene["colliders"].push_back({{"name", "ground"}, {"plane", Json::object()}});
+    write("stone.json", scene.dump());
+    ASSERT_EQ(weft("run stone.json --frames 3 --quiet --out stone.glb --out stone.obj").status, 0);
+    EXPECT_EQ(nodes_of(folder_ / "stone.glb"), (Names{"sheet", "stone"}));
+    EXPECT_EQ(read_file(folder_ / "stone.obj").find("stone\n"), std::string::npos);
+    ASSERT_EQ(weft("run stone.json --frames 0 --quiet --colliders --out still.GLB --out still.ply").status, 0);
+    EXPECT_EQ(nodes_of(folder_ / "still.GLB"), (Names{"sheet", "ball", "stone"}));
+
+    expect_usage_error("run stone.json --colliders --out a.obj", "--colliders: needs an --out FILE.glb");
+    expect_usage_error("run stone.json --colliders", "--colliders: needs an --out FILE.glb");
 }
 
 }  // namespace

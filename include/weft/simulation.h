@@ -96,6 +96,11 @@ struct BodyMotion {
     double energy;  ///< J, kinetic
 };
 
+/// What Simulation::save() writes besides the cloths and the bodies.
+struct SaveOptions {
+    bool colliders = false;  ///< `.glb`: also the colliders that are no bodies, except planes
+};
+
 /// A world of cloths and colliders. Functions that take an id return an error or an empty value if the id does not name
 /// an object of this simulation, or its object was removed. A function that returns an error has not changed the
 /// simulation. A Simulation is not thread-safe: use it from one thread at a time.
@@ -240,8 +245,9 @@ class WEFT_API Simulation {
     /// Fails on data that save_state() did not write, and on a state of other cloths or colliders.
     Result<void> restore_state(std::span<const std::byte> state);
 
-    /// Writes the current surfaces of all cloths to an `.obj`, `.ply` or `.glb` file.
-    Result<void> save(const std::filesystem::path& file) const;
+    /// Writes the current surfaces of all cloths to an `.obj`, `.ply` or `.glb` file. A `.glb` also holds the rigid
+    /// bodies of this moment, at their poses.
+    Result<void> save(const std::filesystem::path& file, const SaveOptions& options = {}) const;
     /// Writes a scene file with all objects and all changes to them, but without the current positions: the new scene
     /// begins at the start. Meshes that were given in memory are written to .ply files beside it. Fails if there is no
     /// cloth.

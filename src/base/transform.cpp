@@ -59,6 +59,11 @@ Mat3 matrix_of(const Quaternion& q) {
 
 }  // namespace
 
+Vec4 quaternion_from(const Mat3& rotation) {
+    const Quaternion q = quaternion_of(rotation);
+    return {q.x, q.y, q.z, q.w};
+}
+
 Bounds to_world(const Pose& pose, const Bounds& local) {
     if (local.empty()) return {};
     const Vec3 center = to_world(pose, local.center()), half = local.size() * 0.5f;

@@ -27,6 +27,9 @@ inline constexpr float radians_per_degree = 0.017453292519943295f;
 /// R = Rz·Ry·Rx, angles in degrees about the fixed axes. Multiples of 90° are exact.
 Mat3 rotation_from_degrees(Vec3 degrees);
 
+/// The unit quaternion x, y, z, w of a rotation.
+Vec4 quaternion_from(const Mat3& rotation);
+
 /// world = rotation · local + position
 struct Pose {
     Mat3 rotation;

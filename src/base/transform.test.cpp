@@ -20,6 +20,17 @@ TEST(Rotation, turns_about_x_first_then_y_then_z) {
     EXPECT_EQ(rotation_from_degrees({0, 90, 90}) * (Vec3{0, 0, 1}), (Vec3{0, 1, 0}));
 }
 
+TEST(Rotation, a_quaternion_turns_as_its_matrix) {
+    for (const Vec3 degrees : {Vec3{0, 0, 0}, {20, -35, 70}, {180, 0, 0}, {0, 180, 0}, {0, 0, 180}, {170, 40, -160}}) {
+        const Mat3 rotation = rotation_from_degrees(degrees);
+        const Vec4 q = quaternion_from(rotation);
+        EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1, 1e-6f);
+        const Vec3 v{0.3f, -0.7f, 0.9f}, axis = q.xyz();
+        const Vec3 turned = v + 2 * cross(axis, cross(axis, v) + q.w * v);
+        EXPECT_LT(length(turned - rotation * v), 1e-6f) << degrees.x << ' ' << degrees.y << ' ' << degrees.z;
+    }
+}
+
 TEST(Pose, local_and_world_are_inverse) {
     const Pose pose{rotation_from_degrees({20, -35, 70}), {1, 2, 3}};
     const Vec3 p{0.3f, -0.7f, 0.9f};

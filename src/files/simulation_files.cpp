@@ -42,14 +42,15 @@ Result<Simulation> load_on(const VulkanHost& host, const std::filesystem::path& 
 }
 #endif
 
-Result<void> Simulation::save(const std::filesystem::path& file) const {
+Result<void> Simulation::save(const std::filesystem::path& file, const SaveOptions& options) const {
     auto exporter = make_exporter(file);
     if (!exporter) return exporter.errors();
     const SceneDesc& scene = SimulationAccess::scene(*this);
     if (auto begun = (*exporter)->begin({scene.name, scene.frame_rate, 1, SimulationAccess::folder(*this)}); !begun)
         return begun;
-    if (auto written = (*exporter)->write({frame(), time(), SimulationAccess::surfaces(*this)}); !written)
-        return written;
+    const ExportFrame shown{frame(), time(), SimulationAccess::surfaces(*this),
+                            SimulationAccess::solids(*this, options.colliders)};
+    if (auto written = (*exporter)->write(shown); !written) return written;
     return (*exporter)->finish();
 }
 

@@ -76,7 +76,7 @@ class TornFilmFolder {
         for (const char* name : {"film.glb", "film.pc2", "%d.ply", "%d.obj"}) {
             auto made = make_exporter(folder_.path() / name);
             ASSERT_TRUE(made.ok());
-            auto estimate = (*made)->estimate(info, drawn.surfaces());
+            auto estimate = (*made)->estimate(info, {0, 0, drawn.surfaces()});
             ASSERT_TRUE(estimate.ok() && (*made)->begin(info).ok());
             bound_ += estimate->bytes;
             exporters.push_back(std::move(*made));

@@ -1,6 +1,6 @@
 #include "view/framing.h"
 
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 
 #include <algorithm>
 #include <cmath>

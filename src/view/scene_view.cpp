@@ -5,7 +5,7 @@
 #include "render/host_mesh.h"
 #include "render/renderer.h"
 #include "scene/materials.h"
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 #include "view/framing.h"
 #include "view/overlay_parts.h"
 #include "view/overlays.h"

@@ -95,6 +95,13 @@ std::span<const DrawnSurface> SimulationAccess::surfaces(const Simulation& simul
     return simulation.impl_->surfaces();
 }
 
+std::span<const DrawnSolid> SimulationAccess::solids(const Simulation& simulation, bool colliders) {
+    const Simulation::Impl& impl = *simulation.impl_;
+    impl.drawn_solids = DrawnSolids(colliders ? SolidChoice::colliders : SolidChoice::bodies);
+    impl.drawn_solids.update(impl.world(), impl.scene.scene().colliders);
+    return impl.drawn_solids.solids();
+}
+
 World& SimulationAccess::world(Simulation& simulation) {
     return simulation.impl_->world();
 }

@@ -1,6 +1,7 @@
 // Access of the library weft::io to the internals of a Simulation.
 #pragma once
 
+#include "look/drawn_solid.h"
 #include "look/drawn_surface.h"
 #include "scene/scene_desc.h"
 #include "weft/backends.h"
@@ -32,6 +33,8 @@ struct WEFT_API SimulationAccess {
     static const std::filesystem::path& folder(const Simulation& simulation);
     /// Current surfaces; valid until the next step or change.
     static std::span<const DrawnSurface> surfaces(const Simulation& simulation);
+    /// Bodies and, if `colliders`, all other colliders except planes. Valid until the next call, step or change.
+    static std::span<const DrawnSolid> solids(const Simulation& simulation, bool colliders);
     static World& world(Simulation& simulation);
     static const World& world(const Simulation& simulation);
 };

@@ -4,6 +4,7 @@
 #include "scene/problems.h"
 #include "solver/measures/penetration.h"
 #include "weft/drawn_frame.h"
+#include "weft/drawn_solids.h"
 #include "weft/scene_world.h"
 
 #include <weft/simulation.h>
@@ -32,6 +33,7 @@ struct Simulation::Impl {
     SceneWorld scene;
     mutable DrawnFrame drawn = {};
     mutable bool drawn_is_old = true;
+    mutable DrawnSolids drawn_solids = DrawnSolids();
     mutable PenetrationSearch penetration = {};
 
     World& world() { return scene.world(); }

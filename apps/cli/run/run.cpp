@@ -6,11 +6,14 @@
 #include "io/exports/export_plan.h"
 #include "io/exports/scene_export.h"
 #include "io/files/atomic_file.h"
+#include "io/files/file_pattern.h"
 #include "io/files/overwriting.h"
 #include "weft/drawn_frame.h"
+#include "weft/drawn_solids.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace weft::cli {
@@ -22,9 +25,16 @@ struct RunOptions {
     std::vector<std::string> outputs;
     std::string stats;
     std::string crossings = "last";
+    bool colliders = false;
     bool quiet = false;
+
+    SolidChoice solids() const { return colliders ? SolidChoice::colliders : SolidChoice::bodies; }
     Options common;
 };
+
+bool holds_colliders(const std::string& path) {
+    return ending_of(path) == ".glb";
+}
 
 using Exporters = std::vector<std::unique_ptr<Exporter>>;
 
@@ -48,10 +58,26 @@ ExportInfo export_info(const SceneWorld& session, std::uint64_t frames) {
     return {session.scene().name, session.scene().frame_rate, frames + 1, session.folder()};
 }
 
-Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const SceneWorld& session, std::uint64_t frames) {
-    DrawnFrame drawn;
-    if (!exporters.empty()) drawn.update(session.world().frame(), session.scene().cloths);
-    return plan_exports(exporters, export_info(session, frames), drawn.surfaces());
+/// What the exports show of the last frame.
+class Exported {
+  public:
+    explicit Exported(SolidChoice choice) : solids_(choice) {}
+    ExportFrame update(const SceneWorld& session) {
+        const Frame& frame = session.world().frame();
+        cloths_.update(frame, session.scene().cloths);
+        solids_.update(session.world(), session.scene().colliders);
+        return {frame.index, frame.time, cloths_.surfaces(), solids_.solids()};
+    }
+
+  private:
+    DrawnFrame cloths_;
+    DrawnSolids solids_;
+};
+
+Result<std::vector<ExportEstimate>> plan(const Exporters& exporters, const SceneWorld& session, std::uint64_t frames,
+                                         Exported& exported) {
+    const ExportFrame start = exporters.empty() ? ExportFrame{} : exported.update(session);
+    return plan_exports(exporters, export_info(session, frames), start);
 }
 
 // Companions of an export, such as the mesh of a point cache, could have the name of a mesh that the scene reads.
@@ -64,18 +90,16 @@ Errors overwritten(const RunOptions& options, const SceneWorld& session, std::sp
     return overwritten_inputs(outputs, inputs);
 }
 
-Result<void> simulate(SceneWorld& session, std::uint64_t frames, Exporters& exporters, RunStatistics& statistics,
-                      bool quiet) {
+Result<void> simulate(SceneWorld& session, std::uint64_t frames, Exporters& exporters, Exported& exported,
+                      RunStatistics& statistics, bool quiet) {
     for (auto& exporter : exporters) {
         if (auto begun = exporter->begin(export_info(session, frames)); !begun) return begun;
     }
-    DrawnFrame drawn;
     const auto write = [&]() -> Result<void> {
         if (exporters.empty()) return {};
-        const Frame& frame = session.world().frame();
-        drawn.update(frame, session.scene().cloths);
+        const ExportFrame frame = exported.update(session);
         for (auto& exporter : exporters) {
-            if (auto written = exporter->write({frame.index, frame.time, drawn.surfaces()}); !written) return written;
+            if (auto written = exporter->write(frame); !written) return written;
         }
         return {};
     };
@@ -104,6 +128,8 @@ int run(const RunOptions& options) {
     };
     const auto crossings = read_crossings(options.crossings);
     if (!crossings) return wrong(crossings.errors());
+    if (options.colliders && std::ranges::none_of(options.outputs, holds_colliders))
+        return wrong({{"--colliders", "needs an --out FILE.glb: the other formats hold cloth alone"}});
     auto exporters = open_exporters(options);
     if (!exporters) return wrong(exporters.errors());
     Options common = options.common;
@@ -114,7 +140,8 @@ int run(const RunOptions& options) {
     if (!frames) return wrong(frames.errors());
     if (*frames == 0 && options.common.contact_forces)
         return wrong({{"--contact-forces", "gives the forces in the last frame, and 0 frames have none"}});
-    const auto estimates = plan(*exporters, *session, *frames);
+    Exported exported(options.solids());
+    const auto estimates = plan(*exporters, *session, *frames, exported);
     if (!estimates) return wrong(estimates.errors());
     if (!options.stats.empty()) {  // creates and removes the file, to report a wrong name before the run
         if (const auto file = AtomicFile::create(options.stats); !file) return wrong(file.errors());
@@ -127,7 +154,7 @@ int run(const RunOptions& options) {
     // Without --stats, a run measures its last frame only.
     const auto measured = options.stats.empty() ? MeasurePenetration::last : MeasurePenetration::every;
     RunStatistics statistics(*session, *frames, *crossings, measured);
-    if (auto done = simulate(*session, *frames, *exporters, statistics, options.quiet); !done) {
+    if (auto done = simulate(*session, *frames, *exporters, exported, statistics, options.quiet); !done) {
         print_errors(done.errors());
         return exit_failed;
     }
@@ -175,6 +202,8 @@ Command add_run(Program& program) {
              "repeated")
         .called("FILE")
         .one_at_a_time();
+    arguments.add("--colliders", options->colliders,
+                  "also write colliders that are no bodies to FILE.glb, except planes");
     arguments
         .add("--stats", options->stats,
              "write times, stretch, energy, penetration and passages of the run to this JSON file; penetration is then "

@@ -4,7 +4,7 @@
 #include "editor/app/session.h"
 #include "editor/tools/picking.h"
 #include "scene/scene_keys.h"
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 
 #include <algorithm>
 #include <cmath>

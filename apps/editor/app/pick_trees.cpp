@@ -1,6 +1,6 @@
 #include "editor/app/pick_trees.h"
 
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 
 namespace weft::editor {
 

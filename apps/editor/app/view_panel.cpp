@@ -2,7 +2,7 @@
 
 #include "editor/app/objects.h"
 #include "editor/tools/stroke_cut.h"
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 #include "view/framing.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "editor/tools/picking.h"
 
 #include "editor/tools/random_views.test.h"
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 
 #include <gtest/gtest.h>
 

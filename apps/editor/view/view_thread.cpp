@@ -3,7 +3,7 @@
 #include "editor/view/outline.h"
 #include "editor/view/view_quality.h"
 #include "io/images/pictures_beside.h"
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 #include "view/scene_view.h"
 #include "vulkan/interop.h"
 

@@ -32,6 +32,16 @@ std::string problem_of(const ExportSurface& surface) {
     return {};
 }
 
+std::string problem_of(const ExportSolid& solid, bool is_first) {
+    const Pose& pose = solid.pose;
+    const Mat3& turn = pose.rotation;
+    if (!finite(pose.position) || !finite(turn.x) || !finite(turn.y) || !finite(turn.z))
+        return "has a pose that is not finite";
+    if (!is_first) return {};
+    if (!solid.mesh) return "has no mesh";
+    return problem_of(surface_of(solid.name, *solid.mesh, solid.mesh->positions, solid.mesh->normals));
+}
+
 }  // namespace
 
 Result<void> check_frame(const ExportFrame& frame, const std::string& where) {
@@ -41,6 +51,16 @@ Result<void> check_frame(const ExportFrame& frame, const std::string& where) {
         if (problem.empty()) continue;
         return Error{
             where, "frame " + std::to_string(frame.index) + ": cloth \"" + std::string(surface.name) + "\" " + problem};
+    }
+    return {};
+}
+
+Result<void> check_solids(const ExportFrame& frame, bool is_first, const std::string& where) {
+    for (const ExportSolid& solid : frame.solids) {
+        const std::string problem = problem_of(solid, is_first);
+        if (problem.empty()) continue;
+        return Error{where, "frame " + std::to_string(frame.index) + ": collider \"" + std::string(solid.name) + "\" " +
+                                problem};
     }
     return {};
 }

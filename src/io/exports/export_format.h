@@ -32,6 +32,10 @@ using FilmMaker = std::unique_ptr<Exporter> (*)(const std::filesystem::path& pat
 /// and one normal per vertex, UVs and colors for all vertices or for none. `where` is the file name for error messages.
 Result<void> check_frame(const ExportFrame& frame, const std::string& where);
 
+/// Whether the rigid objects of a frame can be written: finite poses and, of the first frame, meshes with triangles
+/// whose vertices exist, and one finite position and one normal per vertex.
+Result<void> check_solids(const ExportFrame& frame, bool is_first, const std::string& where);
+
 /// Fails if `path` cannot be written, so that the error is reported before the run. Leaves no file behind.
 Result<void> check_writable(const std::filesystem::path& path);
 

@@ -65,12 +65,12 @@ std::optional<FreeSpace> free_space(const fs::path& folder) {
 }
 
 Result<std::vector<ExportEstimate>> plan_exports(std::span<const std::unique_ptr<Exporter>> exporters,
-                                                 const ExportInfo& info, std::span<const ExportSurface> surfaces,
+                                                 const ExportInfo& info, const ExportFrame& start,
                                                  FreeSpaceOf free_space_of) {
     std::vector<ExportEstimate> estimates;
     Errors errors;
     for (const auto& exporter : exporters) {
-        Result<ExportEstimate> estimate = exporter->estimate(info, surfaces);
+        Result<ExportEstimate> estimate = exporter->estimate(info, start);
         if (estimate) {
             estimates.push_back(*std::move(estimate));
         } else {

@@ -29,7 +29,7 @@ using FreeSpaceOf = std::optional<FreeSpace> (*)(const std::filesystem::path& fo
 /// The estimates of all exporters. Fails if a format cannot hold the run, if two exports write the same file, or if the
 /// exports to one file system need more than its free space.
 Result<std::vector<ExportEstimate>> plan_exports(std::span<const std::unique_ptr<Exporter>> exporters,
-                                                 const ExportInfo& info, std::span<const ExportSurface> surfaces,
+                                                 const ExportInfo& info, const ExportFrame& start,
                                                  FreeSpaceOf free_space_of = free_space);
 
 /// A line for the user, if the estimates add up to large_export_bytes or more.

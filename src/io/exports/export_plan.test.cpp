@@ -44,7 +44,7 @@ class Plan : public testing::Test {
             exporters.push_back(*std::move(made));
         }
         const Instant start(cloths_, 0, 0);
-        return plan_exports(exporters, {"waves", 60, frames}, start.frame().surfaces, free_space_of);
+        return plan_exports(exporters, {"waves", 60, frames}, start.frame(), free_space_of);
     }
     std::string problem(const std::vector<std::string>& names, std::uint64_t frames, FreeSpaceOf free_space_of) {
         const auto planned = plan(names, frames, free_space_of);
@@ -83,9 +83,9 @@ TEST_F(Plan, EstimatesIncludeTheVerticesThatClothMayGet) {
         const auto made = make_exporter(folder_ / name);
         ASSERT_TRUE(made.ok());
         const auto start = film.at(0);
-        const auto whole = (*made)->estimate({"torn", 60, film.size()}, start->surfaces);
+        const auto whole = (*made)->estimate({"torn", 60, film.size()}, start->frame());
         start->surfaces[0].spare_vertices = 5;
-        const auto torn = (*made)->estimate({"torn", 60, film.size()}, start->surfaces);
+        const auto torn = (*made)->estimate({"torn", 60, film.size()}, start->frame());
         ASSERT_TRUE(whole.ok() && torn.ok());
         ASSERT_TRUE(film.write(folder_ / name).ok());
         std::uint64_t written = 0;

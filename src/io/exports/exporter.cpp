@@ -59,8 +59,8 @@ class LastFrameExporter : public Exporter {
     LastFrameExporter(const Writers& format, fs::path path)
         : writer_(format.still), size_(format.still_size), path_(std::move(path)) {}
 
-    Result<ExportEstimate> estimate(const ExportInfo&, std::span<const ExportSurface> surfaces) const override {
-        return ExportEstimate{{path_}, size_(surfaces)};
+    Result<ExportEstimate> estimate(const ExportInfo&, const ExportFrame& start) const override {
+        return ExportEstimate{{path_}, size_(start.surfaces)};
     }
 
     Result<void> begin(const ExportInfo&) override { return check_writable(path_); }
@@ -127,8 +127,8 @@ class SequenceExporter : public Exporter {
           folder_(folder_of(path)),
           pattern_(std::move(pattern)) {}
 
-    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override {
-        return ExportEstimate{{path_}, info.frame_count * size_(surfaces)};
+    Result<ExportEstimate> estimate(const ExportInfo& info, const ExportFrame& start) const override {
+        return ExportEstimate{{path_}, info.frame_count * size_(start.surfaces)};
     }
 
     Result<void> begin(const ExportInfo&) override { return check_writable(folder_ / pattern_.name(0)); }

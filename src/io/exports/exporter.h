@@ -1,6 +1,7 @@
 // Export of simulation results: one interface for all formats, which are chosen by the ending of the file name.
 #pragma once
 
+#include "look/drawn_solid.h"
 #include "look/drawn_surface.h"
 #include "mesh/triangle_mesh.h"
 
@@ -18,6 +19,9 @@ namespace weft {
 /// The spans are read only during write().
 using ExportSurface = DrawnSurface;
 
+/// A collider, for formats that hold rigid objects. The mesh is read only in the first frame.
+using ExportSolid = DrawnSolid;
+
 /// A surface of `mesh`, optionally with other positions and normals.
 inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh, std::span<const Vec3> positions,
                                 std::span<const Vec3> normals) {
@@ -30,13 +34,15 @@ inline ExportSurface surface_of(std::string_view name, const TriangleMesh& mesh,
             .rest_positions = mesh.positions};
 }
 
-/// All cloths in one frame. Every frame of a run has the same cloths in the same order. Cloth may part and triangles
+/// All cloths and the exported colliders in one frame. Every frame of a run has the same cloths and the same colliders
+/// in the same order; formats of cloth alone ignore the colliders. Cloth may part and triangles
 /// may be removed: all frames of an animation still have the same vertices and triangles (constant_mesh.h). Other
 /// changes of the triangles are an error of the formats that hold a whole animation in one file.
 struct ExportFrame {
     std::uint64_t index = 0;
     double time = 0;  ///< s
     std::span<const ExportSurface> surfaces;
+    std::span<const ExportSolid> solids = {};
 };
 
 struct ExportInfo {
@@ -59,8 +65,8 @@ struct ExportEstimate {
 class Exporter {
   public:
     virtual ~Exporter() = default;
-    /// Called before the run with the cloths as they start. Fails if the format cannot hold the announced run.
-    virtual Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const = 0;
+    /// Called before the run with everything as it starts. Fails if the format cannot hold the announced run.
+    virtual Result<ExportEstimate> estimate(const ExportInfo& info, const ExportFrame& start) const = 0;
     virtual Result<void> begin(const ExportInfo& info) = 0;
     virtual Result<void> write(const ExportFrame& frame) = 0;
     virtual Result<void> finish() = 0;

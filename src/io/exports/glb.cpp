@@ -1,5 +1,6 @@
 // Animated glTF 2.0 in its binary container. The first frame is the mesh, every later frame is a morph target, and one
-// animation of the weights plays them. Section numbers refer to the glTF 2.0 specification (Khronos, 2021).
+// animation of the weights plays them. Rigid objects are nodes whose poses the same animation moves. Section numbers
+// refer to the glTF 2.0 specification (Khronos, 2021).
 //
 // During the run the binary data goes to an unnamed temporary file: memory holds only one frame, and a full disk is
 // reported at the frame that fills it. If cloth has parted, vertices that earlier frames lack are appended when the
@@ -7,7 +8,9 @@
 // own writer would hold the whole animation in memory twice.
 #include "io/exports/constant_mesh.h"
 #include "io/exports/export_format.h"
+#include "io/exports/glb_buffer.h"
 #include "io/exports/glb_material.h"
+#include "io/exports/glb_solids.h"
 #include "io/exports/glb_views.h"
 #include "solver/state/frame.h"
 
@@ -53,10 +56,20 @@ struct FirstFrame {
 /// Estimated bytes of an animation, rather too many than too few.
 struct FilmSize {
     double pictures = 0;
-    double base = 0;    ///< everything but the pictures, the morph targets and their weights
-    double target = 0;  ///< per frame
+    double solids = 0;  ///< meshes and nodes of rigid objects
+    double base = 0;    ///< everything else but the poses, the morph targets and their weights
+    double poses = 0;   ///< of rigid objects, per frame
+    double target = 0;  ///< per frame after the first
 
-    double of(double frames) const { return pictures + base + (frames - 1) * target + frames * frames * sizeof(float); }
+    FilmSize() = default;
+    FilmSize(const ExportFrame& start, const std::filesystem::path& folder)
+        : pictures(static_cast<double>(GltfMaterials::most_picture_bytes(start.surfaces, folder))),
+          solids(GlbSolids::mesh_bytes(start.solids)),
+          poses(GlbSolids::pose_bytes(start.solids)) {}
+
+    double of(double frames) const {
+        return pictures + solids + base + frames * poses + (frames - 1) * target + frames * frames * sizeof(float);
+    }
 
     void set_meshes(std::span<const ExportSurface> surfaces, std::size_t (*vertices_of)(const ExportSurface&));
 };
@@ -83,38 +96,11 @@ void FilmSize::set_meshes(std::span<const ExportSurface> surfaces, std::size_t (
     }
 }
 
-int as_int(std::size_t value) {
-    return static_cast<int>(value);
-}
-
-/// Bounds per component; 3.6.2.5 requires them rounded like the stored values.
-void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3> values) {
-    Vec3 low = values.front(), high = values.front();
-    for (const Vec3& v : values) {
-        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
-    accessor.minValues = {low.x, low.y, low.z};
-    accessor.maxValues = {high.x, high.y, high.z};
-}
-
-tinygltf::Material fabric_material(const std::string& name, bool vertex_colors) {
-    tinygltf::Material material;
-    material.name = name;
-    material.doubleSided = true;
-    // Vertex colors are multiplied by the base color, so it must be white to keep them unchanged.
-    const double base = vertex_colors ? 1.0 : 0.8;
-    material.pbrMetallicRoughness.baseColorFactor = {base, base, base, 1.0};
-    material.pbrMetallicRoughness.metallicFactor = 0;
-    material.pbrMetallicRoughness.roughnessFactor = 0.9;
-    return material;
-}
-
 class GlbExporter : public Exporter {
   public:
     explicit GlbExporter(std::filesystem::path path) : path_(std::move(path)) {}
 
-    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override;
+    Result<ExportEstimate> estimate(const ExportInfo& info, const ExportFrame& start) const override;
     Result<void> begin(const ExportInfo& info) override;
     Result<void> write(const ExportFrame& frame) override;
     Result<void> finish() override;
@@ -124,9 +110,9 @@ class GlbExporter : public Exporter {
     Result<void> add_base(const ExportSurface& surface);
     Result<void> add_colors(const ExportSurface& surface, tinygltf::Primitive& primitive);
     Result<void> add_material(const ExportSurface& surface, tinygltf::Primitive& primitive);
-    Result<void> add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive);
     Result<void> add_target(std::size_t cloth, const ExportSurface& surface);
     Result<void> add_animation();
+    Result<void> add_weights(int times, tinygltf::Animation& animation);
     template <class WriteBinary>
     Result<void> write_container(const std::string& json, std::uint64_t binary_bytes, WriteBinary&& write_binary);
 
@@ -135,19 +121,12 @@ class GlbExporter : public Exporter {
     Result<std::string> json_text(std::uint64_t binary_bytes) const;
     Error error(std::string what) const { return {path_.string(), std::move(what)}; }
 
-    /// Opens a view at the end of the binary data, and an accessor for the whole view. The caller appends the values.
-    tinygltf::Accessor& open_accessor(int component, int type, std::size_t count, int target);
-    Result<void> append(std::span<const std::byte> bytes) { return spool_.write(bytes); }
-    Result<int> add_vectors(std::span<const Vec3> values, bool bounds);
-    /// Adds a view without an accessor, for an image.
-    Result<int> add_picture(std::span<const std::byte> bytes);
-    int newest_accessor() const { return as_int(model_.accessors.size()) - 1; }
-
     std::filesystem::path path_;
     ExportInfo info_;
     tinygltf::Model model_;
-    BufferedFile spool_;
-    GltfMaterials materials_{model_, [this](std::span<const std::byte> bytes) { return add_picture(bytes); }};
+    GlbBuffer buffer_{model_};
+    GltfMaterials materials_{model_, [this](std::span<const std::byte> bytes) { return buffer_.add_picture(bytes); }};
+    GlbSolids solids_{model_, buffer_, materials_};
     std::vector<float> times_;
     ConstantMeshes meshes_;
     std::vector<FirstFrame> first_;  ///< by cloth
@@ -155,12 +134,12 @@ class GlbExporter : public Exporter {
     std::vector<Vec3> deltas_;
 };
 
-Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
-    FilmSize size{.pictures = static_cast<double>(GltfMaterials::most_picture_bytes(surfaces, info.folder))};
-    size.set_meshes(surfaces, present_vertices);
+Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, const ExportFrame& start) const {
+    FilmSize size(start, info.folder);
+    size.set_meshes(start.surfaces, present_vertices);
     if (Result<void> checked = check_size(size, info.frame_count); !checked) return checked.errors();
     // With all vertices that may be added, the limit may be passed. Whether it will be is only known then.
-    size.set_meshes(surfaces, most_vertices);
+    size.set_meshes(start.surfaces, most_vertices);
     const double bytes = std::min(size.of(static_cast<double>(info.frame_count)), byte_limit);
     return ExportEstimate{{path_}, static_cast<std::uint64_t>(bytes)};
 }
@@ -168,19 +147,21 @@ Result<ExportEstimate> GlbExporter::estimate(const ExportInfo& info, std::span<c
 Result<void> GlbExporter::begin(const ExportInfo& info) {
     info_ = info;
     if (Result<void> writable = check_writable(path_); !writable) return writable;
-    Result<BufferedFile> spool = BufferedFile::open_nameless(folder_of(path_), path_.string());
-    if (!spool) return spool.errors();
-    spool_ = *std::move(spool);
     materials_.look_in(info.folder);
-    return {};
+    return buffer_.open(path_);
 }
 
 Result<void> GlbExporter::write(const ExportFrame& frame) {
-    if (Result<void> checked = check_frame(frame, path_.string()); !checked) return checked;
+    // A frame of rigid objects alone is a film too.
+    if (!frame.surfaces.empty() || frame.solids.empty()) {
+        if (Result<void> checked = check_frame(frame, path_.string()); !checked) return checked;
+    }
+    const bool is_first = times_.empty();
+    if (Result<void> checked = check_solids(frame, is_first, path_.string()); !checked) return checked;
     if (Result<void> checked = check_order(frame); !checked) return checked;
     if (std::string problem = meshes_.follow(frame); !problem.empty()) return error(std::move(problem));
-    const ExportFrame shown{frame.index, frame.time, meshes_.surfaces()};
-    if (times_.empty()) {
+    const ExportFrame shown{frame.index, frame.time, meshes_.surfaces(), frame.solids};
+    if (is_first) {
         if (Result<void> added = add_first_frame(shown); !added) return added;
     } else {
         if (meshes_.have_grown()) size_.set_meshes(shown.surfaces, present_vertices);
@@ -190,6 +171,8 @@ Result<void> GlbExporter::write(const ExportFrame& frame) {
             if (Result<void> added = add_target(i, shown.surfaces[i]); !added) return added;
         }
     }
+    if (std::string problem = solids_.add_poses(frame.solids); !problem.empty())
+        return error("frame " + std::to_string(frame.index) + ": " + problem);
     times_.push_back(static_cast<float>(frame.time));
     return {};
 }
@@ -227,7 +210,7 @@ Result<void> GlbExporter::add_first_frame(const ExportFrame& frame) {
         first.normals.reserve(surface.normals.size());
         for (const Vec3& normal : surface.normals) first.normals.push_back(unit_normal(normal));
     }
-    size_.pictures = static_cast<double>(GltfMaterials::most_picture_bytes(frame.surfaces, info_.folder));
+    size_ = FilmSize(frame, info_.folder);
     size_.set_meshes(frame.surfaces, present_vertices);
     if (Result<void> checked = check_size(size_, std::max<std::uint64_t>(1, info_.frame_count)); !checked) {
         return checked;
@@ -235,7 +218,7 @@ Result<void> GlbExporter::add_first_frame(const ExportFrame& frame) {
     for (const ExportSurface& surface : frame.surfaces) {
         if (Result<void> added = add_base(surface); !added) return added;
     }
-    return {};
+    return solids_.add_nodes(frame.solids);  // after the cloths: mesh i of the model is cloth i
 }
 
 Result<void> GlbExporter::add_base(const ExportSurface& surface) {
@@ -245,11 +228,13 @@ Result<void> GlbExporter::add_base(const ExportSurface& surface) {
 
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    if (Result<void> r = add_indices(surface, primitive); !r) return r;
-    const Result<int> positions = add_vectors(first.positions, true);
+    const Result<int> indices = buffer_.add_indices(surface.triangles, surface.positions.size());
+    if (!indices) return indices.errors();
+    primitive.indices = *indices;
+    const Result<int> positions = buffer_.add_vectors(first.positions, WithBounds::yes);
     if (!positions) return positions.errors();
     primitive.attributes["POSITION"] = *positions;
-    const Result<int> normals = add_vectors(first.normals, false);
+    const Result<int> normals = buffer_.add_vectors(first.normals, WithBounds::no);
     if (!normals) return normals.errors();
     primitive.attributes["NORMAL"] = *normals;
 
@@ -257,9 +242,9 @@ Result<void> GlbExporter::add_base(const ExportSurface& surface) {
         std::vector<Vec2> uvs;
         uvs.reserve(count);
         for (const Vec2& uv : surface.uvs) uvs.push_back({uv.x, 1 - uv.y});  // v runs downward (3.8.3)
-        open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, count, TINYGLTF_TARGET_ARRAY_BUFFER);
-        primitive.attributes["TEXCOORD_0"] = newest_accessor();
-        if (Result<void> r = append(std::as_bytes(std::span(uvs))); !r) return r;
+        buffer_.open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, count, TINYGLTF_TARGET_ARRAY_BUFFER);
+        primitive.attributes["TEXCOORD_0"] = buffer_.newest_accessor();
+        if (Result<void> r = buffer_.append(std::as_bytes(std::span(uvs))); !r) return r;
     }
     if (Result<void> r = add_colors(surface, primitive); !r) return r;
     if (Result<void> r = add_material(surface, primitive); !r) return r;
@@ -280,9 +265,10 @@ Result<void> GlbExporter::add_colors(const ExportSurface& surface, tinygltf::Pri
     std::vector<Vec4> colors;
     colors.reserve(surface.colors.size());
     for (const Vec4& c : surface.colors) colors.push_back({clamped(c.x), clamped(c.y), clamped(c.z), clamped(c.w)});
-    open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, colors.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.attributes["COLOR_0"] = newest_accessor();
-    return append(std::as_bytes(std::span(colors)));
+    buffer_.open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, colors.size(),
+                          TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["COLOR_0"] = buffer_.newest_accessor();
+    return buffer_.append(std::as_bytes(std::span(colors)));
 }
 
 /// Tangents are written only for single frames with a normal map. An animation has none: as morph targets they would
@@ -292,7 +278,7 @@ Result<void> GlbExporter::add_material(const ExportSurface& surface, tinygltf::P
     const std::string name(surface.name);
     primitive.material = as_int(model_.materials.size());
     if (!surface.material) {
-        model_.materials.push_back(fabric_material(name, !surface.colors.empty()));
+        model_.materials.push_back(plain_material(name, !surface.colors.empty()));
         return {};
     }
     if (Result<void> r = materials_.add(name, *surface.material, surface); !r) return r;
@@ -300,17 +286,10 @@ Result<void> GlbExporter::add_material(const ExportSurface& surface, tinygltf::P
     const FirstFrame& first = first_[model_.meshes.size()];
     std::vector<Vec4> tangents;
     compute_tangents(surface.triangles, surface.uvs, first.positions, first.normals, tangents);
-    open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, tangents.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
-    primitive.attributes["TANGENT"] = newest_accessor();
-    return append(std::as_bytes(std::span(tangents)));
-}
-
-Result<void> GlbExporter::add_indices(const ExportSurface& surface, tinygltf::Primitive& primitive) {
-    const std::size_t vertices = surface.positions.size();
-    open_accessor(index_type(vertices), TINYGLTF_TYPE_SCALAR, surface.triangles.size() * 3,
-                  TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    primitive.indices = newest_accessor();
-    return append(index_bytes(surface.triangles, vertices));
+    buffer_.open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, tangents.size(),
+                          TINYGLTF_TARGET_ARRAY_BUFFER);
+    primitive.attributes["TANGENT"] = buffer_.newest_accessor();
+    return buffer_.append(std::as_bytes(std::span(tangents)));
 }
 
 Result<void> GlbExporter::add_target(std::size_t cloth, const ExportSurface& surface) {
@@ -320,39 +299,48 @@ Result<void> GlbExporter::add_target(std::size_t cloth, const ExportSurface& sur
     const std::size_t count = first.positions.size();
     deltas_.resize(count);
     for (std::size_t i = 0; i < count; ++i) deltas_[i] = surface.positions[i] - first.positions[i];
-    const Result<int> positions = add_vectors(deltas_, true);
+    const Result<int> positions = buffer_.add_vectors(deltas_, WithBounds::yes);
     if (!positions) return positions.errors();
     for (std::size_t i = 0; i < count; ++i) deltas_[i] = unit_normal(surface.normals[i]) - first.normals[i];
-    const Result<int> normals = add_vectors(deltas_, false);
+    const Result<int> normals = buffer_.add_vectors(deltas_, WithBounds::no);
     if (!normals) return normals.errors();
     model_.meshes[cloth].primitives.front().targets.push_back({{"POSITION", *positions}, {"NORMAL", *normals}});
     return {};
 }
 
-/// Key i shows only target i - 1, key 0 the first frame; between two keys their frames are blended. All cloths share
-/// the keys.
+/// All objects share the keys, one per frame.
 Result<void> GlbExporter::add_animation() {
-    const std::size_t keys = times_.size(), targets = keys - 1;
-    if (targets == 0) return {};
-    tinygltf::Accessor& input = open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys, 0);
+    if (times_.size() < 2 || (first_.empty() && !solids_.have_moved())) return {};
+    const Result<int> times = buffer_.add_keys(times_, TINYGLTF_TYPE_SCALAR);
+    if (!times) return times.errors();
+    tinygltf::Accessor& input = model_.accessors.back();
     input.minValues = {times_.front()};
     input.maxValues = {times_.back()};
+
+    tinygltf::Animation animation;
+    animation.name = info_.scene_name;
+    if (!first_.empty()) {
+        if (Result<void> r = add_weights(*times, animation); !r) return r;
+    }
+    if (Result<void> r = solids_.add_channels(*times, animation); !r) return r;
+    model_.animations.push_back(std::move(animation));
+    return {};
+}
+
+/// Key i shows only target i - 1, key 0 the first frame; between two keys their frames are blended.
+Result<void> GlbExporter::add_weights(int times, tinygltf::Animation& animation) {
+    const std::size_t keys = times_.size(), targets = keys - 1;
+    buffer_.open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys * targets, 0);
     tinygltf::AnimationSampler sampler;
     sampler.interpolation = "LINEAR";
-    sampler.input = newest_accessor();
-    if (Result<void> r = append(std::as_bytes(std::span(times_))); !r) return r;
-
-    open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, keys * targets, 0);
-    sampler.output = newest_accessor();
+    sampler.input = times;
+    sampler.output = buffer_.newest_accessor();
     std::vector<float> weights(targets, 0.0f);
     for (std::size_t key = 0; key < keys; ++key) {
         if (key > 0) weights[key - 1] = 1;
-        if (Result<void> r = append(std::as_bytes(std::span(weights))); !r) return r;
+        if (Result<void> r = buffer_.append(std::as_bytes(std::span(weights))); !r) return r;
         if (key > 0) weights[key - 1] = 0;
     }
-
-    tinygltf::Animation& animation = model_.animations.emplace_back();
-    animation.name = info_.scene_name;
     animation.samplers.push_back(std::move(sampler));
     for (std::size_t cloth = 0; cloth < first_.size(); ++cloth) {
         model_.meshes[cloth].weights.assign(targets, 0.0);
@@ -368,14 +356,14 @@ Result<void> GlbExporter::finish() {
     if (times_.empty()) return error("there is no frame to write");
     if (Result<void> r = add_animation(); !r) return r;
     if (!meshes_.have_grown()) {
-        const Result<std::string> json = json_text(spool_.size());
+        const Result<std::string> json = json_text(buffer_.size());
         if (!json) return json.errors();
-        return write_container(*json, spool_.size(), [&](BufferedFile& to) { return spool_.move_to(to); });
+        return write_container(*json, buffer_.size(), [&](BufferedFile& to) { return buffer_.file().move_to(to); });
     }
-    const WideViews views(model_, meshes_, spool_.size());
+    const WideViews views(model_, meshes_, buffer_.size());
     const Result<std::string> json = json_text(views.bytes());
     if (!json) return json.errors();
-    return write_container(*json, views.bytes(), [&](BufferedFile& to) { return views.write(spool_, to); });
+    return write_container(*json, views.bytes(), [&](BufferedFile& to) { return views.write(buffer_.file(), to); });
 }
 
 Result<std::string> GlbExporter::json_text(std::uint64_t binary_bytes) const {
@@ -415,41 +403,6 @@ Result<void> GlbExporter::write_container(const std::string& json, std::uint64_t
     if (Result<void> r = put({binary_bytes, binary_chunk}); !r) return r;
     if (Result<void> r = write_binary(file->content()); !r) return r;
     return file->commit();
-}
-
-tinygltf::Accessor& GlbExporter::open_accessor(int component, int type, std::size_t count, int target) {
-    assert(spool_.size() % 4 == 0);
-    tinygltf::BufferView& view = model_.bufferViews.emplace_back();
-    view.buffer = 0;
-    view.byteOffset = spool_.size();
-    view.byteLength = count * static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(std::uint32_t(component))) *
-                      static_cast<std::size_t>(tinygltf::GetNumComponentsInType(std::uint32_t(type)));
-    view.target = target;
-    tinygltf::Accessor& accessor = model_.accessors.emplace_back();
-    accessor.bufferView = as_int(model_.bufferViews.size()) - 1;
-    accessor.componentType = component;
-    accessor.type = type;
-    accessor.count = count;
-    return accessor;
-}
-
-Result<int> GlbExporter::add_picture(std::span<const std::byte> bytes) {
-    tinygltf::BufferView& view = model_.bufferViews.emplace_back();
-    view.buffer = 0;
-    view.byteOffset = spool_.size();
-    view.byteLength = bytes.size();
-    if (Result<void> r = append(bytes); !r) return r.errors();
-    constexpr std::byte zeros[3] = {};  // the next view must be aligned to four bytes (3.6.2.4)
-    if (Result<void> r = append(std::span(zeros).first((4 - bytes.size() % 4) % 4)); !r) return r.errors();
-    return as_int(model_.bufferViews.size()) - 1;
-}
-
-Result<int> GlbExporter::add_vectors(std::span<const Vec3> values, bool bounds) {
-    tinygltf::Accessor& accessor =
-        open_accessor(TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, values.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
-    if (bounds) set_bounds(accessor, values);
-    if (Result<void> r = append(std::as_bytes(values)); !r) return r.errors();
-    return newest_accessor();
 }
 
 }  // namespace

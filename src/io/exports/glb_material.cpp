@@ -104,6 +104,18 @@ constexpr const char* texture_transform = "KHR_texture_transform";
 
 }  // namespace
 
+tinygltf::Material plain_material(const std::string& name, bool vertex_colors) {
+    tinygltf::Material material;
+    material.name = name;
+    material.doubleSided = true;
+    // Vertex colors are multiplied by the base color, so it must be white to keep them unchanged.
+    const double base = vertex_colors ? 1.0 : 0.8;
+    material.pbrMetallicRoughness.baseColorFactor = {base, base, base, 1.0};
+    material.pbrMetallicRoughness.metallicFactor = 0;
+    material.pbrMetallicRoughness.roughnessFactor = 0.9;
+    return material;
+}
+
 void GltfMaterials::extend(tinygltf::ExtensionMap& extensions, const std::string& name, Value::Object members) {
     extensions[name] = Value(std::move(members));
     std::vector<std::string>& used = model_.extensionsUsed;

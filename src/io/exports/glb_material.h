@@ -20,6 +20,9 @@
 
 namespace weft {
 
+/// Matte, for surfaces without a material: light gray, or the vertex colors.
+tinygltf::Material plain_material(const std::string& name, bool vertex_colors);
+
 /// Adds materials to a model, and each image that they use once to its buffer.
 ///
 /// Color, roughness and `specular` become the metallic-roughness model with KHR_materials_specular, an anisotropic

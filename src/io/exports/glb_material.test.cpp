@@ -30,7 +30,7 @@ class GlbMaterial : public testing::Test {
         const ExportInfo info{"s", 60, 1, folder.path()};
         auto exporter = make_exporter(path);
         EXPECT_TRUE(exporter.ok());
-        const auto estimate = (*exporter)->estimate(info, instant.surfaces);
+        const auto estimate = (*exporter)->estimate(info, instant.frame());
         EXPECT_TRUE(estimate.ok() && (*exporter)->begin(info).ok());
         EXPECT_TRUE((*exporter)->write(instant.frame()).ok() && (*exporter)->finish().ok());
         EXPECT_LE(std::filesystem::file_size(path), estimate->bytes);

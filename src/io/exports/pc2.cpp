@@ -86,7 +86,7 @@ class Pc2Exporter : public Exporter {
     explicit Pc2Exporter(std::filesystem::path path)
         : path_(std::move(path)), rest_path_(std::filesystem::path(path_).replace_extension(".obj")) {}
 
-    Result<ExportEstimate> estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const override;
+    Result<ExportEstimate> estimate(const ExportInfo& info, const ExportFrame& start) const override;
     Result<void> begin(const ExportInfo& info) override;
     Result<void> write(const ExportFrame& frame) override;
     Result<void> finish() override;
@@ -113,12 +113,12 @@ Result<void> Pc2Exporter::check_counts(std::uint64_t points, std::uint64_t sampl
                  " vertices, but a .pc2 can have at most " + std::to_string(most) + " of each");
 }
 
-Result<ExportEstimate> Pc2Exporter::estimate(const ExportInfo& info, std::span<const ExportSurface> surfaces) const {
+Result<ExportEstimate> Pc2Exporter::estimate(const ExportInfo& info, const ExportFrame& start) const {
     std::uint64_t points = 0;
-    for (const ExportSurface& surface : surfaces) points += most_vertices(surface);
+    for (const ExportSurface& surface : start.surfaces) points += most_vertices(surface);
     if (Result<void> checked = check_counts(points, info.frame_count); !checked) return checked.errors();
     return ExportEstimate{{path_, rest_path_},
-                          sizeof(Header) + info.frame_count * points * sizeof(Vec3) + size_obj(surfaces)};
+                          sizeof(Header) + info.frame_count * points * sizeof(Vec3) + size_obj(start.surfaces)};
 }
 
 Result<void> Pc2Exporter::begin(const ExportInfo& info) {

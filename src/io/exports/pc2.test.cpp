@@ -234,7 +234,7 @@ TEST(Pc2Export, MoreVerticesThanItCountsAreRefused) {
     // Never read; only their number matters.
     const std::span<const Vec3> many(reinterpret_cast<const Vec3*>(0x1000), std::size_t{1} << 31);
     const ExportSurface surface = surface_of("huge", {}, many, many);
-    const auto estimate = (*made)->estimate({"s", 60, 1}, std::span(&surface, 1));
+    const auto estimate = (*made)->estimate({"s", 60, 1}, {0, 0, std::span(&surface, 1)});
     ASSERT_FALSE(estimate.ok());
     EXPECT_THAT(estimate.error().message(), HasSubstr("2147483648 vertices"));
     EXPECT_FALSE((*made)->estimate({"s", 60, std::uint64_t{1} << 31}, {}).ok());

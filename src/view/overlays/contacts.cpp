@@ -1,4 +1,4 @@
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 #include "view/nice_numbers.h"
 #include "view/overlay_parts.h"
 #include "view/touches.h"

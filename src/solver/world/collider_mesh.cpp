@@ -1,4 +1,4 @@
-#include "view/collider_mesh.h"
+#include "solver/world/collider_mesh.h"
 
 #include "mesh/procedural.h"
 
