@@ -102,7 +102,7 @@ TEST(BodiesOnVulkan, every_method_is_the_same_as_on_the_cpu) {
     expect_same(settings, add, 8);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, cloth_that_meets_cloth_is_the_same_as_on_the_cpu) {
     const auto add = [](SelfCollision with) {
         return [with](World& world) {
