@@ -296,8 +296,9 @@ void DrivenEditor::hold_until(const std::string& key, const std::string& what, c
 }
 
 void DrivenEditor::type(const std::string& text) {
-    // Shift is pressed as well where it is needed.
-    send("type --delay 1 \"" + text + "\"", 2 * static_cast<unsigned>(text.size()));
+    // Shift is pressed as well where it is needed. A key that is pressed again within a millisecond counts as held
+    // down.
+    send("type --delay 8 \"" + text + "\"", 2 * static_cast<unsigned>(text.size()));
     if (!at_once_) sent_ = std::max(sent_, probe().at("changes").get<std::uint64_t>());
 }
 
