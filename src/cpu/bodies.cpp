@@ -1,5 +1,7 @@
 #include "cpu/bodies.h"
 
+#include "solver/plan/body_numbers.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,16 +13,6 @@ using scalar::vector_of;
 
 // A body is expected in a box around its free flight, larger by this part of its way and of its radius.
 constexpr float reach_per_way = 0.25f, reach_per_radius = 0.25f;
-
-// Sweeps over the contacts of bodies with one another and with colliders: after each sweep of particles over the
-// bodies, after each sweep of faces, of which there are more, and for velocities.
-constexpr int sweeps_after_particles = 3, sweeps_after_faces = 1, sweeps_of_velocities = 4;
-
-float radius_about(Vec3 center, const Bounds& box) {
-    const auto far = [](float low, float high, float at) { return std::max(std::abs(high - at), std::abs(at - low)); };
-    return length({far(box.min.x, box.max.x, center.x), far(box.min.y, box.max.y, center.y),
-                   far(box.min.z, box.max.z, center.z)});
-}
 
 Bounds ball(Vec3 center, float radius) {
     const Vec3 by{radius, radius, radius};
@@ -81,7 +73,7 @@ void Bodies::run(const Pass& pass) {
             }
             return take_sums(pass.batch == 1 ? sweeps_after_particles : sweeps_after_faces);
         default:  // finish_bodies
-            for (int sweep = 0; sweep < sweeps_of_velocities; ++sweep) contacts_.bounce();
+            for (std::uint32_t sweep = 0; sweep < sweeps_of_velocities; ++sweep) contacts_.bounce();
             ++substep_;
             return watch_reach();
     }
@@ -122,7 +114,7 @@ void Bodies::count_touches() {
 }
 
 // What the cloth's sweep has added up moves the bodies, then their contacts with one another and with colliders do.
-void Bodies::take_sums(int sweeps) {
+void Bodies::take_sums(std::uint32_t sweeps) {
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
         BodySums all;
         for (auto& sums : sums_) {
@@ -134,7 +126,7 @@ void Bodies::take_sums(int sweeps) {
             push(bodies_[i], {from_quanta(all.impulse), from_quanta(all.twist)}, h_);
     }
     count_touches();
-    for (int sweep = 0; sweep < sweeps; ++sweep) contacts_.project();
+    for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) contacts_.project();
 }
 
 bool Bodies::all_finite() const {

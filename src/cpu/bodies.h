@@ -54,7 +54,7 @@ class Bodies {
   private:
     void predict();
     void count_touches();
-    void take_sums(int sweeps);
+    void take_sums(std::uint32_t sweeps);
     void watch_reach();
 
     std::vector<BodyInStep> bodies_;

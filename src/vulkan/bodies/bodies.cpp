@@ -1,5 +1,6 @@
 #include "vulkan/bodies/bodies.h"
 
+#include "solver/plan/body_numbers.h"
 #include "solver/plan/frame_numbers.h"
 #include "solver/plan/world_plan.h"
 #include "vulkan/arena.h"
@@ -19,18 +20,8 @@ namespace {
 static_assert(sizeof(BodyIn) == 304 && sizeof(FeaturesIn) == 16 && sizeof(BodyRowIn) == 96 && sizeof(BodiesIn) == 184 &&
               sizeof(BodiesArgs) == 24);
 
-// Sweeps over contacts of bodies: see src/cpu/bodies.cpp.
-constexpr std::uint32_t sweeps_after_particles = 3, sweeps_after_faces = 1, sweeps_of_velocities = 4;
-
 Vec4 with(Vec3 v, float w) {
     return {v.x, v.y, v.z, w};
-}
-
-// m: of a ball around the center of mass that holds the box.
-float radius_about(Vec3 center, const Bounds& box) {
-    const auto far = [](float low, float high, float at) { return std::max(std::abs(high - at), std::abs(at - low)); };
-    return length({far(box.min.x, box.max.x, center.x), far(box.min.y, box.max.y, center.y),
-                   far(box.min.z, box.max.z, center.z)});
 }
 
 BodyIn body_in(const BodyStep& step, const Collider& collider, float h) {
