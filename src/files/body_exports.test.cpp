@@ -3,6 +3,7 @@
 #include "base/temporary_folder.test.h"
 #include "files/open_scene.h"
 #include "io/exports/exporter.h"
+#include "io/exports/glb_reading.test.h"
 #include "mesh/procedural.h"
 #include "weft/drawn_frame.h"
 #include "weft/drawn_solids.h"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -70,12 +70,7 @@ class Glb {
 
     template <class Value>
     std::vector<Value> data(int index) const {
-        const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
-        const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
-        EXPECT_EQ(view.byteLength, accessor.count * sizeof(Value));
-        std::vector<Value> result(accessor.count);
-        std::memcpy(result.data(), model.buffers.at(0).data.data() + view.byteOffset, view.byteLength);
-        return result;
+        return test::data_of<Value>(model, index);
     }
     std::vector<std::string> names() const {
         std::vector<std::string> found;

@@ -1,15 +1,14 @@
 #include "vulkan/vulkan_backend.h"
 
-#include "base/cache_file.h"
 #include "gpu/device.h"
 #include "solver/measures/diagnosis.h"
+#include "vulkan/device_options.h"
 #include "vulkan/frame_run.h"
 #include "vulkan/interop.h"
 #include "vulkan/world_colliders.h"
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -22,17 +21,6 @@ using vulkan::DrawnMesh;
 using vulkan::Execution;
 using vulkan::FrameRun;
 using vulkan::ModelBuffers;
-
-// Empty if nothing is to be kept.
-std::filesystem::path pipeline_cache_file(const gpu::DeviceInfo& device) {
-    const std::filesystem::path folder = cache_folder();
-    if (folder.empty()) return {};
-    std::string name = device.name + "-" + device.driver;
-    for (char& c : name) {
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
-    }
-    return folder / (name + ".pipelines");
-}
 
 class VulkanBackend final : public Backend, public VulkanInterop {
   public:
@@ -569,12 +557,6 @@ Result<Execution> execution_of(const VulkanOptions& options) {
     return static_cast<Execution>(execution - execution_names.begin());
 }
 
-gpu::DeviceOptions device_options(const gpu::DeviceInfo& info, const VulkanOptions& options) {
-    return {.pipeline_cache = pipeline_cache_file(info),
-            .memory_limit = options.memory_limit,
-            .intercept = options.intercept};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<gpu::Device> device,
@@ -590,19 +572,9 @@ Result<std::unique_ptr<Backend>> make_vulkan_backend(std::shared_ptr<const gpu::
     gpu::DeviceInfo info;
     for (const gpu::DeviceInfo& one : instance->devices())
         if (instance->physical(one) == host.physical) info = one;
-    auto device = gpu::Device::adopt(std::move(instance), host, device_options(info, options));
+    auto device = gpu::Device::adopt(std::move(instance), host, vulkan::device_options(info, options));
     if (!device) return device.errors();
     return make_vulkan_backend(std::move(*device), options);
-}
-
-Result<std::shared_ptr<gpu::Device>> make_vulkan_device(const VulkanOptions& options) {
-    auto instance = gpu::Instance::create({.validation = options.validation,
-                                           .surface_extensions = options.surface_extensions,
-                                           .on_message = options.on_message});
-    if (!instance) return instance.errors();
-    auto info = gpu::choose_device((*instance)->devices(), options.device, options.software);
-    if (!info) return info.errors();
-    return gpu::Device::create(*instance, *info, device_options(*info, options));
 }
 
 Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& options) {
@@ -610,11 +582,6 @@ Result<std::unique_ptr<Backend>> make_vulkan_backend(const VulkanOptions& option
     auto device = make_vulkan_device(options);
     if (!device) return device.errors();
     return make_vulkan_backend(std::move(*device), options);
-}
-
-std::vector<gpu::DeviceInfo> vulkan_devices() {
-    auto instance = gpu::Instance::create();
-    return instance ? (*instance)->devices() : std::vector<gpu::DeviceInfo>{};
 }
 
 }  // namespace weft

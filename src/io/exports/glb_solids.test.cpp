@@ -1,4 +1,5 @@
 #include "io/exports/film_fixtures.test.h"
+#include "io/exports/glb_reading.test.h"
 #include "io/exports/torn_film.test.h"
 #include "look/material.h"
 
@@ -7,7 +8,6 @@
 #include <tiny_gltf.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -15,22 +15,13 @@ namespace weft {
 namespace {
 
 using test::Cloth;
+using test::data_of;
 using test::Instant;
 using test::make_cloth;
 using test::TestFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-template <class Value>
-std::vector<Value> data_of(const tinygltf::Model& model, int accessor_index) {
-    const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(accessor_index));
-    const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
-    EXPECT_EQ(view.byteLength, accessor.count * sizeof(Value));
-    std::vector<Value> result(accessor.count);
-    std::memcpy(result.data(), model.buffers.at(0).data.data() + view.byteOffset, view.byteLength);
-    return result;
-}
 
 const tinygltf::AnimationSampler* sampler_of(const tinygltf::Model& model, int node, const std::string& path) {
     const tinygltf::AnimationSampler* found = nullptr;
