@@ -1,7 +1,7 @@
 // weft edit: the editor.
 #include "cli/shell/command.h"
 
-#ifdef WEFT_VULKAN
+#ifdef WEFT_EDITOR
 #include "editor/app/editor.h"
 #include "editor/app/scene_files.h"
 #include "editor/core/action_log.h"
@@ -14,7 +14,7 @@
 
 namespace weft::cli {
 
-#ifdef WEFT_VULKAN
+#ifdef WEFT_EDITOR
 namespace {
 
 struct EditOptions {
@@ -69,7 +69,7 @@ int run_edit(const EditOptions& options) {
 
 Command add_edit(Program& program) {
     [[maybe_unused]] Arguments command = program.add_command("edit", "Open the editor");
-#ifdef WEFT_VULKAN
+#ifdef WEFT_EDITOR
     const auto options = std::make_shared<EditOptions>();
     command.add("scene", options->scene, "Scene file; without it, silk falls over a ball");
     command.add("--script", options->script, "Play a file of actions without a window, and print the state hash");
@@ -85,7 +85,7 @@ Command add_edit(Program& program) {
     return [options] { return run_edit(*options); };
 #else
     return [] {
-        print_errors({{"", "this build has no Vulkan, which the editor needs; build with -D WEFT_VULKAN=ON"}});
+        print_errors({{"", "this build has no editor; build with -D WEFT_VULKAN=ON -D WEFT_EDITOR=ON"}});
         return int{exit_failed};
     };
 #endif
