@@ -92,7 +92,7 @@ struct BodyMotion {
     Vec3 center;    ///< m, of mass
     Vec3 velocity;  ///< m/s, of the center of mass
     Vec3 spin;      ///< °/s, angular velocity about the world's axes
-    double mass;    ///< kg
+    double mass;    ///< kg, with the particles of cloth that are rigidly pinned to it
     double energy;  ///< J, kinetic
 };
 
@@ -173,8 +173,9 @@ class WEFT_API Simulation {
     /// put there at once, at rest.
     Result<void> move(ColliderId id, Vec3 position, Vec3 rotation_degrees = {});
     /// Makes the collider a body at its current place, with the velocity and the spin of the description; nullopt: it
-    /// is no body any more and stays where it is. Ends a motion by keys. Fails on values out of range, for planes and
-    /// for shapes that have no mass, for a collider that pins are attached to, and on Vulkan.
+    /// is no body any more and stays where it is. Ends a motion by keys. Cloth that is pinned to the collider stays
+    /// pinned, and pulls a body. Fails on values out of range, for planes and for shapes that have no mass, and with
+    /// more bodies than the backend moves (256 on Vulkan).
     Result<void> set_body(ColliderId id, const std::optional<BodyDesc>& body);
     /// Puts a body elsewhere at once. Position in m; rotation in degrees, R = Rz·Ry·Rx; velocity of the center of mass
     /// in m/s; spin in °/s about the world's axes. What is there already is pushed out slowly. move() does the same,

@@ -261,4 +261,28 @@ Result<BodyMass> body_mass_of(const BodyDesc& body, const ColliderShape& shape, 
     return to_floats(mass, center, inertia);
 }
 
+BodyMass with_points(const BodyMass& body, std::span<const PointMass> points) {
+    if (points.empty()) return body;
+    double mass = body.mass;
+    std::array<double, 3> first{mass * body.center.x, mass * body.center.y, mass * body.center.z};
+    for (const PointMass& point : points) {
+        mass += point.mass;
+        first[0] += double{point.mass} * point.place.x;
+        first[1] += double{point.mass} * point.place.y;
+        first[2] += double{point.mass} * point.place.z;
+    }
+    const std::array<double, 3> center{first[0] / mass, first[1] / mass, first[2] / mass};
+    SymmetricMatrix inertia{};
+    std::ranges::copy(body.inertia, inertia.begin());
+    const auto add = [&](double m, Vec3 place) {
+        const double x = place.x - center[0], y = place.y - center[1], z = place.z - center[2];
+        inertia[0] += m * (y * y + z * z), inertia[1] += m * (z * z + x * x), inertia[2] += m * (x * x + y * y);
+        inertia[3] -= m * y * z, inertia[4] -= m * z * x, inertia[5] -= m * x * y;
+    };
+    add(body.mass, body.center);
+    for (const PointMass& point : points) add(point.mass, point.place);
+    const auto sum = to_floats(mass, center, inertia);
+    return sum ? *sum : body;
+}
+
 }  // namespace weft

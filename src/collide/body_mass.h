@@ -7,6 +7,7 @@
 #include <weft/result.h>
 #include <weft/scene.h>
 
+#include <span>
 #include <string>
 
 namespace weft {
@@ -32,5 +33,14 @@ struct ShapeData;
 /// `note`: if not null, is set to a warning if the mass is that of a shell, else to an empty text.
 Result<BodyMass> body_mass_of(const BodyDesc& body, const ColliderShape& shape, const ShapeData* data,
                               std::string* note = nullptr);
+
+/// A mass at a place in the frame of a body.
+struct PointMass {
+    Vec3 place;      ///< m
+    float mass = 0;  ///< kg
+};
+
+/// The body together with such points. `body` itself if there are none, or if the values do not fit into floats.
+BodyMass with_points(const BodyMass& body, std::span<const PointMass> points);
 
 }  // namespace weft

@@ -385,5 +385,33 @@ TEST(BodyMass, of_a_mesh_with_its_distance_field) {
     expect_same(mass_of({}, SolidMeshDesc{}, &field->data), mesh_mass({}, mesh), 0);
 }
 
+TEST(BodyMass, with_points_is_that_of_all_together) {
+    const BodyMass ball = mass_of({.mass = 2}, SphereDesc{.radius = 0.5f});
+    EXPECT_EQ(with_points(ball, {}), ball);
+    const PointMass both[2] = {{{1, 0, 0}, 0.5f}, {{-1, 0, 0}, 0.5f}};
+    const BodyMass longer = with_points(ball, both);
+    EXPECT_FLOAT_EQ(longer.mass, 3);
+    EXPECT_EQ(longer.center, Vec3{});
+    EXPECT_FLOAT_EQ(longer.inertia[0], ball.inertia[0]);
+    EXPECT_FLOAT_EQ(longer.inertia[1], ball.inertia[1] + 1);
+    EXPECT_FLOAT_EQ(longer.inverse_inertia[2], 1 / (ball.inertia[2] + 1));
+}
+
+// One after another gives the same, wherever the center moves in between.
+TEST(BodyMass, with_points_does_not_depend_on_their_grouping) {
+    const BodyMass box = mass_of({.mass = 1, .center = {0.1f, 0, 0.2f}}, BoxDesc{.half_extents = {0.5f, 0.2f, 0.1f}});
+    std::mt19937 bits(5);
+    std::uniform_real_distribution<float> number(-1, 1);
+    std::vector<PointMass> points;
+    for (int i = 0; i < 20; ++i)
+        points.push_back({{number(bits), number(bits), number(bits)}, 0.1f + number(bits) / 20});
+    const BodyMass at_once = with_points(box, points);
+    BodyMass grown = box;
+    for (const PointMass& point : points) grown = with_points(grown, {&point, 1});
+    EXPECT_NEAR(grown.mass, at_once.mass, 1e-5);
+    EXPECT_LT(length(grown.center - at_once.center), 1e-5f);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(grown.inertia[i], at_once.inertia[i], 1e-4) << i;
+}
+
 }  // namespace
 }  // namespace weft

@@ -67,11 +67,14 @@ void Bodies::run(const Pass& pass) {
         case PassKind::predict_bodies:
             return predict();
         case PassKind::move_bodies:
-            if (pass.batch == 0) {
+            if (pass.batch == move_before_faces) {
                 for (BodyInStep& body : bodies_) body.found = body.now;
                 return count_touches();
             }
-            return take_sums(pass.batch == 1 ? sweeps_after_particles : sweeps_after_faces);
+            take_sums(sweeps_of_move(pass.batch));
+            if (pass.batch == move_after_pulls)
+                for (BodyInStep& body : bodies_) body.placed = body.now;
+            return;
         default:  // finish_bodies
             for (std::uint32_t sweep = 0; sweep < sweeps_of_velocities; ++sweep) contacts_.bounce();
             ++substep_;
@@ -98,6 +101,7 @@ void Bodies::predict() {
                      1 / (1 + h_ * desc.spin_damping), step);
         body.contacts = 0;
         place(body);
+        body.placed = body.now;
         turn_inertia(body);
     }
     for (auto& sums : sums_) std::ranges::fill(sums, BodySums{});
@@ -148,6 +152,14 @@ void Bodies::add_push(unsigned worker, std::uint32_t number, Vec3 by, Vec3 x, fl
     };
     add(sums.impulse, impulse);
     add(sums.twist, twist);
+}
+
+scalar::MovedBody Bodies::moved_by_attached(std::uint32_t number) const {
+    const BodyInStep& body = bodies_[number];
+    const Mat3& inverse = body.inverse_inertia;
+    const float shares = feels_cloth(number) ? static_cast<float>(steps_[number].attached) : 0;
+    return {
+        shares, body.inverse_mass, body.motion.place, vector_of(inverse.x), vector_of(inverse.y), vector_of(inverse.z)};
 }
 
 BodyView Bodies::view(std::uint32_t number, unsigned worker) {

@@ -38,9 +38,13 @@ class Bodies {
     const Pose& before(std::uint32_t body) const { return bodies_[body].before; }  ///< at its start
     /// Where the body was when the contacts of its faces were found.
     const Pose& found(std::uint32_t body) const { return bodies_[body].found; }
+    /// Where the body was when the points that are attached to it were placed.
+    const Pose& placed(std::uint32_t body) const { return bodies_[body].placed; }
     bool feels_cloth(std::uint32_t body) const { return bodies_[body].of->body->desc.reaction; }
     /// Counts contacts that a worker has found.
     void add_touches(unsigned worker, std::uint32_t body, std::uint32_t count) { sums_[worker][body].touches += count; }
+    /// As one of the points of cloth that are attached to it sees it.
+    scalar::MovedBody moved_by_attached(std::uint32_t body) const;
     /// Takes the opposite of what a contact did to a particle with this inverse mass, which is now at `x`.
     void add_push(unsigned worker, std::uint32_t body, Vec3 by, Vec3 x, float w);
     /// What contact of a worker's particles needs of a body. Sums are the worker's own.

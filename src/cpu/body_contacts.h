@@ -21,6 +21,7 @@ struct BodyInStep {
     float inverse_mass = 0;
     float radius = 0;      ///< m: of a ball around the center of mass that holds the shape
     Pose found;            ///< Bodies::found()
+    Pose placed;           ///< Bodies::placed()
     Pose now, before;      ///< in the substep, and at its start
     scalar::vec3 v, rate;  ///< m/s and rad/s at the start of the substep, before contact
     Mat3 inverse_inertia;  ///< in world axes, at the start of the contacts of the substep

@@ -31,7 +31,7 @@ ClothRun::ClothRun(const Passes& passes, ClothState& cloth, Bodies& bodies, cons
       plan_(*step.plan),
       input_(step.input),
       step_(mine),
-      planned_{cloth.model.get(), !mine.targets.empty(), !mine.grabs.empty()},
+      planned_{cloth.model.get(), !mine.targets.empty(), !mine.grabs.empty(), !mine.motion_bodies.empty()},
       view_(cloth.now().view()),
       numbers_(frame_numbers(*cloth.model, *step.plan, step.input.dt)) {}
 
@@ -95,7 +95,11 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
         case PassKind::velocities:
             return passes_.velocities(view_, particles_in_use(worker), numbers_.max_speed, numbers_.h);
         case PassKind::targets:
-            run_targets(substep, mine);
+            run_targets(pass, substep, mine);
+            break;
+        case PassKind::weigh_attached:
+        case PassKind::pull_bodies:
+            run_attached(pass, mine, worker);
             break;
         case PassKind::take_taut:
             passes_.take_taut(view_, &cloth_.taut[0].x, mine);
@@ -243,20 +247,52 @@ void ClothRun::run_faces(const Pass& pass, Worker worker) const {
     run_winds(air, mine, worker.number);
 }
 
-void ClothRun::run_targets(std::uint32_t substep, Range mine) const {
+// Calls visit(target, body) for the targets among these particles; `body`: none, or the number of the one it follows.
+template <class Visit>
+void ClothRun::for_each_target(Range mine, Visit&& visit) const {
     const auto target = std::ranges::lower_bound(step_.targets, mine.begin, {}, &KinematicTarget::particle);
+    for (auto it = target; it != step_.targets.end() && it->particle < mine.end; ++it)
+        visit(*it, step_.motion_bodies.empty() ? none : step_.motion_bodies[it->motion]);
+}
+
+void ClothRun::run_targets(const Pass& pass, std::uint32_t substep, Range mine) const {
     const std::span<Vec4> positions = cloth_.now().position;
-    for (auto it = target; it != step_.targets.end() && it->particle < mine.end; ++it) {
-        const Pose& pose = step_.motion_poses[std::size_t{substep + 1} * step_.motions + it->motion];
-        const Vec3 x = to_world(pose, it->local);
-        Vec4& position = positions[it->particle];
+    for_each_target(mine, [&](const KinematicTarget& target, std::uint32_t body) {
+        if (body == none && pass.batch != targets_all) return;
+        const Pose& pose = body == none ? step_.motion_poses[std::size_t{substep + 1} * step_.motions + target.motion]
+                                        : bodies_.now(body);
+        const Vec3 x = to_world(pose, target.local);
+        Vec4& position = positions[target.particle];
         position = {x.x, x.y, x.z, position.w};
-    }
+    });
+}
+
+// Gives points that are attached to bodies a mass, or takes it back and hands what they have been moved by to the
+// bodies.
+void ClothRun::run_attached(const Pass& pass, Range mine, Worker worker) const {
+    const std::span<Vec4> positions = cloth_.now().position;
+    for_each_target(mine, [&](const KinematicTarget& target, std::uint32_t body) {
+        if (body == none) return;
+        Vec4& position = positions[target.particle];
+        const Vec3 place = to_world(bodies_.placed(body), target.local);
+        if (pass.kind == PassKind::weigh_attached) {
+            const scalar::MovedBody moved = bodies_.moved_by_attached(body);
+            position.w = most_weight_of(moved, scalar::vector_of(place) - moved.center);
+            return;
+        }
+        const Vec3 by = position.xyz() - place;
+        if (position.w > 0 && dot(by, by) > 0) bodies_.add_push(worker.number, body, -by, place, position.w);
+        position = {place.x, place.y, place.z, 0};
+    });
 }
 
 void ClothRun::keep_last_good(Worker worker) const {
     const Range mine = particles(worker);
     cloth_.remember(mine.begin, mine.end);
+    if (cloth_.good_lambda.empty()) return;
+    const Share rows = worker.of(static_cast<std::uint32_t>(cloth_.good_lambda.size()));
+    const auto lambda = cloth_.stretch_lambda();
+    std::copy(lambda.begin() + rows.begin, lambda.begin() + rows.end, cloth_.good_lambda.begin() + rows.begin);
 }
 
 bool ClothRun::all_finite(Worker worker) const {

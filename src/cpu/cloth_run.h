@@ -32,7 +32,10 @@ class ClothRun {
     Range particles(Worker worker) const;
     Range particles_in_use(Worker worker) const;
     bool run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const;
-    void run_targets(std::uint32_t substep, Range mine) const;
+    template <class Visit>
+    void for_each_target(Range mine, Visit&& visit) const;
+    void run_targets(const Pass& pass, std::uint32_t substep, Range mine) const;
+    void run_attached(const Pass& pass, Range mine, Worker worker) const;
     ColliderPart& cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     void run_body_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;

@@ -204,6 +204,7 @@ void ClothState::roll_back() {
         world.velocity[p] = world.good_velocity[p];
         world.compensation[p] = world.good_compensation[p];
     }
+    std::ranges::copy(good_lambda, stretch_lambda().begin());
 }
 
 RowView ClothState::rows(ConstraintKind kind) {
@@ -352,7 +353,8 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
         const std::size_t count = rounds_of(plan, *model) > 1 ? table.lambda_count() : 0;
         if (table.kind != ConstraintKind::stretch && of_table.size() != count) of_table.assign(count, 0.0f);
     }
-    taut.resize(has(plan.substep, PassKind::take_taut) ? model->capacity() : 0);
+    taut.resize(plan.weighs_taut ? model->capacity() : 0);
+    good_lambda.resize(plan.weighs_taut ? stretch_lambda().size() : 0);
     std::uint32_t longest = 0;
     for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)
         longest = std::max(longest, block.length);

@@ -57,6 +57,7 @@ struct ClothState {
     AlignedVector<float> face_mass;                      ///< kg, per triangle; empty until a plan has air
     std::unique_ptr<const JacobiGather> gather;          ///< null until a plan uses averaged Jacobi
     AlignedVector<Vec4> corrections;
+    std::vector<float> good_lambda;                  ///< of stretch, at the start of the frame; likewise empty
     AlignedVector<Vec4> taut;                        ///< TautSum, zero between passes; empty if no plan uses it
     std::vector<AlignedVector<float>> line_scratch;  ///< per worker
     double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame

@@ -390,17 +390,13 @@ void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problem
 }
 
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
-                       std::span<const SceneCollider> colliders, const std::string& pointer, Problems& problems) {
+                       const std::string& pointer, Problems& problems) {
     for (std::size_t i = 0; i < pins.size(); ++i) {
         const std::string& to = pins[i].attach;
         if (to.empty()) continue;
         const std::string place = at(at(pointer, i), "attach");
-        const auto name = std::ranges::find(names, to);
-        if (name == names.end())
+        if (std::ranges::find(names, to) == names.end())
             problems.add(place, "unknown collider " + in_quotes(to) + suggestion(to, {names.begin(), names.end()}));
-        else if (colliders[static_cast<std::size_t>(name - names.begin())].body)
-            problems.add(place, "must not name a body, got " + in_quotes(to) +
-                                    ": pins would not pull on it; \"static\" and \"keys\" are possible");
     }
 }
 
@@ -515,7 +511,7 @@ void check_parts(const SceneDesc& scene, Problems& problems) {
     const std::vector<std::string> called = collider_names(scene);
     const std::vector<std::string_view> names(called.begin(), called.end());
     for (std::size_t i = 0; i < scene.cloths.size(); ++i)
-        check_attachments(scene.cloths[i].pins, names, scene.colliders, at(at("/cloths", i), "pins"), problems);
+        check_attachments(scene.cloths[i].pins, names, at(at("/cloths", i), "pins"), problems);
     check_names(scene.stitches, "/stitches", problems);
     const std::vector<std::string> sheets = cloth_names(scene);
     const std::vector<std::string_view> sheet_names(sheets.begin(), sheets.end());

@@ -41,7 +41,7 @@ void check_pins(const std::vector<PinDesc>& pins, const MeshDesc& mesh, const st
 void check_cut(const CutDesc& cut, const std::string& pointer, Problems& problems);
 /// Colliders that pins name must be among `names`, which are those of `colliders`, and must not be bodies.
 void check_attachments(const std::vector<PinDesc>& pins, std::span<const std::string_view> names,
-                       std::span<const SceneCollider> colliders, const std::string& pointer, Problems& problems);
+                       const std::string& pointer, Problems& problems);
 /// Cloths that stitches name must be among `names`.
 void check_stitches(const StitchDesc& stitches, std::span<const std::string_view> names, const std::string& pointer,
                     Problems& problems);

@@ -125,8 +125,8 @@ struct TargetIn {
     vec4 local;  // m, in the motion's frame of reference
     uint particle;
     uint motion;
-    uint unused0;
-    uint unused1;
+    uint body;  // that it follows; 0xffffffff: none
+    uint unused;
 };
 
 struct GrabIn {
@@ -164,9 +164,17 @@ struct TargetArgs {
     TargetRef targets;
     PoseRef poses;  // of the motions
     FrameRef frame;
+    CollidersRef colliders;
     uint count;
     uint substep;
+    uint pass;  // WEFT_TARGETS_…
+    uint unused;
 };
+#define WEFT_FOLLOWS_NO_BODY 0xffffffffu  // TargetIn::body
+#define WEFT_TARGETS_ALL 0u        // places all
+#define WEFT_TARGETS_ON_BODIES 1u  // places those on bodies
+#define WEFT_TARGETS_WEIGH 2u      // gives those on bodies a mass
+#define WEFT_TARGETS_PULL 3u       // takes it back, and adds to the sums of the bodies
 
 // All grabs of a cloth.
 struct GrabArgs {
@@ -384,6 +392,7 @@ struct KeepArgs {
     Vec4s good_compensation;
     Floats weights;  // 1/kg: current inverse masses
     Floats lambda;   // of stretch
+    Floats good_lambda;  // 0: a frame does not read that of the frame before
     Uints report;
     Uints island_report;  // of the island's first cloth: a non-finite number in one cloth rolls all back
     uint count;

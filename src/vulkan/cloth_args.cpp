@@ -25,6 +25,7 @@ KeepArgs ClothArgs::keep_args() const {
             .good_compensation = state(PointArray::good_compensation),
             .weights = state(cloth_.weights),
             .lambda = state(cloth_.lambda),
+            .good_lambda = work_.good_lambda.bytes > 0 ? work(work_.good_lambda) : 0,
             .report = input_.report(),
             .island_report = island_.report,
             .count = model_.point_count(),

@@ -61,7 +61,10 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             work.lambda[static_cast<std::uint32_t>(table.kind)] =
                 work.arena.reserve(table.lambda_count() * sizeof(float));
     }
-    if (has(plan.substep, PassKind::take_taut)) work.taut = work.arena.reserve(model.capacity() * block);
+    if (plan.weighs_taut) {
+        work.taut = work.arena.reserve(model.capacity() * block);
+        work.good_lambda = work.arena.reserve(model.table(ConstraintKind::stretch).lambda_count() * sizeof(float));
+    }
     if (shape.colliders > 0) {
         const std::uint64_t sums = std::uint64_t{slots} * WEFT_COLLIDER_TILE * block;
         work.slot_count = slots;

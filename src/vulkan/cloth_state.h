@@ -36,6 +36,7 @@ struct WorkBuffers {
     Slot near_slots;                                 ///< colliders in the lists
     std::uint32_t slot_count = 0;                    ///< room of near_slots
     Slot taut;                                       ///< TautArgs::sums
+    Slot good_lambda;                                ///< KeepArgs
     Slot contact_sums;                               ///< by slot and particle in the tile
     Slot contact_log;               ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
     Slot face_contacts, face_sums;  ///< FaceContactArgs

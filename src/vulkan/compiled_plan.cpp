@@ -17,7 +17,7 @@ class Compiler : ClothArgs {
     Compiler(Programs& programs, const ClothState& cloth, const WorkBuffers& work, const FrameInput& input,
              const InputShape& shape, const WorldPlan& plan, const PlainStiffness& stiffness, const IslandPart& island)
         : ClothArgs(cloth, work, input, shape, plan, stiffness, island), programs_(programs) {
-        const PlannedCloth single_cloth{&model_, shape.targets > 0, shape.grabs > 0};
+        const PlannedCloth single_cloth{&model_, shape.targets > 0, shape.grabs > 0, shape.attached};
         const std::span<const LinkTables* const> links(&island_.tables, island_.tables ? 1 : 0);
         passes_ = IslandPlan(plan, {&single_cloth, 1}, links, Sharing::free);
     }
@@ -61,7 +61,8 @@ class Compiler : ClothArgs {
 
     void begin_frame(List& list) {
         const Pass like_predict{.kind = PassKind::predict};
-        add(list, "keep", keep_args(), model_.point_count(), like_predict);
+        const KeepArgs args = keep_args();
+        add(list, "keep", args, args.good_lambda == 0 ? args.count : std::max(args.count, args.lambdas), like_predict);
         if (has_limits(model_, plan_))
             add(list, "limits", limit_args(), 1, {.kind = PassKind::prolongation}).needs_barrier = false;
         add_passes(list, passes_.frame_begin(), 0);
@@ -165,6 +166,8 @@ class Compiler : ClothArgs {
                 add(list, std::string(pass_info(pass.kind).name), taut_args(), points, pass, substep);
                 break;
             case PassKind::targets:
+            case PassKind::weigh_attached:
+            case PassKind::pull_bodies:
                 add_targets(list, pass, substep);
                 break;
             case PassKind::hide_grabs:
@@ -318,8 +321,14 @@ class Compiler : ClothArgs {
                               .targets = input_.targets(),
                               .poses = input_.motion_poses(),
                               .frame = input_.frame(),
+                              .colliders = island_.colliders,
                               .count = shape_.targets,
-                              .substep = substep};
+                              .substep = substep,
+                              .pass = pass.kind == PassKind::weigh_attached ? WEFT_TARGETS_WEIGH
+                                      : pass.kind == PassKind::pull_bodies  ? WEFT_TARGETS_PULL
+                                      : pass.batch == targets_all           ? WEFT_TARGETS_ALL
+                                                                            : WEFT_TARGETS_ON_BODIES,
+                              .unused = 0};
         if (args.count > 0) add(list, "targets", args, args.count, pass, substep);
     }
 

@@ -95,7 +95,8 @@ InputShape shape_of(const ClothModel& model, const WorldPlan& plan, const StepIn
             cloth.motions,
             static_cast<std::uint32_t>(cloth.targets.size()),
             static_cast<std::uint32_t>(cloth.grabs.size()),
-            input.contact_forces && !input.colliders.empty()};
+            input.contact_forces && !input.colliders.empty(),
+            !cloth.motion_bodies.empty()};
 }
 
 FrameInput::FrameInput(const InputShape& shape) {
@@ -125,7 +126,8 @@ void FrameInput::write(const ClothModel& model, const WorldPlan& plan, const Ste
         put(motion_poses_ + i * sizeof(PoseIn), pose_in(cloth.motion_poses[i]));
     for (std::size_t i = 0; i < cloth.targets.size(); ++i) {
         const KinematicTarget& target = cloth.targets[i];
-        put(targets_ + i * sizeof(TargetIn), TargetIn{with(target.local, 0), target.particle, target.motion, 0, 0});
+        const std::uint32_t body = cloth.motion_bodies.empty() ? none : cloth.motion_bodies[target.motion];
+        put(targets_ + i * sizeof(TargetIn), TargetIn{with(target.local, 0), target.particle, target.motion, body, 0});
     }
     for (std::size_t i = 0; i < cloth.grabs.size(); ++i) {
         const GrabStep& grab = cloth.grabs[i];

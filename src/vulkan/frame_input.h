@@ -21,6 +21,7 @@ inline constexpr std::uint32_t report_near_full = 1u << 30;
 struct InputShape {
     std::uint32_t substeps = 0, colliders = 0, winds = 0, motions = 0, targets = 0, grabs = 0;
     bool contact_forces = false;  ///< contacts are recorded
+    bool attached = false;        ///< some targets are points of bodies
     friend bool operator==(const InputShape&, const InputShape&) = default;
 };
 

@@ -30,12 +30,6 @@ Result<void> SceneWorld::set_body(ColliderId id, const std::optional<BodyDesc>& 
     if (body) desc.motion.clear();
     const auto sound = checked([&](Problems& problems) { check_collider(desc, "", problems); });
     if (!sound) return sound;
-    if (body) {
-        for (const SceneCloth& cloth : scene_.cloths)
-            if (std::ranges::find(cloth.pins, desc.name, &PinDesc::attach) != cloth.pins.end())
-                return Error{"/motion/dynamic", "cannot hold the pins of cloth '" + cloth.name +
-                                                    "' that are attached to the collider; remove them first"};
-    }
     Collider made = world_->collider(id);
     if (made.surface && body)
         return Error{"/motion/dynamic",

@@ -104,16 +104,28 @@ TEST(SimulationBodies, need_sound_values_and_change_nothing_without) {
     EXPECT_EQ(simulation.body(ball)->position, Vec3{});
 }
 
-TEST(SimulationBodies, hold_no_pins) {
+TEST(SimulationBodies, take_the_pins_of_their_colliders_along) {
     Simulation simulation = make_weightless();
     ColliderDesc desc = ball_of(1);
     desc.body.reset();
     const ColliderId ball = *simulation.add(desc);
     ClothDesc sheet{.name = "sheet", .mesh = GridDesc{.size = {0.5f, 0.5f}, .resolution = {9, 9}}};
     sheet.pins = {{.select = VertexPins{.vertices = {0}}, .attach = "ball"}};
-    ASSERT_TRUE(simulation.add(sheet).ok());
-    EXPECT_THAT(message(simulation.set_body(ball, BodyDesc{.mass = 1})), HasSubstr("pins of cloth 'sheet'"));
-    EXPECT_FALSE(simulation.body(ball));
+    const auto cloth = simulation.add(sheet);
+    ASSERT_TRUE(cloth.ok());
+    ASSERT_TRUE(simulation.set_body(ball, BodyDesc{.mass = 1, .velocity = {0, 1, 0}}).ok());
+    const Vec3 before = simulation.surface(*cloth).positions[0];
+    for (int i = 0; i < 30; ++i) simulation.step();
+    const auto motion = simulation.body(ball);
+    ASSERT_TRUE(motion);
+    EXPECT_GT(motion->mass, 1) << "with the pinned particle";
+    EXPECT_GT(motion->position.y, 0.2f);
+    EXPECT_LT(motion->velocity.y, 1) << "the sheet is dragged along";
+    EXPECT_GT(simulation.surface(*cloth).positions[0].y, before.y + 0.2f);
+    ASSERT_TRUE(simulation.set_body(ball, std::nullopt).ok());
+    const Vec3 held = simulation.surface(*cloth).positions[0];
+    simulation.step();
+    EXPECT_LT(length(simulation.surface(*cloth).positions[0] - held), 1e-5f);
 }
 
 }  // namespace

@@ -44,13 +44,13 @@ Result<void> add_body(Collider& collider, const ColliderDesc& desc, std::span<co
     Body body;
     body.desc = *desc.body;
     if (const Collider* twin = find_twin(collider, *desc.body, others)) {
-        body.mass = twin->body->mass;
+        body.mass = body.own = twin->body->own;
         collider.features = twin->features;
     } else {
         std::string note;
         const auto mass = body_mass_of(*desc.body, desc.shape, data, &note);
         if (!mass) return errors_in_body(pointer, mass.errors());
-        body.mass = *mass;
+        body.mass = body.own = *mass;
         if (mesh) collider.features = features_of(desc.shape, data);
         if (!note.empty()) notes.push_back("collider '" + desc.name + "': " + note);
     }

@@ -154,8 +154,7 @@ Result<ClothId> Simulation::add(const ClothDesc& desc) {
     SceneCloth cloth = resolved(desc, fabric ? *fabric : Fabric{});
     cloth.name = name;
     check_cloth(cloth, "", problems);
-    check_attachments(cloth.pins, names_of(impl_->scene.scene().colliders), impl_->scene.scene().colliders, "/pins",
-                      problems);
+    check_attachments(cloth.pins, names_of(impl_->scene.scene().colliders), "/pins", problems);
     if (!fabric)
         for (const Error& error : fabric.errors()) problems.add(error.where, error.what);
     if (!problems.none()) return std::move(problems).take();
@@ -246,8 +245,7 @@ Result<void> Simulation::set_pins(ClothId id, std::vector<PinDesc> pins) {
     if (!impl_->world().contains(id)) return no_such("cloth");
     const auto sound = checked([&](Problems& problems) {
         check_pins(pins, MeshFileDesc(), "/pins", problems);
-        check_attachments(pins, names_of(impl_->scene.scene().colliders), impl_->scene.scene().colliders, "/pins",
-                          problems);
+        check_attachments(pins, names_of(impl_->scene.scene().colliders), "/pins", problems);
     });
     if (!sound) return sound;
     auto done = impl_->scene.set_pins(id, std::move(pins));

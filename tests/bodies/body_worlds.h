@@ -73,7 +73,8 @@ inline Momentum momentum_of(const World& world) {
             all.add(double{cloth.model->mass[p]}, of(cloth.positions[p].xyz()), of(cloth.velocities[p].xyz()));
     for (const Collider& collider : world.colliders()) {
         if (!collider.body) continue;
-        const auto& [mass, state, desc] = *collider.body;
+        const BodyMass& mass = collider.body->mass;
+        const BodyState& state = collider.body->state;
         all.add(double{mass.mass}, of(state.place.xyz()), of(state.velocity.xyz()));
         const std::array<double, 3> spin = of(state.spin.xyz());
         for (std::size_t i = 0; i < 3; ++i) all.angular[i] += spin[i];

@@ -142,6 +142,8 @@ class TrafficCounter {
             case PassKind::touch_bodies:
             case PassKind::move_bodies:
             case PassKind::finish_bodies:
+            case PassKind::weigh_attached:
+            case PassKind::pull_bodies:
             case PassKind::weigh_taut:
             case PassKind::take_taut:
             case PassKind::free_taut:

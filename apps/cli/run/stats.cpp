@@ -228,7 +228,8 @@ Json bodies_json(const World& world) {
     double energy = 0, fastest = 0;
     for (const Collider& collider : world.colliders()) {
         if (!collider.body) continue;
-        const auto& [mass, state, desc] = *collider.body;
+        const BodyMass& mass = collider.body->mass;
+        const BodyState& state = collider.body->state;
         const std::array<double, 3> x{state.place.x, state.place.y, state.place.z};
         const std::array<double, 3> v{state.velocity.x, state.velocity.y, state.velocity.z};
         const std::array<double, 3> spin{state.spin.x, state.spin.y, state.spin.z};

@@ -1,4 +1,4 @@
-// Attachment: C = |x - anchor|. Only the particle moves; the anchor's motion is prescribed.
+// Attachment: C = |x - anchor|. The anchor's motion is prescribed, and its inverse mass 0, or it is a point of a body.
 
 struct AttachmentRow { WEFT_ROW_attachment(WEFT_ROW_MEMBER) };
 
@@ -10,7 +10,8 @@ WEFT_FN void project_attachment(inout_(vec3) x, inout_(vec3) anchor, real w, rea
     real len = sqrt(len2);
     real alpha = row.compliance * step.inv_h2;
     mask able = w > real(0) && len2 > real(1e-20);
-    real s = select(able, -(len + alpha * lambda) / ((w + alpha) * len), real(0));   // delta lambda / |d|
+    real s = select(able, -(len + alpha * lambda) / ((w + anchor_w + alpha) * len), real(0));  // delta lambda / |d|
     lambda = lambda + s * len;
     x = x + d * (w * s);
+    anchor = select(anchor_w > real(0), anchor - d * (anchor_w * s), anchor);
 }

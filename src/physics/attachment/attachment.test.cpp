@@ -34,6 +34,23 @@ TEST(Attachment, moves_along_the_gradient_and_leaves_the_anchor) {
     }
 }
 
+TEST(Attachment, keeps_the_momentum_of_particle_and_anchor) {
+    Random random(2);
+    for (int i = 0; i < 200; ++i) {
+        const vec3 before = random.vector(1), place = random.vector(1);
+        vec3 x = before, anchor = place;
+        const double w = random.number(0.1, 9), anchor_w = random.number(0.1, 9),
+                     compliance = random.number(1e-6, 1e-2);
+        const reference::Step step = make_step(0.01);
+        double lambda = 0;
+        for (int k = 0; k < 3; ++k) {
+            reference::project_attachment(x, anchor, w, anchor_w, lambda, {compliance}, step);
+            EXPECT_LT(norm((x - before) * (1 / w) + (anchor - place) * (1 / anchor_w)), 1e-12);
+        }
+        EXPECT_NEAR(-lambda * step.inv_h2, norm(x - anchor) / compliance, 1e-6 * norm(x - anchor) / compliance);
+    }
+}
+
 TEST(Attachment, pulls_with_the_force_of_its_spring) {
     vec3 x(0, -0.02, 0), anchor(0.0);
     double lambda = 0;

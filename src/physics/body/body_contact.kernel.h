@@ -15,6 +15,21 @@ WEFT_FN real weight_of(MovedBody moved, vec3 lever, vec3 along)
     return moved.contacts * (moved.inverse_mass + dot(turning, rotate(moved.ix, moved.iy, moved.iz, turning)));
 }
 
+// 1/kg: the largest of these over all directions. The inverse mass of a point that is attached to the body: where the
+// body is heavier, constraints that pull at the point only move it less than they could.
+WEFT_FN real most_weight_of(MovedBody moved, vec3 lever)
+{
+    // Columns of the symmetric matrix that turns an impulse at the lever into the motion there. The lever has the
+    // eigenvalue 0, so the two others follow from the trace and the sum of the principal minors.
+    vec3 x = cross(rotate(moved.ix, moved.iy, moved.iz, vec3(real(0), lever.z, -lever.y)), lever);
+    vec3 y = cross(rotate(moved.ix, moved.iy, moved.iz, vec3(-lever.z, real(0), lever.x)), lever);
+    vec3 z = cross(rotate(moved.ix, moved.iy, moved.iz, vec3(lever.y, -lever.x, real(0))), lever);
+    real trace = x.x + y.y + z.z;
+    real minors = x.x * y.y - x.y * y.x + (y.y * z.z - y.z * z.y) + (x.x * z.z - x.z * z.x);
+    real apart = sqrt(max(trace * trace - real(4) * minors, real(0)));
+    return moved.contacts * (moved.inverse_mass + (trace + apart) * real(0.5));
+}
+
 // Like project_contact(), but the particle makes only its share of the way, by its inverse mass and that of its part of
 // the body. The body makes the rest, by the opposite impulse. In later iterations a contact also takes back a push that
 // others have made unnecessary.

@@ -1,6 +1,8 @@
 // Numbers of bodies that all backends share.
 #pragma once
 
+#include "solver/plan/world_plan.h"
+
 #include <weft/bounds.h>
 #include <weft/vector.h>
 
@@ -13,6 +15,12 @@ namespace weft {
 /// Sweeps over the contacts of bodies with one another and with colliders: after each sweep of particles over the
 /// bodies, after each sweep of faces, of which there are more, and for velocities.
 inline constexpr std::uint32_t sweeps_after_particles = 3, sweeps_after_faces = 1, sweeps_of_velocities = 4;
+
+/// Sweeps over the contacts of bodies in PassKind::move_bodies. After pulls, contact of particles follows.
+constexpr std::uint32_t sweeps_of_move(std::uint32_t batch) {
+    if (batch == move_after_pulls || batch == move_in_rounds) return 0;
+    return batch == move_after_particles ? sweeps_after_particles : sweeps_after_faces;
+}
 
 /// m: of a ball around the center of mass that holds the box.
 inline float radius_about(Vec3 center, const Bounds& box) {

@@ -41,7 +41,7 @@ class Planner {
         const bool exact = std::ranges::any_of(cloths_, collides);
         for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) {
             add_levels(i == 0, plan.substep);
-            add_constraints(i == 0, plan.substep);
+            add_constraints_and_pulls(i == 0, false, plan.substep);
             if (i + 1 == settings_.solver.iterations) add_particle_contact(plan.substep);
             add_contact(i == 0, plan.substep);
             add_face_contact(plan.substep);
@@ -55,6 +55,7 @@ class Planner {
             plan.substep.push_back({.kind = PassKind::hold_particles});
             plan.substep.push_back({.kind = PassKind::settle_particles});
         }
+        if (attached()) plan.substep.push_back({.kind = PassKind::targets, .batch = targets_at_last});
         if (settings_.bodies) plan.substep.push_back({.kind = PassKind::finish_bodies});
         if (weighs_taut()) plan.substep.push_back({.kind = PassKind::free_taut, .constraint = ConstraintKind::stretch});
         if (grabbed()) plan.substep.push_back({.kind = PassKind::free_grabs});
@@ -94,6 +95,7 @@ class Planner {
         return static_cast<std::uint32_t>(largest);
     }
 
+    bool attached() const { return std::ranges::any_of(cloths_, &PlannedCloth::attached); }
     bool grabbed() const { return std::ranges::any_of(cloths_, &PlannedCloth::grabbed); }
 
     /// Kinds whose constraints are found again in every frame.
@@ -158,7 +160,7 @@ class Planner {
         passes.push_back({.kind = PassKind::detect});
         for (std::uint32_t round = 0; round < contact_rounds; ++round) {
             const std::size_t first = passes.size();
-            if (round > 0) add_constraints(false, passes);
+            if (round > 0) add_constraints_and_pulls(false, true, passes);
             passes.push_back({.kind = PassKind::cloth_contact, .batch = round});
             add_contact(false, passes);
             if (round + 1 == contact_rounds) add_face_contact(passes);
@@ -205,11 +207,11 @@ class Planner {
     static void add_body_contact(bool first, Passes& passes) {
         if (first) {
             passes.push_back({.kind = PassKind::count_touches});
-            passes.push_back({.kind = PassKind::move_bodies});
+            passes.push_back({.kind = PassKind::move_bodies, .batch = move_before_faces});
         }
         for (std::uint32_t sweep = 0; sweep < (first ? body_sweeps : 1); ++sweep) {
             passes.push_back({.kind = PassKind::touch_bodies, .first_iteration = first && sweep == 0});
-            passes.push_back({.kind = PassKind::move_bodies, .batch = 1});
+            passes.push_back({.kind = PassKind::move_bodies, .batch = move_after_particles});
         }
     }
 
@@ -220,17 +222,27 @@ class Planner {
             if (settings_.bodies) passes.push_back({.kind = PassKind::move_bodies, .batch = batch});
         };
         passes.push_back({.kind = PassKind::find_faces});
-        move_bodies(0);
+        move_bodies(move_before_faces);
         for (std::uint32_t sweep = 0; sweep <= face_sweeps; ++sweep) {
             passes.push_back({.kind = PassKind::push_faces, .batch = sweep});
             passes.push_back({.kind = PassKind::move_faces, .batch = sweep});
-            move_bodies(2);
+            move_bodies(move_after_faces);
         }
         for (std::uint32_t hold = 0; hold < face_holds; ++hold) {
             passes.push_back({.kind = PassKind::hold_faces, .batch = hold});
             passes.push_back({.kind = PassKind::settle_faces, .batch = hold});
         }
-        move_bodies(2);
+        move_bodies(move_after_faces);
+    }
+
+    // Attached points have a mass only while constraints act. For levels and contact they are pins that move.
+    void add_constraints_and_pulls(bool first, bool rounds, Passes& passes) const {
+        if (attached()) passes.push_back({.kind = PassKind::weigh_attached});
+        add_constraints(first, passes);
+        if (!attached()) return;
+        passes.push_back({.kind = PassKind::pull_bodies});
+        passes.push_back({.kind = PassKind::move_bodies, .batch = rounds ? move_in_rounds : move_after_pulls});
+        if (!rounds) passes.push_back({.kind = PassKind::targets, .batch = targets_on_bodies});
     }
 
     void add_constraints(bool first, Passes& passes) const {
@@ -369,7 +381,11 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
     if (pass.cloths == PassFor::fast_cloths && model.collision.with_cloth != SelfCollision::fast) return false;
     switch (pass.kind) {
         case PassKind::targets:
-            return cloth.kinematic;
+            if (pass.batch == targets_all) return cloth.kinematic;
+            return cloth.attached && (pass.batch == targets_on_bodies || model.tiles == nullptr);
+        case PassKind::weigh_attached:
+        case PassKind::pull_bodies:
+            return cloth.attached;
         case PassKind::hide_grabs:
         case PassKind::hold_grabs:
         case PassKind::grab:

@@ -51,6 +51,7 @@ struct PlannedCloth {
     const ClothModel* model = nullptr;
     bool kinematic = false;  ///< it has kinematic targets
     bool grabbed = false;    ///< it has grabs
+    bool attached = false;   ///< some of its targets are points of bodies
 };
 
 /// A frame runs `frame_begin` once, `substep` `substeps` times, then `frame_end` once. The solver options are those
@@ -84,6 +85,15 @@ constexpr bool is_cloth_contact(PassKind kind) {
 constexpr bool is_body_pass(PassKind kind) {
     return kind == PassKind::predict_bodies || kind == PassKind::move_bodies || kind == PassKind::finish_bodies;
 }
+
+/// Batches of PassKind::targets: all targets, those on bodies, and those on bodies of cloths without exact contact,
+/// which would no longer keep its promise if particles moved after it.
+inline constexpr std::uint32_t targets_all = 0, targets_on_bodies = 1, targets_at_last = 2;
+/// Batches of PassKind::move_bodies: before contact of faces, which counts contacts; after contact of particles; after
+/// contact of faces; after constraints have pulled at attached points, which are then placed again; and likewise in the
+/// rounds of exact contact, where they stay.
+inline constexpr std::uint32_t move_before_faces = 0, move_after_particles = 1, move_after_faces = 2,
+                               move_after_pulls = 3, move_in_rounds = 4;
 
 /// Whether a pass is one of grabs.
 constexpr bool is_grab(PassKind kind) {

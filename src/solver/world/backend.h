@@ -38,6 +38,7 @@ inline constexpr std::uint32_t most_device_bodies = 256;
 struct BodyStep {
     std::uint32_t collider = 0;  ///< number
     BodyState* state = nullptr;  ///< at the start of the frame; step() or finish() writes the one at its end
+    std::uint32_t attached = 0;  ///< points of cloth that are attached to it
 };
 
 /// Input of a frame that is common to all cloths.
@@ -67,6 +68,9 @@ struct ClothStep {
     /// Poses of the target motions: [substep · motions + motion], substep = 0 … substeps.
     std::span<const Pose> motion_poses = {};
     std::uint32_t motions = 0;
+    /// By target motion: number in StepInput::bodies of the body that it follows, or none. Empty: it follows no body.
+    /// The poses of such a motion are those at the start of the frame.
+    std::span<const std::uint32_t> motion_bodies = {};
     std::span<const GrabStep> grabs = {};
     /// Output: kg·m, the impulse of each grab in each substep times the length of the substep:
     /// [substep · grabs + grab].

@@ -9,9 +9,10 @@
 namespace weft {
 
 struct Body {
-    BodyMass mass;
+    BodyMass mass;  ///< with the particles of cloth that are pinned to it
     BodyState state;
-    BodyDesc desc;  ///< its mass, density, center and inertia are those that `mass` was made from
+    BodyDesc desc;        ///< its mass, density, center and inertia are those that `own` was made from
+    BodyMass own = mass;  ///< without them
 };
 
 }  // namespace weft

@@ -174,7 +174,8 @@ Result<void> World::set_pins(ClothId id, std::vector<std::uint32_t> pinned, Kine
     visit(cloth.pinned, pinned, [&](std::uint32_t p) { return 1 / cloth.model->mass[p]; });
     if (auto set = backend_->set_weights(cloth.handle, changed); !set) return set;
     cloth.pinned = std::move(pinned);
-    const bool replanned = cloth.targets.particles.empty() != targets.particles.empty();
+    const bool replanned = cloth.targets.particles.empty() != targets.particles.empty() || is_attached(cloth.targets) ||
+                           is_attached(targets);
     cloth.targets = std::move(targets);
     cloth.motion_poses.resize((std::size_t{settings_.solver.substeps} + 1) * cloth.targets.motions.size());
     unread_ = true;
@@ -308,7 +309,7 @@ void World::replan() {
     std::vector<PlannedCloth> planned, planned_surfaces;
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         Cloth& cloth = cloths_[i];
-        planned.push_back({cloth.model.get(), !cloth.targets.particles.empty(), is_grabbed(cloths_.id_of(i))});
+        planned.push_back(this->planned(i));
         if (settings_.solver.method == Method::pbd)
             cloth.stiffness = plain_stiffness(cloth.model->fabric, settings_.solver.iterations);
         cloth.motion_poses.resize(places * cloth.targets.motions.size());
@@ -465,6 +466,7 @@ void World::advance(double dt) {
                  .targets = cloth.targets.particles,
                  .motion_poses = cloth.motion_poses,
                  .motions = static_cast<std::uint32_t>(cloth.targets.motions.size()),
+                 .motion_bodies = cloth.motion_bodies,
                  .grabs = cloth.grabs,
                  .pulls = cloth.pulls,
                  .frame = &frame_.cloths[place],

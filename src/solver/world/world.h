@@ -201,8 +201,9 @@ class World {
         std::vector<ClothEdit> edits;                ///< lead from `unedited` to `model`
         PlainStiffness stiffness{};
         std::vector<Pose> motion_poses;
-        std::vector<GrabStep> grabs;  ///< of the frame
-        std::vector<Vec4> pulls;      ///< ClothStep::pulls of the frame
+        std::vector<std::uint32_t> motion_bodies;  ///< ClothStep::motion_bodies of the frame
+        std::vector<GrabStep> grabs;               ///< of the frame
+        std::vector<Vec4> pulls;                   ///< ClothStep::pulls of the frame
     };
     /// The surface of a collider: a cloth for the backend alone.
     struct Surface {
@@ -277,6 +278,9 @@ class World {
     // world_bodies.cpp
     Result<void> can_move(std::size_t bodies) const;
     std::size_t body_count() const;
+    PlannedCloth planned(std::size_t place) const;
+    bool is_attached(const KinematicTargets& targets) const;
+    BodyMass mass_with_cloth(ColliderId id) const;
     void begin_bodies();
     void end_bodies() const;
     void hash_bodies(StateHash& hash) const;

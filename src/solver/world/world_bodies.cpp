@@ -1,4 +1,5 @@
 // The part of World that concerns rigid bodies.
+#include "collide/body_mass.h"
 #include "solver/state/body_kernels.h"
 #include "solver/world/world.h"
 
@@ -64,10 +65,63 @@ const Body& World::body(ColliderId id) const {
     return *of.body;
 }
 
+PlannedCloth World::planned(std::size_t place) const {
+    const Cloth& cloth = cloths_[place];
+    return {.model = cloth.model.get(),
+            .kinematic = !cloth.targets.particles.empty(),
+            .grabbed = is_grabbed(cloths_.id_of(place)),
+            .attached = is_attached(cloth.targets)};
+}
+
+bool World::is_attached(const KinematicTargets& targets) const {
+    return std::ranges::any_of(targets.motions, [&](const TargetMotion& motion) {
+        const std::size_t place = colliders_.find(motion.collider);
+        return place < colliders_.size() && colliders_[place].body;
+    });
+}
+
+// Rigidly pinned particles move with the body, so it has their mass. Those on springs have anchors, which have none.
+BodyMass World::mass_with_cloth(ColliderId id) const {
+    const Body& body = *colliders_[colliders_.find(id)].body;
+    if (!body.desc.reaction) return body.own;
+    std::vector<PointMass> points;
+    for (const Cloth& cloth : cloths_) {
+        for (const KinematicTarget& target : cloth.targets.particles)
+            if (cloth.targets.motions[target.motion].collider == id && target.particle < cloth.model->mass.size())
+                points.push_back({target.local, cloth.model->mass[target.particle]});
+    }
+    return with_points(body.own, points);
+}
+
+// Lists the bodies for the next frame, with what is attached to them. Their poses and the velocities of their own
+// material stay if that has changed.
 void World::begin_bodies() {
     bodies_.clear();
-    for (std::size_t i = 0; i < colliders_.size(); ++i)
-        if (colliders_[i].body) bodies_.push_back({static_cast<std::uint32_t>(i), &colliders_[i].body->state});
+    for (Cloth& cloth : cloths_) cloth.motion_bodies.clear();
+    for (std::size_t i = 0; i < colliders_.size(); ++i) {
+        if (!colliders_[i].body) continue;
+        BodyStep step{.collider = static_cast<std::uint32_t>(i), .state = &colliders_[i].body->state};
+        const ColliderId id = colliders_.id_of(i);
+        for (Cloth& cloth : cloths_) {
+            const auto& motions = cloth.targets.motions;
+            for (std::uint32_t m = 0; m < motions.size(); ++m) {
+                if (motions[m].collider != id) continue;
+                cloth.motion_bodies.resize(motions.size(), none);
+                cloth.motion_bodies[m] = static_cast<std::uint32_t>(bodies_.size());
+                step.attached += static_cast<std::uint32_t>(
+                    std::ranges::count(cloth.targets.particles, m, &KinematicTarget::motion));
+            }
+        }
+        Body& body = *colliders_[i].body;
+        if (const BodyMass mass = mass_with_cloth(id); mass != body.mass) {
+            const Pose pose = pose_of(body.state, body.mass);
+            const Vec3 rate = rate_of(body.state, body.mass);
+            const Vec3 lever = pose.rotation * (mass.center - body.mass.center);
+            body.state = body_state_at(pose, mass, body.state.velocity.xyz() + cross(rate, lever), rate);
+            body.mass = mass;
+        }
+        bodies_.push_back(step);
+    }
 }
 
 void World::end_bodies() const {
@@ -108,7 +162,11 @@ Result<void> World::check_bodies(const Snapshot& snapshot) const {
 }
 
 void World::restore_bodies(const std::vector<SavedBody>& saved) {
-    for (const SavedBody& one : saved) colliders_[one.collider].body->state = one.state;
+    for (const SavedBody& one : saved) {
+        Body& body = *colliders_[one.collider].body;
+        body.mass = mass_with_cloth(colliders_.id_of(one.collider));
+        body.state = one.state;
+    }
 }
 
 }  // namespace weft

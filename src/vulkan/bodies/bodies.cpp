@@ -51,8 +51,8 @@ BodyIn body_in(const BodyStep& step, const Collider& collider, float h) {
             .reach_high = {-nowhere, -nowhere, -nowhere, 0},
             .collider = step.collider,
             .feels_cloth = body.desc.reaction ? 1u : 0u,
-            .unused0 = 0,
-            .unused1 = 0};
+            .attached = step.attached,
+            .unused = 0};
 }
 
 // The features of all colliders, as the shader reads them.
@@ -207,22 +207,23 @@ Result<void> Bodies::record_begin(gpu::Device& device, Programs& programs, gpu::
     commands.copy(upload_, head_, body_bytes(count_));
     Recorder passes(device, programs, commands);
     passes.run("bodies",
-               BodiesArgs{.colliders = colliders, .pass = WEFT_BODIES_BEGIN, .substep = 0, .sweeps = 0, .unused = 0},
+               BodiesArgs{.colliders = colliders, .pass = WEFT_BODIES_BEGIN, .substep = 0, .sweeps = 0, .places = 0},
                1);
     return passes.end();
 }
 
 Result<void> Bodies::record(gpu::Device& device, Programs& programs, gpu::Commands& commands, std::uint64_t colliders,
                             const Pass& pass, std::uint32_t substep) const {
-    BodiesArgs args{.colliders = colliders, .pass = 0, .substep = substep, .sweeps = 0, .unused = 0};
+    BodiesArgs args{.colliders = colliders, .pass = 0, .substep = substep, .sweeps = 0, .places = 0};
     if (pass.kind == PassKind::predict_bodies) {
         args.pass = WEFT_BODIES_PREDICT;
     } else if (pass.kind == PassKind::finish_bodies) {
         args.pass = WEFT_BODIES_FINISH, args.sweeps = sweeps_of_velocities;
-    } else if (pass.batch == 0) {
+    } else if (pass.batch == move_before_faces) {
         args.pass = WEFT_BODIES_COUNT;
     } else {
-        args.pass = WEFT_BODIES_MOVE, args.sweeps = pass.batch == 1 ? sweeps_after_particles : sweeps_after_faces;
+        args.pass = WEFT_BODIES_MOVE, args.sweeps = sweeps_of_move(pass.batch);
+        args.places = pass.batch == move_after_pulls ? 1 : 0;
     }
     Recorder passes(device, programs, commands);
     passes.run("bodies", args, 1);
@@ -247,7 +248,7 @@ Result<void> Bodies::run_alone(gpu::Device& device, Programs& programs, std::uin
         for (std::uint32_t substep = 0; substep < substeps; ++substep) {
             run({.kind = PassKind::predict_bodies}, substep);
             for (std::uint32_t sweep = 0; sweep < body_sweeps; ++sweep)
-                run({.kind = PassKind::move_bodies, .batch = 1}, substep);
+                run({.kind = PassKind::move_bodies, .batch = move_after_particles}, substep);
             run({.kind = PassKind::finish_bodies}, substep);
         }
         record_end(commands);

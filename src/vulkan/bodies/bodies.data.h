@@ -12,10 +12,11 @@
 #define WEFT_BODY_SUM_TOUCHES 12
 
 // Poses of a body in BodiesIn::poses.
-#define WEFT_BODY_POSES 3
+#define WEFT_BODY_POSES 4
 #define WEFT_BODY_BEFORE 0  // at the start of the substep
 #define WEFT_BODY_NOW 1
 #define WEFT_BODY_FOUND 2   // when contacts of faces were found
+#define WEFT_BODY_PLACED 3  // when attached points were placed
 
 // Passes over bodies.
 #define WEFT_BODIES_BEGIN 0    // of a frame
@@ -58,8 +59,8 @@ struct BodyIn {
     vec4 reach_high;
     uint collider;
     uint feels_cloth;
-    uint unused0;
-    uint unused1;
+    uint attached;  // points of cloth that are attached to it
+    uint unused;
 };
 
 // The features of a collider: parts of BodiesIn::points and BodiesIn::edges.
@@ -126,7 +127,7 @@ struct BodiesArgs {
     uint pass;
     uint substep;
     uint sweeps;
-    uint unused;
+    uint places;  // of WEFT_BODIES_MOVE: 1 if attached points are placed after it
 };
 
 #ifdef __cplusplus

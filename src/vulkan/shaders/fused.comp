@@ -15,6 +15,7 @@
 #include "vulkan/shaders/level_limits.glsl"
 #include "vulkan/shaders/particles.glsl"
 #include "vulkan/shaders/rows.glsl"
+#include "vulkan/shaders/targets.glsl"
 #include <shader_ids.glsl>
 
 // One bit per shader that the lists use. The compiler removes the others, which would take registers.

@@ -4,6 +4,7 @@
 #include "vulkan/shaders/common.glsl"
 #include "vulkan/shaders/dispatch.glsl"
 #include "vulkan/shaders/particles.glsl"
+#include "vulkan/shaders/targets.glsl"
 #include "vulkan/shaders/cover.glsl"
 #include "vulkan/shaders/body_contact.glsl"
 #include "vulkan/shaders/face_contact.glsl"

@@ -67,15 +67,6 @@ void run_advance(uint p)
     report_capped(ended || begun);
 }
 
-void run_targets(uint i)
-{
-    TargetIn target = target_args.at.targets.at[i];
-    uint after = target_args.at.substep + substeps_before + 1u;
-    PoseIn pose = target_args.at.poses.at[after * target_args.at.frame.at.motions + target.motion];
-    vec3 x = rotate(pose.x.xyz, pose.y.xyz, pose.z.xyz, target.local.xyz) + pose.position.xyz;
-    store_point(target_args.at.position, target.particle, vec4(x, load_point(target_args.at.position, target.particle).w));
-}
-
 // Adds the masses of its taut edges to a particle, and leaves the sums at zero.
 void run_take_taut(uint p)
 {
@@ -109,6 +100,9 @@ void run_average(uint p)
 // Saves the state at the beginning of the frame, for run_roll_back().
 void run_keep(uint p)
 {
+    bool keeps_lambda = !is_none(uvec2(keep_args.at.good_lambda));
+    if (keeps_lambda && p < keep_args.at.lambdas) keep_args.at.good_lambda.at[p] = keep_args.at.lambda.at[p];
+    if (p >= keep_args.at.count) return;
     keep_args.at.good_position.at[p] = vec4(load_point(keep_args.at.position, p).xyz, keep_args.at.start.at[p].w);
     keep_args.at.good_velocity.at[p] = keep_args.at.velocity.at[p];
     keep_args.at.good_compensation.at[p] = keep_args.at.compensation.at[p];
@@ -124,9 +118,16 @@ void run_check(uint p)
 
 void run_roll_back(uint i)
 {
-    if ((keep_args.at.island_report.at[0] & (WEFT_REPORT_NON_FINITE | WEFT_REPORT_LIST_FULL)) == 0u) return;
-    // Lambda does not match the restored positions. Residuals and saved states still read it.
-    if (i < keep_args.at.lambdas) keep_args.at.lambda.at[i] = 0.0;
+    uint report = keep_args.at.island_report.at[0];
+    if ((report & (WEFT_REPORT_NON_FINITE | WEFT_REPORT_LIST_FULL)) == 0u) return;
+    // Lambda does not match the restored positions. Residuals and saved states still read it, and the frame that runs
+    // again may read that of the frame before.
+    bool again = (report & WEFT_REPORT_LIST_FULL) != 0u && !is_none(uvec2(keep_args.at.good_lambda));
+    if (i < keep_args.at.lambdas) {
+        float lambda = 0.0;
+        if (again) lambda = keep_args.at.good_lambda.at[i];
+        keep_args.at.lambda.at[i] = lambda;
+    }
     if (i >= keep_args.at.count) return;
     vec4 good = keep_args.at.good_position.at[i];
     keep_args.at.start.at[i] = good;

@@ -83,6 +83,7 @@ void predict()
         predict_body(m, inertia, gravity_of_bodies(), inverse_moments.w, inverse_products.w, substep_of_bodies());
         store_motion(body, m);
         place_body(body, m);
+        store_pose(body, WEFT_BODY_PLACED, pose_now(body));
         turn_inertia(body);
         clear_sums(body);
     }
@@ -123,6 +124,7 @@ void move_bodies()
             vec3 twist = vec3(take_sum(body, 3u), take_sum(body, 4u), take_sum(body, 5u));
             push_one(body, BodyPush(impulse, twist));
         }
+        if (args.places == 1u) store_pose(body, WEFT_BODY_PLACED, pose_now(body));
         count_touches(body);
     }
     workgroup_barrier();
