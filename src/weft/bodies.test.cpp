@@ -110,6 +110,7 @@ TEST(SimulationBodies, take_the_pins_of_their_colliders_along) {
     desc.body.reset();
     const ColliderId ball = *simulation.add(desc);
     ClothDesc sheet{.name = "sheet", .mesh = GridDesc{.size = {0.5f, 0.5f}, .resolution = {9, 9}}};
+    sheet.transform.position = {0.5f, 0, 0};
     sheet.pins = {{.select = VertexPins{.vertices = {0}}, .attach = "ball"}};
     const auto cloth = simulation.add(sheet);
     ASSERT_TRUE(cloth.ok());
