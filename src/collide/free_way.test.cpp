@@ -223,7 +223,7 @@ TEST(FreeWay, ends_below_sharp_tips) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(FreeWay, leads_through_no_surface_of_the_field) {
     for (const FieldCase& of : field_cases()) {
         const auto& [name, mesh, field] = of;
@@ -268,7 +268,7 @@ TEST(FreeWay, leads_through_no_surface_of_the_field) {
 
 // Labels: slow no-asan
 // In fine cells outside. Elsewhere the values jump.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(FreeWay, steepness_bounds_the_slope) {
     for (const FieldCase& of : field_cases()) {
         const auto& [name, mesh, field] = of;

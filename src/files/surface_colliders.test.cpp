@@ -210,7 +210,7 @@ SceneDesc hit_scene(float speed, bool edge_on, float turn = 0) {
     return scene_of(exact_sheet(0.5f, 25, {.position = {0, 0, 0}}), plate);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(SurfaceColliders, that_move_fast_carry_cloth_along) {
     for (const float speed : {2.0f, 10.0f, 20.0f, 40.0f}) {
         for (const bool edge_on : {false, true}) {

@@ -153,7 +153,7 @@ TEST(ClothContact, bits_do_not_depend_on_when_lists_are_made) {
     EXPECT_EQ(flat(false), flat(true));
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothContact, bits_do_not_depend_on_instruction_sets_and_threads) {
     const auto drop = [](std::string_view isa, unsigned workers) {
         World world = falling_world(falling(20), 10, {.workers = workers, .isa = std::string(isa)});

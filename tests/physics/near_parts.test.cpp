@@ -89,7 +89,7 @@ World driven_world(SelfCollision contact, unsigned workers) {
     return world;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(NearParts, a_frame_runs_again_if_cloths_come_near_unexpectedly) {
     for (const SelfCollision contact : {SelfCollision::exact, SelfCollision::fast}) {
         std::string expected;

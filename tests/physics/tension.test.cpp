@@ -108,7 +108,7 @@ void expect_factors(std::initializer_list<HungRow> rows) {
 }
 
 // Stretch that the solver left unsolved reads as tension. On grids, lines solve warp and weft nearly exactly.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(HungTension, on_a_grid_is_the_weight_below) {
     expect_factors({{{"cotton, warp", "cotton"}, {.substeps = 20}, 1.016},
                     {{"cotton, warp", "cotton"}, {.substeps = 60}, 1.011},
@@ -122,7 +122,7 @@ TEST(HungTension, on_a_grid_is_the_weight_below) {
 }
 
 // Elsewhere the measure is too large, the more the stiffer and lighter the cloth: these are the factors.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(HungTension, exceeds_the_weight_below_by_what_is_unsolved) {
     constexpr Projection one_by_one = Projection::gauss_seidel;
     expect_factors(

@@ -241,7 +241,7 @@ TEST(VulkanContactForces, of_a_world_that_changes_while_a_frame_runs_is_sound) {
     EXPECT_EQ(vulkan_bits, bits);
 }
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST(VulkanContactForces, of_a_frame_that_is_not_finite_is_none_and_the_next_has_its_own) {
     for (const char* execution : {"streamed", "fused"}) {
         World world(checked_vulkan_backend({.execution = execution}),

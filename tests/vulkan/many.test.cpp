@@ -108,7 +108,7 @@ TEST(ManyCloths, take_one_dispatch_when_fused) {
 }
 
 // Cloths of different sizes and constraints, with and without coarse levels, lines and pins, do not affect each other.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ManyCloths, that_differ_do_what_each_does_alone) {
     for (const Projection projection : {Projection::lines, Projection::gauss_seidel, Projection::jacobi}) {
         const WorldSettings settings{

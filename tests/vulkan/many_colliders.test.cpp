@@ -117,7 +117,7 @@ PegsFound play_pegs_on_cpu(const PegsCase& test) {
 }
 
 // lavapipe leaves the loops of a shader after 65535 rounds, so that a face must not be near too many pegs.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanManyColliders, have_the_bits_of_the_cpu) {
     for (const std::uint32_t iterations : {1u, 3u}) {
         PegsCase test{{.solver = {.substeps = 3, .iterations = iterations}, .contact_forces = true}};

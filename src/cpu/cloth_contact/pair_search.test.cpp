@@ -137,7 +137,7 @@ Pair in_order(Pair pair, bool edges) {
     return pair;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(PairSearch, lists_all_pairs_that_come_near) {
     for (const Passes* passes : available_passes()) {
         for (const float noise : {0.0f, 0.002f, 0.03f}) {

@@ -90,7 +90,7 @@ TEST_F(RadixSort, knows_how_many_bits_numbers_need) {
 }
 
 // The number of sides of a mesh of 3.3 million triangles, and the number of bits that its vertices need.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST_F(RadixSort, sorts_ten_million_keys) {
     expect_sorted(random_keys(10000000, 21), 21);
 }
