@@ -48,6 +48,7 @@ Command add_edit(Program& program);
 Command add_check(Program& program);
 Command add_convert(Program& program);
 Command add_bench(Program& program);
+Command add_validate(Program& program);
 Command add_info(Program& program);
 
 }  // namespace weft::cli

@@ -28,6 +28,7 @@ int run_program(int argc, char** argv) {
         "  weft render scenes/hanging_bunny.json --out bunny.mp4\n"
         "  weft edit scenes/flag.json\n"
         "  weft bench --json before.json\n"
+        "  weft validate --case cantilever\n"
         "  weft check scenes/hanging_bunny.json\n"
         "  weft convert scenes/hanging_bunny.json --out bunny.json\n"
         "  weft info\n"
@@ -38,6 +39,7 @@ int run_program(int argc, char** argv) {
     commands["render"] = add_render(program);
     commands["edit"] = add_edit(program);
     commands["bench"] = add_bench(program);
+    commands["validate"] = add_validate(program);
     commands["check"] = add_check(program);
     commands["convert"] = add_convert(program);
     commands["info"] = add_info(program);

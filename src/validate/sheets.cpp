@@ -1,0 +1,100 @@
+#include "validate/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace weft::cases {
+
+ClothId add_sheet(World& world, SheetOf sheet) {
+    ClothModelDesc desc{.name = "sheet", .mesh = std::move(sheet.mesh), .fabric = sheet.fabric};
+    desc.layout = world.settings().layout();
+    const std::vector<Vec3> rest = desc.mesh.positions;
+    auto topology = build_topology(desc.mesh, {.reorder = false});
+    if (!topology) throw std::runtime_error(topology.error().message());
+    if (topology->particle_count != rest.size()) throw std::runtime_error("the mesh has unused vertices");
+    for (std::uint32_t p = 0; p < rest.size(); ++p)
+        if (sheet.pinned && sheet.pinned(rest[p])) desc.pins.particles.push_back(p);
+    auto model = build_cloth_model(std::move(desc), std::move(*topology));
+    if (!model) throw std::runtime_error(model.error().message());
+    auto id = world.try_add(std::move(*model), std::move(sheet.targets));
+    if (!id) throw std::runtime_error(id.error().message());
+    if (sheet.place) {
+        Snapshot snapshot = world.save();
+        for (auto* array : {&snapshot.cloths.back().position, &snapshot.cloths.back().start}) {
+            for (std::uint32_t p = 0; p < rest.size(); ++p) {
+                const Vec3 x = sheet.place(rest[p]);
+                (*array)[p] = {x.x, x.y, x.z, (*array)[p].w};
+            }
+        }
+        if (auto placed = world.restore(snapshot); !placed) throw std::runtime_error(placed.error().message());
+    }
+    return *id;
+}
+
+Fabric elastic_fabric(double stiffness, double density) {
+    const auto k = static_cast<float>(stiffness);
+    Fabric fabric;
+    fabric.body = {.density = static_cast<float>(density), .damping = 0};
+    fabric.stretch = {.stretch = {k, k}, .compression = {k, k}, .shear = 0};
+    fabric.bend = {.bend = {0, 0, 0}};
+    return fabric;
+}
+
+void run(World& world, double seconds, double frame_seconds) {
+    const long frames = std::lround(seconds / frame_seconds);
+    for (long i = 0; i < frames; ++i) world.step(frame_seconds);
+    if (world.frame().reports & report_non_finite) throw std::runtime_error("the state became non-finite");
+}
+
+void settle(World& world, double seconds, double frame_seconds, double slow) {
+    const long frames = std::lround(seconds / frame_seconds);
+    double before = 0;
+    for (long i = 0; i < frames; ++i) {
+        run(world, frame_seconds, frame_seconds);
+        double now = 0, fastest = 0;
+        for (const ClothFrame& cloth : world.frame().cloths) {
+            for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+                const Vec3 v = cloth.velocities[p].xyz();
+                const double squared = double{dot(v, v)};
+                now += double{cloth.model->mass[p]} * squared;
+                fastest = std::max(fastest, squared);
+            }
+        }
+        if (i > 10 && fastest < slow * slow) return;
+        if (now >= before) {
+            before = now;
+            continue;
+        }
+        before = 0;
+        Snapshot snapshot = world.save();
+        for (ClothSnapshot& cloth : snapshot.cloths) {
+            std::ranges::fill(cloth.velocity, Vec4{});
+            std::ranges::fill(cloth.compensation, Vec4{});
+        }
+        if (auto restored = world.restore(snapshot); !restored) throw std::runtime_error(restored.error().message());
+    }
+}
+
+std::array<double, 3> position(const World& world, std::uint32_t particle) {
+    const Vec4 x = world.frame().cloths.front().positions[particle];
+    return {double{x.x}, double{x.y}, double{x.z}};
+}
+
+std::array<double, 3> center_of_mass(const World& world) {
+    const ClothFrame& cloth = world.frame().cloths.front();
+    std::array<double, 3> sum{};
+    double mass = 0;
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+        const double m = cloth.model->mass[p];
+        const std::array<double, 3> x = position(world, p);
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += m * x[i];
+        mass += m;
+    }
+    for (double& x : sum) x /= mass;
+    return sum;
+}
+
+}  // namespace weft::cases

@@ -1,0 +1,42 @@
+// Cloths and motions of the cases.
+#pragma once
+
+#include "mesh/procedural.h"
+#include "validate/validation.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace weft::cases {
+
+inline constexpr double standard_gravity = 9.81;  ///< m/s², that of WorldSettings
+
+struct SheetOf {
+    TriangleMesh mesh = make_grid({1, 1}, {17, 17}, GridDiagonal::alternating);
+    Fabric fabric = {};
+    /// Where a vertex of the mesh starts; empty: where the mesh has it.
+    std::function<Vec3(Vec3 at_rest)> place = {};
+    std::function<bool(Vec3 at_rest)> pinned = {};
+    KinematicTargets targets = {};  ///< particles are numbered like vertices
+};
+
+/// Adds a cloth whose particles are numbered like the vertices of the mesh. Throws std::runtime_error if it cannot.
+ClothId add_sheet(World& world, SheetOf sheet);
+
+/// A fabric of linear springs without bending stiffness. `stiffness` in N/m, `density` in kg/m².
+Fabric elastic_fabric(double stiffness, double density);
+
+void run(World& world, double seconds, double frame_seconds = 1.0 / 60);
+
+/// Brings the cloths to rest: sets all velocities to 0 whenever the kinetic energy begins to fall (kinetic damping).
+/// The end is the equilibrium of the constraints. Ends before `seconds` once no particle is faster than `slow` m/s.
+void settle(World& world, double seconds, double frame_seconds = 1.0 / 60, double slow = 1e-5);
+
+/// Position of a particle now, m.
+std::array<double, 3> position(const World& world, std::uint32_t particle);
+/// Mean of the particles' places, weighted by mass, pinned ones included, m.
+std::array<double, 3> center_of_mass(const World& world);
+
+}  // namespace weft::cases
