@@ -142,9 +142,12 @@ void Bodies::finish() const {
 }
 
 void Bodies::add_push(unsigned worker, std::uint32_t number, Vec3 by, Vec3 x, float w) {
+    add_impulse(worker, number, by * scalar::contact_momentum(w, 1 / h_), x);
+}
+
+void Bodies::add_impulse(unsigned worker, std::uint32_t number, Vec3 impulse, Vec3 x) {
     BodySums& sums = sums_[worker][number];
-    const float momentum = scalar::contact_momentum(w, 1 / h_);
-    const Vec3 impulse = by * momentum, twist = cross(x - vector_of(bodies_[number].motion.place), impulse);
+    const Vec3 twist = cross(x - vector_of(bodies_[number].motion.place), impulse);
     const auto add = [](std::array<std::uint64_t, 3>& sum, Vec3 more) {
         const float axes[3] = {more.x, more.y, more.z};
         for (std::size_t axis = 0; axis < 3; ++axis)

@@ -47,6 +47,8 @@ class Bodies {
     scalar::MovedBody moved_by_attached(std::uint32_t body) const;
     /// Takes the opposite of what a contact did to a particle with this inverse mass, which is now at `x`.
     void add_push(unsigned worker, std::uint32_t body, Vec3 by, Vec3 x, float w);
+    /// N·s, at a point in the world.
+    void add_impulse(unsigned worker, std::uint32_t body, Vec3 impulse, Vec3 x);
     /// What contact of a worker's particles needs of a body. Sums are the worker's own.
     BodyView view(std::uint32_t body, unsigned worker);
 

@@ -268,9 +268,11 @@ void ClothRun::run_targets(const Pass& pass, std::uint32_t substep, Range mine) 
 }
 
 // Gives points that are attached to bodies a mass, or takes it back and hands what they have been moved by to the
-// bodies.
+// bodies, with what the air has given them.
 void ClothRun::run_attached(const Pass& pass, Range mine, Worker worker) const {
     const std::span<Vec4> positions = cloth_.now().position;
+    const bool blown = pass.first_iteration && has_air(plan_);
+    const AirView air = cloth_.air(input_.air_density);
     for_each_target(mine, [&](const KinematicTarget& target, std::uint32_t body) {
         if (body == none) return;
         Vec4& position = positions[target.particle];
@@ -282,6 +284,8 @@ void ClothRun::run_attached(const Pass& pass, Range mine, Worker worker) const {
         }
         const Vec3 by = position.xyz() - place;
         if (position.w > 0 && dot(by, by) > 0) bodies_.add_push(worker.number, body, -by, place, position.w);
+        if (blown && target.particle < model().particle_count && bodies_.feels_cloth(body))
+            bodies_.add_impulse(worker.number, body, impulse_of_air(air, target.particle), place);
         position = {place.x, place.y, place.z, 0};
     });
 }

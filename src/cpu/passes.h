@@ -178,6 +178,9 @@ struct AirView {
     AroundView around;
 };
 
+/// N·s: what the air gives to a particle in the substep.
+Vec3 impulse_of_air(const AirView& air, std::uint32_t particle);
+
 struct SurfaceView {
     const float* position;
     const std::uint32_t* faces;  ///< [corner · stride + triangle]

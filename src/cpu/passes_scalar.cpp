@@ -47,6 +47,11 @@ void normals_pass(const SurfaceView& s, Range range) {
     }
 }
 
+Vec3 impulse_of_air(const AirView& air, std::uint32_t particle) {
+    const scalar::vec3 sum = sum_of_one(air.around, air.impulse, particle);
+    return {sum.x, sum.y, sum.z};
+}
+
 void push_pass(const ParticleView& p, const AirView& air, Range range) {
     using namespace scalar;
     for (std::size_t i = range.begin; i < range.end; ++i) {

@@ -285,7 +285,8 @@ inline constexpr Parameter in_group_keys[] = {
 
 inline constexpr Parameter pin_motion_keys[] = {
     {.key = "attach", .kind = ParameterKind::text, .offset = offsetof(PinDesc, attach),
-     .what = "name of a collider that the particles follow; by default they stay where they start"},
+     .what = "name of a collider that the particles follow, and pull if it is a body; by default they stay where they "
+             "start"},
     {.key = "motion", .kind = ParameterKind::list, .what = "offsets at given times; in place of `attach`"},
     {.key = "compliance", .offset = offsetof(PinDesc, compliance), .min = 0, .max = 1e6, .unit = "m/N",
      .what = "displacement per newton, as on an elastic cord; 0: rigid"},

@@ -165,10 +165,13 @@ struct TargetArgs {
     PoseRef poses;  // of the motions
     FrameRef frame;
     CollidersRef colliders;
+    Vec4s by_face;  // from here on WEFT_TARGETS_PULL only: impulses of the air, and the triangles at each particle; 0: none
+    Uints offsets;
+    Uints items;
     uint count;
     uint substep;
     uint pass;  // WEFT_TARGETS_…
-    uint unused;
+    uint particles;  // that have triangles
 };
 #define WEFT_FOLLOWS_NO_BODY 0xffffffffu  // TargetIn::body
 #define WEFT_TARGETS_ALL 0u        // places all

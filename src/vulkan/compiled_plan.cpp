@@ -317,18 +317,23 @@ class Compiler : ClothArgs {
     }
 
     void add_targets(List& list, const Pass& pass, std::uint32_t substep) {
+        const bool pulls = pass.kind == PassKind::pull_bodies;
+        const bool blown = pulls && pass.first_iteration && has_air(plan_);
         const TargetArgs args{.position = state(PointArray::position),
                               .targets = input_.targets(),
                               .poses = input_.motion_poses(),
                               .frame = input_.frame(),
                               .colliders = island_.colliders,
+                              .by_face = blown ? state(cloth_.by_face) : 0,
+                              .offsets = of_model(buffers_.around_offsets),
+                              .items = of_model(buffers_.around_items),
                               .count = shape_.targets,
                               .substep = substep,
                               .pass = pass.kind == PassKind::weigh_attached ? WEFT_TARGETS_WEIGH
-                                      : pass.kind == PassKind::pull_bodies  ? WEFT_TARGETS_PULL
+                                      : pulls                               ? WEFT_TARGETS_PULL
                                       : pass.batch == targets_all           ? WEFT_TARGETS_ALL
                                                                             : WEFT_TARGETS_ON_BODIES,
-                              .unused = 0};
+                              .particles = model_.particle_count};
         if (args.count > 0) add(list, "targets", args, args.count, pass, substep);
     }
 

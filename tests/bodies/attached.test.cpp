@@ -128,6 +128,20 @@ TEST(AttachedCloth, falls_with_its_body_as_one) {
     EXPECT_NEAR(end.linear[0], start.linear[0], 1e-3 * 9.81 * mass);
 }
 
+// A panel of which all particles are attached is blown along with its body: rho C_D A u²/2. The air acts on triangles
+// of their own mass, which is a little less in long substeps.
+TEST(AttachedCloth, hands_on_what_the_air_gives_it) {
+    AirDesc air;
+    air.wind.push_back({.velocity = {0, 0, 5}});
+    World world = make_world({.gravity = {}, .solver = {.substeps = 100}, .air = air});
+    const ColliderId box = world.add(make_box({0.2f, 0.2f, 0.01f}, 1000, {0, 0, 0.5f}));
+    add_attached(world, {.resolution = {9, 9}, .rotation_degrees = {90, 0, 0}, .fabric = find_fabric("cotton")->fabric},
+                 {{box, [](Vec3) { return true; }}});
+    run(world, 1);
+    const double force = 0.5 * 1.225 * 1.28 * 25, mass = double{world.body(box).mass.mass};
+    EXPECT_NEAR(double{world.body(box).state.velocity.z}, force / mass, 0.01 * force / mass);
+}
+
 TEST(AttachedCloth, follows_its_collider_when_that_becomes_a_body_and_ceases_to_be_one) {
     World world = make_world({.solver = {.substeps = 10}});
     const ColliderId post =

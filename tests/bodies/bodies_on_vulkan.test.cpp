@@ -152,6 +152,8 @@ TEST(BodiesOnVulkan, cloth_that_meets_cloth_is_the_same_as_on_the_cpu) {
 TEST(BodiesOnVulkan, what_is_attached_is_the_same_as_on_the_cpu) {
     const auto add = [](World& world) { add_bodies_in_nets(world, SelfCollision::off, 7); };
     WorldSettings settings = with_substeps(4);
+    settings.air = AirDesc{};
+    settings.air->wind.push_back({.velocity = {3, 1, 2}});
     expect_same(settings, add, 20);
     settings.solver.iterations = 2;
     expect_same(settings, add, 6);

@@ -29,7 +29,8 @@ struct Pass {
     ConstraintKind constraint{};  ///< of project, correct, damp and the taut ones, and of all passes of a dynamic list
     std::uint32_t batch =
         0;  ///< of project, coarse_limit, damp, weigh_taut; round of cloth_contact; sweep of push_faces
-    bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0
+    bool first_iteration = true;  ///< of project, coarse_limit, correct, contact: lambda and friction start at 0;
+                                  ///< of pull_bodies: the impulse of the air is added
     std::uint32_t level = 0;      ///< of restriction, interpolation, coarse_limit, node_correction
     RowSource source = RowSource::model;
     PassFor cloths = PassFor::all_cloths;

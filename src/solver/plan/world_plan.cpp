@@ -240,7 +240,7 @@ class Planner {
         if (attached()) passes.push_back({.kind = PassKind::weigh_attached});
         add_constraints(first, passes);
         if (!attached()) return;
-        passes.push_back({.kind = PassKind::pull_bodies});
+        passes.push_back({.kind = PassKind::pull_bodies, .first_iteration = first});
         passes.push_back({.kind = PassKind::move_bodies, .batch = rounds ? move_in_rounds : move_after_pulls});
         if (!rounds) passes.push_back({.kind = PassKind::targets, .batch = targets_on_bodies});
     }

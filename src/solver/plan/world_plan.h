@@ -95,6 +95,11 @@ inline constexpr std::uint32_t targets_all = 0, targets_on_bodies = 1, targets_a
 inline constexpr std::uint32_t move_before_faces = 0, move_after_particles = 1, move_after_faces = 2,
                                move_after_pulls = 3, move_in_rounds = 4;
 
+/// Whether air acts on cloth.
+inline bool has_air(const WorldPlan& plan) {
+    return !plan.substep.empty() && plan.substep.front().kind == PassKind::air;
+}
+
 /// Whether a pass is one of grabs.
 constexpr bool is_grab(PassKind kind) {
     return kind == PassKind::hide_grabs || kind == PassKind::hold_grabs || kind == PassKind::grab ||

@@ -86,6 +86,8 @@ BodyMass World::mass_with_cloth(ColliderId id) const {
     if (!body.desc.reaction) return body.own;
     std::vector<PointMass> points;
     for (const Cloth& cloth : cloths_) {
+        const auto& motions = cloth.targets.motions;
+        if (std::ranges::find(motions, id, &TargetMotion::collider) == motions.end()) continue;
         for (const KinematicTarget& target : cloth.targets.particles)
             if (cloth.targets.motions[target.motion].collider == id && target.particle < cloth.model->mass.size())
                 points.push_back({target.local, cloth.model->mass[target.particle]});

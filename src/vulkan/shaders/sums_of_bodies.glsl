@@ -15,15 +15,20 @@ void add_to_body_sum(BodiesRef bodies, uint body, uint sum, float quanta)
     if (high != 0u) atomicAdd(bodies.at.sums.at[at + 1u], high);
 }
 
-// Adds the opposite of what a contact did to a particle, which is now at `x`.
-void add_to_body(BodiesRef bodies, uint body, vec3 by, vec3 x, float w)
+// N s, at a point in the world.
+void add_impulse_to_body(BodiesRef bodies, uint body, vec3 impulse, vec3 x)
 {
-    vec3 impulse = by * contact_momentum(w, bodies.at.inv_h);
     vec3 twist = cross(x - bodies.at.bodies.at[body].place.xyz, impulse);
     for (uint axis = 0u; axis < 3u; ++axis) {
         add_to_body_sum(bodies, body, axis, to_impulse_quanta(impulse[axis]));
         add_to_body_sum(bodies, body, 3u + axis, to_impulse_quanta(twist[axis]));
     }
+}
+
+// Adds the opposite of what a contact did to a particle, which is now at `x`.
+void add_to_body(BodiesRef bodies, uint body, vec3 by, vec3 x, float w)
+{
+    add_impulse_to_body(bodies, body, by * contact_momentum(w, bodies.at.inv_h), x);
 }
 
 bool feels_cloth(BodiesRef bodies, uint body) { return bodies.at.bodies.at[body].feels_cloth != 0u; }

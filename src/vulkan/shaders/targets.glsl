@@ -28,6 +28,16 @@ float weight_of_target(TargetIn target, vec3 place)
     return most_weight_of(moved, place - moved.center);
 }
 
+// What the air gives to the particle in the substep.
+vec3 impulse_of_air(uint p)
+{
+    vec3 sum = vec3(0.0);
+    uint end = target_args.at.offsets.at[p + 1u];
+    for (uint k = target_args.at.offsets.at[p]; k < end; ++k)
+        sum = sum + target_args.at.by_face.at[target_args.at.items.at[k]].xyz;
+    return sum;
+}
+
 void run_targets(uint i)
 {
     TargetIn target = target_args.at.targets.at[i];
@@ -42,6 +52,9 @@ void run_targets(uint i)
     } else if (pass == WEFT_TARGETS_PULL) {
         vec3 by = point.xyz - place;
         if (point.w > 0.0 && dot(by, by) > 0.0) add_to_body(WEFT_BODIES_OF_TARGETS, target.body, -by, place, point.w);
+        bool blown = !is_none(uvec2(target_args.at.by_face)) && target.particle < target_args.at.particles;
+        if (blown && feels_cloth(WEFT_BODIES_OF_TARGETS, target.body))
+            add_impulse_to_body(WEFT_BODIES_OF_TARGETS, target.body, impulse_of_air(target.particle), place);
         point = vec4(place, 0.0);
     } else {
         point = vec4(place, point.w);
