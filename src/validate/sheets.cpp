@@ -1,5 +1,8 @@
 #include "validate/sheets.h"
 
+#include "collide/body_features.h"
+#include "collide/body_mass.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,6 +35,17 @@ ClothId add_sheet(World& world, SheetOf sheet) {
         if (auto placed = world.restore(snapshot); !placed) throw std::runtime_error(placed.error().message());
     }
     return *id;
+}
+
+ColliderId add_body(World& world, const ColliderShape& shape, const BodyDesc& body, Vec3 position) {
+    ColliderDesc desc{.name = "body", .shape = shape, .body = body};
+    desc.transform.position = position;
+    Collider collider = make_collider(desc);
+    const auto mass = body_mass_of(body, shape, nullptr);
+    if (!mass) throw std::runtime_error(mass.error().message());
+    collider.body = Body{.mass = *mass, .state = {}, .desc = body};
+    collider.features = features_of(shape, nullptr);
+    return world.add(std::move(collider));
 }
 
 Fabric elastic_fabric(double stiffness, double density) {

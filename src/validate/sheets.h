@@ -25,6 +25,9 @@ struct SheetOf {
 /// Adds a cloth whose particles are numbered like the vertices of the mesh. Throws std::runtime_error if it cannot.
 ClothId add_sheet(World& world, SheetOf sheet);
 
+/// Adds a rigid body of this shape, which has no data. Throws std::runtime_error if it has no mass.
+ColliderId add_body(World& world, const ColliderShape& shape, const BodyDesc& body, Vec3 position);
+
 /// A fabric of linear springs without bending stiffness. `stiffness` in N/m, `density` in kg/m².
 Fabric elastic_fabric(double stiffness, double density);
 

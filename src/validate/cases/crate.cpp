@@ -1,9 +1,6 @@
-#include "collide/body_features.h"
-#include "collide/body_mass.h"
 #include "validate/sheets.h"
 
 #include <cstdio>
-#include <stdexcept>
 
 namespace weft {
 
@@ -16,15 +13,7 @@ void validate_crate(Validation& validation) {
         if (validation.quick() && mass != 20) continue;
         World world = validation.make_world({.air = AirDesc{}});
         const BodyDesc body{.mass = static_cast<float>(mass), .damping = 3, .spin_damping = 3};
-        const BoxDesc box{{0.5f, 0.1f, 0.1f}};
-        ColliderDesc desc{.name = "crate", .shape = box, .body = body};
-        desc.transform.position = {0, -1.1f, 0};
-        Collider crate = make_collider(desc);
-        const auto of_body = body_mass_of(body, box, nullptr);
-        if (!of_body) throw std::runtime_error(of_body.error().message());
-        crate.body = Body{.mass = *of_body, .state = {}, .desc = body};
-        crate.features = features_of(box, nullptr);
-        const ColliderId id = world.add(std::move(crate));
+        const ColliderId id = add_body(world, BoxDesc{{0.5f, 0.1f, 0.1f}}, body, {0, -1.1f, 0});
         const Fabric fabric = find_fabric("cotton")->fabric;
         SheetOf sheet{.mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating), .fabric = fabric};
         for (Vec3& p : sheet.mesh.positions) p = {p.x, -0.5f - p.z, 0};

@@ -1,10 +1,7 @@
-#include "collide/body_features.h"
-#include "collide/body_mass.h"
 #include "validate/sheets.h"
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 namespace weft {
@@ -33,15 +30,8 @@ double height(const Validation& validation, std::uint32_t side, std::uint32_t su
     add_sheet(world, std::move(sheet));
     run(world, 1);
     const BodyDesc body{.mass = static_cast<float>(ball_load / standard_gravity), .damping = 4, .spin_damping = 4};
-    const SphereDesc sphere{static_cast<float>(ball_radius)};
-    ColliderDesc desc{.name = "ball", .shape = sphere, .body = body};
-    desc.transform.position = {0, static_cast<float>(ball_radius) + 0.01f, 0};
-    Collider ball = make_collider(desc);
-    const auto mass = body_mass_of(body, sphere, nullptr);
-    if (!mass) throw std::runtime_error(mass.error().message());
-    ball.body = Body{.mass = *mass, .state = {}, .desc = body};
-    ball.features = features_of(sphere, nullptr);
-    const ColliderId id = world.add(std::move(ball));
+    const auto r = static_cast<float>(ball_radius);
+    const ColliderId id = add_body(world, SphereDesc{r}, body, {0, r + 0.01f, 0});
     run(world, 6);
     return double{world.body(id).state.place.y};
 }
