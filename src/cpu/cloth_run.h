@@ -39,6 +39,8 @@ class ClothRun {
     ColliderPart& cover_colliders(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     void run_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
     void run_body_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const;
+    bool supports(std::span<const NearCollider> near) const;
+    void find_supports(const ColliderRun& run, std::span<const NearCollider> near, std::uint32_t substep) const;
     bool is_body(const NearCollider& near) const { return bodies_.body_of(near.collider) != none; }
     /// Without what run_contacts() adds.
     ContactView contact_view(const NearCollider& near, std::uint32_t substep) const;

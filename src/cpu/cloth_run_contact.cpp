@@ -38,6 +38,7 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
     const bool traces = !cloth_.account.empty();
     if (bodies_.empty()) cloth_.face_contacts.clear_near({mine.begin, mine.end});
     for (const ColliderRun& run : part.runs()) {
+        const bool presses = supports(part.near(run));
         for (const NearCollider& near : part.near(run)) {
             if (is_body(near)) continue;
             ContactView view = contact_view(near, substep);
@@ -45,10 +46,28 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
             view.sums = part.sums(near);
             view.moved = part.moved(near);
             view.turned = part.turned(near);
+            if (presses) view.support = cloth_.support_view();
             mark_near_faces(run, near, view);
             const auto& loops = traces ? passes_.contact_traced : passes_.contact;
             loops[static_cast<std::uint32_t>(view.kind)](view_, view, {run.begin, run.end});
         }
+        if (presses) cloth_.clear_taken({run.begin, run.end});
+    }
+}
+
+// Whether bodies may press particles near these colliders on one of them.
+bool ClothRun::supports(std::span<const NearCollider> near) const {
+    const auto is_one = [this](const NearCollider& one) { return is_body(one); };
+    return !bodies_.empty() && std::ranges::any_of(near, is_one) && !std::ranges::all_of(near, is_one);
+}
+
+// What lies behind the particles of a run in the substep.
+void ClothRun::find_supports(const ColliderRun& run, std::span<const NearCollider> near, std::uint32_t substep) const {
+    for (const NearCollider& one : near) {
+        if (is_body(one)) continue;
+        ContactView view = contact_view(one, substep);
+        view.support = cloth_.support_view();
+        passes_.find_support[static_cast<std::uint32_t>(view.kind)](view_, view, {run.begin, run.end});
     }
 }
 
@@ -56,13 +75,23 @@ void ClothRun::run_contacts(const Pass& pass, std::uint32_t substep, Range mine,
 void ClothRun::run_body_contacts(const Pass& pass, std::uint32_t substep, Range mine, Worker worker) const {
     ColliderPart& part = cover_colliders(pass, substep, mine, worker);
     const bool traces = !cloth_.account.empty(), counts = pass.kind == PassKind::count_touches;
+    if (counts) {
+        for (const Range& pressed : part.pressed) cloth_.clear_supports(pressed);
+        part.pressed.clear();
+    }
     if (counts || !pass.first_iteration) cloth_.face_contacts.clear_near({mine.begin, mine.end});
     for (const ColliderRun& run : part.runs()) {
+        const bool presses = supports(part.near(run));
+        if (presses && counts) {
+            find_supports(run, part.near(run), substep);
+            part.pressed.push_back({run.begin, run.end});
+        }
         for (const NearCollider& near : part.near(run)) {
             if (!is_body(near)) continue;
             ContactView view = contact_view(near, substep);
             const BodyView body = bodies_.view(bodies_.body_of(near.collider), worker.number);
             const auto kind = static_cast<std::uint32_t>(view.kind);
+            if (presses) view.support = cloth_.support_view();
             if (counts) {
                 passes_.count_touches[kind](view_, view, body, {run.begin, run.end});
                 continue;
@@ -102,7 +131,8 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .kinetic_friction = kinetic_friction,
             .half_thickness = numbers_.half_thickness,
             .depenetration = numbers_.depenetration,
-            .free = bodies_.empty() ? nullptr : cloth_.weights().data()};
+            .free = bodies_.empty() ? nullptr : cloth_.weights().data(),
+            .number = static_cast<float>(near.collider)};
 }
 
 // Calls collect(run) for runs near the same colliders, then visit(near) for each collider that their faces may touch,

@@ -250,6 +250,24 @@ SurfaceView ClothState::surface() {
     return {&now().position[0].x, faces(), model->face_stride, &by_face[0].x, view_of(*model->around), &normals()[0].x};
 }
 
+SupportView ClothState::support_view() {
+    if (supports.empty()) return {};
+    const std::size_t stride = supports.size() / support_arrays;
+    const auto array = [&](std::size_t number) { return &supports[number * stride].x; };
+    return {array(0), array(1), array(2), array(3)};
+}
+
+void ClothState::clear_supports(Range particles) {
+    const std::size_t stride = supports.size() / support_arrays;
+    for (std::size_t array = 0; array < support_arrays; ++array)
+        std::fill(&supports[array * stride + particles.begin], &supports[array * stride] + particles.end, Vec4{});
+}
+
+void ClothState::clear_taken(Range particles) {
+    Vec4* taken = &supports[supports.size() / support_arrays];
+    std::fill(taken + particles.begin, taken + particles.end, Vec4{});
+}
+
 LevelView ClothState::level(std::uint32_t i) {
     LevelState& state = levels[i];
     const Restriction& from = model->hierarchy[i].restriction;
@@ -363,6 +381,8 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     near_colliders.prepare(padded(model->point_count()), static_cast<std::uint32_t>(colliders), workers,
                            bodies || rounds_of(plan, *model) > 1, contact_forces);
     account.prepare(contact_forces ? colliders : 0, workers);
+    near_colliders.take_pressed([this](Range particles) { clear_supports(particles); });
+    supports.resize(bodies ? support_arrays * std::size_t{padded(model->point_count())} : 0);
     if (plan.projection == Projection::jacobi && !gather) {
         gather = std::make_unique<const JacobiGather>(build_gather(*model));
         corrections.resize(gather->blocks);

@@ -46,7 +46,8 @@ struct ClothState {
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     ColliderLists near_colliders;
     FaceContacts face_contacts;
-    ContactAccount account;  ///< empty without contact_forces
+    ContactAccount account;        ///< empty without contact_forces
+    AlignedVector<Vec4> supports;  ///< the arrays of a SupportView; empty without bodies or colliders
     /// Values that particles sum over their triangles: the air's impulse, and at the end of a frame the normals. One
     /// extra element stays zero.
     AlignedVector<Vec4> by_face;
@@ -90,6 +91,9 @@ struct ClothState {
     /// Corners of the triangles, [corner · stride + triangle].
     const std::uint32_t* faces() const;
     SurfaceView surface();
+    SupportView support_view();
+    void clear_supports(Range particles);
+    void clear_taken(Range particles);  ///< what colliders have taken has been added to their pushes
     LevelView level(std::uint32_t i);
     ParticleView level_particles(std::uint32_t i);
     RowView level_rows(std::uint32_t i);

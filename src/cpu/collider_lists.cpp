@@ -40,6 +40,7 @@ void ColliderPart::reserve(std::uint32_t tiles, std::uint32_t colliders, bool ke
         lists->colliders.reserve(listed), lists->begin.reserve(tiles + std::size_t{1});
     found_.reserve(colliders);
     for (auto* runs : {&runs_, &last_runs_}) runs->reserve(tiles);
+    pressed.reserve(tiles);
     for (auto* near : {&near_, &last_near_}) near->reserve(listed);
     if (keeps_sums || traces) scratch_.reserve(sums);
     if (keeps_sums) sums_.reserve(sums);

@@ -68,6 +68,9 @@ class ColliderPart {
     bool has(std::uint32_t particle) const { return particle >= mine_.begin && particle < mine_.end; }
     void trace(std::uint32_t particle, std::uint32_t collider, Vec3 by, Vec3 lever);
 
+    /// Particles that have a Support in the substep, if bodies may press them on colliders.
+    std::vector<Range> pressed;
+
   private:
     struct Lists {
         std::vector<std::uint32_t> colliders;  ///< tile by tile
@@ -102,6 +105,14 @@ class ColliderLists {
   public:
     /// Allocates, on the calling thread.
     void prepare(std::uint32_t particles, std::uint32_t colliders, unsigned workers, bool keeps_sums, bool traces);
+    /// Calls visit(Range) for the particles that have a Support, and forgets them.
+    template <class Visit>
+    void take_pressed(Visit&& visit) {
+        for (Slot& slot : parts_) {
+            for (const Range& range : slot.part.pressed) visit(range);
+            slot.part.pressed.clear();
+        }
+    }
     ColliderPart& part(unsigned worker) { return parts_[worker].part; }
     const ColliderPart& part(unsigned worker) const { return parts_[worker].part; }
     /// Adds to the trace of a particle and a collider that a contact moved it `by`; `lever`: where the contact is, from

@@ -71,6 +71,48 @@ WEFT_FN void mark_near_faces(const ContactView& c, const Solid& solid, std::size
         c.near_faces[at + unordered_particle(static_cast<std::size_t>(__builtin_ctz(bits)))] = 1;
 }
 
+WEFT_FN Support load_support(const SupportView& view, std::size_t i) {
+    if (!view.plane) return no_support();
+    Support support;
+    support.normal = load_blocks_unordered(view.plane + 4 * i, support.offset);
+    support.rubbed = load_blocks_unordered(view.taken + 4 * i, support.pushed);
+    support.carried = load_blocks_unordered(view.carried + 4 * i, support.collider);
+    real unused;
+    support.friction = load_blocks_unordered(view.friction + 4 * i, unused).x;
+    return support;
+}
+
+WEFT_FN void store_taken(const Support& support, const SupportView& view, std::size_t i) {
+    if (view.plane) store_blocks_unordered(support.rubbed, support.pushed, view.taken + 4 * i);
+}
+
+// Adds to the push of a collider what it has taken from bodies. Returns it, as a displacement.
+WEFT_FN vec3 add_taken(const SupportView& view, real number, ContactSum& sum, std::size_t i) {
+    if (!view.plane) return vec3(real(0.0f));
+    Support support = load_support(view, i);
+    return take_support(sum, support, number);
+}
+
+template <class Shape>
+inline void find_support_pass(const ParticleView& p, const ContactView& c, Range range) {
+    const ContactBody body = make_body(c);
+    const Solid solid = solid_of(c);
+    for (std::size_t i = range.begin; i < range.end; i += lane_count) {
+        real unused;
+        const vec3 x = load_blocks_unordered(p.position + 4 * i, unused);
+        vec3 normal;
+        const vec3 local = to_body(body, x);
+        const real gap = Shape::distance(local, solid.numbers, normal) - body.half_thickness;
+        if (!any(gap < body.half_thickness)) continue;
+        Support support = load_support(c.support, i);
+        support_by(support, x, gap, rotate(body.rx, body.ry, body.rz, normal), body.half_thickness,
+                   body.static_friction, real(c.number), carried_by(body, local));
+        store_blocks_unordered(support.normal, support.offset, c.support.plane + 4 * i);
+        store_blocks_unordered(support.carried, support.collider, c.support.carried + 4 * i);
+        store_blocks_unordered(vec3(support.friction), real(0.0f), c.support.friction + 4 * i);
+    }
+}
+
 template <class Shape, bool traced>
 inline void contact_pass(const ParticleView& p, const ContactView& c, Range range) {
     const ContactBody body = make_body(c);
@@ -82,6 +124,7 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
         const std::size_t at = i - range.begin;
         if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
+        const vec3 taken = add_taken(c.support, real(c.number), sum, i);
 
         const vec3 local = to_body(body, x);
         vec3 normal;
@@ -101,7 +144,7 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         }
         if (c.sums) store_blocks_unordered(sum.friction, sum.push, c.sums + 4 * at);
         if constexpr (traced) {
-            if (touches) trace_pass(c, i, at, before, x, w);
+            if (touches) trace_pass(c, i, at, before - taken, x, w);
         }
     }
 }
@@ -135,6 +178,12 @@ WEFT_FN LaneContact lane_contact(const ParticleView& p, const ContactBody& body,
     return lane;
 }
 
+// m, at most 0: how far the support will push the particle toward the body.
+WEFT_FN real inside_support(const Support& support, const ContactBody& body, const LaneContact& lane) {
+    const vec3 normal = rotate(body.rx, body.ry, body.rz, lane.normal);
+    return min(room_before(support, lane.x, normal, body.depenetration), real(0.0f));
+}
+
 template <class Shape>
 inline void count_touches_pass(const ParticleView& p, const ContactView& c, const BodyView& b, Range range) {
     const ContactBody body = make_body(c);
@@ -142,10 +191,11 @@ inline void count_touches_pass(const ParticleView& p, const ContactView& c, cons
     const ContactSum none = {vec3(real(0.0f)), real(0.0f)};
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         const LaneContact lane = lane_contact<Shape>(p, body, solid, i);
-        if (!any(may_touch(lane.gap, none, lane.way, solid, body))) continue;
+        const real inside = inside_support(load_support(c.support, i), body, lane);
+        if (!any(may_touch(lane.gap + inside, none, lane.way, solid, body))) continue;
         const ContactPlane plane =
             contact_plane(solid, body, none, lane.local, lane.local_at_start, lane.gap, lane.normal);
-        const mask touches = plane.gap < real(0.0f) && lane.w > real(0.0f);
+        const mask touches = plane.gap + inside < real(0.0f) && lane.w > real(0.0f);
         b.sums->touches += static_cast<std::uint32_t>(__builtin_popcount(bits_of(touches)));
     }
 }
@@ -178,12 +228,16 @@ inline void touch_body_pass(const ParticleView& p, const ContactView& c, const B
         const std::size_t at = i - range.begin;
         if (!c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
         const vec3 before = lane.x;
-        if (any(may_touch(lane.gap, sum, lane.way, solid, body))) {
+        Support support = load_support(c.support, i);
+        const real inside = inside_support(support, body, lane);
+        if (any(may_touch(lane.gap + inside, sum, lane.way, solid, body))) {
+            vec3 undone;
             contact_moved_body(solid, body, moved, lane.x, lane.start, lane.w, sum, lane.local, lane.local_at_start,
-                               lane.gap, lane.normal);
+                               lane.gap, lane.normal, support, undone);
+            store_taken(support, c.support, i);
             store_blocks_unordered(lane.x, lane.w, p.position + 4 * i);
-            if (c.moved) trace_pass(c, i, at, before, lane.x, lane.w);
-            if (b.moved) add_to_body(b, lane.x - before, lane.x, lane.w);
+            if (c.moved) trace_pass(c, i, at, before - undone, lane.x, lane.w);
+            if (b.moved) add_to_body(b, (lane.x - before) + undone, lane.x, lane.w);
             const mask touches = sum.push > real(0.0f);
             b.sums->touches += static_cast<std::uint32_t>(__builtin_popcount(bits_of(touches)));
         }

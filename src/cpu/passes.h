@@ -47,6 +47,16 @@ struct RowView {
     Limits limits = {};
 };
 
+/// What lies behind each particle that bodies may press on a collider: a Support, as arrays of blocks of four.
+struct SupportView {
+    float* plane = nullptr;    ///< normal, offset; nullptr without bodies or colliders
+    float* taken = nullptr;    ///< displacement by friction, along the normal
+    float* carried = nullptr;  ///< by the collider; its number
+    float* friction = nullptr;
+};
+
+inline constexpr std::size_t support_arrays = 4;
+
 struct ContactView {
     int kind;                                    ///< of the shape
     std::array<float, 4> numbers;                ///< of the shape
@@ -63,6 +73,8 @@ struct ContactView {
     /// Set for the particles of the range whose faces may touch, or that contact moves; nullptr if no face is to touch.
     std::uint8_t* near_faces = nullptr;
     float nearest = 0, widest = 0;  ///< m: nearest_of_faces(), widest_face()
+    SupportView support = {};       ///< contact with bodies, and with the colliders that support
+    float number = 0;               ///< of the collider
 };
 
 /// Pushes of cloth on a body, in the quanta of contact_forces.kernel.h: sums wrap around.
@@ -243,6 +255,8 @@ struct Passes {
     /// Counts the particles that touch a body.
     std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count>
         count_touches;
+    /// Lets the collider support the particles that touch it.
+    std::array<void (*)(const ParticleView&, const ContactView&, Range), shape_kind_count> find_support;
     /// Like `contact`, but the body takes its share: adds to its sums.
     std::array<void (*)(const ParticleView&, const ContactView&, const BodyView&, Range), shape_kind_count> touch_body;
     /// Appends the contacts of triangles with a collider.

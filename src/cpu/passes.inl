@@ -417,6 +417,11 @@ inline constexpr Passes make_passes(std::string_view isa) {
 #include "physics/contact/shapes.def"
         },
 #undef WEFT_SHAPE
+#define WEFT_SHAPE(name, Name) find_support_pass<Name##Shape>,
+        .find_support = {
+#include "physics/contact/shapes.def"
+        },
+#undef WEFT_SHAPE
 #define WEFT_SHAPE(name, Name) touch_body_pass<Name##Shape>,
         .touch_body = {
 #include "physics/contact/shapes.def"

@@ -44,6 +44,7 @@
 #undef WEFT_SHAPE_KERNELS
 #include "physics/contact/swept.kernel.h"
 #include "physics/contact/face.kernel.h"
+#include "physics/body/support.kernel.h"
 #include "physics/body/body_contact.kernel.h"
 #include "physics/air/shelter.kernel.h"
 // clang-format on

@@ -72,6 +72,8 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
         work.near_slots = work.arena.reserve(slots * sizeof(std::uint32_t));
         if (rounds_of(plan, model) > 1 || has(plan.substep, PassKind::touch_bodies))
             work.contact_sums = work.arena.reserve(sums);
+        if (has(plan.substep, PassKind::touch_bodies))
+            work.supports = work.arena.reserve(std::uint64_t{model.point_count()} * WEFT_SUPPORT_BLOCKS * block);
         if (shape.contact_forces) work.contact_log = work.arena.reserve(2 * sums);
         if (has_face_contact(plan)) {
             const std::uint64_t blocks = WEFT_FACE_CONTACT_BLOCKS + (shape.contact_forces ? 1 : 0);

@@ -38,6 +38,7 @@ struct WorkBuffers {
     Slot taut;                                       ///< TautArgs::sums
     Slot good_lambda;                                ///< KeepArgs
     Slot contact_sums;                               ///< by slot and particle in the tile
+    Slot supports;                                   ///< ContactArgs
     Slot contact_log;               ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
     Slot face_contacts, face_sums;  ///< FaceContactArgs
     Slot corrections;               ///< as floats, or

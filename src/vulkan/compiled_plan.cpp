@@ -372,6 +372,7 @@ class Compiler : ClothArgs {
                                .slots = work(work_.near_slots),
                                .report = input_.report(),
                                .face_sums = work(work_.face_sums),
+                               .supports = work(work_.supports),
                                .count = model_.point_count(),
                                .capacity = work_.slot_count,
                                .substep = substep,

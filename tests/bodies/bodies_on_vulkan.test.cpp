@@ -130,6 +130,27 @@ TEST(BodiesOnVulkan, every_method_is_the_same_as_on_the_cpu) {
     expect_same(settings, add, 8);
 }
 
+// Labels: slow no-asan
+TEST(BodiesOnVulkan, cloth_between_bodies_and_colliders_is_the_same_as_on_the_cpu) {
+    const auto add = [](World& world) {
+        world.add(make_sheet({.resolution = {9, 9}, .position = {0, 0.0005f, 0}, .pinned = [](Vec3 p) {
+                                  return p.x > 0.49f && p.z > 0.49f;
+                              }}));
+        world.add(make_floor());
+        Collider wedge = make_collider({.name = "wedge", .shape = BoxDesc{.half_extents = {0.2f, 0.1f, 0.2f}}});
+        wedge.pose = {rotation_from_degrees({10, 20, 30}), {-0.3f, -0.05f, 0.2f}};
+        world.add(std::move(wedge));
+        world.add(make_box({0.1f, 0.05f, 0.1f}, 0.3f, {0.2f, 0.052f, -0.1f}, {.velocity = {1, 0, 0.3f}}));
+        world.add(make_box({0.1f, 0.05f, 0.1f}, 2, {-0.25f, 0.25f, 0.2f}));
+        world.add(make_ball(0.1f, 0.5f, {-0.1f, 0.2f, -0.3f}, {.spin = {0, 0, 400}}));
+    };
+    WorldSettings settings = with_substeps(4);
+    settings.contact_forces = true;
+    expect_same(settings, add, 30);
+    settings.solver.iterations = 2;
+    expect_same(settings, add, 10);
+}
+
 // Labels: slow no-asan long
 TEST(BodiesOnVulkan, cloth_that_meets_cloth_is_the_same_as_on_the_cpu) {
     const auto add = [](SelfCollision with) {

@@ -33,31 +33,76 @@ WEFT_FN real most_weight_of(MovedBody moved, vec3 lever)
 // Like project_contact(), but the particle makes only its share of the way, by its inverse mass and that of its part of
 // the body. The body makes the rest, by the opposite impulse. In later iterations a contact also takes back a push that
 // others have made unnecessary.
+//
+// A particle with a support goes no farther than to the support. What the body presses beyond that moves the body alone.
+//   undone   m: what the contact asks of the particle beyond its displacement, because the support acts on it too
 WEFT_FN void project_body_contact(inout_(vec3) x, vec3 start, real w, inout_(ContactSum) sum, real gap, real gap_start,
-                                  vec3 normal, vec3 carried, ContactBody body, MovedBody moved)
+                                  vec3 normal, vec3 carried, ContactBody body, MovedBody moved,
+                                  inout_(Support) support, out_(vec3) undone)
 {
     mask moves = w > real(0);
     vec3 lever = x - moved.center;
-    real goal = min(real(0), gap_start + body.depenetration);
-    real share = w / select(moves, w + weight_of(moved, lever, normal), real(1));
-    real dn = select(moves, max((goal - gap) * share, -sum.push), real(0));
-    x = x + normal * dn;
+    real room = room_before(support, x, normal, body.depenetration);
+    real by_body = weight_of(moved, lever, normal);
+    real share = w / select(moves, w + by_body, real(1));
+
+    // A push of the length dn moves the particle by min(dn + taken, room) along the normal.
+    real facing = -dot(normal, support.normal);
+    mask held = moves && by_body > real(0) && facing > real(WEFT_LEAST_FACING);
+    real lift = select(held, body.depenetration * real(WEFT_SLOW_LIFT), body.depenetration);
+    real need = min(real(0), gap_start + lift) - gap;
+    real per_normal = real(1) / select(held, facing, real(1));
+    real taken = select(held, support.pushed * per_normal, real(0));
+    real against = (need - room) * w / select(held, by_body, real(1));
+    real wanted = (need - taken) * share;
+    real dn = select(moves, max(select(held, max(wanted, against), wanted), -sum.push), real(0));
+    // A contact that does not push leaves the support alone.
+    held = held && max(sum.push, sum.push + dn) > real(0);
+    real taken_now = max(taken + dn - max(room, real(0)), real(0));
+    vec3 before = x;
+    x = x + normal * (dn - select(held, taken_now - taken, real(0)));
     sum.push = sum.push + dn;
+
+    // Friction of the support, that of the body, and again that of the support: a particle that slides on the support is
+    // stopped by the body alone, one that rests there is held by both.
+    ContactSum back;
+    back.push = taken_now * facing;
+    back.friction = support.rubbed;
+    vec3 held_x = x;
+    rub_on_support(held_x, back, support, start);
+    x = select(held, held_x, x);
 
     vec3 way = x - start - carried;
     vec3 slip = way - normal * dot(way, normal);
-    vec3 along = slip * inversesqrt(max(dot(slip, slip), real(1e-30)));
-    real part = w / select(moves, w + weight_of(moved, lever, along), real(1));
-    rub_along(x, sum, sum.friction - slip * part, body);
+    real length_of_slip = sqrt(max(dot(slip, slip), real(1e-30)));
+    vec3 along = slip * (real(1) / length_of_slip);
+    real across = weight_of(moved, lever, along);
+    real part = w / select(moves, w + across, real(1));
+    real free = min(length_of_slip, max(dot(x - start - support.carried, along), real(0)));
+    real rest = length_of_slip - free;
+    real most = rest + max(back.push * support.friction - dot(back.friction, along), real(0));
+    real stopped = free * part + min(rest * w / select(held, max(across, real(1e-30)), real(1)), most * part);
+    vec3 rubbed = vec3(real(0), real(0), real(0));
+    vec3 friction = sum.friction;
+    rub_along(rubbed, sum, friction - select(held, along * stopped, slip * part), body);
+    x = x + rubbed;
+    held_x = x;
+    rub_on_support(held_x, back, support, start);
+    x = select(held, held_x, x);
+    support.pushed = select(held, back.push, support.pushed);
+    support.rubbed = select(held, back.friction, support.rubbed);
+    undone = select(held, (normal * dn + rubbed) - (x - before), vec3(real(0)));
 }
 
 // contact_particle() for a body that is moved.
 WEFT_FN void contact_moved_body(Solid solid, ContactBody body, MovedBody moved, inout_(vec3) x, vec3 start, real w,
-                                inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal)
+                                inout_(ContactSum) sum, vec3 local, vec3 local_at_start, real gap, vec3 normal,
+                                inout_(Support) support, out_(vec3) undone)
 {
     ContactPlane plane = contact_plane(solid, body, sum, local, local_at_start, gap, normal);
     project_body_contact(x, start, w, sum, plane.gap, plane.gap_at_start,
-                         rotate(body.rx, body.ry, body.rz, plane.normal), carried_by(body, local), body, moved);
+                         rotate(body.rx, body.ry, body.rz, plane.normal), carried_by(body, local), body, moved, support,
+                         undone);
     keep_out(solid, body, x, w, plane);
 }
 
@@ -114,9 +159,10 @@ WEFT_FN vec3 face_displacement_of_body(FaceRow row, vec3 point, real inverse_mas
     ContactBody body;
     body.static_friction = row.static_friction;
     body.kinetic_friction = row.kinetic_friction;
-    body.depenetration = row.depenetration;
-    vec3 x = point;
+    body.depenetration = row.depenetration * real(WEFT_SLOW_LIFT);
+    Support behind = no_support();
+    vec3 x = point, undone;
     project_body_contact(x, row.start, inverse_mass, sum, dot(row.normal, point - carried) + row.offset,
-                         row.gap_at_start, row.normal, carried, body, moved);
+                         row.gap_at_start, row.normal, carried, body, moved, behind, undone);
     return (x - point) * select(inverse_mass > real(0), real(1) / max(inverse_mass, real(1e-30)), real(0));
 }

@@ -40,8 +40,48 @@ bool marks_faces(Solid solid, ContactBody body, float gap, float way, vec3 moved
            faces_may_touch(solid, gap + body.half_thickness, way, nearest, contact_args.at.frame.at.widest_face);
 }
 
+// What lies behind a particle that bodies may press on a collider (support.kernel.h).
+Support load_support(uint p)
+{
+    vec4 plane = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p],
+         taken = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 1u],
+         carried = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 2u],
+         friction = contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 3u];
+    return Support(plane.xyz, plane.w, taken.xyz, taken.w, carried.xyz, carried.w, friction.x);
+}
+void store_taken(uint p, Support support)
+{
+    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 1u] = vec4(support.rubbed, support.pushed);
+}
+void store_support(uint p, Support support)
+{
+    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p] = vec4(support.normal, support.offset);
+    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 2u] = vec4(support.carried, support.collider);
+    contact_args.at.supports.at[WEFT_SUPPORT_BLOCKS * p + 3u] = vec4(support.friction, 0.0, 0.0, 0.0);
+    store_taken(p, support);
+}
+
+// Whether the slot holds a body.
+bool holds_body(uint slot)
+{
+    return is_body(contact_args.at.colliders.at.colliders.at[contact_args.at.slots.at[slot]]);
+}
+
+// Whether bodies may press the particle of these slots on another collider.
+bool supports_in(uvec2 slots)
+{
+    if (is_none(uvec2(contact_args.at.supports))) return false;
+    bool bodies = false, others = false;
+    for (uint slot = slots.x; slot < slots.y; ++slot) {
+        bool body = holds_body(slot);
+        bodies = bodies || body;
+        others = others || !body;
+    }
+    return bodies && others;
+}
+
 // Contact of one particle with the collider of one slot. Returns whether faces of the particle may touch.
-bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
+bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start, Support support)
 {
     ColliderIn collider = contact_args.at.colliders.at.colliders.at[contact_args.at.slots.at[slot]];
     if (is_body(collider)) return false;  // touch_bodies
@@ -53,6 +93,7 @@ bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
         vec4 kept = contact_args.at.sums.at[at];
         sum = ContactSum(kept.xyz, kept.w);
     }
+    vec3 taken = take_support(sum, support, float(contact_args.at.slots.at[slot]));
     Solid solid = solid_of(collider);
     vec3 local = to_body(body, x.xyz), local_at_start = to_body_at_start(body, start), step = local - local_at_start;
     float way = sqrt(dot(step, step));
@@ -62,7 +103,7 @@ bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start)
     bool touches = may_touch(gap, sum, way, solid, body);
     if (touches) contact_particle(solid, body, x.xyz, start, x.w, sum, local, local_at_start, gap, normal);
     if (keeps) contact_args.at.sums.at[at] = vec4(sum.friction, sum.push);
-    if (traces) trace(at, touches, x_before, x, body.position, p);
+    if (traces) trace(at, touches, x_before - taken, x, body.position, p);
     return marks_faces(solid, body, gap, way, x.xyz - x_before);
 }
 
@@ -78,12 +119,20 @@ void run_contact(uint p)
     vec4 x = load_point(contact_args.at.position, p);
     vec3 start = contact_args.at.start.at[p].xyz;
     uvec2 slots = slots_near(contact_args.at.tiles, p);
-    bool near = false;
+    bool near = false, presses = supports_in(slots);
+    Support support = no_support();
+    if (presses) support = load_support(p);
     for (uint slot = slots.x; slot < slots.y; ++slot) {
-        bool may_touch = meet_collider(slot, p, x, start);
+        bool may_touch = meet_collider(slot, p, x, start, support);
         near = near || may_touch;
     }
     store_point(contact_args.at.position, p, x);
+    if (presses) {
+        // It has been added to the pushes of the colliders.
+        support.rubbed = vec3(0.0);
+        support.pushed = 0.0;
+        store_taken(p, support);
+    }
     mark_faces(p, near, (contact_args.at.parts & WEFT_CONTACT_KEEPS_MARKS) != 0u);
 }
 

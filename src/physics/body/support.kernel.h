@@ -1,0 +1,76 @@
+// A support holds what is pushed at it, not past it: the least cosine between the push and the support's normal.
+#define WEFT_LEAST_FACING 0.7
+// Overlap of a body with faces, and with particles that have a support, is removed at this part of the speed of other
+// overlap: the body moves, not the cloth, and keeps the velocity.
+#define WEFT_SLOW_LIFT 0.1
+
+// A particle between a body and a collider (law: body.md). What the body presses on it, the collider takes.
+
+struct Support {
+    vec3 normal;    // world, unit, out of the collider; zero: there is none
+    real offset;    // m: the particle touches it where dot(normal, x) is this
+    vec3 rubbed;    // m: displacement by the collider's friction, against that of bodies
+    real pushed;    // m: displacement along the normal, likewise
+    vec3 carried;   // m: how far the collider itself moves there in the substep
+    real collider;  // its number
+    real friction;  // static, of the pair
+};
+
+WEFT_FN Support no_support()
+{
+    Support support;
+    support.normal = vec3(real(0), real(0), real(0));
+    support.offset = real(0);
+    support.rubbed = support.normal;
+    support.pushed = real(0);
+    support.carried = support.normal;
+    support.collider = real(-1);
+    support.friction = real(0);
+    return support;
+}
+
+// m: how far a particle is from its support, along the opposite of `normal`; far if it has none that faces it. Negative
+// inside, where the collider will push it out, but at most by `depenetration`.
+WEFT_FN real room_before(Support support, vec3 x, vec3 normal, real depenetration)
+{
+    real facing = -dot(normal, support.normal);
+    mask faces = facing > real(WEFT_LEAST_FACING);
+    real room = (dot(support.normal, x) - support.offset) / select(faces, facing, real(1));
+    return select(faces, max(room, -depenetration), real(1e30));
+}
+
+// Of all colliders that a particle is near, the deepest supports it.
+//   gap, normal   to the collider; world
+WEFT_FN void support_by(inout_(Support) support, vec3 x, real gap, vec3 normal, real half_thickness, real friction,
+                        real collider, vec3 carried)
+{
+    mask found = dot(support.normal, support.normal) > real(0);
+    real least = select(found, dot(support.normal, x) - support.offset, half_thickness);
+    mask better = gap < least;
+    support.normal = select(better, normal, support.normal);
+    support.offset = select(better, dot(normal, x) - gap, support.offset);
+    support.carried = select(better, carried, support.carried);
+    support.collider = select(better, collider, support.collider);
+    support.friction = select(better, friction, support.friction);
+}
+
+// Friction of the support alone, as far as what it has taken allows.
+WEFT_FN void rub_on_support(inout_(vec3) x, inout_(ContactSum) back, Support support, vec3 start)
+{
+    ContactBody behind;
+    behind.static_friction = support.friction;
+    behind.kinetic_friction = support.friction;
+    vec3 way = x - start - support.carried;
+    rub_along(x, back, back.friction - (way - support.normal * dot(way, support.normal)), behind);
+}
+
+// What the collider has taken counts as its own push, so its friction can be as large. Returns it, as a displacement.
+WEFT_FN vec3 take_support(inout_(ContactSum) sum, Support support, real collider)
+{
+    mask mine = abs(support.collider - collider) < real(0.5);
+    real pushed = select(mine, support.pushed, real(0));
+    vec3 rubbed = select(mine, support.rubbed, vec3(real(0), real(0), real(0)));
+    sum.push = sum.push + pushed;
+    sum.friction = sum.friction + rubbed;
+    return support.normal * pushed + rubbed;
+}
