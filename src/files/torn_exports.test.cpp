@@ -290,6 +290,7 @@ void expect_eroded_film(bool bound, const char* backend) {
     EXPECT_EQ(other.world().frame().cloths[0].model->mesh(), mesh);
 }
 
+// Labels: long
 TEST_P(TornExports, ShowEachFrameOfAClothWithSeamsThatErodes) {
     expect_eroded_film(false, GetParam());
 }

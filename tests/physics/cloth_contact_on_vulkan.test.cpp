@@ -45,7 +45,7 @@ TEST(ClothContactOnVulkan, pins_that_press_cloth_together_are_counted_as_on_the_
 }
 
 // By more than contact can take back, so the brake acts.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothContactOnVulkan, cloth_driven_into_cloth_is_the_same_as_on_the_cpu) {
     const RunOfFrames result = expect_equal(with_substeps(5), add_driven_sheets, 3);
     EXPECT_GT(result.counts.contacts, 0u);

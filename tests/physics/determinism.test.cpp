@@ -40,7 +40,7 @@ TEST(Determinism, threads_and_instruction_sets_give_the_golden_bits) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(Determinism, holds_with_iterations_too) {
     const std::string expected = drape({0, "scalar"}, 3);
     EXPECT_NE(expected, golden);

@@ -61,7 +61,7 @@ double fastest(const World& world) {
     return result;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(Untangle, sheets_placed_through_each_other_come_apart) {
     for (const float gravity : {0.0f, -9.81f}) {
         for (const Vec3 rotation : {Vec3{90, 0, 0}, Vec3{10, 20, 5}, Vec3{60, 30, 5}}) {
