@@ -92,6 +92,32 @@ void settle(World& world, double seconds, double frame_seconds, double slow) {
     }
 }
 
+std::vector<Vec4> places(const World& world) {
+    const auto& x = world.frame().cloths.front().positions;
+    return {x.begin(), x.end()};
+}
+
+double rms_distance(const std::vector<Vec4>& a, const std::vector<Vec4>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Vec3 d = a[i].xyz() - b[i].xyz();
+        sum += double{dot(d, d)};
+    }
+    return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+std::array<double, 3> momentum(const World& world) {
+    std::array<double, 3> sum{};
+    for (const ClothFrame& cloth : world.frame().cloths) {
+        for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p) {
+            const double m = cloth.model->mass[p];
+            const Vec4 v = cloth.velocities[p];
+            sum[0] += m * double{v.x}, sum[1] += m * double{v.y}, sum[2] += m * double{v.z};
+        }
+    }
+    return sum;
+}
+
 std::array<double, 3> position(const World& world, std::uint32_t particle) {
     const Vec4 x = world.frame().cloths.front().positions[particle];
     return {double{x.x}, double{x.y}, double{x.z}};

@@ -37,8 +37,14 @@ void run(World& world, double seconds, double frame_seconds = 1.0 / 60);
 /// The end is the equilibrium of the constraints. Ends before `seconds` once no particle is faster than `slow` m/s.
 void settle(World& world, double seconds, double frame_seconds = 1.0 / 60, double slow = 1e-5);
 
+/// Where the particles of the first cloth are, m.
+std::vector<Vec4> places(const World& world);
+/// m: root of the mean square of the distances between particles of the same number.
+double rms_distance(const std::vector<Vec4>& a, const std::vector<Vec4>& b);
 /// Position of a particle now, m.
 std::array<double, 3> position(const World& world, std::uint32_t particle);
+/// kg·m/s, of the cloths.
+std::array<double, 3> momentum(const World& world);
 /// Mean of the particles' places, weighted by mass, pinned ones included, m.
 std::array<double, 3> center_of_mass(const World& world);
 

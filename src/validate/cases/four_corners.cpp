@@ -18,17 +18,7 @@ std::vector<Vec4> shape(const Validation& validation, std::uint32_t side, std::u
                       .fabric = find_fabric("cotton")->fabric,
                       .pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f && std::abs(p.z) > 0.499f; }});
     run(world, 10);
-    const auto& x = world.frame().cloths.front().positions;
-    return {x.begin(), x.end()};
-}
-
-double apart(const std::vector<Vec4>& a, const std::vector<Vec4>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Vec3 d = a[i].xyz() - b[i].xyz();
-        sum += double{dot(d, d)};
-    }
-    return std::sqrt(sum / static_cast<double>(a.size()));
+    return places(world);
 }
 
 }  // namespace
@@ -41,7 +31,7 @@ void validate_four_corners(Validation& validation) {
         validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
                                 std::to_string(substeps) + " substeps, default solver",
                         .unit = "m",
-                        .measured = apart(shape(validation, side, substeps, true), converged),
+                        .measured = rms_distance(shape(validation, side, substeps, true), converged),
                         .expected = 0.003,
                         .bound = Bound::at_most,
                         .known = 0.03});

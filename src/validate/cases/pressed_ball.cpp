@@ -1,0 +1,46 @@
+#include "validate/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+using namespace cases;
+namespace {
+
+// A square meter of cotton, pinned along its border, with a ball of 0.2 m that stands 5 cm high in its middle.
+std::vector<Vec4> shape_over_ball(const Validation& validation, std::uint32_t side, std::uint32_t substeps,
+                                  bool levels) {
+    WorldSettings settings{.solver = {.substeps = substeps}, .air = AirDesc{}};
+    settings.solver.hierarchy = levels;
+    World world = validation.make_world(settings);
+    add_sheet(world, {.mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating),
+                      .fabric = find_fabric("cotton")->fabric,
+                      .pinned = [](Vec3 p) { return std::max(std::abs(p.x), std::abs(p.z)) > 0.499f; }});
+    Collider ball = make_collider({.name = "ball", .shape = SphereDesc{0.2f}});
+    ball.motion = {{.time = 0, .position = {0, -0.21f, 0}}, {.time = 1, .position = {0, -0.15f, 0}}};
+    world.add(std::move(ball));
+    run(world, 6);
+    return places(world);
+}
+
+}  // namespace
+
+void validate_pressed_ball(Validation& validation) {
+    const std::uint32_t side = validation.quick() ? 17 : 33;
+    const auto converged = shape_over_ball(validation, side, 300, false);
+    for (const std::uint32_t substeps : {5u, 10u, 20u, 60u}) {
+        if (validation.quick() && substeps != 20) continue;
+        validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
+                                std::to_string(substeps) + " substeps, default solver",
+                        .unit = "m",
+                        .measured = rms_distance(shape_over_ball(validation, side, substeps, true), converged),
+                        .expected = 0.003,
+                        .bound = Bound::at_most,
+                        .known = substeps < 10 ? 0.004 : 0});
+    }
+}
+
+}  // namespace weft
