@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace weft::cases {
@@ -104,6 +105,21 @@ double rms_distance(const std::vector<Vec4>& a, const std::vector<Vec4>& b) {
         sum += double{dot(d, d)};
     }
     return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+void compare_with_converged(Validation& validation, RestingShape shape, double (*known)(std::uint32_t substeps)) {
+    const std::uint32_t side = validation.quick() ? 17 : 33;
+    const auto converged = shape(validation, side, 300, false);
+    for (const std::uint32_t substeps : {5u, 10u, 20u, 60u}) {
+        if (validation.quick() && substeps != 20) continue;
+        validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
+                                std::to_string(substeps) + " substeps, default solver",
+                        .unit = "m",
+                        .measured = rms_distance(shape(validation, side, substeps, true), converged),
+                        .expected = 0.003,
+                        .bound = Bound::at_most,
+                        .known = known(substeps)});
+    }
 }
 
 std::array<double, 3> momentum(const World& world) {

@@ -41,6 +41,11 @@ void settle(World& world, double seconds, double frame_seconds = 1.0 / 60, doubl
 std::vector<Vec4> places(const World& world);
 /// m: root of the mean square of the distances between particles of the same number.
 double rms_distance(const std::vector<Vec4>& a, const std::vector<Vec4>& b);
+/// The places of a sheet of side² particles at rest.
+using RestingShape = std::vector<Vec4> (*)(const Validation&, std::uint32_t side, std::uint32_t substeps, bool levels);
+/// Checks how far the default solver is from 300 substeps without coarse levels, for several numbers of substeps.
+/// `known`: ValidationCheck::known by number of substeps.
+void compare_with_converged(Validation& validation, RestingShape shape, double (*known)(std::uint32_t substeps));
 /// Position of a particle now, m.
 std::array<double, 3> position(const World& world, std::uint32_t particle);
 /// kg·m/s, of the cloths.

@@ -1,7 +1,6 @@
 #include "validate/sheets.h"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace weft {
@@ -24,18 +23,7 @@ std::vector<Vec4> shape(const Validation& validation, std::uint32_t side, std::u
 }  // namespace
 
 void validate_four_corners(Validation& validation) {
-    const std::uint32_t side = validation.quick() ? 17 : 33;
-    const auto converged = shape(validation, side, 300, false);
-    for (const std::uint32_t substeps : {5u, 10u, 20u, 60u}) {
-        if (validation.quick() && substeps != 20) continue;
-        validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
-                                std::to_string(substeps) + " substeps, default solver",
-                        .unit = "m",
-                        .measured = rms_distance(shape(validation, side, substeps, true), converged),
-                        .expected = 0.003,
-                        .bound = Bound::at_most,
-                        .known = 0.03});
-    }
+    compare_with_converged(validation, shape, [](std::uint32_t) { return 0.03; });
 }
 
 }  // namespace weft

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace weft {
@@ -29,18 +28,8 @@ std::vector<Vec4> shape_over_ball(const Validation& validation, std::uint32_t si
 }  // namespace
 
 void validate_pressed_ball(Validation& validation) {
-    const std::uint32_t side = validation.quick() ? 17 : 33;
-    const auto converged = shape_over_ball(validation, side, 300, false);
-    for (const std::uint32_t substeps : {5u, 10u, 20u, 60u}) {
-        if (validation.quick() && substeps != 20) continue;
-        validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
-                                std::to_string(substeps) + " substeps, default solver",
-                        .unit = "m",
-                        .measured = rms_distance(shape_over_ball(validation, side, substeps, true), converged),
-                        .expected = 0.003,
-                        .bound = Bound::at_most,
-                        .known = substeps < 10 ? 0.004 : 0});
-    }
+    compare_with_converged(validation, shape_over_ball,
+                           [](std::uint32_t substeps) { return substeps < 10 ? 0.004 : 0.0; });
 }
 
 }  // namespace weft

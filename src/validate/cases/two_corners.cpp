@@ -1,7 +1,6 @@
 #include "validate/sheets.h"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 namespace weft {
@@ -28,18 +27,7 @@ std::vector<Vec4> shape_between_two(const Validation& validation, std::uint32_t 
 }  // namespace
 
 void validate_two_corners(Validation& validation) {
-    const std::uint32_t side = validation.quick() ? 17 : 33;
-    const auto converged = shape_between_two(validation, side, 300, false);
-    for (const std::uint32_t substeps : {5u, 10u, 20u, 60u}) {
-        if (validation.quick() && substeps != 20) continue;
-        validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
-                                std::to_string(substeps) + " substeps, default solver",
-                        .unit = "m",
-                        .measured = rms_distance(shape_between_two(validation, side, substeps, true), converged),
-                        .expected = 0.003,
-                        .bound = Bound::at_most,
-                        .known = 0.016});
-    }
+    compare_with_converged(validation, shape_between_two, [](std::uint32_t) { return 0.016; });
 }
 
 }  // namespace weft
