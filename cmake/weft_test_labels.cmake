@@ -7,7 +7,7 @@
 #     TEST(Suite, name) {
 #
 # `// Labels of this file: …` applies to every test of the file; `// Labels on Vulkan: …` to a test only in the run on
-# the Vulkan backend. docs/architecture.md explains each label. A test that is neither `slow` nor `long` gets `quick`.
+# the Vulkan backend; `// Labels with "VALUE": …` to a parameterized test only with this text as its parameter. docs/architecture.md explains each label. A test that is neither `slow` nor `long` gets `quick`.
 #
 # Input: weft_discovered (names of tests), weft_prefix (of these names), weft_labels (of all of them), weft_sources.
 
@@ -27,17 +27,21 @@ foreach(source IN LISTS weft_sources)
     string(REGEX MATCHALL "(// Labels[^\n]*\n)*${test_macro}" tests "${text}")
     foreach(test IN LISTS tests)
         set(labels ${of_file})
+        set(with)   # of a parameter: its value, then labels
         string(REGEX MATCHALL "// Labels[^\n]*" comments "${test}")
         foreach(comment IN LISTS comments)
             # One match: a second one that fails in the same condition would clear CMAKE_MATCH_2.
             if(comment MATCHES "^// Labels(${on_vulkan}): (.*)")
                 string(REPLACE " " ";" own "${CMAKE_MATCH_2}")
                 list(APPEND labels ${own})
+            elseif(comment MATCHES "^// Labels with (\"[^\"]+\"): (.*)")
+                string(REPLACE " " ";" with "${CMAKE_MATCH_1} ${CMAKE_MATCH_2}")
             endif()
         endforeach()
-        if(labels AND test MATCHES "${test_macro}")
+        if((labels OR with) AND test MATCHES "${test_macro}")
             set(name ${CMAKE_MATCH_2}.${CMAKE_MATCH_3})
             set(labels_of_${name} ${labels})
+            set(with_of_${name} ${with})
             list(APPEND labelled ${name})
         endif()
     endforeach()
@@ -47,12 +51,19 @@ foreach(test IN LISTS weft_discovered)
     # [prefix][instantiation/]suite.name[/parameter]
     string(LENGTH "${weft_prefix}" start)
     string(SUBSTRING "${test}" ${start} -1 name)
-    if(name MATCHES "^([^/.]+/)?([^/.]+\\.[^/]+)")
+    set(parameter)
+    if(name MATCHES "^([^/.]+/)?([^/.]+\\.[^/]+)(/(.*))?")
         set(name ${CMAKE_MATCH_2})
+        set(parameter ${CMAKE_MATCH_4})
     endif()
     set(labels ${weft_labels})
     if(name IN_LIST labelled)
         list(APPEND labels ${labels_of_${name}})
+        set(with ${with_of_${name}})
+        list(POP_FRONT with value)
+        if(with AND parameter STREQUAL value)
+            list(APPEND labels ${with})
+        endif()
     endif()
     if(NOT "slow" IN_LIST labels AND NOT "long" IN_LIST labels)
         list(APPEND labels quick)
@@ -62,5 +73,6 @@ endforeach()
 
 foreach(name IN LISTS labelled)
     unset(labels_of_${name})
+    unset(with_of_${name})
 endforeach()
 unset(weft_discovered)

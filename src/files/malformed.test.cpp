@@ -253,7 +253,7 @@ class MillionVertices : public MalformedScene {
     }
 };
 
-// Labels: slow no-asan
+// Labels: long no-asan
 TEST_F(MillionVertices, of_a_file) {
     folder.write("large.ply", large_ply());
     expect_to_run(R"("file": "large.ply")");

@@ -121,13 +121,13 @@ TEST(BodiesOnVulkan, every_method_is_the_same_as_on_the_cpu) {
     };
     WorldSettings settings = with_substeps(3);
     settings.solver.iterations = 2;
-    expect_same(settings, add, 8);
+    expect_same(settings, add, 4);
     settings.solver.projection = Projection::jacobi;
-    expect_same(settings, add, 8);
+    expect_same(settings, add, 4);
     settings.solver.projection = Projection::gauss_seidel;
-    expect_same(settings, add, 8);
+    expect_same(settings, add, 4);
     settings.solver.method = Method::pbd;
-    expect_same(settings, add, 8);
+    expect_same(settings, add, 4);
 }
 
 // Labels: slow no-asan
@@ -175,14 +175,14 @@ TEST(BodiesOnVulkan, what_is_attached_is_the_same_as_on_the_cpu) {
     WorldSettings settings = with_substeps(4);
     settings.air = AirDesc{};
     settings.air->wind.push_back({.velocity = {3, 1, 2}});
-    expect_same(settings, add, 20);
+    expect_same(settings, add, 12);
     settings.solver.iterations = 2;
-    expect_same(settings, add, 6);
+    expect_same(settings, add, 3);
     settings.solver.projection = Projection::jacobi;
-    expect_same(settings, add, 6);
+    expect_same(settings, add, 3);
     settings.solver.method = Method::pbd;
     settings.solver.projection = Projection::gauss_seidel;
-    expect_same(settings, add, 6);
+    expect_same(settings, add, 3);
 }
 
 // Labels: slow no-asan long

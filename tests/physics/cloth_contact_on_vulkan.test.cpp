@@ -17,7 +17,7 @@ TEST(ClothContactOnVulkan, a_fallen_sheet_is_the_same_as_on_the_cpu) {
     EXPECT_GT(result.counts.contacts, 0u);
 }
 
-// Labels: slow no-asan
+// Labels: long no-asan
 TEST(ClothContactOnVulkan, a_fallen_stack_is_the_same_as_on_the_cpu) {
     const RunOfFrames result = expect_equal(
         with_substeps(4), [](World& world) { add_stack(world, -5, 4); }, 12);
@@ -102,7 +102,7 @@ TEST(ClothContactOnVulkan, tangled_cloth_comes_apart_as_on_the_cpu) {
 }
 
 // More pairs than a workgroup has invocations.
-// Labels: slow no-asan
+// Labels: long no-asan
 TEST(ClothContactOnVulkan, many_tangled_pairs_come_apart_as_on_the_cpu) {
     const auto add = [](World& world) {
         for (int i = 0; i < 3; ++i) add_crossed_sheets(world, 20, {70, 30, 0}, {0.1f, 0, 0}, {0, 1});

@@ -9,6 +9,7 @@
 #include "solver/state/contact_forces.test.h"
 #include "solver/world/world.h"
 
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -127,6 +128,7 @@ TEST(VulkanContactForces, adds_up_what_many_workgroups_find) {
 // Labels: no-asan
 TEST(VulkanContactForces, says_when_the_list_is_full_and_has_room_in_the_next_frame) {
     for (const char* execution : {"streamed", "fused"}) {
+        if (execution == std::string_view("fused") && !std::getenv("WEFT_LONG_TESTS")) continue;
         World world(checked_vulkan_backend({.execution = execution}),
                     {.solver = {.substeps = 2}, .contact_forces = true});
         World reference(cpu_backend(), world.settings());

@@ -57,6 +57,7 @@ GrabRun run_grabs(std::unique_ptr<Backend> backend, const GrabScene& scene) {
 class GrabsOn : public testing::TestWithParam<const char*> {};
 
 // Labels: slow no-asan
+// Labels with "fused": long
 TEST_P(GrabsOn, give_the_bits_of_the_cpu) {
     std::vector<GrabScene> scenes{{.solver = {.substeps = 6, .hierarchy = true}, .air = true},
                                   {.solver = {.substeps = 4, .iterations = 2, .hierarchy = true}}};

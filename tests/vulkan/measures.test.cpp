@@ -97,6 +97,7 @@ class VulkanMeasures : public testing::TestWithParam<const char*> {
 };
 
 // Labels: no-asan
+// Labels with "fused": long
 TEST_P(VulkanMeasures, are_those_of_the_host_frame_by_frame) {
     const Sheet sheets[] = {{grid(30), {0, 29}},
                             {grid(15, GridDiagonal::cross), {0}},
@@ -121,6 +122,7 @@ TEST_P(VulkanMeasures, are_those_of_the_host_frame_by_frame) {
     }
 }
 
+// Labels with "fused": long
 TEST_P(VulkanMeasures, of_several_cloths_weigh_each_by_its_edges) {
     const auto small = model_of({grid(8), {0}}), large = model_of({irregular(25), {0, 24}});
     const std::vector models{small, large, small};

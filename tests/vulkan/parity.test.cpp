@@ -190,6 +190,7 @@ class Parity : public testing::TestWithParam<const char*> {
 };
 
 // Labels: no-asan
+// Labels with "fused": long
 TEST_P(Parity, of_every_constraint_in_every_way) {
     ASSERT_TRUE(vulkan_);
     constexpr std::pair<Way, const char*> ways[] = {{Way::project, "project"},
@@ -221,6 +222,7 @@ TEST_P(Parity, of_every_constraint_in_every_way) {
 }
 
 // Labels: no-asan
+// Labels with "fused": long
 TEST_P(Parity, of_rows_that_run_one_after_another) {
     ASSERT_TRUE(vulkan_);
     // All constraints share one particle, so each has its own color.

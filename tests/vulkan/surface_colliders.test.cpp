@@ -86,7 +86,7 @@ TEST(VulkanSurfaceColliders, come_move_and_go_and_are_restored) {
     scene.colliders.front().transform.rotation_degrees = {180, 0, 0};
     auto world = SceneWorld::create(scene, {.backend = "vulkan", .contact_forces = true});
     ASSERT_TRUE(world.ok()) << world.error().message();
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 4; ++i) {
         world->advance();
         EXPECT_EQ(crossings_with_colliders(world->world()), 0u) << i;
     }
@@ -99,10 +99,10 @@ TEST(VulkanSurfaceColliders, come_move_and_go_and_are_restored) {
             << i << ' ' << world->world().summary().cloth_contacts.tangled;
     }
     const Snapshot saved = world->world().save();
-    for (int i = 0; i < 4; ++i) world->advance();
+    for (int i = 0; i < 2; ++i) world->advance();
     const std::string expected = world->world().state_hash();
     ASSERT_TRUE(world->world().restore(saved).ok());
-    for (int i = 0; i < 4; ++i) world->advance();
+    for (int i = 0; i < 2; ++i) world->advance();
     EXPECT_EQ(world->world().state_hash(), expected);
     const std::uint64_t bytes = world->world().backend().device_bytes();
     world->remove(id);
