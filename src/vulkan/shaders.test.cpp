@@ -64,7 +64,7 @@ TEST(Shaders, keep_no_references_in_variables_of_structs) {
 
 using Pipelines = DeviceTest;
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST_F(Pipelines, are_made_of_every_shader) {
     for (const gpu::Shader& shader : shaders()) {
         SCOPED_TRACE(shader.name);

@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(OfAScene, Checkpoints, testing::ValuesIn(all_changes),
 
 #ifdef WEFT_VULKAN
 // One after another in one world, which keeps the device's memory of the former ones.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(CheckpointsOnVulkan, bring_back_every_bit_after_each_change) {
     auto world = SceneWorld::create(furnished_scene(), {.backend = "vulkan"});
     ASSERT_TRUE(world.ok()) << world.error().message();

@@ -46,7 +46,7 @@ void expect_same(const WorldSettings& settings, Add&& add, int frames) {
     if (settings.contact_forces) expect_same_forces(vulkan, cpu);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, a_heap_in_a_sheet_is_the_same_as_on_the_cpu) {
     WorldSettings settings = with_substeps(5);
     settings.contact_forces = true;
@@ -73,7 +73,7 @@ TEST(BodiesOnVulkan, bodies_without_cloth_are_the_same_as_on_the_cpu) {
 }
 
 // More pairs and contacts than lists have room for at first.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, a_frame_runs_again_with_longer_lists) {
     expect_same(
         with_substeps(2),
@@ -86,7 +86,7 @@ TEST(BodiesOnVulkan, a_frame_runs_again_with_longer_lists) {
 }
 
 // A frame that runs again weighs taut edges by lambda of the frame before, like one that runs once.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, frames_that_run_again_give_the_same_bits) {
     std::uint64_t repeats = 0;
     const auto hash = [&](World world) {
@@ -113,7 +113,7 @@ TEST(BodiesOnVulkan, frames_that_run_again_give_the_same_bits) {
     EXPECT_EQ(hash(std::move(vulkan)), expected);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, every_method_is_the_same_as_on_the_cpu) {
     const auto add = [](World& world) {
         world.add(make_sheet(pinned_rim(7)));
@@ -130,7 +130,7 @@ TEST(BodiesOnVulkan, every_method_is_the_same_as_on_the_cpu) {
     expect_same(settings, add, 4);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, cloth_between_bodies_and_colliders_is_the_same_as_on_the_cpu) {
     const auto add = [](World& world) {
         world.add(make_sheet({.resolution = {9, 9}, .position = {0, 0.0005f, 0}, .pinned = [](Vec3 p) {
@@ -169,7 +169,7 @@ TEST(BodiesOnVulkan, cloth_that_meets_cloth_is_the_same_as_on_the_cpu) {
     expect_same(with_substeps(4), add(SelfCollision::fast), 12);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, what_is_attached_is_the_same_as_on_the_cpu) {
     const auto add = [](World& world) { add_bodies_in_nets(world, SelfCollision::off, 7); };
     WorldSettings settings = with_substeps(4);
@@ -196,7 +196,7 @@ TEST(BodiesOnVulkan, what_is_attached_meets_cloth_as_on_the_cpu) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(BodiesOnVulkan, a_restored_and_changed_world_goes_on_as_on_the_cpu) {
     World cpu = on_cpu(with_substeps(4)), vulkan = on_vulkan(with_substeps(4));
     std::string hashes[2];

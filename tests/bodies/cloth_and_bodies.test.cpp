@@ -194,7 +194,7 @@ TEST(ClothAndBody, a_fast_ball_does_not_pass_a_curtain) {
     EXPECT_LT(world.body(ball).state.velocity.z, 59.5f);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothAndBody, the_same_bits_on_any_number_of_threads_and_after_a_restore) {
     std::string hash;
     for (const unsigned workers : {0u, 1u, 3u}) {

@@ -185,7 +185,7 @@ TEST(Adhesion, with_a_frame_that_is_not_finite_goes_back_to_where_it_began) {
 }
 
 #ifdef WEFT_VULKAN
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(Adhesion, is_the_same_on_both_backends) {
     Fall cpu = make_fall(make_world({.solver = {.substeps = 5, .iterations = 2}, .list_capacity = 1}, CpuOptions{}));
     for (const char* execution : {"streamed", "grouped", "fused"}) {

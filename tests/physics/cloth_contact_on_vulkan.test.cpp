@@ -25,7 +25,7 @@ TEST(ClothContactOnVulkan, a_fallen_stack_is_the_same_as_on_the_cpu) {
 }
 
 // The limit sends back particles that move by more than lists allow for, so it searches a second time.
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ClothContactOnVulkan, a_sheet_thrown_down_is_the_same_as_on_the_cpu) {
     SheetDesc sheet = falling(14);
     sheet.position = {0, 0.8f, 0};

@@ -104,7 +104,7 @@ void add_filtered(World& world, SelfCollision first, SelfCollision others) {
     add_ground(world);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(CollisionFilter, is_the_same_on_vulkan_as_on_the_cpu) {
     for (const SelfCollision others : {SelfCollision::exact, SelfCollision::fast}) {
         const auto add = [&](World& world) { add_filtered(world, SelfCollision::exact, others); };

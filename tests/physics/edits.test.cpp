@@ -69,6 +69,7 @@ void expect_two_pieces(const ClothModel& model) {
     }
 }
 
+// Labels on Vulkan: long
 TEST(Edits, cut_a_sheet_in_two) {
     for (const ClothLayout layout : {ClothLayout{}, ClothLayout{.lines = true, .hierarchy = true}}) {
         const auto model = make_cuttable(layout);

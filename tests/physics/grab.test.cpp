@@ -243,7 +243,7 @@ TEST(Grab, in_a_saved_state_is_checked) {
     EXPECT_TRUE(sheet.world.restore(good).ok());
 }
 
-// Labels on Vulkan: no-asan
+// Labels on Vulkan: no-asan long
 TEST(Grab, stays_when_pins_model_and_solver_change) {
     Grabbed sheet = grab_sheet(flat());
     run(sheet.world, 0.2);

@@ -66,7 +66,7 @@ TEST(ParticleContactOnVulkan, cloths_at_one_place_are_the_same_as_on_the_cpu) {
     EXPECT_GT(result.contacts, 0u);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(ParticleContactOnVulkan, bits_depend_neither_on_when_lists_are_made_nor_on_their_room) {
     const auto drop = [](const WorldSettings& settings, const VulkanOptions& options) {
         World world = on_vulkan(settings, options);

@@ -75,6 +75,7 @@ float lowest(const World& world) {
     return y;
 }
 
+// Labels on Vulkan: long
 TEST(Stitches, make_a_patchwork_hang_as_one) {
     Patchwork work = make_patchwork();
     EXPECT_EQ(work.world.island_count(), 4u);

@@ -301,7 +301,7 @@ TEST(TornSheet, is_the_same_on_any_number_of_threads) {
 }
 
 #ifdef WEFT_VULKAN
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(TornSheet, is_the_same_on_both_backends) {
     for (const TornBy by : {TornBy::ball, TornBy::corner, TornBy::hands}) {
         if (by != TornBy::corner && !std::getenv("WEFT_LONG_TESTS")) continue;

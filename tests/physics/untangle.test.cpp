@@ -141,7 +141,7 @@ TEST(Untangle, what_is_not_tangled_keeps_its_promise) {
     }
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(Untangle, bits_do_not_depend_on_lists_threads_and_restored_states) {
     const auto start = [](const CpuOptions& options) {
         World world = empty_world(-9.81f, options);

@@ -238,7 +238,7 @@ TEST(WindSources, are_the_same_on_both_backends) {
     expect_same_bits(airs, add_scene, 15);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(WindSources, are_the_same_on_both_backends_where_they_degenerate) {
     const std::vector<WindKey> strong{{.time = 0, .strength = 100}};
     const WindBoxDesc speck{.half_extents = {1e-6f, 1e-6f, 1e-6f}, .border = 0},

@@ -60,7 +60,7 @@ TEST_F(VulkanPicturesOfSurfaces, from_the_device_and_from_the_host_are_the_same)
     EXPECT_TRUE(alike(distance_of(from_device, drawn({})))) << "and so is the CPU's";
 }
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(VulkanPicturesOfSurfaces, in_one_pass_and_in_two_are_the_same) {
     open("vulkan");
     if (HasFatalFailure()) return;

@@ -108,7 +108,7 @@ class WorldFrameTest : public gpu::OnDevice {
     }
 };
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(WorldFrameTest, is_drawn_as_the_world_was_with_every_overlay) {
     for (const std::string backend : {"cpu", "vulkan"}) {
         Busy busy(backend);
@@ -162,7 +162,7 @@ TEST_F(WorldFrameTest, is_drawn_as_the_world_was_with_every_overlay) {
 }
 
 // With surfaces on the device, a copy must not be drawn with those of the world, which has moved on.
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(WorldFrameTest, is_not_drawn_with_surfaces_of_the_world) {
     Busy busy("vulkan");
     auto drawing = drawing_device(busy.world, "");
@@ -261,7 +261,7 @@ class ChangingSceneTest : public WorldFrameTest {
     std::vector<std::uint8_t> before;
 };
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(ChangingSceneTest, shows_materials) {
     expect_shown("default");
     SceneMaterial material;
@@ -292,7 +292,7 @@ TEST_F(ChangingSceneTest, shows_materials) {
     expect_shown("objects in another order");
 }
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(ChangingSceneTest, shows_lights) {
     expect_shown("default");
     scene.light.sun.intensity = 0;
@@ -309,7 +309,7 @@ TEST_F(ChangingSceneTest, shows_lights) {
     EXPECT_EQ(view->notes().size(), 1u);
 }
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(ChangingSceneTest, shows_another_environment) {
     int reads = 0;
     const ViewSources sources{.surface = {}, .read_picture = {}, .read_light = [&](const std::string& file) {
@@ -367,7 +367,7 @@ TEST_F(ChangingSceneTest, shows_objects) {
 }
 
 // A draft has the colors of the image: it leaves out details only.
-// Labels: no-asan
+// Labels: no-asan long
 TEST_F(ChangingSceneTest, has_drafts_that_look_alike) {
     const auto mean_difference = [&](const std::vector<std::string>& overlays) {
         std::vector<std::uint8_t> images[2];

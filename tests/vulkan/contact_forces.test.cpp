@@ -197,7 +197,7 @@ TEST(VulkanContactForces, is_read_while_the_next_frame_runs) {
 }
 
 // Edits and queries between advance() and the end of the frame lose nothing and do not touch buffers in use.
-// Labels: no-asan
+// Labels: no-asan long
 TEST(VulkanContactForces, of_a_world_that_changes_while_a_frame_runs_is_sound) {
     const auto play = [](std::unique_ptr<Backend> backend) {
         World world(std::move(backend), {.solver = {.substeps = 3}, .contact_forces = true});

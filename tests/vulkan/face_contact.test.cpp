@@ -56,7 +56,7 @@ std::vector<std::string> hashes_of(std::unique_ptr<Backend> backend, const World
     return hashes;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanFaceContact, has_the_bits_of_the_cpu) {
     const WorldSettings settings[] = {{.solver = {.substeps = 8}},
                                       {.solver = {.substeps = 5, .iterations = 2}, .contact_forces = true}};

@@ -58,6 +58,7 @@ class GrabsOn : public testing::TestWithParam<const char*> {};
 
 // Labels: slow no-asan
 // Labels with "fused": long
+// Labels with "grouped": long
 TEST_P(GrabsOn, give_the_bits_of_the_cpu) {
     std::vector<GrabScene> scenes{{.solver = {.substeps = 6, .hierarchy = true}, .air = true},
                                   {.solver = {.substeps = 4, .iterations = 2, .hierarchy = true}}};

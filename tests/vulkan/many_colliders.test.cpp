@@ -139,7 +139,7 @@ PegsCase small_case() {
     return test;
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanManyColliders, have_the_bits_of_the_cpu_in_a_fused_frame) {
     const PegsFound expected = play_pegs_on_cpu(small_case());
     EXPECT_GT(expected.contacts, 50u);
@@ -262,7 +262,7 @@ int submits_of_a_frame(World& world) {
     return counting_device::submits;
 }
 
-// Labels: no-asan
+// Labels: no-asan long
 TEST(VulkanManyColliders, are_copied_only_if_they_have_changed) {
     World world(checked_vulkan_backend({.intercept = counting_device::intercept}), {.solver = {.substeps = 2}});
     world.add(sheet_over_pegs(9, {0, 1, 0}, {}, world.settings().layout()));
@@ -289,7 +289,7 @@ TEST(VulkanManyColliders, need_no_cloth) {
 }
 
 // Sums and the contact log have room for what is near a tile.
-// Labels: no-asan
+// Labels: no-asan long
 TEST(VulkanManyColliders, far_away_take_little_memory) {
     const auto bytes = [](int colliders) {
         World world(checked_vulkan_backend(), {.solver = {.substeps = 2, .iterations = 2}, .contact_forces = true});

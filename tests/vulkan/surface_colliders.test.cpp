@@ -80,7 +80,7 @@ TEST(VulkanSurfaceColliders, that_move_fast_carry_cloth_along) {
     expect_same(scene, 8, "plate at 5 m/s");
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(VulkanSurfaceColliders, come_move_and_go_and_are_restored) {
     SceneDesc scene = sheet_over(bowl(), 2);
     scene.colliders.front().transform.rotation_degrees = {180, 0, 0};

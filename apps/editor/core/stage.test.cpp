@@ -299,7 +299,7 @@ TEST(Timelines, drop_the_oldest_frames_without_a_disk) {
 
 #ifdef WEFT_VULKAN
 // While the scene is opened, and at each of a few submits in a row: while a frame runs, and while its result is read.
-// Labels: no-asan
+// Labels: no-asan long
 TEST(Stages, go_on_on_the_cpu_when_the_device_is_lost) {
     bool in_frame = false;
     for (const int submits : {40, 60, 61, 62, 63, 64, 65}) {
