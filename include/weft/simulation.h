@@ -152,9 +152,10 @@ class WEFT_API Simulation {
 
     /// Changes the fabric from the next step on. Normally this computes new parameters for the existing constraints
     /// (times: docs/performance.md). The model of the cloth is rebuilt only if it needs other constraints: if a
-    /// stiffness changes between zero and nonzero, if `bend_model`, `bend_edges` or `rest_angle` change, or if `bend`
-    /// changes with the bend model `plate`. Without a rebuild, coarse levels and tethers remain those of the old fabric
-    /// for some frames. They change in the same frame on every run.
+    /// stiffness changes between zero and nonzero, if `stretch_model`, `bend_model`, `bend_edges`, `bend_fit` or
+    /// `rest_angle` change, if `bend` changes with the bend model `plate`, or if `stretch`, `compression` or `shear`
+    /// change with the stretch model `membrane`. Without a rebuild, coarse levels and tethers remain those of the old
+    /// fabric for some frames. They change in the same frame on every run.
     Result<void> set_fabric(ClothId id, const FabricDesc& fabric);
     /// Replaces all pins of the cloth. Particles are pinned at their current positions, and a box selects by current
     /// positions. The cost is proportional to the number of particles concerned. If pins with a compliance are added,

@@ -71,6 +71,7 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
 
 #define WEFT_PARTICLES_1(v) v[0]
 #define WEFT_PARTICLES_2(v) v[0], v[1]
+#define WEFT_PARTICLES_3(v) v[0], v[1], v[2]
 #define WEFT_PARTICLES_4(v) v[0], v[1], v[2], v[3]
 #define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
 #define WEFT_LAMBDAS_1(v) v[0]
@@ -463,6 +464,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
 
 #undef WEFT_PARTICLES_1
 #undef WEFT_PARTICLES_2
+#undef WEFT_PARTICLES_3
 #undef WEFT_PARTICLES_4
 #undef WEFT_PARTICLES_6
 #undef WEFT_LAMBDAS_1

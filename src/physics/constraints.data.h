@@ -13,6 +13,7 @@
 #include "physics/coarse_limit/coarse_limit.data.h"
 #include "physics/stitch/stitch.data.h"
 #include "physics/stretch/stretch.data.h"
+#include "physics/membrane/membrane.data.h"
 #include "physics/tether/tether.data.h"
 
 #ifdef __cplusplus

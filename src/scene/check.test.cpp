@@ -57,6 +57,20 @@ TEST(CheckScene, DoesNotSplitClothThatJacobiProjects) {
     EXPECT_THAT(with(Tearing::cuts), ElementsAre());
 }
 
+TEST(CheckScene, DoesNotOpenMembranes) {
+    for (const Tearing tearing : {Tearing::off, Tearing::cuts, Tearing::split, Tearing::erode}) {
+        const auto problems = problems_after([&](SceneDesc& s) {
+            s.cloths[0].fabric.stretch.model = StretchModel::membrane;
+            s.cloths[0].tearing = tearing;
+        });
+        if (tearing == Tearing::off) {
+            EXPECT_THAT(problems, ElementsAre());
+        } else {
+            EXPECT_THAT(problems, ElementsAre("/cloths/0/tearing: needs the fabric's \"stretch_model\": \"edges\""));
+        }
+    }
+}
+
 TEST(CheckScene, NeedsACloth) {
     EXPECT_THAT(problems_after([](SceneDesc& s) { s.cloths.clear(); }),
                 ElementsAre("/cloths: must hold at least one cloth"));

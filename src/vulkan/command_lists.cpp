@@ -91,8 +91,7 @@ std::uint32_t CommandLists::add(std::span<const Command> commands, std::uint32_t
     for (const Command& command : commands) {
         widest_ = std::max(widest_, command.invocations);
         nodes_ = std::max(nodes_, command.nodes);
-        assert(command.program < 64);
-        used_ |= std::uint64_t{1} << command.program;
+        keep(command.program);
     }
     return static_cast<std::uint32_t>(lists_.size() - 1);
 }
@@ -131,12 +130,8 @@ Result<void> CommandLists::choose_pipeline(const gpu::Device& device, Programs& 
     std::uint32_t line_rows = shared_line_rows(device, lines, taken);
     if (lines.of_block == 0 || line_rows > 1)
         line_rows = std::max(line_rows, room_for_nodes(device, nodes_, line_row_bytes, taken));
-    const std::array constants = {workgroup_for(device, widest_),
-                                  static_cast<std::uint32_t>(used_),
-                                  static_cast<std::uint32_t>(used_ >> 32),
-                                  points,
-                                  quanta,
-                                  line_rows};
+    const std::array constants = {
+        workgroup_for(device, widest_), used_[0], used_[1], points, quanta, line_rows, used_[2]};
     auto pipeline = programs.get("fused", constants);
     if (!pipeline) return pipeline.errors();
     pipeline_ = *pipeline;

@@ -4,6 +4,7 @@
 #include "vulkan/command_memory.h"
 #include "vulkan/compiled_plan.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,7 @@ class CommandLists {
     std::uint32_t add(std::span<const Command> commands, std::uint32_t first, const SharedPoints& points = {},
                       const LineRows& lines = {}, const Repeat& repeat = {});
     /// The pipeline has this shader though no command uses it.
-    void keep(std::uint32_t program) { used_ |= std::uint64_t{1} << program; }
+    void keep(std::uint32_t program) { used_[program / 32] |= 1u << program % 32; }
     Result<void> build(gpu::Device& device, Programs& programs, const CommandMemory& memory, const std::string& name);
 
     /// Runs `count` lists from `first` on in parallel. `substep` is added to that of each command.
@@ -58,9 +59,9 @@ class CommandLists {
     Result<void> choose_pipeline(const gpu::Device& device, Programs& programs);
 
     std::vector<List> lists_;
-    std::uint32_t widest_ = 0;  ///< invocations of the widest command
-    std::uint32_t nodes_ = 0;   ///< of the largest coarse level
-    std::uint64_t used_ = 0;    ///< one bit per shader that a command uses
+    std::uint32_t widest_ = 0;             ///< invocations of the widest command
+    std::uint32_t nodes_ = 0;              ///< of the largest coarse level
+    std::array<std::uint32_t, 3> used_{};  ///< one bit per shader that a command uses
     Arena arena_;
     Slot table_;
     const gpu::Pipeline* pipeline_ = nullptr;

@@ -12,9 +12,11 @@ namespace {
 // change in CHANGELOG.md. An unintended change is a bug.
 constexpr const char* golden = "091fdeb60542fcb9";
 
-std::string drape(const CpuOptions& options, std::uint32_t iterations, BendModel bend = BendModel::dihedral) {
+std::string drape(const CpuOptions& options, std::uint32_t iterations, BendModel bend = BendModel::dihedral,
+                  StretchModel stretch = StretchModel::edges) {
     Fabric silk = find_fabric("silk")->fabric;
     silk.bend.model = bend;
+    silk.stretch.model = stretch;
     World world = make_world({.solver = {.substeps = 10, .iterations = iterations}}, options);
     world.add(make_sheet({.size = {1, 1},
                           .resolution = {40, 37},
@@ -187,6 +189,17 @@ void expect_same_bits(const std::function<World(const CpuOptions&)>& make, doubl
     }
 }
 
+// Labels: slow no-asan
+TEST(Determinism, holds_for_membranes) {
+    const auto membrane = [](const CpuOptions& options) {
+        return drape(options, 2, BendModel::dihedral, StretchModel::membrane);
+    };
+    const std::string expected = membrane({0, "scalar"});
+    EXPECT_NE(expected, drape({0, "scalar"}, 2));
+    for (std::string_view isa : cpu_instruction_sets()) EXPECT_EQ(membrane({0, std::string(isa)}), expected) << isa;
+    EXPECT_EQ(membrane({1, ""}), expected) << "two threads";
+}
+
 // The threads share the poses of what moves.
 TEST(Determinism, holds_over_many_moving_colliders) {
     const WorldSettings settings{.solver = {.substeps = 4, .iterations = 2}, .contact_forces = true};
@@ -222,7 +235,7 @@ TEST(Determinism, holds_with_coarse_levels) {
     expect_same_bits([&](const CpuOptions& options) { return make_world(settings, sheet, options); }, 0.3);
 }
 
-// Labels: slow no-asan
+// Labels: slow no-asan long
 TEST(Determinism, holds_for_averaged_jacobi) {
     for (const Method method : {Method::xpbd, Method::pbd}) {
         const WorldSettings settings{

@@ -39,6 +39,24 @@ TEST(LiveFabrics, move_cloth_as_a_model_that_is_built_anew_does) {
     }
 }
 
+TEST(LiveFabrics, with_another_membrane_need_another_model) {
+    Fabric edges = heavy_and_soft(), membrane = edges, stiffer = edges;
+    membrane.stretch.model = stiffer.stretch.model = StretchModel::membrane;
+    stiffer.stretch.shear *= 2;
+    SheetDesc sheet = hung_upright();
+    sheet.fabric = edges;
+    const auto of_edges = make_sheet(sheet);
+    EXPECT_EQ(of_edges->table(ConstraintKind::membrane).rows, 0u);
+    EXPECT_FALSE(*with_fabric(*of_edges, membrane));
+    sheet.fabric = membrane;
+    const auto of_membrane = make_sheet(sheet);
+    EXPECT_GT(of_membrane->table(ConstraintKind::membrane).rows, 0u);
+    EXPECT_FALSE(*with_fabric(*of_membrane, edges));
+    EXPECT_FALSE(*with_fabric(*of_membrane, stiffer));
+    membrane.body.density = 0.3f;
+    EXPECT_TRUE(*with_fabric(*of_membrane, membrane)) << "the same stiffness";
+}
+
 TEST(LiveFabrics, leave_what_moves_and_pins_as_they_are) {
     World world = make_world({.solver = {.substeps = 4}}, hung_upright());
     const ClothId id = world.cloth_id(0);

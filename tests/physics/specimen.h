@@ -118,7 +118,8 @@ double plate_energy(const ConstraintTable& plate, std::uint32_t row, At&& at) {
     for (std::uint32_t k = 0; k < 9; ++k) f[k] = plate.fields[k * plate.stride + row];
     const reference::PlateRow numbers{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8]};
     const auto t = reference::plate_angles(x[0], x[1], x[2], x[3], x[4], x[5], 1, 1, 1, 1, 1, 1, numbers);
-    const auto strain = reference::plate_strains(numbers, {t.a.theta, t.b.theta, t.c.theta});
+    const auto strain =
+        reference::coupled_strains(reference::plate_stiffness(numbers), {t.a.theta, t.b.theta, t.c.theta});
     return 0.5 * reference::dot(strain, strain);
 }
 

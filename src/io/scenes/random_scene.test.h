@@ -209,6 +209,7 @@ class RandomScene {
             if (auto* vertices = std::get_if<VertexPins>(&pin.select); vertices && !cloth.groups.empty() && maybe())
                 *vertices = {cloth.groups[0].vertices, cloth.groups[0].name};
         if (cloth.tearing == Tearing::off) return;
+        cloth.fabric.stretch.model = StretchModel::edges;  // membranes do not open
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.cuts.emplace_back(), cut_keys);
         if (cloth.tearing == Tearing::split)
             for (std::uint32_t i = below(3); i > 0; --i) {

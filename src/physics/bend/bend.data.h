@@ -28,6 +28,7 @@ struct BendMaterial {
     float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
     BendEdges edges = BendEdges::all;
     BendModel model = BendModel::dihedral;
+    bool fit = false;  ///< the factors of bend_fit.h; only for `dihedral` with all edges
 };
 
 inline constexpr Parameter bend_parameters[] = {
@@ -42,6 +43,8 @@ inline constexpr Parameter bend_parameters[] = {
              "the cost; `distance`: springs between the tips of neighboring triangles, a third of the cost, too soft for "
              "slight folds",
      .choices = "dihedral|plate|distance"},
+    {.key = "bend_fit", .kind = ParameterKind::flag, .offset = offsetof(BendMaterial, fit),
+     .what = "factors for the triangulation, with which free cloth bends as `bend` says; only for `dihedral` with `all` edges"},
 };
 
 }  // namespace weft

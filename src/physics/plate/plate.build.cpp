@@ -1,5 +1,6 @@
 #include "physics/constraint.h"
 #include "physics/scalar.h"
+#include "physics/symmetric.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,7 @@ namespace weft {
 namespace {
 
 using reference::vec3;
-using Matrix = std::array<std::array<double, 3>, 3>;
+using Matrix = SymmetricMatrix;
 
 /// The three neighbors of a triangle, each across the edge opposite the corner of the same index.
 struct Around {
@@ -69,23 +70,6 @@ Matrix stiffness_of(const RestShape& rest, std::uint32_t triangle, const BendMat
     return m;
 }
 
-/// L with L Lᵀ = M. A column is zero if its pivot is 0 up to rounding.
-Matrix root_of(Matrix m) {
-    Matrix l{};
-    for (int k = 0; k < 3; ++k) {
-        double pivot = m[k][k];
-        for (int j = 0; j < k; ++j) pivot -= l[k][j] * l[k][j];
-        if (!(pivot > 1e-12 * m[k][k])) continue;
-        l[k][k] = std::sqrt(pivot);
-        for (int i = k + 1; i < 3; ++i) {
-            double rest = m[i][k];
-            for (int j = 0; j < k; ++j) rest -= l[i][j] * l[k][j];
-            l[i][k] = rest / l[k][k];
-        }
-    }
-    return l;
-}
-
 /// The slope of the sheet is free at its border: eliminates the angle across an edge without a neighbor by setting it
 /// to the value of least energy.
 void set_free(Matrix& m, int edge) {
@@ -110,7 +94,7 @@ void add_row(RowList& rows, const RestShape& rest, std::uint32_t triangle, const
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) m[i][j] = in[i] && in[j] ? m[i][j] : 0;
     }
-    const Matrix l = root_of(m);
+    const Matrix l = root_of(m, 1e-12);
     if (!(l[0][0] + l[1][1] + l[2][2] > 0)) return;
     const Triangle& p = rest.topology.triangles[triangle];
     const auto& x = rest.topology.rest_positions;

@@ -67,57 +67,28 @@ WEFT_FN PlateAngles plate_angles(vec3 da, vec3 db, vec3 dc, vec3 a, vec3 b, vec3
     return t;
 }
 
-// Solves (1 + k S) x = r, where S is transposed L times W times L. W couples the three angles: W_ij is the sum over the
-// particles of weight times grad_i times grad_j.
-WEFT_FN vec3 plate_solve(PlateAngles t, real wa, real wb, real wc, PlateRow row, real k, vec3 r)
+WEFT_FN LowerTriangle plate_stiffness(PlateRow row)
 {
-    real w_ab = wa * dot(t.a.go, t.b.gq) + wb * dot(t.a.gp, t.b.go) + wc * dot(t.a.gq, t.b.gp);
-    real w_ac = wa * dot(t.a.go, t.c.gp) + wb * dot(t.a.gp, t.c.gq) + wc * dot(t.a.gq, t.c.go);
-    real w_bc = wa * dot(t.b.gq, t.c.gp) + wb * dot(t.b.go, t.c.gq) + wc * dot(t.b.gp, t.c.go);
-
-    // V = k W L, S = transposed L V.
-    real v_aa = k * (t.a.weight * row.l_aa + w_ab * row.l_ba + w_ac * row.l_ca);
-    real v_ba = k * (w_ab * row.l_aa + t.b.weight * row.l_ba + w_bc * row.l_ca);
-    real v_ca = k * (w_ac * row.l_aa + w_bc * row.l_ba + t.c.weight * row.l_ca);
-    real v_bb = k * (t.b.weight * row.l_bb + w_bc * row.l_cb);
-    real v_cb = k * (w_bc * row.l_bb + t.c.weight * row.l_cb);
-    real v_cc = k * (t.c.weight * row.l_cc);
-    real s_aa = row.l_aa * v_aa + row.l_ba * v_ba + row.l_ca * v_ca;
-    real s_ab = row.l_bb * v_ba + row.l_cb * v_ca;
-    real s_ac = row.l_cc * v_ca;
-    real s_bb = row.l_bb * v_bb + row.l_cb * v_cb;
-    real s_bc = row.l_cc * v_cb;
-    real s_cc = row.l_cc * v_cc;
-
-    // Elimination. S has no negative eigenvalue, so only rounding can make a pivot smaller than 1.
-    real one = real(1);
-    real inv_a = one / max(one + s_aa, one);
-    real f_ab = s_ab * inv_a;
-    real f_ac = s_ac * inv_a;
-    real inv_b = one / max(one + (s_bb - f_ab * s_ab), one);
-    real left_bc = s_bc - f_ab * s_ac;
-    real f_bc = left_bc * inv_b;
-    real inv_c = one / max(one + (s_cc - f_ac * s_ac - f_bc * left_bc), one);
-    real y_b = r.y - f_ab * r.x;
-    real y_c = r.z - f_ac * r.x - f_bc * y_b;
-    vec3 x;
-    x.z = y_c * inv_c;
-    x.y = y_b * inv_b - f_bc * x.z;
-    x.x = r.x * inv_a - f_ab * x.y - f_ac * x.z;
-    // For larger values squares exceed the range of a float: skip the constraint.
-    return select(s_aa + s_bb + s_cc < real(1e30), x, vec3(real(0)));
+    LowerTriangle l;
+    l.aa = row.l_aa;
+    l.ba = row.l_ba;
+    l.bb = row.l_bb;
+    l.ca = row.l_ca;
+    l.cb = row.l_cb;
+    l.cc = row.l_cc;
+    return l;
 }
 
-// L x: from the constraint's three components to moments of the three angles.
-WEFT_FN vec3 plate_moments(PlateRow row, vec3 x)
+WEFT_FN CoupledWeights plate_weights(PlateAngles t, real wa, real wb, real wc)
 {
-    return vec3(row.l_aa * x.x, row.l_ba * x.x + row.l_bb * x.y, row.l_ca * x.x + row.l_cb * x.y + row.l_cc * x.z);
-}
-
-// Transposed L x: from the three angles to the constraint's three components.
-WEFT_FN vec3 plate_strains(PlateRow row, vec3 x)
-{
-    return vec3(row.l_aa * x.x + row.l_ba * x.y + row.l_ca * x.z, row.l_bb * x.y + row.l_cb * x.z, row.l_cc * x.z);
+    CoupledWeights w;
+    w.aa = t.a.weight;
+    w.bb = t.b.weight;
+    w.cc = t.c.weight;
+    w.ab = wa * dot(t.a.go, t.b.gq) + wb * dot(t.a.gp, t.b.go) + wc * dot(t.a.gq, t.b.gp);
+    w.ac = wa * dot(t.a.go, t.c.gp) + wb * dot(t.a.gp, t.c.gq) + wc * dot(t.a.gq, t.c.go);
+    w.bc = wa * dot(t.b.gq, t.c.gp) + wb * dot(t.b.go, t.c.gq) + wc * dot(t.b.gp, t.c.go);
+    return w;
 }
 
 WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
@@ -129,13 +100,14 @@ WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
     PlateAngles t = plate_angles(da, db, dc, a, b, c, wda, wdb, wdc, wa, wb, wc, row);
     real h2 = step.h * step.h;
     vec3 lambda = vec3(lambda_a, lambda_b, lambda_c);
-    vec3 strain = plate_strains(row, vec3(t.a.theta, t.b.theta, t.c.theta));
+    LowerTriangle l = plate_stiffness(row);
+    vec3 strain = coupled_strains(l, vec3(t.a.theta, t.b.theta, t.c.theta));
     // The scaled compliance is 1/h2; all terms are multiplied by h2.
-    vec3 dl = plate_solve(t, wa, wb, wc, row, h2, -(strain * h2 + lambda));
+    vec3 dl = solve_coupled(plate_weights(t, wa, wb, wc), l, h2, -(strain * h2 + lambda));
     lambda_a = lambda_a + dl.x;
     lambda_b = lambda_b + dl.y;
     lambda_c = lambda_c + dl.z;
-    vec3 m = plate_moments(row, dl);
+    vec3 m = coupled_forces(l, dl);
     da = da + t.a.gd * (wda * m.x);
     db = db + t.b.gd * (wdb * m.y);
     dc = dc + t.c.gd * (wdc * m.z);
@@ -156,8 +128,9 @@ WEFT_FN void damp_plate(inout_(vec3) vda, inout_(vec3) vdb, inout_(vec3) vdc,
     vec3 rate = vec3(dot(t.a.gd, vda) + dot(t.a.go, va) + dot(t.a.gp, vb) + dot(t.a.gq, vc),
                      dot(t.b.gd, vdb) + dot(t.b.gq, va) + dot(t.b.go, vb) + dot(t.b.gp, vc),
                      dot(t.c.gd, vdc) + dot(t.c.gp, va) + dot(t.c.gq, vb) + dot(t.c.go, vc));
-    vec3 s = plate_solve(t, wa, wb, wc, row, viscous, -(plate_strains(row, rate) * viscous));
-    vec3 m = plate_moments(row, s);
+    LowerTriangle l = plate_stiffness(row);
+    vec3 s = solve_coupled(plate_weights(t, wa, wb, wc), l, viscous, -(coupled_strains(l, rate) * viscous));
+    vec3 m = coupled_forces(l, s);
     vda = vda + t.a.gd * (wda * m.x);
     vdb = vdb + t.b.gd * (wdb * m.y);
     vdc = vdc + t.c.gd * (wdc * m.z);

@@ -12,6 +12,10 @@ using namespace testing_kernels;
 using reference::PlateRow;
 using std::numbers::pi;
 
+vec3 components(const PlateRow& row, vec3 angles) {
+    return reference::coupled_strains(reference::plate_stiffness(row), angles);
+}
+
 // In the order of a constraint's particles.
 struct Patch {
     vec3 p[6];  // da, db, dc, a, b, c
@@ -27,7 +31,7 @@ struct Patch {
     }
     vec3 strain(const PlateRow& row) const {
         const auto t = angles(row);
-        return reference::plate_strains(row, {t.a.theta, t.b.theta, t.c.theta});
+        return components(row, {t.a.theta, t.b.theta, t.c.theta});
     }
 };
 
@@ -111,12 +115,14 @@ TEST(Plate, solves_its_three_numbers_at_once) {
     for (int i = 0; i < 200; ++i) {
         const Patch patch = random_patch(random);
         const PlateRow row = random_row(random, 2);
+        const auto stiffness = reference::plate_stiffness(row);
         const auto t = patch.angles(row);
         const vec3 r = random.vector(1);
         const double k = random.number(0, 10);
-        const vec3 x = reference::plate_solve(t, patch.w[3], patch.w[4], patch.w[5], row, k, r);
+        const vec3 x =
+            reference::solve_coupled(reference::plate_weights(t, patch.w[3], patch.w[4], patch.w[5]), stiffness, k, r);
         // Transposed L W L x, summed particle by particle.
-        const vec3 m = reference::plate_moments(row, x);
+        const vec3 m = reference::coupled_forces(stiffness, x);
         const double moment[3] = {m.x, m.y, m.z};
         const auto g = gradients(t);
         double turned[3] = {};
@@ -125,7 +131,7 @@ TEST(Plate, solves_its_three_numbers_at_once) {
             for (int a = 0; a < 3; ++a) moved = moved + g[a][particle] * (patch.w[particle] * moment[a]);
             for (int a = 0; a < 3; ++a) turned[a] += reference::dot(g[a][particle], moved);
         }
-        const vec3 left = x + reference::plate_strains(row, {turned[0], turned[1], turned[2]}) * k - r;
+        const vec3 left = x + components(row, {turned[0], turned[1], turned[2]}) * k - r;
         EXPECT_LT(norm(left), 1e-9);
     }
 }
@@ -219,7 +225,7 @@ TEST(Plate, damping_takes_turning_and_leaves_rigid_motion) {
         for (int i = 0; i < 3; ++i) {
             for (int k = 0; k < 6; ++k) sum[i] += reference::dot(g[i][k], v[k]);
         }
-        return reference::plate_strains(flat_and_stiff, {sum[0], sum[1], sum[2]});
+        return components(flat_and_stiff, {sum[0], sum[1], sum[2]});
     };
     vec3 v[6];
     for (int k = 0; k < 6; ++k) v[k] = moving(k);
@@ -287,7 +293,7 @@ TEST(PlateRows, store_the_stiffness_along_every_direction) {
                 const auto along = [&](vec3 e) { return c * e.x + s * e.z; };
                 theta[i] = -along(ej) * along(ek) * norm(ei) / (2 * area);
             }
-            const vec3 strain = reference::plate_strains(row_at(built.rows, r), {theta[0], theta[1], theta[2]});
+            const vec3 strain = components(row_at(built.rows, r), {theta[0], theta[1], theta[2]});
             const double stiffness =
                 warp * c * c * c * c + weft * s * s * s * s + (4 * bias - warp - weft) * c * c * s * s;
             EXPECT_NEAR(reference::dot(strain, strain) / area / stiffness, 1, 1e-5) << degrees << " degrees";
@@ -320,8 +326,7 @@ TEST(PlateRows, of_the_border_let_the_edge_go) {
         // One angle is left, and the energy of a right triangle curved across its longest side with both others free:
         // the stiffness 1 of that angle is halved by them.
         const PlateRow row = row_at(two.rows, r);
-        const vec3 each[3] = {reference::plate_strains(row, {1, 0, 0}), reference::plate_strains(row, {0, 1, 0}),
-                              reference::plate_strains(row, {0, 0, 1})};
+        const vec3 each[3] = {components(row, {1, 0, 0}), components(row, {0, 1, 0}), components(row, {0, 0, 1})};
         int at_work = 0;
         for (const vec3& strain : each) at_work += norm(strain) > 0;
         EXPECT_EQ(at_work, 1);

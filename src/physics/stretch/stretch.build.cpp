@@ -1,4 +1,5 @@
 #include "physics/change_rows.h"
+#include "physics/membrane/membrane_split.h"
 #include "physics/stretch/stretch_law.h"
 
 #include <algorithm>
@@ -23,6 +24,37 @@ Moduli without_shear(Moduli k, float shear) {
     return spring;
 }
 
+StretchLaw::Compliances compliances_of(double stretched, double compressed, double least) {
+    const auto of = [least](double stiffness) { return stiffness > least ? static_cast<float>(1 / stiffness) : -1.0f; };
+    return {of(stretched), of(compressed)};
+}
+
+// Of every edge, its springs in the triangles at it.
+std::vector<StretchLaw::Compliances> edges_of_membrane(const RestShape& rest, const StretchMaterial& material) {
+    struct Sum {
+        double stretched = 0, compressed = 0;
+    };
+    const Topology& topology = rest.topology;
+    std::vector<Sum> sums(topology.edges.size());
+    for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
+        const MembraneSplit split = split_membrane(rest, t, material);
+        const Triangle& corners = topology.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [a, b] = std::minmax(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+            for (const std::uint32_t e : topology.particle_edges[a]) {
+                if (topology.edges[e].a != a || topology.edges[e].b != b) continue;
+                sums[e].stretched += split.stretched[i], sums[e].compressed += split.compressed[i];
+            }
+        }
+    }
+    double most = 0;
+    for (const Sum& sum : sums) most = std::max({most, sum.stretched, sum.compressed});
+    std::vector<StretchLaw::Compliances> compliances;
+    compliances.reserve(sums.size());
+    for (const Sum& sum : sums) compliances.push_back(compliances_of(sum.stretched, sum.compressed, 1e-6 * most));
+    return compliances;
+}
+
 }  // namespace
 
 StretchLaw::Side StretchLaw::side_of(const float (&moduli)[2], float shear) {
@@ -41,13 +73,15 @@ RowList build_stretch(const RestShape& rest, const StretchMaterial& material) {
     const StretchLaw law(material);
     RowList rows = make_rows(ConstraintKind::stretch);
     rows.geometry_count = 2;
+    const bool membrane = material.model == StretchModel::membrane && !material.inextensible;
+    const auto of_membrane = membrane ? edges_of_membrane(rest, material) : std::vector<StretchLaw::Compliances>();
     for (std::size_t e = 0; e < rest.topology.edges.size(); ++e) {
         const Edge& edge = rest.topology.edges[e];
         const float length_at_rest =
             length(rest.topology.rest_positions[edge.b] - rest.topology.rest_positions[edge.a]);
         const float cos2 = rest.cos2_to_warp[e];
         const float strip = rest.area_at_edge[e] / (length_at_rest * length_at_rest);
-        const StretchLaw::Compliances compliances = law.at(cos2, strip);
+        const StretchLaw::Compliances compliances = membrane ? of_membrane[e] : law.at(cos2, strip);
         if (compliances.none()) {
             rows.left_out.push_back(cos2);
             continue;

@@ -13,6 +13,10 @@
 
 namespace weft {
 
+/// What resists stretching: springs along the edges (stretch.md), or springs along the edges and the rest of each
+/// triangle's stiffness (membrane.md).
+enum class StretchModel { edges, membrane };
+
 struct StretchMaterial {
     static constexpr int plain[2] = {0, 1};
 
@@ -20,6 +24,7 @@ struct StretchMaterial {
     float compression[2] = {4000, 4000};  ///< N/m, warp and weft
     float shear = 40;                     ///< N/m
     bool inextensible = false;            ///< every edge keeps its length: all compliances 0
+    StretchModel model = StretchModel::edges;
 };
 
 inline constexpr Parameter stretch_parameters[] = {
@@ -31,6 +36,10 @@ inline constexpr Parameter stretch_parameters[] = {
      .what = "shear stiffness"},
     {.key = "inextensible", .kind = ParameterKind::flag, .offset = offsetof(StretchMaterial, inextensible),
      .what = "keep the length of every edge, whatever the stiffnesses"},
+    {.key = "stretch_model", .kind = ParameterKind::choice, .offset = offsetof(StretchMaterial, model),
+     .what = "`edges`: springs along the edges, exact for pulls along warp and weft on grids; `membrane`: exact strain of "
+             "each triangle, on any mesh and in any direction. Cloths that tear, are cut or have seams need `edges`",
+     .choices = "edges|membrane"},
 };
 
 }  // namespace weft

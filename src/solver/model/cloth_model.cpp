@@ -253,6 +253,7 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     choose_tethers(model, rest);
     // All three bend models get the same values; `model` selects the one that creates constraints.
     model.fabric.plate = model.fabric.distance_bend = model.fabric.bend;
+    model.fabric.membrane = model.fabric.stretch;
     const auto add = [&](ConstraintKind kind, const RowList& rows) {
         const bool lines = layout.lines && kind == ConstraintKind::stretch;
         add_table(model, topology, kind, rows, lines, coloring, reserve, clock);
@@ -282,6 +283,8 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
 }  // namespace
 
 Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc, Topology topology) {
+    if (desc.reserve.openings && desc.fabric.stretch.model == StretchModel::membrane)
+        return Error{"fabric", "a cloth that opens needs the stretch model \"edges\""};
     auto model = std::make_shared<ClothModel>();
     model->name = std::move(desc.name);
     model->start_velocity = desc.start_velocity;

@@ -232,8 +232,9 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
 /// Returns the same constraints with the parameters of another fabric. Compliances, masses, inverse masses and
 /// elasticity have the bits that build_cloth_model() gives. All other arrays are shared with `from`, so coarse levels
 /// and tethers remain those of its fabric. Returns null if the fabric needs other constraints, or parameters that this
-/// function cannot compute: if a stiffness changes between zero and nonzero, if the bending edges, bend model or rest
-/// angle change, if the stiffness of plates changes, or if the tether settings change. Fails like build_cloth_model().
+/// function cannot compute: if a stiffness changes between zero and nonzero, if the stretch model, bending edges, bend
+/// model or rest angle change, if the stiffness of membranes or plates changes, or if the tether settings change. Fails
+/// like build_cloth_model().
 Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, const Fabric& fabric);
 /// Returns the same model with other attachments. All arrays except `start` and the attachment constraints are shared
 /// with `from`. Returns null if there is no room for so many attachments. Fails like build_cloth_model().

@@ -301,7 +301,8 @@ class Editor {
             return Error{where, "stiffness must be 0, or 1e-6 to 1e6 times what it is"};
         for (std::uint32_t slot = 1; slot < open.table.arity; ++slot)
             if (row.particles[slot] == row.particles[slot - 1]) return Error{where, "must have different ends"};
-        const bool scales = row.kind == ConstraintKind::stretch || row.kind == ConstraintKind::bend;
+        const bool edges = model_->fabric.stretch.model == StretchModel::edges;
+        const bool scales = (row.kind == ConstraintKind::stretch && edges) || row.kind == ConstraintKind::bend;
         if (!scales && row.stiffness != 0 && row.stiffness != 1)
             return Error{where, "has no stiffness to scale: use 0 to remove it, 1 to keep it"};
         for (std::uint32_t slot = 0; slot < open.table.arity; ++slot) {
@@ -404,7 +405,9 @@ class Editor {
                                 .left_out = {},
                                 .rest_positions = model_->start.data(),
                                 .fields = open.fields.data()};
-        if (open.table.kind == ConstraintKind::stretch) (void)change_stretch(rows, model_->fabric.stretch);
+        // The springs of a membrane are not a function of their geometry; their stiffness cannot be scaled.
+        if (open.table.kind == ConstraintKind::stretch && model_->fabric.stretch.model == StretchModel::edges)
+            (void)change_stretch(rows, model_->fabric.stretch);
         if (open.table.kind == ConstraintKind::bend) (void)change_bend(rows, model_->fabric.bend);
         const auto unsound = std::ranges::find_if_not(open.fields, [](float field) { return std::isfinite(field); });
         if (unsound == open.fields.end()) return {};

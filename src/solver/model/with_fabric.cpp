@@ -14,7 +14,7 @@ namespace {
 
 bool same_stiffness(const StretchMaterial& a, const StretchMaterial& b) {
     return std::ranges::equal(a.stretch, b.stretch) && std::ranges::equal(a.compression, b.compression) &&
-           a.shear == b.shear && a.inextensible == b.inextensible;
+           a.shear == b.shear && a.inextensible == b.inextensible && a.model == b.model;
 }
 
 bool same_tearing(const TearMaterial& a, const TearMaterial& b) {
@@ -23,7 +23,7 @@ bool same_tearing(const TearMaterial& a, const TearMaterial& b) {
 
 // The rest angle is compared by bits, because NaN stands for the angle of the mesh.
 bool same_hinges(const BendMaterial& a, const BendMaterial& b) {
-    return a.model == b.model && a.edges == b.edges &&
+    return a.model == b.model && a.edges == b.edges && a.fit == b.fit &&
            std::bit_cast<std::uint32_t>(a.rest_angle) == std::bit_cast<std::uint32_t>(b.rest_angle);
 }
 
@@ -90,10 +90,15 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     model->fabric.tether = from.fabric.tether;
     model->tethers_asked = asked;
     model->fabric.plate = model->fabric.distance_bend = fabric.bend;
+    model->fabric.membrane = fabric.stretch;
     const StretchMaterial& stretch = fabric.stretch;
     const bool same_stretch = same_stiffness(from.fabric.stretch, stretch);
     const bool same_bend = std::ranges::equal(from.fabric.bend.bend, fabric.bend.bend);
     const bool same_density = from.fabric.body.density == density;
+    // A membrane needs a split per triangle, as plates need a factorization.
+    const bool membrane =
+        StretchModel::membrane == stretch.model || StretchModel::membrane == from.fabric.stretch.model;
+    if (!same_stretch && membrane) return other_rows;
     if (!same_stretch && !change_table(*model, ConstraintKind::stretch, change_stretch, stretch)) return other_rows;
     if (!same_bend && !change_bending(*model, fabric.bend)) return other_rows;
     if (!same_density)

@@ -20,8 +20,13 @@
 
 // One bit per shader that the lists use. The compiler removes the others, which would take registers.
 layout(constant_id = 1) const uint used_low = 0xffffffffu;
-layout(constant_id = 2) const uint used_high = 0xffffffffu;
-bool uses(uint id) { return ((id < 32u ? used_low >> id : used_high >> (id - 32u)) & 1u) != 0u; }
+layout(constant_id = 2) const uint used_middle = 0xffffffffu;
+layout(constant_id = 6) const uint used_high = 0xffffffffu;
+bool uses(uint id)
+{
+    uint word = id < 32u ? used_low : id < 64u ? used_middle : used_high;
+    return ((word >> (id & 31u)) & 1u) != 0u;
+}
 
 struct ListIn {
     uvec2 commands;

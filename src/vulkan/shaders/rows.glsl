@@ -4,6 +4,7 @@
 
 #define WEFT_PARTICLES_1(v) v[0]
 #define WEFT_PARTICLES_2(v) v[0], v[1]
+#define WEFT_PARTICLES_3(v) v[0], v[1], v[2]
 #define WEFT_PARTICLES_4(v) v[0], v[1], v[2], v[3]
 #define WEFT_PARTICLES_6(v) v[0], v[1], v[2], v[3], v[4], v[5]
 #define WEFT_LAMBDAS_1(v) v[0]

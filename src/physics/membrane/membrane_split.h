@@ -1,0 +1,25 @@
+// Splits the in-plane stiffness of a triangle into springs along its edges and a remainder.
+#pragma once
+
+#include "physics/rest_shape.h"
+#include "physics/stretch/stretch.data.h"
+#include "physics/symmetric.h"
+
+#include <array>
+
+namespace weft {
+
+/// Index i is the edge opposite corner i.
+struct MembraneSplit {
+    std::array<double, 3> stretched{};   ///< N/m: stiffness of the springs while longer than at rest
+    std::array<double, 3> compressed{};  ///< N/m: while shorter
+    /// N/m per m²: the remainder's energy is ½ sᵀ M s with the measures s = (length² - rest²)/2.
+    SymmetricMatrix remainder{};
+};
+
+MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material);
+
+/// ½ sᵀ M s of the whole stiffness, of one side. `moduli`: N/m, warp and weft.
+SymmetricMatrix membrane_of(const RestShape& rest, std::uint32_t triangle, const float (&moduli)[2], float shear);
+
+}  // namespace weft

@@ -1,0 +1,29 @@
+// Symmetric matrices of three rows without negative eigenvalues, for constraint builders.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace weft {
+
+using SymmetricMatrix = std::array<std::array<double, 3>, 3>;
+
+/// L with L Lᵀ = M, lower triangular. A column is zero if its pivot is below `tolerance` of the diagonal: 0 up to
+/// rounding.
+inline SymmetricMatrix root_of(const SymmetricMatrix& m, double tolerance) {
+    SymmetricMatrix l{};
+    for (int k = 0; k < 3; ++k) {
+        double pivot = m[k][k];
+        for (int j = 0; j < k; ++j) pivot -= l[k][j] * l[k][j];
+        if (!(pivot > tolerance * m[k][k])) continue;
+        l[k][k] = std::sqrt(pivot);
+        for (int i = k + 1; i < 3; ++i) {
+            double rest = m[i][k];
+            for (int j = 0; j < k; ++j) rest -= l[i][j] * l[k][j];
+            l[i][k] = rest / l[k][k];
+        }
+    }
+    return l;
+}
+
+}  // namespace weft
