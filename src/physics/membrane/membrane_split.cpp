@@ -142,10 +142,6 @@ Three best_springs(const SymmetricMatrix& m, const Three& length2) {
 
 }  // namespace
 
-SymmetricMatrix membrane_of(const RestShape& rest, std::uint32_t triangle, const float (&moduli)[2], float shear) {
-    return membrane_of(flatten(rest, triangle), moduli, shear);
-}
-
 MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material) {
     const FlatTriangle flat = flatten(rest, triangle);
     MembraneSplit split;

@@ -19,7 +19,4 @@ struct MembraneSplit {
 
 MembraneSplit split_membrane(const RestShape& rest, std::uint32_t triangle, const StretchMaterial& material);
 
-/// ½ sᵀ M s of the whole stiffness, of one side. `moduli`: N/m, warp and weft.
-SymmetricMatrix membrane_of(const RestShape& rest, std::uint32_t triangle, const float (&moduli)[2], float shear);
-
 }  // namespace weft
