@@ -3,10 +3,20 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace weft {
 
 using SymmetricMatrix = std::array<std::array<double, 3>, 3>;
+
+/// Also of matrices that are not symmetric.
+inline double cofactor(const SymmetricMatrix& m, std::size_t i, std::size_t j) {
+    const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+    return m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
+}
+inline double determinant_of(const SymmetricMatrix& m) {
+    return m[0][0] * cofactor(m, 0, 0) + m[0][1] * cofactor(m, 0, 1) + m[0][2] * cofactor(m, 0, 2);
+}
 
 /// L with L Lᵀ = M, lower triangular. A column is zero if its pivot is below `tolerance` of the diagonal: 0 up to
 /// rounding.

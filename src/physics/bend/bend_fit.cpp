@@ -1,6 +1,7 @@
 #include "physics/bend/bend_fit.h"
 
 #include "physics/bend/hinge_at_rest.h"
+#include "physics/symmetric.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,7 @@ namespace weft {
 namespace {
 
 using Three = std::array<double, 3>;
-using Tensor = std::array<Three, 3>;
+using Tensor = SymmetricMatrix;
 
 /// Sizes in edges from the middle of a patch.
 struct PatchSize {
@@ -180,15 +181,11 @@ bool solve(std::vector<double>& a, std::uint32_t n, std::vector<Three>& b) {
 
 /// The solution of C x = m; zeros if C has no inverse.
 Three solved(const Tensor& c, const Three& m) {
-    const auto minor = [&](std::size_t i, std::size_t j) {
-        const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        return c[i1][j1] * c[i2][j2] - c[i1][j2] * c[i2][j1];
-    };
-    const double determinant = c[0][0] * minor(0, 0) + c[0][1] * minor(0, 1) + c[0][2] * minor(0, 2);
+    const double determinant = determinant_of(c);
     Three x{};
     if (!(determinant > 1e-9 * c[0][0] * c[1][1] * c[2][2])) return x;
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) x[i] += minor(j, i) / determinant * m[j];
+        for (std::size_t j = 0; j < 3; ++j) x[i] += cofactor(c, j, i) / determinant * m[j];
     return x;
 }
 

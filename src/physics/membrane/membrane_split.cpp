@@ -35,14 +35,10 @@ FlatTriangle flatten(const RestShape& rest, std::uint32_t triangle) {
 /// Inverse of a matrix given by rows; zeros if it has none.
 SymmetricMatrix inverse(const SymmetricMatrix& m) {
     SymmetricMatrix inverse{};
-    const auto minor = [&](std::size_t i, std::size_t j) {
-        const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        return m[i1][j1] * m[i2][j2] - m[i1][j2] * m[i2][j1];
-    };
-    const double determinant = m[0][0] * minor(0, 0) + m[0][1] * minor(0, 1) + m[0][2] * minor(0, 2);
+    const double determinant = determinant_of(m);
     if (determinant == 0) return inverse;
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) inverse[i][j] = minor(j, i) / determinant;
+        for (std::size_t j = 0; j < 3; ++j) inverse[i][j] = cofactor(m, j, i) / determinant;
     return inverse;
 }
 
