@@ -34,7 +34,8 @@ std::shared_ptr<const ClothModel> sheet(std::uint32_t side, BendModel bend) {
 BendModel bend_model(ConstraintKind kind) {
     return kind == ConstraintKind::plate           ? BendModel::plate
            : kind == ConstraintKind::distance_bend ? BendModel::distance
-                                                   : BendModel::dihedral;
+           : kind == ConstraintKind::bend          ? BendModel::dihedral
+                                                   : BendModel::moment;
 }
 
 // Projects all batches of one constraint type once per iteration, as a step with one iteration per substep does.

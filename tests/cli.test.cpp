@@ -39,10 +39,10 @@ TEST_F(Cli, stats_have_every_figure) {
     EXPECT_EQ(s["particles"], 120);
     EXPECT_EQ(s["triangles"], 2 * 11 * 9);
     EXPECT_EQ(s["constraints"]["stretch"], 11 * 10 + 12 * 9 + 11 * 9);
-    EXPECT_EQ(s["constraints"]["bend"], 11 * 8 + 10 * 9 + 11 * 9);
+    EXPECT_EQ(s["constraints"]["moment"], 11 * 8 + 10 * 9 + 11 * 9);
     for (const char* key : {"median", "p95", "max"}) EXPECT_GT(s["ms_per_frame"][key], 0);
     EXPECT_LE(s["ms_per_frame"]["median"], s["ms_per_frame"]["max"]);
-    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities"})
+    for (const char* stage : {"predict", "stretch", "moment", "contact", "velocities"})
         EXPECT_GT(s["stage_ms"][stage], 0);
     for (const char* key : {"stretch", "shear", "residual"}) {
         EXPECT_GT(s[key]["mean"], 0);

@@ -44,8 +44,8 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_EQ(s["triangles"], 2 * 11 * 9);
     EXPECT_EQ(s["constraints"].size(), 2u) << "no kind without rows";
     EXPECT_EQ(s["constraints"]["stretch"]["rows"], 11 * 10 + 12 * 9 + 11 * 9);
-    EXPECT_EQ(s["constraints"]["bend"]["rows"], 11 * 8 + 10 * 9 + 11 * 9);
-    for (const char* kind : {"stretch", "bend"}) EXPECT_GT(s["constraints"][kind]["ns_per_row"], 0);
+    EXPECT_EQ(s["constraints"]["moment"]["rows"], 11 * 8 + 10 * 9 + 11 * 9);
+    for (const char* kind : {"stretch", "moment"}) EXPECT_GT(s["constraints"][kind]["ns_per_row"], 0);
     for (const char* key : {"median", "p95", "min", "max"}) EXPECT_GT(s["ms_per_frame"][key], 0);
     EXPECT_LE(s["ms_per_frame"]["min"], s["ms_per_frame"]["median"]);
     EXPECT_LE(s["ms_per_frame"]["p95"], s["ms_per_frame"]["max"]);
@@ -55,7 +55,7 @@ TEST_F(CliBench, writes_every_figure) {
     EXPECT_NEAR(s["ratio"], s["ms_per_frame"]["median"].get<double>() / s["reference_ms"].get<double>(), 1e-9);
     EXPECT_GT(report["memory"]["bytes_per_second"], 0);
     EXPECT_EQ(report["memory"]["threads"], 1);
-    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities"})
+    for (const char* stage : {"predict", "stretch", "moment", "contact", "velocities"})
         EXPECT_GT(s["stage_ms"][stage], 0);
     EXPECT_GT(s["load_ms"], 0);
     EXPECT_GT(s["first_frame_ms"], s["load_ms"]);
@@ -102,7 +102,10 @@ TEST_F(CliBench, counts_the_bytes_that_a_frame_moves) {
     const std::string plain = "--no-hierarchy --projection ";
     const Json rows = scene(plain + "gauss-seidel");
     EXPECT_DOUBLE_EQ(per_row(rows, "stretch"), 2 * 4 + 3 * 4 + 2 * 16 * 2);
-    EXPECT_NEAR(per_row(rows, "bend"), 4 * 4 + 2 * 4 + 4 * 16 * 2, 0.5);
+    // The multiplier is written, and two shifts of the rest angle are read. Then the coupling with four others reads
+    // them and moves the shifts.
+    const double of_moment = 4 * 4 + 4 * 4 + 4 * 16 * 2 + 3 * 4 + (4 + 7 + 1 + 2 + 2) * 4;
+    EXPECT_NEAR(per_row(rows, "moment"), of_moment, 0.5);
     // Of two iterations the first writes lambda and the second reads and writes it.
     EXPECT_DOUBLE_EQ(per_row(scene(plain + "gauss-seidel --iterations 2"), "stretch"), 84 + 4 * 3 / 2.0);
     // Side by side, a share and corrections are added; particles are read once and not moved.
@@ -115,13 +118,13 @@ TEST_F(CliBench, counts_the_bytes_that_a_frame_moves) {
 
     // A frame: 20 times what moves particles, what is between them and what they may touch; then damping and normals.
     // The velocities of all substeps but the last are one pass with the next prediction.
-    const double moves = 120 * 16 * (8 + 6 / 20.0 + 2), all_rows = 317 * 84.0 + 277 * 152.0;
-    const double damping = 317 * (20 + 2 * 48) + 277 * (24 + 4 * 48);
+    const double moves = 120 * 16 * (8 + 6 / 20.0 + 2), all_rows = 317 * 84.0 + 277 * of_moment;
+    const double damping = 317 * (20 + 2 * 48) + 277 * (32 + 4 * 48);
     const double surface = 2 * (198 * (12 + 16) + 120 * 16);
     const double expected = 20 * (moves + all_rows) + damping + surface;
     EXPECT_NEAR(rows["bytes_per_frame"], expected, 0.001 * expected);
-    EXPECT_DOUBLE_EQ(rows["working_set_bytes"], 120 * 64 + 317 * 20 + 277 * 24);
-    for (const char* stage : {"predict", "stretch", "bend", "contact", "velocities", "damp", "surface"})
+    EXPECT_DOUBLE_EQ(rows["working_set_bytes"], 120 * 64 + 317 * 20 + 277 * (32 + 4 + (4 + 7 + 2) * 4));
+    for (const char* stage : {"predict", "stretch", "moment", "contact", "velocities", "damp", "surface"})
         EXPECT_GT(rows["stage_reference_ms"][stage], 0) << stage;
 }
 

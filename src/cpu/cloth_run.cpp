@@ -172,6 +172,9 @@ void ClothRun::run_blocks(const Pass& pass, std::uint32_t substep, std::span<con
 
 void ClothRun::run_rows(const Pass& pass, std::uint32_t substep, Worker worker) const {
     const ConstraintTable& table = model().table(pass.constraint);
+    if (pass.kind == PassKind::couple)
+        return passes_.couple(cloth_.rows(pass.constraint), {table.coupled.data(), table.coupling.data()},
+                              as_range(worker.of(table.stride)), numbers_.h);
     const Batch& batch = table.batches[pass.batch];
     if (batch.blocks > 0) return run_lines(pass, substep, worker);
     if (batch.halves) {
@@ -293,10 +296,10 @@ void ClothRun::run_attached(const Pass& pass, Range mine, Worker worker) const {
 void ClothRun::keep_last_good(Worker worker) const {
     const Range mine = particles(worker);
     cloth_.remember(mine.begin, mine.end);
-    if (cloth_.good_lambda.empty()) return;
-    const Share rows = worker.of(static_cast<std::uint32_t>(cloth_.good_lambda.size()));
-    const auto lambda = cloth_.stretch_lambda();
-    std::copy(lambda.begin() + rows.begin, lambda.begin() + rows.end, cloth_.good_lambda.begin() + rows.begin);
+    if (cloth_.good_kept.empty()) return;
+    const Share share = worker.of(static_cast<std::uint32_t>(cloth_.good_kept.size()));
+    const AlignedVector<float>& kept = cloth_.kept();
+    std::copy(kept.begin() + share.begin, kept.begin() + share.end, cloth_.good_kept.begin() + share.begin);
 }
 
 bool ClothRun::all_finite(Worker worker) const {

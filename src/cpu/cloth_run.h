@@ -53,7 +53,7 @@ class ClothRun {
     void push_back(std::uint32_t particle, std::uint32_t collider, Vec3 by) const;
     void settle_faces(std::uint32_t substep, Worker worker) const;
     LambdaUse use_of_lambda(const Pass& pass, std::uint32_t substep) const {
-        return lambda_use(plan_, pass, substep, rounds_of(plan_, model()));
+        return lambda_use(plan_, model(), pass, substep);
     }
     void run_rows(const Pass& pass, std::uint32_t substep, Worker worker) const;
     void run_range(const Pass& pass, std::uint32_t substep, Range range, bool serial) const;

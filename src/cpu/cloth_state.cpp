@@ -16,7 +16,7 @@ ClothState::ClothState(std::shared_ptr<const ClothModel> cloth_model, WorldArray
     std::ranges::transform(model->start, weights().begin(), &Vec4::w);
     std::ranges::copy(start_velocities(*model), mine.velocity.begin());
     remember();
-    stretch_lambda().resize(model->table(ConstraintKind::stretch).lambda_count());
+    kept().resize(model->kept_floats());
     find_halves();
     begin_tearing();
     by_face.resize(std::size_t{model->face_stride} + 1);
@@ -27,30 +27,32 @@ void ClothState::set_model(std::shared_ptr<const ClothModel> other, std::uint32_
     assert(other->first_anchor() == model->first_anchor());
     // Anchors of two different sets do not correspond; the new ones start at the model's positions.
     const bool same_anchors = other->anchor_count == model->anchor_count;
-    const std::uint32_t kept = same_anchors ? other->point_count() : other->first_anchor();
+    const std::uint32_t count = same_anchors ? other->point_count() : other->first_anchor();
     const auto copy_of = [&](std::span<Vec4> array) {
-        return AlignedVector<Vec4>(array.begin(), array.begin() + kept);
+        return AlignedVector<Vec4>(array.begin(), array.begin() + count);
     };
     const Particles old = now();
     const auto position = copy_of(old.position), start = copy_of(old.start), velocity = copy_of(old.velocity),
                compensation = copy_of(old.compensation);
-    model = std::move(other);
+    const std::shared_ptr<const ClothModel> before = std::exchange(model, std::move(other));
     base = new_base;
     const Particles mine = now();
     std::ranges::copy(model->start, mine.position.begin());
     std::ranges::transform(model->start, weights().begin(), &Vec4::w);
-    for (std::uint32_t p = 0; p < kept; ++p) {
+    for (std::uint32_t p = 0; p < count; ++p) {
         const Vec4& x = position[p];
         mine.position[p] = {x.x, x.y, x.z, weights()[p]};
     }
     const auto put = [&](const AlignedVector<Vec4>& from, std::span<Vec4> to) {
         std::ranges::copy(from, to.begin());
-        std::ranges::fill(to.subspan(kept), Vec4{});
+        std::ranges::fill(to.subspan(count), Vec4{});
     };
     put(start, mine.start), put(velocity, mine.velocity), put(compensation, mine.compensation);
     remember();
+    const std::vector<float> kept_before(kept().begin(), kept().end());
     for (auto& of_table : lambda) of_table.clear();
-    stretch_lambda().assign(model->table(ConstraintKind::stretch).lambda_count(), 0.0f);
+    const std::vector<float> still = kept_after(*before, kept_before, *model);
+    kept().assign(still.begin(), still.end());
     find_halves();
     begin_tearing();
     gather = nullptr;
@@ -135,7 +137,7 @@ ClothSnapshot ClothState::save() const {
                            .start = points(mine.start),
                            .velocity = points(mine.velocity),
                            .compensation = points(mine.compensation),
-                           .lambda = {stretch_lambda().begin(), stretch_lambda().end()},
+                           .kept = {kept().begin(), kept().end()},
                            .substep_seconds = substep_seconds};
     for (std::size_t p = 0; p < snapshot.position.size(); ++p) snapshot.position[p].w = weights()[p];
     return snapshot;
@@ -148,7 +150,7 @@ void ClothState::restore(const ClothSnapshot& snapshot) {
     std::ranges::copy(snapshot.start, mine.start.begin());
     std::ranges::copy(snapshot.velocity, mine.velocity.begin());
     std::ranges::copy(snapshot.compensation, mine.compensation.begin());
-    std::ranges::copy(snapshot.lambda, stretch_lambda().begin());
+    std::ranges::copy(snapshot.kept, kept().begin());
     substep_seconds = snapshot.substep_seconds;
     remember();
     update_normals();
@@ -204,15 +206,16 @@ void ClothState::roll_back() {
         world.velocity[p] = world.good_velocity[p];
         world.compensation[p] = world.good_compensation[p];
     }
-    std::ranges::copy(good_lambda, stretch_lambda().begin());
+    std::ranges::copy(good_kept, kept().begin());
 }
 
 RowView ClothState::rows(ConstraintKind kind) {
     const ConstraintTable& table = model->table(kind);
     float* const multipliers = lambda[static_cast<std::uint32_t>(kind)].data();
-    if (!tearing) return {table.stride, table.particles.data(), table.fields.data(), multipliers, limits};
+    float* const shifts = table.is_coupled() ? kept().data() + model->first_shift() : nullptr;
+    if (!tearing) return {table.stride, table.particles.data(), table.fields.data(), multipliers, limits, shifts};
     const OpenedArrays::Rows& torn = tearing->arrays().rows[static_cast<std::uint32_t>(kind)];
-    return {table.stride, torn.particles.data(), torn.fields.data(), multipliers, limits};
+    return {table.stride, torn.particles.data(), torn.fields.data(), multipliers, limits, shifts};
 }
 
 std::span<const LineBlock> ClothState::blocks() const {
@@ -337,7 +340,7 @@ void ClothState::end_frame(const WorldPlan& plan, double dt) {
 void ClothState::begin_frame(const WorldPlan& plan) {
     limits = {};
     if (!has_limits(*model, plan)) return;
-    const FrameLimits found = frame_limits(*model, stretch_lambda(), substep_seconds, now().position);
+    const FrameLimits found = frame_limits(*model, kept(), substep_seconds, now().position);
     limits = {found.tension, found.allowed};
 }
 
@@ -368,11 +371,11 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
     }
     for (const ConstraintTable& table : model->constraints) {
         auto& of_table = lambda[static_cast<std::uint32_t>(table.kind)];
-        const std::size_t count = rounds_of(plan, *model) > 1 ? table.lambda_count() : 0;
+        const std::size_t count = stores_lambda(plan, table, *model) ? table.lambda_count() : 0;
         if (table.kind != ConstraintKind::stretch && of_table.size() != count) of_table.assign(count, 0.0f);
     }
     taut.resize(plan.weighs_taut ? model->capacity() : 0);
-    good_lambda.resize(plan.weighs_taut ? stretch_lambda().size() : 0);
+    good_kept.resize(plan.reads_kept ? kept().size() : 0);
     std::uint32_t longest = 0;
     for (const LineBlock& block : model->table(ConstraintKind::stretch).blocks)
         longest = std::max(longest, block.length);

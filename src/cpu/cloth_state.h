@@ -41,8 +41,8 @@ struct ClothState {
     std::span<Vec4> normals() const { return std::span(world.normals).subspan(base, model->capacity()); }
     std::span<float> weights() const { return std::span(world.weight).subspan(base, model->capacity()); }
 
-    /// Stretch multipliers persist between frames. The others persist between iterations; with one iteration they are
-    /// empty.
+    /// Those of stretch persist between frames, followed by shifts (ClothModel::kept_floats). The others persist
+    /// between iterations; with one iteration they are empty.
     std::array<AlignedVector<float>, constraint_kind_count> lambda;
     ColliderLists near_colliders;
     FaceContacts face_contacts;
@@ -58,8 +58,8 @@ struct ClothState {
     AlignedVector<float> face_mass;                      ///< kg, per triangle; empty until a plan has air
     std::unique_ptr<const JacobiGather> gather;          ///< null until a plan uses averaged Jacobi
     AlignedVector<Vec4> corrections;
-    std::vector<float> good_lambda;                  ///< of stretch, at the start of the frame; likewise empty
-    AlignedVector<Vec4> taut;                        ///< TautSum, zero between passes; empty if no plan uses it
+    std::vector<float> good_kept;  ///< at the start of the frame; empty if no frame reads those before
+    AlignedVector<Vec4> taut;      ///< TautSum, zero between passes; empty if no plan uses it
     std::vector<AlignedVector<float>> line_scratch;  ///< per worker
     double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame
     std::unique_ptr<Tearing> tearing;                ///< null unless the cloth tears
@@ -77,10 +77,8 @@ struct ClothState {
     ClothSnapshot save() const;
     void restore(const ClothSnapshot& snapshot);
 
-    AlignedVector<float>& stretch_lambda() { return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)]; }
-    const AlignedVector<float>& stretch_lambda() const {
-        return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)];
-    }
+    AlignedVector<float>& kept() { return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)]; }
+    const AlignedVector<float>& kept() const { return lambda[static_cast<std::uint32_t>(ConstraintKind::stretch)]; }
     /// Points from 0 on that a pass goes over: without unused ones in reserve, if no anchors follow them.
     std::uint32_t points_in_use() const;
     RowView rows(ConstraintKind kind);

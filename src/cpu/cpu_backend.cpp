@@ -133,7 +133,7 @@ class CpuBackend final : public Backend {
         const ClothModel& model = *state.model;
         const cpu::Particles now = state.now();
         sums.add(model, now.position, now.velocity);
-        sums.add_residual(model, stretch_residual(model, now.position, state.stretch_lambda(), state.substep_seconds));
+        sums.add_residual(model, stretch_residual(model, now.position, state.kept(), state.substep_seconds));
     }
 
     void hash(ClothHandle id, StateHash& hash) const override {
@@ -324,7 +324,7 @@ class CpuBackend final : public Backend {
             one.frame->detail = culprit;
             state.roll_back();
             // The multipliers belong to the discarded positions, but residuals and saved states would still read them.
-            for (auto& table : state.lambda) std::ranges::fill(table, 0.0f);
+            std::fill_n(state.kept().begin(), state.model->first_shift(), 0.0f);
             state.update_normals();
         }
     }

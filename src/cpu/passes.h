@@ -45,6 +45,13 @@ struct RowView {
     const float* fields;             ///< [field · stride + row]
     float* lambda;                   ///< [multiplier · stride + row]
     Limits limits = {};
+    float* shifts = nullptr;  ///< of coupled constraints: Step::shift_c, then shift_d
+};
+
+/// ConstraintTable::coupled and coupling.
+struct CouplingView {
+    const std::uint32_t* rows;
+    const float* numbers;
 };
 
 /// What lies behind each particle that bodies may press on a collider: a Support, as arrays of blocks of four.
@@ -243,6 +250,7 @@ struct Passes {
     /// `viscous`: retardation time times time step, s².
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     /// Adds the masses of taut edges to the sums of their ends: blocks of TautSum, by particle.
+    void (*couple)(const RowView&, const CouplingView&, Range, float h);
     void (*weigh_taut)(const ParticleView&, const RowView&, Range, Vec3 gravity, float h, float* taut);
     /// Adds these sums to the masses, and clears them.
     void (*take_taut)(const ParticleView&, float* taut, Range);

@@ -1,7 +1,7 @@
 // The loops, for the lanes of the including namespace. Included once per instruction set.
 
 WEFT_FN Step make_step(float h, const Limits& limits = {}) {
-    return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed)};
+    return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f)};
 }
 
 WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
@@ -125,6 +125,14 @@ WEFT_FN void store_points(const ParticleView& p, const RowView& rows, std::size_
     }
 }
 
+WEFT_FN Step shifted(Step step, const RowView& rows, std::size_t r) {
+    if (rows.shifts) {
+        step.shift_c = load(rows.shifts + r);
+        step.shift_d = load(rows.shifts + rows.stride + r);
+    }
+    return step;
+}
+
 template <class Traits, LambdaUse use>
 WEFT_FN void project_points(const RowView& rows, std::size_t r, const Step& step, Points<Traits>& points) {
     real lambda[Traits::multipliers];
@@ -134,7 +142,7 @@ WEFT_FN void project_points(const RowView& rows, std::size_t r, const Step& step
             lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
         }
     }
-    Traits::project(points.x, points.w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
+    Traits::project(points.x, points.w, lambda, Traits::load_row(rows.fields + r, rows.stride), shifted(step, rows, r));
     for (int k = 0; use != LambdaUse::discard && k < Traits::multipliers; ++k) {
         store(lambda[k], rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
     }
@@ -172,7 +180,7 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
 
 // A step that makes every constraint rigid: 1/h² is 0, which removes all compliance.
 WEFT_FN Step rigid_step(const Limits& limits) {
-    return {real(1e3f), real(1e-3f), real(0.0f), real(limits.tension), real(limits.allowed)};
+    return {real(1e3f), real(1e-3f), real(0.0f), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f)};
 }
 
 // Without compliance λ has the opposite sign of C: λ < 0 selects the stiffness for C > 0.
@@ -215,7 +223,7 @@ inline void correct_pass(const ParticleView& p, const RowView& rows, const Corre
             }
             lambda_before[k] = lambda[k];
         }
-        Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), step);
+        Traits::project(x, w, lambda, Traits::load_row(rows.fields + r, rows.stride), shifted(step, rows, r));
         const real part = out.share ? load(out.share + r) : plain_part(lambda[0], out.stiffness);
         for (int k = 0; out.share && use != LambdaUse::discard && k < Traits::multipliers; ++k) {
             store(lambda_before[k] + (lambda[k] - lambda_before[k]) * part,
@@ -297,6 +305,24 @@ inline void damp_pass(const ParticleView& p, const RowView& rows, Range range, f
         for (int k = 0; k < Traits::moves; ++k) {
             scatter_blocks(v[k], dropped[k], p.velocity,
                            rows.particles + static_cast<std::size_t>(k) * rows.stride + r);
+        }
+    }
+}
+
+inline void couple_pass(const RowView& rows, const CouplingView& coupling, Range range, float h) {
+    const real inv_h2 = make_step(h).inv_h2;
+    const std::size_t stride = rows.stride;
+    for (std::size_t r = range.begin; r < range.end; r += lane_count) {
+        const auto number = [&](std::size_t k) { return load(coupling.numbers + k * stride + r); };
+        const auto of_neighbor = [&](std::size_t k) {
+            return -(gather(rows.lambda, coupling.rows + k * stride + r) * inv_h2);
+        };
+        const real moment = -(load(rows.lambda + r) * inv_h2), rate = number(6);
+        for (std::size_t side = 0; side < 2; ++side) {
+            float* const shift = rows.shifts + side * stride + r;
+            store(shift_moment(load(shift), moment, of_neighbor(2 * side), of_neighbor(2 * side + 1), number(3 * side),
+                               number(3 * side + 1), number(3 * side + 2), rate),
+                  shift);
         }
     }
 }
@@ -400,6 +426,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .node_correction = node_correction_pass,
         .prolongation = prolongation_pass,
         .damp = {},
+        .couple = couple_pass,
         .weigh_taut = weigh_taut_pass,
         .take_taut = take_taut_pass,
         .first_outside = first_outside_pass,

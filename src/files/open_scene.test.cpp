@@ -88,10 +88,12 @@ f 2 3 7
 
 TEST_F(OpenScene, survives_a_mesh_made_by_hand_and_tells_what_it_found) {
     folder.write("messy.obj", messy_obj);
-    for (const char* more : {"", R"(, "fabric": {"bend_edges": "no-diagonals", "rest_angle": 0})", R"(, "tethers": "on",
+    for (const char* more :
+         {"", R"(, "fabric": {"bend_model": "dihedral", "bend_edges": "no-diagonals", "rest_angle": 0})",
+          R"(, "tethers": "on",
                              "pins": [{"vertices": [0, 8]}])",
-                             R"(, "fabric": {"inextensible": true})", R"(, "fabric": {"bend_model": "plate"})",
-                             R"(, "fabric": {"bend_model": "distance"})"}) {
+          R"(, "fabric": {"inextensible": true})", R"(, "fabric": {"bend_model": "plate"})",
+          R"(, "fabric": {"bend_model": "distance"})"}) {
         auto session = open(R"("mesh": {"file": "messy.obj"})" + std::string(more));
         ASSERT_TRUE(session.ok()) << session.error().message();
         EXPECT_THAT(session->notes(),

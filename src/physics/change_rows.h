@@ -20,6 +20,7 @@ struct RowsToChange {
     std::span<const float> left_out = {};
     const Vec4* rest_positions = nullptr;  ///< per particle, the dummies of padding included
     float* fields = nullptr;               ///< [field · stride + row]: read, and written where they differ
+    float* coupling = nullptr;             ///< likewise, [number · stride + row]
 };
 
 // Each function writes exactly the numbers that build_<kind>() computes for `material`. It returns false if the
@@ -27,6 +28,8 @@ struct RowsToChange {
 bool change_stretch(const RowsToChange& rows, const StretchMaterial& material);
 /// The rest angle and the choice of edges must be unchanged.
 bool change_bend(const RowsToChange& rows, const BendMaterial& material);
+/// The rest angle must be unchanged.
+bool change_moment(const RowsToChange& rows, const MomentMaterial& material);
 /// The rest angle and the choice of edges must be unchanged.
 bool change_distance_bend(const RowsToChange& rows, const DistanceBendMaterial& material);
 

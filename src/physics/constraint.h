@@ -48,6 +48,9 @@ const ConstraintInfo& constraint_info(ConstraintKind kind);
 /// Marks a slot that the constraint does not use. Its numbers for the slot must cause no motion.
 inline constexpr std::uint32_t no_particle = ~0u;
 
+/// Numbers per constraint of the coupling with others of its kind.
+inline constexpr std::uint32_t coupled_rows = 4, coupled_numbers = 7;
+
 /// Constraints in the order in which they were built.
 struct RowList {
     std::uint32_t arity = 0, field_count = 0;
@@ -58,6 +61,10 @@ struct RowList {
     std::uint32_t geometry_count = 0;
     std::vector<float> geometry = {};  ///< geometry_count per constraint
     std::vector<float> left_out = {};
+    /// Only for kinds with coupled compliance (moment.kernel.h): per constraint coupled_rows indices of others, or
+    /// `none`, and coupled_numbers numbers. Empty if the constraints are not coupled.
+    std::vector<std::uint32_t> coupled = {};
+    std::vector<float> coupling = {};
 
     std::uint32_t size() const { return arity ? static_cast<std::uint32_t>(particles.size() / arity) : 0; }
     void add(std::initializer_list<std::uint32_t> row_particles, std::initializer_list<float> row_fields,

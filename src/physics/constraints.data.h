@@ -14,6 +14,7 @@
 #include "physics/stitch/stitch.data.h"
 #include "physics/stretch/stretch.data.h"
 #include "physics/membrane/membrane.data.h"
+#include "physics/moment/moment.data.h"
 #include "physics/tether/tether.data.h"
 
 #ifdef __cplusplus

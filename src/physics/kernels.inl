@@ -27,6 +27,7 @@
 #include "physics/stretch/taut.kernel.h"
 #include "physics/tear/tear.kernel.h"
 #include "physics/bend/bend.kernel.h"
+#include "physics/moment/moment.kernel.h"
 #include "physics/coupled.kernel.h"
 #include "physics/plate/plate.kernel.h"
 #include "physics/membrane/membrane.kernel.h"

@@ -211,6 +211,21 @@ WEFT_FN void store_blocks_unordered(vec3 v, real fourth, float* p) {
     hn::StoreU(r2, D(), p + 2 * lane_count), hn::StoreU(r3, D(), p + 3 * lane_count);
 }
 
+// Half the time of the gather instructions (AVX2 on an AMD EPYC).
+template <class Tag>
+WEFT_FN hn::Vec<Tag> gather_parts(Tag tag, const float* base, const std::uint32_t* index) {
+    if constexpr (hn::MaxLanes(tag) == 4) {
+        using Raw = decltype(hn::Vec<Tag>::raw);
+        return hn::Vec<Tag>{Raw{base[index[0]], base[index[1]], base[index[2]], base[index[3]]}};
+    } else {
+        const hn::Half<Tag> half;
+        return hn::Combine(tag, gather_parts(half, base, index + hn::MaxLanes(half)), gather_parts(half, base, index));
+    }
+}
+WEFT_FN real gather(const float* base, const std::uint32_t* index) {
+    return gather_parts(D(), base, index);
+}
+
 // Loads whole 128-bit blocks and transposes them in registers: several times faster than the gather instructions.
 template <class Index>
 WEFT_FN vec3 gather_blocks(const float* base, const Index* index, real& fourth) {

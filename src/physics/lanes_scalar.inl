@@ -27,6 +27,7 @@ WEFT_FN void fill(std::uint32_t number, std::uint32_t* to) { *to = number; }
 
 WEFT_FN real load(const real* p) { return *p; }
 WEFT_FN void store(real v, real* p) { *p = v; }
+WEFT_FN real gather(const real* base, const std::uint32_t* index) { return base[*index]; }
 
 // Blocks of four: x, y, z and one more number.
 WEFT_FN vec3 load_blocks(const real* p, real& fourth) {

@@ -410,6 +410,10 @@ void check_cloth(const SceneCloth& cloth, const std::string& pointer, Problems& 
     for (const FabricTable& table : fabric_tables())
         check_values(table.parameters, reinterpret_cast<const std::byte*>(&cloth.fabric) + table.offset,
                      at(pointer, "fabric"), problems);
+    const BendMaterial& bend = cloth.fabric.bend;
+    if (bend.edges == BendEdges::no_diagonals && bend.model != BendModel::dihedral && bend.model != BendModel::distance)
+        problems.add(at(at(pointer, "fabric"), "bend_edges"),
+                     "needs \"bend_model\": \"dihedral\" or \"distance\" for \"no-diagonals\"");
     // If a mesh has errors, its number of particles is unknown.
     const bool sound = !problems.concern(at(pointer, "mesh"));
     check_groups(cloth.groups, sound ? made_mesh(cloth.mesh) : std::nullopt, at(pointer, "groups"), problems);

@@ -57,6 +57,21 @@ TEST(CheckScene, DoesNotSplitClothThatJacobiProjects) {
     EXPECT_THAT(with(Tearing::cuts), ElementsAre());
 }
 
+TEST(CheckScene, LeavesDiagonalsToHinges) {
+    for (const BendModel model : {BendModel::moment, BendModel::dihedral, BendModel::plate, BendModel::distance}) {
+        const auto problems = problems_after([&](SceneDesc& s) {
+            s.cloths[0].fabric.bend.model = model;
+            s.cloths[0].fabric.bend.edges = BendEdges::no_diagonals;
+        });
+        if (model == BendModel::dihedral || model == BendModel::distance) {
+            EXPECT_THAT(problems, ElementsAre());
+        } else {
+            EXPECT_THAT(problems, ElementsAre("/cloths/0/fabric/bend_edges: needs \"bend_model\": \"dihedral\" or "
+                                              "\"distance\" for \"no-diagonals\""));
+        }
+    }
+}
+
 TEST(CheckScene, DoesNotOpenMembranes) {
     for (const Tearing tearing : {Tearing::off, Tearing::cuts, Tearing::split, Tearing::erode}) {
         const auto problems = problems_after([&](SceneDesc& s) {

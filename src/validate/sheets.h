@@ -25,6 +25,12 @@ struct SheetOf {
 /// Adds a cloth whose particles are numbered like the vertices of the mesh. Throws std::runtime_error if it cannot.
 ClothId add_sheet(World& world, SheetOf sheet);
 
+/// Where a sheet begins to bend in the cell between two pinned rows of particles, in cells from the first row: at the
+/// second one if the triangles between them are rigid, or halfway.
+constexpr double begin_of_bending(BendModel model) {
+    return model == BendModel::moment ? 1 : 0.5;
+}
+
 /// Adds a rigid body of this shape, which has no data. Throws std::runtime_error if it has no mass.
 ColliderId add_body(World& world, const ColliderShape& shape, const BodyDesc& body, Vec3 position);
 

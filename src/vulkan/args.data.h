@@ -203,8 +203,11 @@ struct GrabArgs {
 
 // Distribution of constraints to invocations.
 #define WEFT_ROWS_SINGLE 0  // one constraint per invocation
-#define WEFT_ROWS_SERIAL 1  // the first invocation solves all, in order
-#define WEFT_ROWS_LINES 2   // one line per invocation, in order along it
+#define WEFT_ROWS_SERIAL 4  // the first invocation solves all, in order
+#define WEFT_ROWS_LINES 8   // one line per invocation, in order along it
+
+#define WEFT_LAMBDA_MODES 3u  // bits of RowArgs::modes
+#define WEFT_ROWS_MODES 12u
 
 // Constraints of one kind: a batch, or all of them.
 struct RowArgs {
@@ -219,14 +222,24 @@ struct RowArgs {
     Uints blocks;       // lines only: begin and length of each block, with WEFT_CUT_BLOCK
     FrameRef frame;
     LimitsRef limits;
+    Floats shifts;         // of coupled constraints: Step::shift_c, then shift_d; 0 for others
     float plain_positive;  // part of C that plain constraints correct while C > 0
     float plain_negative;  // the same while C < 0
     uint stride;
     uint begin;
     uint count;  // constraints; blocks with WEFT_ROWS_LINES
-    uint lambda_use;
-    uint hand_out;
-    uint unused;
+    uint modes;  // WEFT_LAMBDA_… + WEFT_ROWS_…
+};
+
+// ConstraintTable::coupled and coupling.
+struct CoupleArgs {
+    Floats lambda;
+    Floats shifts;
+    Uints rows;
+    Floats numbers;
+    FrameRef frame;
+    uint stride;
+    uint count;
 };
 
 struct LineArgs {
@@ -397,12 +410,14 @@ struct KeepArgs {
     Vec4s good_velocity;
     Vec4s good_compensation;
     Floats weights;  // 1/kg: current inverse masses
-    Floats lambda;   // of stretch
-    Floats good_lambda;  // 0: a frame does not read that of the frame before
+    Floats kept;         // ClothModel::kept_floats()
+    Floats good_kept;    // 0: a frame does not read those of the frame before
     Uints report;
     Uints island_report;  // of the island's first cloth: a non-finite number in one cloth rolls all back
     uint count;
-    uint lambdas;
+    uint kept_count;
+    uint first_shift;  // multipliers before it, shifts from it on
+    uint unused;
 };
 
 struct LimitArgs {

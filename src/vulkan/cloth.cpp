@@ -100,9 +100,8 @@ void Cloth::measure(MeasureSums& sums) {
     (void)read();  // if it fails, the arrays keep what was read last
     sums.add(model(), positions(), velocities());
     const auto points = state_->download_points(device_, PointArray::position);
-    const auto lambda = state_->download_lambda(device_);
-    if (points && lambda)
-        sums.add_residual(model(), stretch_residual(model(), *points, *lambda, state_->substep_seconds));
+    const auto kept = state_->download_kept(device_);
+    if (points && kept) sums.add_residual(model(), stretch_residual(model(), *points, *kept, state_->substep_seconds));
 }
 
 void Cloth::hash(StateHash& hash) const {

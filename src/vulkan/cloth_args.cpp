@@ -24,12 +24,32 @@ KeepArgs ClothArgs::keep_args() const {
             .good_velocity = state(PointArray::good_velocity),
             .good_compensation = state(PointArray::good_compensation),
             .weights = state(cloth_.weights),
-            .lambda = state(cloth_.lambda),
-            .good_lambda = work_.good_lambda.bytes > 0 ? work(work_.good_lambda) : 0,
+            .kept = state(cloth_.kept),
+            .good_kept = work_.good_kept.bytes > 0 ? work(work_.good_kept) : 0,
             .report = input_.report(),
             .island_report = island_.report,
             .count = model_.point_count(),
-            .lambdas = static_cast<std::uint32_t>(model_.table(ConstraintKind::stretch).lambda_count())};
+            .kept_count = static_cast<std::uint32_t>(model_.kept_floats()),
+            .first_shift = static_cast<std::uint32_t>(model_.first_shift()),
+            .unused = 0};
+}
+
+CoupleArgs ClothArgs::couple_args(ConstraintKind kind) const {
+    const auto index = static_cast<std::uint32_t>(kind);
+    const TableBuffers& buffers = buffers_.tables[index];
+    const std::uint32_t stride = model_.constraints[index].stride;
+    return {.lambda = lambda_of(kind),
+            .shifts = shifts_of(kind),
+            .rows = of_model(buffers.coupled),
+            .numbers = of_model(buffers.coupling),
+            .frame = input_.frame(),
+            .stride = stride,
+            .count = stride};
+}
+
+std::uint64_t ClothArgs::shifts_of(ConstraintKind kind) const {
+    if (!model_.table(kind).is_coupled()) return 0;
+    return state(cloth_.kept) + model_.first_shift() * sizeof(float);
 }
 
 TautArgs ClothArgs::taut_args() const {
@@ -50,7 +70,7 @@ LimitArgs ClothArgs::limit_args() const {
     return {.position = state(PointArray::position),
             .particles = of_model(rows.particles),
             .rest = of_model(rows.fields),
-            .lambda = state(cloth_.lambda),
+            .lambda = state(cloth_.kept),
             .span_ends = of_model(buffers_.span_ends),
             .span_lengths = of_model(buffers_.span_lengths),
             .limits = state(cloth_.limits),
@@ -93,13 +113,13 @@ AroundArgs ClothArgs::around_args() const {
 }
 
 std::uint64_t ClothArgs::lambda_of(ConstraintKind kind) const {
-    return kind == ConstraintKind::stretch ? state(cloth_.lambda)
-                                           : work(work_.lambda[static_cast<std::uint32_t>(kind)]);
+    return kind == ConstraintKind::stretch ? state(cloth_.kept) : work(work_.lambda[static_cast<std::uint32_t>(kind)]);
 }
 
 std::uint32_t ClothArgs::use_of_lambda(const Pass& pass, std::uint32_t substep) const {
     const bool links = pass.source == RowSource::links;
-    return vulkan::use_of_lambda(plan_, pass, substep, links ? rounds_of_links(plan_) : rounds_of(plan_, model_));
+    return number_of(links ? lambda_use(plan_, pass, substep, rounds_of_links(plan_))
+                           : lambda_use(plan_, model_, pass, substep));
 }
 
 RowArgs ClothArgs::row_args(ConstraintKind kind) const {
@@ -116,25 +136,24 @@ RowArgs ClothArgs::row_args(ConstraintKind kind) const {
             .blocks = 0,
             .frame = input_.frame(),
             .limits = state(cloth_.limits),
+            .shifts = shifts_of(kind),
             .plain_positive = stiffness_[index][0],
             .plain_negative = stiffness_[index][1],
             .stride = model_.constraints[index].stride,
             .begin = 0,
             .count = 0,
-            .lambda_use = WEFT_LAMBDA_DISCARD,
-            .hand_out = WEFT_ROWS_SINGLE,
-            .unused = 0};
+            .modes = WEFT_LAMBDA_DISCARD | WEFT_ROWS_SINGLE};
 }
 
 std::uint32_t ClothArgs::hand_out(RowArgs& args, const Batch& batch, std::uint64_t blocks) {
     args.begin = batch.begin;
     args.count = batch.rows;
     if (batch.serial) {
-        args.hand_out = WEFT_ROWS_SERIAL;
+        args.modes |= WEFT_ROWS_SERIAL;
         return 1;
     }
     if (batch.blocks == 0) return batch.rows;
-    args.hand_out = WEFT_ROWS_LINES;
+    args.modes |= WEFT_ROWS_LINES;
     args.blocks = blocks + std::uint64_t{batch.first_block} * 2 * sizeof(std::uint32_t);
     args.count = batch.blocks;
     return batch.blocks * lane_padding;

@@ -28,10 +28,12 @@ class ClothArgs {
     ParticleArgs particle_args() const;
     KeepArgs keep_args() const;
     TautArgs taut_args() const;
+    CoupleArgs couple_args(ConstraintKind kind) const;
     LimitArgs limit_args() const;
     FaceArgs face_args() const;
     AroundArgs around_args() const;
     std::uint64_t lambda_of(ConstraintKind kind) const;
+    std::uint64_t shifts_of(ConstraintKind kind) const;
     std::uint32_t use_of_lambda(const Pass& pass, std::uint32_t substep) const;
     RowArgs row_args(ConstraintKind kind) const;
     /// Sets the batch's range of constraints and returns the number of invocations.

@@ -57,14 +57,12 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
         }
     }
     for (const ConstraintTable& table : model.constraints) {
-        if (rounds_of(plan, model) > 1 && table.kind != ConstraintKind::stretch)
+        if (stores_lambda(plan, table, model) && table.kind != ConstraintKind::stretch)
             work.lambda[static_cast<std::uint32_t>(table.kind)] =
                 work.arena.reserve(table.lambda_count() * sizeof(float));
     }
-    if (plan.weighs_taut) {
-        work.taut = work.arena.reserve(model.capacity() * block);
-        work.good_lambda = work.arena.reserve(model.table(ConstraintKind::stretch).lambda_count() * sizeof(float));
-    }
+    if (plan.weighs_taut) work.taut = work.arena.reserve(model.capacity() * block);
+    if (plan.reads_kept) work.good_kept = work.arena.reserve(model.kept_floats() * sizeof(float));
     if (shape.colliders > 0) {
         const std::uint64_t sums = std::uint64_t{slots} * WEFT_COLLIDER_TILE * block;
         work.slot_count = slots;
@@ -119,7 +117,7 @@ Result<std::unique_ptr<ClothState>> ClothState::create(gpu::Device& device, std:
     for (const Vec4& start : model.start) weights.push_back(start.w);
     self->weights = arena.add_array(weights);
     self->by_face = arena.reserve((std::uint64_t{model.face_stride} + 1) * sizeof(Vec4));
-    self->lambda = arena.reserve(model.table(ConstraintKind::stretch).lambda_count() * sizeof(float));
+    self->kept = arena.reserve(model.kept_floats() * sizeof(float));
     const std::array none = {0.0f, 1.0f};  // tension and allowed (LimitsIn)
     self->limits = arena.add_array(none);
     if (auto built = arena.build(device, "state of " + model.name); !built) return built.errors();
@@ -143,8 +141,8 @@ Result<std::vector<Vec4>> ClothState::download_points(gpu::Device& device, Point
     return points;
 }
 
-Result<std::vector<float>> ClothState::download_lambda(gpu::Device& device) const {
-    return download_as<float>(device, arena_, lambda);
+Result<std::vector<float>> ClothState::download_kept(gpu::Device& device) const {
+    return download_as<float>(device, arena_, kept);
 }
 
 // The changed weights are few and scattered: one submission copies each of them.
@@ -230,9 +228,9 @@ Result<ClothSnapshot> ClothState::save(gpu::Device& device) const {
     auto inverse_masses = download_as<float>(device, arena_, {weights.offset, model().point_count() * sizeof(float)});
     if (!inverse_masses) return inverse_masses.errors();
     for (std::size_t p = 0; p < snapshot.position.size(); ++p) snapshot.position[p].w = (*inverse_masses)[p];
-    auto multipliers = download_lambda(device);
-    if (!multipliers) return multipliers.errors();
-    snapshot.lambda = std::move(*multipliers);
+    auto floats = download_kept(device);
+    if (!floats) return floats.errors();
+    snapshot.kept = std::move(*floats);
     return snapshot;
 }
 
@@ -248,7 +246,7 @@ Result<void> ClothState::restore(gpu::Device& device, const ClothSnapshot& snaps
     if (auto done = put(PointArray::velocity, snapshot.velocity); !done) return done;
     if (auto done = put(PointArray::compensation, snapshot.compensation); !done) return done;
     substep_seconds = snapshot.substep_seconds;
-    return upload(device, arena_, lambda, std::as_bytes(std::span(snapshot.lambda)));
+    return upload(device, arena_, kept, std::as_bytes(std::span(snapshot.kept)));
 }
 
 }  // namespace weft::vulkan

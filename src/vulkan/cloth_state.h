@@ -36,7 +36,7 @@ struct WorkBuffers {
     Slot near_slots;                                 ///< colliders in the lists
     std::uint32_t slot_count = 0;                    ///< room of near_slots
     Slot taut;                                       ///< TautArgs::sums
-    Slot good_lambda;                                ///< KeepArgs
+    Slot good_kept;                                  ///< KeepArgs
     Slot contact_sums;                               ///< by slot and particle in the tile
     Slot supports;                                   ///< ContactArgs
     Slot contact_log;               ///< likewise, effect of the contacts in the frame: moved, then turned (ContactArgs)
@@ -75,7 +75,8 @@ class ClothState {
     std::uint32_t near_slots = 0;  ///< room that lists of near colliders have grown to; 0: not yet
 
     Slot weights;  ///< current inverse masses, 0 for pinned particles
-    Slot by_face, lambda, limits;
+    Slot by_face, limits;
+    Slot kept;                   ///< ClothModel::kept_floats()
     double substep_seconds = 0;  ///< of the last frame, for lambda's scale; 0 before the first frame
 
     /// Writes a model made by with_fabric() into the present buffers, which no other cloth may share. Keeps the pins.
@@ -91,7 +92,7 @@ class ClothState {
     Result<void> restore(gpu::Device& device, const ClothSnapshot& snapshot);
     /// Complete elements: the fourth floats hold parts of the compensation, which the next frame depends on.
     Result<std::vector<Vec4>> download_points(gpu::Device& device, PointArray array) const;
-    Result<std::vector<float>> download_lambda(gpu::Device& device) const;
+    Result<std::vector<float>> download_kept(gpu::Device& device) const;
 
   private:
     Result<void> set_masses(gpu::Device& device, const ClothModel& model);

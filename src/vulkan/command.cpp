@@ -17,8 +17,8 @@ void dispatch_groups(gpu::Commands& commands, std::uint32_t groups, const gpu::D
     commands.dispatch(wide, (groups + wide - 1) / wide);
 }
 
-std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds) {
-    switch (lambda_use(plan, pass, substep, rounds)) {
+std::uint32_t number_of(LambdaUse use) {
+    switch (use) {
         case LambdaUse::discard:
             return WEFT_LAMBDA_DISCARD;
         case LambdaUse::store:

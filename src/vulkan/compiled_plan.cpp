@@ -62,7 +62,7 @@ class Compiler : ClothArgs {
     void begin_frame(List& list) {
         const Pass like_predict{.kind = PassKind::predict};
         const KeepArgs args = keep_args();
-        add(list, "keep", args, args.good_lambda == 0 ? args.count : std::max(args.count, args.lambdas), like_predict);
+        add(list, "keep", args, args.good_kept == 0 ? args.count : std::max(args.count, args.kept_count), like_predict);
         if (has_limits(model_, plan_))
             add(list, "limits", limit_args(), 1, {.kind = PassKind::prolongation}).needs_barrier = false;
         add_passes(list, passes_.frame_begin(), 0);
@@ -109,7 +109,7 @@ class Compiler : ClothArgs {
         out.check = out.commands.size();
         add(out.commands, "check", args, args.count, like_velocities);
         out.roll_back = out.commands.size();
-        add(out.commands, "roll_back", args, std::max(args.count, args.lambdas), like_velocities);
+        add(out.commands, "roll_back", args, std::max(args.count, args.kept_count), like_velocities);
         for (const IslandPass& one : passes_.frame_end()) {
             if (is_surface(one.pass)) add_pass(out.commands, one.pass, plan_.substeps - 1);
         }
@@ -158,6 +158,11 @@ class Compiler : ClothArgs {
             case PassKind::move_bodies:
             case PassKind::finish_bodies:
                 break;  // for all cloths only, or never
+            case PassKind::couple: {
+                const CoupleArgs args = couple_args(pass.constraint);
+                add(list, "couple", args, args.count, pass, substep);
+                break;
+            }
             case PassKind::weigh_taut:
                 add_taut_weights(list, pass, substep);
                 break;
@@ -237,7 +242,7 @@ class Compiler : ClothArgs {
         RowArgs args = row_args(pass.constraint);
         const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));
         std::string program = pass.kind == PassKind::damp ? "damp_" : plain ? "plain_" : "project_";
-        if (pass.kind == PassKind::project && !plain) args.lambda_use = use_of_lambda(pass, substep);
+        if (pass.kind == PassKind::project && !plain) args.modes |= use_of_lambda(pass, substep);
         add(list, program + std::string(constraint_info(pass.constraint).name), args, invocations, pass, substep);
     }
 
@@ -261,9 +266,10 @@ class Compiler : ClothArgs {
         args.particles = island_.links->address(table.particles);
         args.fields = island_.links->address(table.fields);
         args.lambda = island_.links->address(table.lambda);
+        args.shifts = 0;
         args.plain_positive = args.plain_negative = 1;  // links have no fabric that scales them
         args.stride = table.stride;
-        args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
+        args.modes |= plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
         const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], 0);
         add(list, (plain ? "plain_" : "project_") + std::string(constraint_info(pass.constraint).name), args,
             invocations, pass, substep);
@@ -278,7 +284,7 @@ class Compiler : ClothArgs {
             .position = state(PointArray::position),
             .particles = of_model(buffers.particles),
             .fields = of_model(buffers.fields),
-            .lambda = state(cloth_.lambda),
+            .lambda = state(cloth_.kept),
             .blocks = of_model(buffers.blocks) + std::uint64_t{batch.first_block} * 2 * sizeof(std::uint32_t),
             .scratch = work(work_.line_scratch),
             .frame = input_.frame(),
@@ -300,7 +306,7 @@ class Compiler : ClothArgs {
         args.sums = work(work_.sums);
         args.share = plain ? 0 : work(work_.share[index]);
         args.count = model_.constraints[index].stride;
-        args.lambda_use = plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
+        args.modes |= plain ? WEFT_LAMBDA_DISCARD : use_of_lambda(pass, substep);
         add(list, "side_by_side_" + std::string(constraint_info(pass.constraint).name), args, args.count, pass,
             substep);
     }
@@ -491,7 +497,7 @@ class Compiler : ClothArgs {
         args.fields = of_model(rows.fields);
         args.lambda = work(work_.levels[pass.level].lambda);
         args.stride = table.stride;
-        args.lambda_use = use_of_lambda(pass, substep);
+        args.modes |= use_of_lambda(pass, substep);
         const std::uint32_t invocations = hand_out(args, table.batches[pass.batch], of_model(rows.blocks));
         add(list, "project_coarse_limit", args, invocations, pass, substep);
     }

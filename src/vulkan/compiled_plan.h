@@ -73,7 +73,7 @@ Result<CompiledPlan> compile(Programs& programs, const ClothState& cloth, const 
 Result<std::vector<Command>> compile_surface(Programs& programs, const ClothState& cloth);
 
 /// One of WEFT_LAMBDA_… for a pass.
-std::uint32_t use_of_lambda(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds);
+std::uint32_t number_of(LambdaUse use);
 
 /// Whether a pass is recorded once for all cloths of a frame.
 inline bool is_for_all(const Pass& pass) {

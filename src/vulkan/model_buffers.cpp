@@ -15,8 +15,11 @@ struct Lists {
 };
 
 TableBuffers add_table(Arena& arena, const ConstraintTable& table, Lists& lists) {
-    TableBuffers buffers{
-        .particles = arena.add_array(table.particles), .fields = arena.add_array(table.fields), .blocks = {}};
+    TableBuffers buffers{.particles = arena.add_array(table.particles),
+                         .fields = arena.add_array(table.fields),
+                         .coupled = arena.add_array(table.coupled),
+                         .coupling = arena.add_array(table.coupling),
+                         .blocks = {}};
     auto& list = lists.blocks.emplace_back();
     for (const LineBlock& block : table.blocks)
         list.insert(list.end(), {block.begin, block.length | (block.cut ? WEFT_CUT_BLOCK : 0)});
@@ -103,9 +106,11 @@ Result<void> ModelBuffers::write_changed(gpu::Device& device, const ClothModel& 
                                : upload(device, arena_, slot, std::as_bytes(std::span(numbers.data(), numbers.size())));
     };
     for (std::uint32_t kind = 0; kind < constraint_kind_count; ++kind) {
-        const SharedArray<float>& fields = to.constraints[kind].fields;
-        if (fields.shares(from.constraints[kind].fields)) continue;
-        if (auto written = write(tables[kind].fields, fields); !written) return written;
+        const ConstraintTable &now = to.constraints[kind], &before = from.constraints[kind];
+        if (!now.fields.shares(before.fields))
+            if (auto written = write(tables[kind].fields, now.fields); !written) return written;
+        if (!now.coupling.shares(before.coupling))
+            if (auto written = write(tables[kind].coupling, now.coupling); !written) return written;
     }
     if (to.mass.shares(from.mass)) return {};
     return write(face_mass, face_masses(to));

@@ -13,6 +13,7 @@ namespace weft::vulkan {
 
 struct TableBuffers {
     Slot particles, fields;
+    Slot coupled, coupling;
     Slot blocks;  ///< begin and length of each; only if constraints are stored along lines
 };
 

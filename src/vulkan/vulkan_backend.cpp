@@ -71,7 +71,7 @@ class VulkanBackend final : public Backend, public VulkanInterop {
         auto next = make_cloth(std::move(model), base);
         if (!next) return undone(next.errors());
         ClothSnapshot snapshot = *before;
-        keep_what_moves(snapshot, (*next)->model(), same_anchors);
+        keep_what_moves(snapshot, old.model(), (*next)->model(), same_anchors);
         if (auto restored = (*next)->restore(snapshot); !restored) return undone(restored.errors());
         forget_runs(old);
         cloths_[handle.value] = std::move(*next);
@@ -292,13 +292,14 @@ class VulkanBackend final : public Backend, public VulkanInterop {
     }
 
     // Anchors of different sets do not correspond, so new ones start at the positions in the model.
-    static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& model, bool same_anchors) {
+    static void keep_what_moves(ClothSnapshot& snapshot, const ClothModel& before, const ClothModel& model,
+                                bool same_anchors) {
         const std::size_t kept = same_anchors ? model.point_count() : model.first_anchor();
         for (auto* array : {&snapshot.position, &snapshot.start, &snapshot.velocity, &snapshot.compensation})
             array->resize(kept), array->resize(model.point_count());
         for (std::size_t p = kept; p < model.point_count(); ++p) snapshot.position[p] = model.start[p];
         for (std::size_t p = 0; p < kept; ++p) snapshot.position[p].w = model.start[p].w;
-        snapshot.lambda.assign(model.table(ConstraintKind::stretch).lambda_count(), 0.0f);
+        snapshot.kept = kept_after(before, snapshot.kept, model);
     }
 
     // Islands that one FrameRun runs together.

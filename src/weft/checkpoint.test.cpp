@@ -268,7 +268,7 @@ TEST(Checkpoints, report_their_size) {
     ASSERT_TRUE(world.ok());
     const std::size_t size = size_of(world->checkpoint());
     EXPECT_GT(size, 2000 * 4 * sizeof(Vec4));
-    EXPECT_LT(size, 2000 * 8 * sizeof(Vec4));
+    EXPECT_LT(size, 2000 * 10 * sizeof(Vec4));
 }
 
 }  // namespace

@@ -80,10 +80,10 @@ TEST(LiveFabric, acts_at_once_and_coarse_levels_follow) {
     advance(world, 3);
     const auto levels = model_of(world).hierarchy;
     ASSERT_FALSE(levels.empty());
-    const auto bend = model_of(world).table(ConstraintKind::bend).fields;
+    const auto bend = model_of(world).table(ConstraintKind::moment).fields;
     ASSERT_TRUE(set_fabric(world, "denim").ok());
     EXPECT_EQ(world.scene().cloths[0].fabric_name, "denim");
-    EXPECT_NE(model_of(world).table(ConstraintKind::bend).fields, bend);
+    EXPECT_NE(model_of(world).table(ConstraintKind::moment).fields, bend);
     EXPECT_TRUE(model_of(world).hierarchy.shares(levels)) << "the background rebuild has not landed";
     EXPECT_TRUE(rebuilding(world));
     advance(world, frames_to_build(side * side) - 1);

@@ -26,7 +26,7 @@ class Malformed : public testing::Test {
     std::uint32_t reports = 0;
 };
 
-constexpr std::array models = {BendModel::dihedral, BendModel::plate, BendModel::distance};
+constexpr std::array models = {BendModel::dihedral, BendModel::plate, BendModel::distance, BendModel::moment};
 
 const SheetDesc hung_by_edge{.pinned = [](Vec3 p) { return p.z < -0.49f; }};
 
@@ -230,7 +230,7 @@ TEST_F(Malformed, saved_states_of_no_world) {
     EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].velocity[7].w = infinity; }), particle);
     EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].start[7].x = -1e30f; }), particle);
     EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].compensation[7].z = nan; }), particle);
-    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].lambda[3] = nan; }), "state: cloth 0: constraint 3 must be finite");
+    EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].kept[3] = nan; }), "state: cloth 0: constraint 3 must be finite");
     EXPECT_EQ(refusal([](Snapshot& s) { s.cloths[0].substep_seconds = nan; }),
               "state: cloth 0: its substep must be finite and ≥ 0 s");
     EXPECT_EQ(refusal([](Snapshot& s) { s.time = infinity; }), "state: its time must be finite and ≥ 0 s");

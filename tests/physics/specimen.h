@@ -82,6 +82,7 @@ class Specimen {
     }
 
     void step() { reports_ |= cloth_.step(dt_, {0, -gravity, 0}); }
+    void step_without_gravity() { reports_ |= cloth_.step(dt_, {}); }
     std::uint32_t reports() const { return reports_; }
 
     /// Brings the cloth to rest by a drag of `rate` 1/s. Drag acts on velocities only, so the end is the equilibrium of

@@ -58,7 +58,7 @@ std::array<std::vector<Vec4>, 2> run(std::unique_ptr<Backend> backend, const Wor
 // Labels: no-asan
 TEST(Fabrics, change_on_the_device_as_on_the_cpu) {
     for (const Projection projection : {Projection::lines, Projection::jacobi}) {
-        for (const BendModel bend : {BendModel::dihedral, BendModel::distance}) {
+        for (const BendModel bend : {BendModel::dihedral, BendModel::distance, BendModel::moment}) {
             const WorldSettings settings{.solver = {.substeps = 4, .projection = projection, .hierarchy = true},
                                          .air = AirDesc{}};
             auto cpu = make_cpu_backend();

@@ -52,7 +52,7 @@ MeasureSums on_host(const ClothModel& model, const ClothSnapshot& state) {
     std::vector<Vec4> positions(state.position.begin(), state.position.begin() + model.particle_count);
     for (std::uint32_t p = 0; p < model.particle_count; ++p) positions[p].w = model.start[p].w;
     sums.add(model, positions, state.velocity);
-    sums.add_residual(model, stretch_residual(model, state.position, state.lambda, state.substep_seconds));
+    sums.add_residual(model, stretch_residual(model, state.position, state.kept, state.substep_seconds));
     return sums;
 }
 
@@ -180,7 +180,7 @@ void nearly_solve(const ClothModel& model, ClothSnapshot& state) {
         const double c = distance(a.xyz(), b.xyz()) - table.fields[row];
         const double compliance = table.fields[(c > 0 ? 1 : 2) * std::size_t{table.stride} + row];
         const double h = state.substep_seconds;
-        if (compliance > 0) state.lambda[row] = static_cast<float>(-c * h * h / compliance * (1 + 1e-4 * (row % 3)));
+        if (compliance > 0) state.kept[row] = static_cast<float>(-c * h * h / compliance * (1 + 1e-4 * (row % 3)));
     }
 }
 
@@ -192,7 +192,7 @@ TEST(VulkanMeasuring, of_many_particles_keep_their_digits) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(-1, 1);
     placed.state.substep_seconds = 1.0 / 1170;
-    for (float& lambda : placed.state.lambda) lambda = 1e-6f * unit(random);
+    for (float& lambda : placed.state.kept) lambda = 1e-6f * unit(random);
     for (const float amount : {0.0f, 1e-6f, 1e-3f, 1.0f}) {
         for (std::size_t p = 0; p < rest.size(); ++p) {
             placed.state.position[p] = {rest[p].x + amount / 317 * unit(random) + 10, rest[p].y,

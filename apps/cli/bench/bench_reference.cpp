@@ -15,7 +15,7 @@ constexpr double block = 16;  // four numbers: one entry of a particle's, node's
 // Memory traffic of one pass, in bytes.
 struct PassTraffic {
     double own = 0;     ///< read by no other pass: constraints, indices, weights
-    double shared = 0;  ///< blocks of particles, nodes and triangles, read and written
+    double shared = 0;  ///< of particles, nodes and triangles, read and written, and what passes hand to one another
     double rows = 0;    ///< constraints projected in it
 };
 
@@ -31,11 +31,12 @@ class TrafficCounter {
         return found->second;
     }
 
-    /// A multiplier starts at 0 in the first iteration and is written only if another iteration follows. (The last
-    /// substep also keeps it for statistics; that is not counted.)
+    /// A multiplier starts at 0 in the first iteration and is written only if another iteration follows or others read
+    /// it. (The last substep also keeps it for statistics; that is not counted.)
     double lambda_bytes(const Pass& pass) {
         const bool projects = pass.kind == PassKind::project || pass.kind == PassKind::correct;
-        if (!projects || rounds_of(plan_, model_) < 2 || plan_.method == Method::pbd) return 0;
+        if (!projects || pass.source != RowSource::model || plan_.method == Method::pbd) return 0;
+        if (!stores_lambda(plan_, model_.table(pass.constraint), model_)) return 0;
         const double transfers = pass.first_iteration ? 1 : 2;
         return of(pass).rows * constraint_info(pass.constraint).lambdas * word * transfers;
     }
@@ -93,7 +94,8 @@ class TrafficCounter {
 
     PassTraffic projected(const ConstraintTable& table, const Batch& batch) {
         const Touched t = touched(table, batch);
-        return {.own = t.rows * row_bytes(table), .shared = block * (t.read + t.moved), .rows = t.rows};
+        const double shifts = table.is_coupled() ? 2 * word * t.rows : 0;
+        return {.own = t.rows * row_bytes(table), .shared = block * (t.read + t.moved) + shifts, .rows = t.rows};
     }
 
     PassTraffic count_level(const Pass& pass) {
@@ -186,6 +188,10 @@ class TrafficCounter {
                 const Touched t = touched(table, 0, table.stride);
                 const double out = block * constraint_info(table.kind).moved * t.rows;
                 return {.own = t.rows * (row_bytes(table) + word), .shared = block * t.read + out, .rows = t.rows};
+            }
+            case PassKind::couple: {  // multipliers read; shifts read and written
+                const double rows = table.rows;
+                return {.own = word * (coupled_rows + coupled_numbers + 2) * rows, .shared = 3 * word * rows};
             }
             case PassKind::average: {  // all corrections read again, found by an index
                 double items = 0;

@@ -202,6 +202,7 @@ class RandomScene {
         if (maybe())
             for (const FabricTable& table : fabric_tables())
                 fill(table.parameters, reinterpret_cast<std::byte*>(&cloth.fabric) + table.offset);
+        if (cloth.fabric.bend.edges == BendEdges::no_diagonals) cloth.fabric.bend.model = BendModel::dihedral;
         for (std::uint32_t i = below(3); i > 0; --i)
             cloth.groups.push_back({"group " + std::to_string(i), {below(4), below(4)}});
         for (std::uint32_t i = below(3); i > 0; --i) draw(cloth.pins.emplace_back(), of_a_file);

@@ -148,11 +148,12 @@ TEST(SceneFile, PresetsCanBeOverridden) {
     EXPECT_THAT(fabric(R"({"stretch": [10, 20], "compression": 5})").stretch.compression, ElementsAre(5.0f, 5.0f));
     EXPECT_THAT(fabric(R"({"preset": "silk"})").stretch.compression, ElementsAre(2000.0f, 2000.0f));
     EXPECT_TRUE(std::isnan(fabric(R"({"rest_angle": "mesh"})").bend.rest_angle));
-    EXPECT_EQ(fabric(R"({"bend_edges": "no-diagonals"})").bend.edges, BendEdges::no_diagonals);
+    EXPECT_EQ(fabric(R"({"bend_edges": "no-diagonals", "bend_model": "distance"})").bend.edges,
+              BendEdges::no_diagonals);
     EXPECT_EQ(fabric(R"("silk")").bend.edges, BendEdges::all);
     EXPECT_EQ(fabric(R"({"bend_model": "plate"})").bend.model, BendModel::plate);
     EXPECT_EQ(fabric(R"({"bend_model": "distance"})").bend.model, BendModel::distance);
-    EXPECT_EQ(fabric(R"("silk")").bend.model, BendModel::dihedral);
+    EXPECT_EQ(fabric(R"("silk")").bend.model, BendModel::moment);
 }
 
 TEST(SceneFile, ReadsSpheresAndBoxes) {
@@ -297,7 +298,8 @@ TEST(SceneFile, NamesUnknownKeysAndChoices) {
         {cloth(R"("drawn": {"grid": {}})"),
          {"s.json: /cloths/0/drawn: unknown key \"drawn\"; this is called \"render_mesh\" now"}},
         {cloth(R"("fabric": {"bend_model": "hinges"})"),
-         {"s.json: /cloths/0/fabric/bend_model: must be \"dihedral\", \"plate\" or \"distance\", got \"hinges\"; this "
+         {"s.json: /cloths/0/fabric/bend_model: must be \"moment\", \"dihedral\", \"plate\" or \"distance\", got "
+          "\"hinges\"; this "
           "is "
           "called \"dihedral\" now"}},
         {scene(R"("clots": [])"), {"s.json: /clots: unknown key \"clots\"; did you mean \"cloths\"?"}},

@@ -20,7 +20,7 @@ constexpr std::string_view seed_scene = R"({
           "transform": { "position": [1, 2, 3], "rotation": [90, 0, -45], "scale": 2 },
           "material": "velvet", "fabric": { "preset": "denim", "density": 0.5, "stretch": [100, 200], "rest_angle": "mesh" },
           "pins": [ { "vertices": [0, 4] }, { "box": { "min": [-1, -2, -3], "max": [1, 2, 3] } } ] },
-        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "bend_edges": "no-diagonals", "bend_model": "plate" },
+        { "mesh": { "sphere": { "radius": 0.5, "subdivisions": 2 } }, "fabric": { "bend_edges": "no-diagonals", "bend_model": "distance" },
           "render_mesh": { "box": { "size": [1, 1, 1], "resolution": [3, 4, 5] } },
           "material": { "preset": "silk", "weft_color": [1, 0, 0], "uv_tiling": [2, 3], "color_map": "a.png" } },
         { "mesh": { "file": "bunny.obj", "up": "z" }, "fabric": "silk", "pins": [ { "color": [1, 0, 0.5] } ] } ],

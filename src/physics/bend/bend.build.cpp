@@ -1,4 +1,3 @@
-#include "physics/bend/bend_fit.h"
 #include "physics/bend/hinge_at_rest.h"
 #include "physics/change_rows.h"
 
@@ -11,14 +10,11 @@ RowList build_bend(const RestShape& rest, const BendMaterial& material) {
     RowList rows = make_rows(ConstraintKind::bend);
     if (material.model != BendModel::dihedral) return rows;
     rows.geometry_count = 2;
-    const BendFit fit = material.fit && material.edges == BendEdges::all ? fit_bend(rest) : BendFit{};
     for_each_stiff_hinge(rest, material, rows, [&](const Hinge& hinge, const HingeShape& shape, float stiffness) {
-        // Stiffness is inversely proportional to the area, so the factor becomes part of it: change_bend() keeps it.
-        const float area = shape.area / fit.at(shape.across);
-        rows.add(
-            {hinge.a, hinge.b, hinge.c, hinge.d},
-            {angle_at_rest(rest.topology, hinge, material), BendLaw::compliance(stiffness, area, shape.edge_squared)},
-            {shape.across, area});
+        rows.add({hinge.a, hinge.b, hinge.c, hinge.d},
+                 {angle_at_rest(rest.topology, hinge, material),
+                  BendLaw::compliance(stiffness, shape.area, shape.edge_squared)},
+                 {shape.across, shape.area});
     });
     return rows;
 }

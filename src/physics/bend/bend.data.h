@@ -17,9 +17,10 @@ namespace weft {
 /// Which edges bend. `no_diagonals` leaves out the diagonals of flat rectangles.
 enum class BendEdges { all, no_diagonals };
 
-/// How curvature is measured: by the angle across each edge (bend.md), by the three angles of a triangle together
-/// (plate.md), or by the distance between the tips of two neighboring triangles (distance_bend.md).
-enum class BendModel { dihedral, plate, distance };
+/// How curvature is measured: by the angle across each edge, with moments that act together in each triangle (moment.md),
+/// or each alone (bend.md); by the three angles of a triangle together (plate.md); or by the distance between the tips of
+/// two neighboring triangles (distance_bend.md).
+enum class BendModel { moment, dihedral, plate, distance };
 
 struct BendMaterial {
     static constexpr int plain[2] = {2, 2};
@@ -27,8 +28,7 @@ struct BendMaterial {
     float bend[3] = {11.9e-6f, 9.1e-6f, 6.6e-6f};                 ///< N·m: warp, bias, weft
     float rest_angle = std::numeric_limits<float>::quiet_NaN();  ///< degrees; NaN: as the mesh is built
     BendEdges edges = BendEdges::all;
-    BendModel model = BendModel::dihedral;
-    bool fit = false;  ///< the factors of bend_fit.h; only for `dihedral` with all edges
+    BendModel model = BendModel::moment;
 };
 
 inline constexpr Parameter bend_parameters[] = {
@@ -37,14 +37,14 @@ inline constexpr Parameter bend_parameters[] = {
     {.key = "rest_angle", .kind = ParameterKind::angle_or_mesh, .offset = offsetof(BendMaterial, rest_angle),
      .min = -180, .max = 180, .unit = "°", .what = "dihedral angle at rest: \"mesh\": as in the mesh, or degrees"},
     {.key = "bend_edges", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, edges),
-     .what = "`all` edges, or `no-diagonals`: all but the diagonals of flat rectangles", .choices = "all|no-diagonals"},
+     .what = "`all` edges, or `no-diagonals`: all but the diagonals of flat rectangles; only for `dihedral` and `distance`",
+     .choices = "all|no-diagonals"},
     {.key = "bend_model", .kind = ParameterKind::choice, .offset = offsetof(BendMaterial, model),
-     .what = "`dihedral`: the angle across each edge; `plate`: the curvature of each triangle, closer to `bend` at twice "
-             "the cost; `distance`: springs between the tips of neighboring triangles, a third of the cost, too soft for "
+     .what = "`moment`: the angle across each edge, with moments that act together in each triangle: bends as `bend` says on "
+             "any mesh; `dihedral`: each edge alone, up to a fifth too soft or too stiff; `plate`: the curvature of each "
+             "triangle; `distance`: springs between the tips of neighboring triangles, a fifth of the cost, too soft for "
              "slight folds",
-     .choices = "dihedral|plate|distance"},
-    {.key = "bend_fit", .kind = ParameterKind::flag, .offset = offsetof(BendMaterial, fit),
-     .what = "factors for the triangulation, with which free cloth bends as `bend` says; only for `dihedral` with `all` edges"},
+     .choices = "moment|dihedral|plate|distance"},
 };
 
 }  // namespace weft

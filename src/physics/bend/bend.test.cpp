@@ -163,7 +163,7 @@ TEST(Bend, survives_degenerate_input) {
                 V p[4] = {points[0], points[1], points[2], points[3]};
                 float lambda = 0;
                 scalar::project_bend(p[0], p[1], p[2], p[3], w, w, w, w, lambda, {0.5f, compliance},
-                                     {1e-3f, 1e3f, 1e6f, 0, 1});
+                                     {1e-3f, 1e3f, 1e6f, 0, 1, 0, 0});
                 for (const V& q : p) EXPECT_TRUE(std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z));
                 EXPECT_TRUE(std::isfinite(lambda));
             }
@@ -201,7 +201,8 @@ TEST(BendRows, a_flat_strip_bent_to_a_cylinder_has_the_energy_of_its_stiffness) 
     const float warp = 2e-5f, weft = 5e-5f;
     const TriangleMesh mesh = make_grid({1, 1}, {41, 41}, GridDiagonal::uniform);
     const auto topology = build_topology(mesh);
-    const RowList rows = build_bend(make_rest_shape(mesh, *topology), {.bend = {warp, 0, weft}});
+    const RowList rows =
+        build_bend(make_rest_shape(mesh, *topology), {.bend = {warp, 0, weft}, .model = BendModel::dihedral});
     for (const bool along_warp : {true, false}) {
         const double radius = 2;
         const auto place = [&](Vec3 p) {
@@ -228,7 +229,8 @@ TEST(BendRows, rest_angle_is_the_mesh_s_or_the_given_one) {
     }
     const auto topology = build_topology(mesh);
     const RestShape rest = make_rest_shape(mesh, *topology);
-    const RowList built = build_bend(rest, {}), given = build_bend(rest, {.rest_angle = 30});
+    const RowList built = build_bend(rest, {.model = BendModel::dihedral}),
+                  given = build_bend(rest, {.rest_angle = 30, .model = BendModel::dihedral});
     int right_angles = 0;
     for (std::uint32_t r = 0; r < built.size(); ++r) {
         right_angles += std::abs(std::abs(built.fields[2 * r]) - pi / 2) < 1e-5;
@@ -239,7 +241,9 @@ TEST(BendRows, rest_angle_is_the_mesh_s_or_the_given_one) {
 
 std::uint32_t row_count(const TriangleMesh& mesh, BendEdges edges) {
     const auto topology = build_topology(mesh);
-    return build_bend(make_rest_shape(mesh, *topology), {.bend = {1, 1, 1}, .edges = edges}).size();
+    return build_bend(make_rest_shape(mesh, *topology),
+                      {.bend = {1, 1, 1}, .edges = edges, .model = BendModel::dihedral})
+        .size();
 }
 
 TEST(BendRows, of_the_source_are_all_but_the_diagonals_of_the_cells) {

@@ -6,6 +6,8 @@ struct Step {
     real inv_h2;  // 1/s2
     real tension; // N/m  in the cloth; lengthens one-sided limits
     real allowed; //      factor on their length
+    real shift_c; // rad  of the rest angle of a moment, by the triangle with c
+    real shift_d; //      by that with d
 };
 
 // A particle's velocity and the compensation for what rounding drops when a small increment meets a large velocity.

@@ -86,24 +86,6 @@ Three take_in_order(SymmetricMatrix m, const std::array<std::size_t, 3>& order) 
     return taken;
 }
 
-double least_eigenvalue(const SymmetricMatrix& m) {
-    const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3;
-    double off = 0, spread = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        off += m[i][(i + 1) % 3] * m[i][(i + 1) % 3];
-        spread += (m[i][i] - mean) * (m[i][i] - mean);
-    }
-    const double size = std::sqrt((spread + 2 * off) / 6);
-    if (!(size > 0)) return mean;
-    SymmetricMatrix b = m;
-    for (std::size_t i = 0; i < 3; ++i) b[i][i] -= mean;
-    const double determinant = b[0][0] * (b[1][1] * b[2][2] - b[1][2] * b[1][2]) -
-                               b[0][1] * (b[0][1] * b[2][2] - b[1][2] * b[0][2]) +
-                               b[0][2] * (b[0][1] * b[1][2] - b[1][1] * b[0][2]);
-    const double angle = std::acos(std::clamp(determinant / (2 * size * size * size), -1.0, 1.0)) / 3;
-    return mean + 2 * size * std::cos(angle + 2 * std::numbers::pi / 3);
-}
-
 /// The same part of each measure's stiffness with the others free, as large as possible.
 Three take_alike(const SymmetricMatrix& m) {
     Three taken{};

@@ -251,8 +251,8 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);
-    // All three bend models get the same values; `model` selects the one that creates constraints.
-    model.fabric.plate = model.fabric.distance_bend = model.fabric.bend;
+    // All bend models get the same values; `model` selects the one that creates constraints.
+    model.fabric.moment = model.fabric.plate = model.fabric.distance_bend = model.fabric.bend;
     model.fabric.membrane = model.fabric.stretch;
     const auto add = [&](ConstraintKind kind, const RowList& rows) {
         const bool lines = layout.lines && kind == ConstraintKind::stretch;
@@ -314,6 +314,15 @@ Result<std::shared_ptr<const ClothModel>> build_cloth_model(ClothModelDesc desc,
     }
     clock.spent_on(BuildPart::rest);
     return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+std::vector<float> kept_after(const ClothModel& before, std::span<const float> kept, const ClothModel& after) {
+    std::vector<float> still(after.kept_floats());
+    const ConstraintTable &from = before.table(ConstraintKind::moment), &to = after.table(ConstraintKind::moment);
+    if (from.particles.shares(to.particles) || std::ranges::equal(from.particles, to.particles))
+        std::copy(kept.begin() + static_cast<std::ptrdiff_t>(before.first_shift()), kept.end(),
+                  still.begin() + static_cast<std::ptrdiff_t>(after.first_shift()));
+    return still;
 }
 
 Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& from,

@@ -21,6 +21,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -180,6 +181,10 @@ struct ClothModel {
     /// Triangles of particles at the start; ClothFrame has the current ones.
     TriangleView triangles() const { return {faces.data(), face_stride, triangle_count}; }
     const ConstraintTable& table(ConstraintKind kind) const { return constraints[static_cast<std::uint32_t>(kind)]; }
+    /// Floats that constraints keep from frame to frame: the multipliers of stretch, then the shifts of moment,
+    /// Step::shift_c of all and shift_d of all.
+    std::size_t kept_floats() const { return first_shift() + 2 * std::size_t{table(ConstraintKind::moment).stride}; }
+    std::size_t first_shift() const { return table(ConstraintKind::stretch).lambda_count(); }
 
   private:
     struct Drawn {
@@ -236,6 +241,9 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
 /// model or rest angle change, if the stiffness of membranes or plates changes, or if the tether settings change. Fails
 /// like build_cloth_model().
 Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, const Fabric& fabric);
+/// ClothModel::kept_floats() for a model that replaces another one: the shifts, if both have the same moment
+/// constraints.
+std::vector<float> kept_after(const ClothModel& before, std::span<const float> kept, const ClothModel& after);
 /// Returns the same model with other attachments. All arrays except `start` and the attachment constraints are shared
 /// with `from`. Returns null if there is no room for so many attachments. Fails like build_cloth_model().
 Result<std::shared_ptr<const ClothModel>> with_attachments(const ClothModel& from,

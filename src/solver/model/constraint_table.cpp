@@ -44,6 +44,13 @@ void widen(ConstraintTable& table, std::uint32_t stride) {
     table.particles = std::move(particles);
     table.fields = widened(table.fields, before, stride, 0.0f);
     table.geometry = widened(table.geometry, before, stride, no_area);
+    if (table.is_coupled()) {
+        AlignedVector<std::uint32_t> coupled = widened(table.coupled, before, stride, 0u);
+        for (std::uint32_t k = 0; k < coupled_rows; ++k)
+            for (std::uint32_t row = before; row < stride; ++row) coupled[std::size_t{k} * stride + row] = row;
+        table.coupled = std::move(coupled);
+        table.coupling = widened(table.coupling, before, stride, 0.0f);
+    }
     table.stride = stride;
 }
 
@@ -81,6 +88,32 @@ std::optional<std::size_t> ConstraintTable::line_block(std::uint32_t row) const 
     if (after == blocks.begin() || row >= (after - 1)->end()) return std::nullopt;
     return static_cast<std::size_t>(after - 1 - blocks.begin());
 }
+
+namespace {
+
+void couple(ConstraintTable& table, const RowList& list, const Coloring& coloring) {
+    const std::size_t stride = table.stride;
+    std::vector<std::uint32_t> row_of(list.size());
+    std::uint32_t next = 0;
+    for (const Batch& batch : table.batches)
+        for (std::uint32_t k = 0; k < batch.rows; ++k) row_of[coloring.order[next++]] = batch.begin + k;
+    AlignedVector<std::uint32_t> coupled(coupled_rows * stride);
+    AlignedVector<float> coupling(coupled_numbers * stride);
+    for (std::uint32_t k = 0; k < coupled_rows; ++k)
+        for (std::uint32_t row = 0; row < stride; ++row) coupled[k * stride + row] = row;
+    for (std::size_t source = 0; source < row_of.size(); ++source) {
+        const std::uint32_t row = row_of[source];
+        for (std::uint32_t k = 0; k < coupled_rows; ++k)
+            if (const std::uint32_t other = list.coupled[source * coupled_rows + k]; other != no_particle)
+                coupled[k * stride + row] = row_of[other];
+        for (std::uint32_t number = 0; number < coupled_numbers; ++number)
+            coupling[number * stride + row] = list.coupling[source * coupled_numbers + number];
+    }
+    table.coupled = std::move(coupled);
+    table.coupling = std::move(coupling);
+}
+
+}  // namespace
 
 Coloring color_rows(ConstraintKind kind, const RowList& list, std::uint32_t particle_count,
                     const ColoringOptions& options) {
@@ -143,6 +176,7 @@ ConstraintTable pack_rows_with_dummies(ConstraintKind kind, const RowList& list,
     table.particles = std::move(particles);
     table.fields = std::move(fields);
     table.geometry = std::move(geometry);
+    if (!list.coupling.empty()) couple(table, list, coloring);
     return table;
 }
 

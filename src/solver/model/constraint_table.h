@@ -57,6 +57,10 @@ struct ConstraintTable {
     std::vector<LineBlock> blocks;     ///< in the order of their rows; empty if constraints are not on lines
     SharedArray<float> geometry = {};  ///< as in RowList, [number · stride + row]; `no_area` in padding
     SharedArray<float> left_out = {};  ///< as in RowList
+    /// As in RowList: rows, [k · stride + row], and numbers, [number · stride + row]. In padding and in place of
+    /// `none`, a row names itself with numbers of 0.
+    SharedArray<std::uint32_t> coupled = {};
+    SharedArray<float> coupling = {};
     /// Padding from first_spare on is room for constraints that are added while the cloth moves (cloth_edit.h):
     /// spare_rows in total, spare_used in use.
     std::uint32_t first_spare = 0, spare_rows = 0, spare_used = 0;
@@ -78,6 +82,7 @@ struct ConstraintTable {
     std::optional<std::size_t> line_block(std::uint32_t row) const;
     /// Number of Lagrange multipliers, indexed [multiplier · stride + row].
     std::size_t lambda_count() const { return std::size_t{constraint_info(kind).lambdas} * stride; }
+    bool is_coupled() const { return !coupling.empty(); }
     std::uint32_t overflow() const { return !batches.empty() && batches.back().serial ? batches.back().rows : 0; }
 };
 

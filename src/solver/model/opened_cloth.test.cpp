@@ -18,11 +18,11 @@ struct Kind {
     GridDiagonal diagonal = GridDiagonal::alternating;
     float jitter = 0;  // of vertices, in cells
     bool lines = true;
-    BendModel bend = BendModel::dihedral;
+    BendModel bend = BendModel::moment;
     bool erodes = false;
 };
 const Kind kinds[] = {{},
-                      {.diagonal = GridDiagonal::uniform, .lines = false},
+                      {.diagonal = GridDiagonal::uniform, .lines = false, .bend = BendModel::dihedral},
                       {.jitter = 0.25f, .bend = BendModel::distance},
                       {.diagonal = GridDiagonal::uniform, .jitter = 0.25f, .bend = BendModel::plate},
                       {.diagonal = GridDiagonal::cross, .lines = false, .bend = BendModel::plate}};
@@ -114,7 +114,10 @@ void expect_rows_of_hinges(const ClothModel& model, const HingeList& hinges) {
         const Ends edge = tips_alone ? Ends{} : sorted(hinge.a, hinge.b), tips = sorted(hinge.c, hinge.d);
         expected.insert({edge[0], edge[1], tips[0], tips[1]});
     }
-    const ConstraintTable& table = model.table(tips_alone ? ConstraintKind::distance_bend : ConstraintKind::bend);
+    const ConstraintTable& table =
+        model.table(tips_alone                                       ? ConstraintKind::distance_bend
+                    : model.fabric.bend.model == BendModel::dihedral ? ConstraintKind::bend
+                                                                     : ConstraintKind::moment);
     for (std::uint32_t row = 0; row < table.stride; ++row) {
         if (!table.is_real(row)) continue;
         const auto at = [&](std::uint32_t slot) { return particle_of(table, row, slot); };
@@ -278,6 +281,7 @@ TEST(Openings, of_all_edges_leave_single_triangles) {
         EXPECT_EQ((*opened)->particle_count, 3 * model->triangle_count);
         EXPECT_EQ((*opened)->table(ConstraintKind::stretch).rows, 3 * model->triangle_count);
         EXPECT_EQ((*opened)->table(ConstraintKind::bend).rows, 0u);
+        EXPECT_EQ((*opened)->table(ConstraintKind::moment).rows, 0u);
         EXPECT_TRUE(openings_between(**opened, group).empty()) << "all are open";
         expect_consistent(**opened);
     }
@@ -291,7 +295,7 @@ TEST(Openings, keep_their_constraints_through_a_change_of_fabric) {
     const auto first_opened = *with_fabric(**with_edit(*model, {.openings = openings}), stiff);
     const auto first_changed = *with_edit(**with_fabric(*model, stiff), {.openings = openings});
     ASSERT_TRUE(first_opened && first_changed);
-    for (const ConstraintKind kind : {ConstraintKind::stretch, ConstraintKind::bend})
+    for (const ConstraintKind kind : {ConstraintKind::stretch, ConstraintKind::moment})
         EXPECT_EQ(first_opened->table(kind).fields, first_changed->table(kind).fields);
     EXPECT_EQ(first_opened->mass, first_changed->mass);
 }

@@ -87,6 +87,12 @@ inline void add_rows(RandomState& f, ConstraintKind kind, unsigned seed, bool de
             rows.fields.push_back(value);
         }
     }
+    if (kind == ConstraintKind::moment) {
+        for (std::size_t i = 0; i < coupled_rows * std::size_t{rows.size()}; ++i)
+            rows.coupled.push_back(random.below(5) == 0 ? no_particle : random.below(rows.size()));
+        for (std::size_t i = 0; i < coupled_numbers * std::size_t{rows.size()}; ++i)
+            rows.coupling.push_back(random.uniform(0, 1e-3f));
+    }
     f.table = pack_rows(kind, rows, particle_count);
     f.lambda.assign(std::size_t{constraint_info(kind).lambdas} * f.table.stride, 0.25f);
 }

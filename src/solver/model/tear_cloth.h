@@ -18,8 +18,9 @@ using uint = std::uint32_t;
 
 // The kinds of constraints that openings change, as the rules number them.
 inline constexpr uint WEFT_TEAR_STRETCH = 0;
-inline constexpr std::array<ConstraintKind, 4> tear_kinds{ConstraintKind::stretch, ConstraintKind::bend,
-                                                          ConstraintKind::plate, ConstraintKind::distance_bend};
+inline constexpr std::array<ConstraintKind, 5> tear_kinds{ConstraintKind::stretch, ConstraintKind::bend,
+                                                          ConstraintKind::plate, ConstraintKind::distance_bend,
+                                                          ConstraintKind::moment};
 inline uint tear_kind(ConstraintKind kind) {
     return static_cast<uint>(std::ranges::find(tear_kinds, kind) - tear_kinds.begin());
 }

@@ -25,6 +25,7 @@ class TearTableBuilder {
         make_twins();
         make_stretch();
         make_hinged(ConstraintKind::bend);
+        make_hinged(ConstraintKind::moment);
         make_hinged(ConstraintKind::distance_bend);
         make_plates();
         list_rows();
@@ -167,7 +168,7 @@ class TearTableBuilder {
         std::multimap<EdgeEnds, const Hinge*> by_tips;
         if (table.rows > 0)
             for (const Hinge& hinge : topology_.hinges) by_tips.emplace(sorted(hinge.c, hinge.d), &hinge);
-        const std::uint32_t tips = kind == ConstraintKind::bend ? 2 : 0;
+        const std::uint32_t tips = kind == ConstraintKind::distance_bend ? 0 : 2;
         for (std::uint32_t row = 0; row < table.stride; ++row) {
             const auto at = [&](std::uint32_t slot) { return table.particles[std::size_t{slot} * table.stride + row]; };
             if (table.is_real(row)) {

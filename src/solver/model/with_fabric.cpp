@@ -23,7 +23,7 @@ bool same_tearing(const TearMaterial& a, const TearMaterial& b) {
 
 // The rest angle is compared by bits, because NaN stands for the angle of the mesh.
 bool same_hinges(const BendMaterial& a, const BendMaterial& b) {
-    return a.model == b.model && a.edges == b.edges && a.fit == b.fit &&
+    return a.model == b.model && a.edges == b.edges &&
            std::bit_cast<std::uint32_t>(a.rest_angle) == std::bit_cast<std::uint32_t>(b.rest_angle);
 }
 
@@ -32,15 +32,18 @@ template <class Material>
 bool change_table(ClothModel& model, ConstraintKind kind, bool (*change)(const RowsToChange&, const Material&),
                   const Material& material) {
     ConstraintTable& table = model.constraints[static_cast<std::uint32_t>(kind)];
-    AlignedVector<float> fields(table.fields.begin(), table.fields.end());
+    AlignedVector<float> fields(table.fields.begin(), table.fields.end()),
+        coupling(table.coupling.begin(), table.coupling.end());
     const RowsToChange rows{.stride = table.stride,
                             .particles = table.particles.data(),
                             .geometry = table.geometry.data(),
                             .left_out = table.left_out,
                             .rest_positions = model.start.data(),
-                            .fields = fields.data()};
+                            .fields = fields.data(),
+                            .coupling = coupling.data()};
     if (!change(rows, material)) return false;
     table.fields = std::move(fields);
+    if (table.is_coupled()) table.coupling = std::move(coupling);
     return true;
 }
 
@@ -50,6 +53,8 @@ bool change_bending(ClothModel& model, const BendMaterial& material) {
             return change_table(model, ConstraintKind::bend, change_bend, material);
         case BendModel::distance:
             return change_table(model, ConstraintKind::distance_bend, change_distance_bend, material);
+        case BendModel::moment:
+            return change_table(model, ConstraintKind::moment, change_moment, material);
         case BendModel::plate:
             break;  // needs a factorization per triangle; storing its input costs more than a rebuild
     }
@@ -89,7 +94,7 @@ Result<std::shared_ptr<const ClothModel>> with_fabric(const ClothModel& from, co
     model->fabric = fabric;
     model->fabric.tether = from.fabric.tether;
     model->tethers_asked = asked;
-    model->fabric.plate = model->fabric.distance_bend = fabric.bend;
+    model->fabric.moment = model->fabric.plate = model->fabric.distance_bend = fabric.bend;
     model->fabric.membrane = fabric.stretch;
     const StretchMaterial& stretch = fabric.stretch;
     const bool same_stretch = same_stiffness(from.fabric.stretch, stretch);

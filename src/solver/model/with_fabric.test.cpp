@@ -42,6 +42,7 @@ void expect_same(const ClothModel& got, const ClothModel& built) {
         expect_same_bits(a.fields, b.fields, constraint_info(static_cast<ConstraintKind>(kind)).name.data());
         expect_same_bits(a.geometry, b.geometry, "geometry");
         expect_same_bits(a.left_out, b.left_out, "left out");
+        expect_same_bits(a.coupling, b.coupling, "coupling");
     }
     expect_same_bits(got.mass, built.mass, "masses");
     expect_same_bits(got.start, built.start, "starts");
@@ -97,7 +98,7 @@ std::vector<TriangleMesh> meshes(RandomNumbers& random) {
 
 TEST(WithFabric, gives_the_bits_of_a_model_that_is_built_anew) {
     RandomNumbers random(3);
-    for (const BendModel model : {BendModel::dihedral, BendModel::distance}) {
+    for (const BendModel model : {BendModel::dihedral, BendModel::distance, BendModel::moment}) {
         for (const TriangleMesh& mesh : meshes(random)) {
             for (const bool lines : {false, true}) {
                 Fabric now = random_fabric(random, model);
@@ -116,7 +117,7 @@ TEST(WithFabric, gives_the_bits_of_a_model_that_is_built_anew) {
 TEST(WithFabric, keeps_the_angles_and_edges_that_were_chosen) {
     RandomNumbers random(4);
     const TriangleMesh mesh = bent_grid({15, 12}, random);
-    for (const BendModel model : {BendModel::dihedral, BendModel::distance}) {
+    for (const BendModel model : {BendModel::dihedral, BendModel::distance, BendModel::moment}) {
         for (const BendEdges hinges : {BendEdges::all, BendEdges::no_diagonals}) {
             Fabric before = random_fabric(random, model), after = random_fabric(random, model);
             before.bend.edges = after.bend.edges = hinges;
@@ -132,6 +133,7 @@ TEST(WithFabric, leaves_out_the_same_constraints_as_a_build) {
     const TriangleMesh mesh = make_grid({1, 1}, {9, 9}, GridDiagonal::uniform);
     Fabric threads;  // no shear, so diagonals have no constraint
     threads.stretch.shear = 0;
+    threads.bend.model = BendModel::dihedral;
     threads.bend.bend[0] = threads.bend.bend[1] = 0;
     Fabric stiffer = threads;
     stiffer.stretch.stretch[0] = 7000;

@@ -26,6 +26,8 @@ std::uint32_t array_of(Data data, const Pass& pass) {
         case Data::finest_displacement:
             return array_id(Data::node_displacement, 0);
         case Data::correction:
+        case Data::multipliers:
+        case Data::shifts:
         case Data::found:
         case Data::places:
         case Data::list_rows:

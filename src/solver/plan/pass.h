@@ -63,6 +63,8 @@ enum class Data : std::uint8_t {
     face_contacts,  ///< of faces with colliders
     face_sums,      ///< of their pushes, per particle
     taut,           ///< masses of taut edges, summed by particle
+    multipliers,    ///< of constraints
+    shifts,         ///< of the rest values of coupled constraints
     hot,            ///< triangles whose load may soon exceed a limit
     pairs,          ///< of features of cloth that are near each other
     bodies,         ///< rigid bodies that move by forces

@@ -19,6 +19,7 @@ class Planner {
         WorldPlan plan{settings_.solver, 0, {}, {}, {}};
         plan.projection = resolve(plan.projection, plan.method);
         plan.weighs_taut = weighs_taut();
+        plan.reads_kept = plan.weighs_taut || !coupled().empty();
         for (const ConstraintKind kind : found()) {
             for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
                 plan.frame_begin.push_back(dynamic(pass, kind));
@@ -55,6 +56,7 @@ class Planner {
             plan.substep.push_back({.kind = PassKind::hold_particles});
             plan.substep.push_back({.kind = PassKind::settle_particles});
         }
+        add_couplings(plan.substep);
         if (attached()) plan.substep.push_back({.kind = PassKind::targets, .batch = targets_at_last});
         if (settings_.bodies) plan.substep.push_back({.kind = PassKind::finish_bodies});
         if (weighs_taut()) plan.substep.push_back({.kind = PassKind::free_taut, .constraint = ConstraintKind::stretch});
@@ -120,6 +122,21 @@ class Planner {
         for (std::uint32_t batch = 0; batch < batches; ++batch)
             passes.push_back({.kind = PassKind::weigh_taut, .constraint = kind, .batch = batch});
         passes.push_back({.kind = PassKind::take_taut, .constraint = kind});
+    }
+
+    // Plain constraints have no compliance.
+    std::vector<ConstraintKind> coupled() const {
+        std::vector<ConstraintKind> kinds;
+        if (settings_.solver.method != Method::xpbd) return kinds;
+        for_each_kind([&](ConstraintKind kind) {
+            if (std::ranges::any_of(cloths_, [&](const auto& one) { return one.model->table(kind).is_coupled(); }))
+                kinds.push_back(kind);
+        });
+        return kinds;
+    }
+
+    void add_couplings(Passes& passes) const {
+        for (const ConstraintKind kind : coupled()) passes.push_back({.kind = PassKind::couple, .constraint = kind});
     }
 
     // Coarse levels know nothing of the hands of grabs and would throw them about, so they do not move what is grabbed.
@@ -396,6 +413,8 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
             return pass.batch < model.table(pass.constraint).batches.size();
         case PassKind::damp:
             return model.fabric.body.damping > 0 && pass.batch < model.table(pass.constraint).batches.size();
+        case PassKind::couple:
+            return model.table(pass.constraint).is_coupled();
         case PassKind::correct:
             return model.table(pass.constraint).rows > 0;
         case PassKind::restriction:
@@ -440,6 +459,16 @@ SubstepPasses passes_of(const WorldPlan& plan, std::uint32_t substep) {
         passes.size() > 1 && passes.front().kind == PassKind::predict && passes.back().kind == PassKind::velocities;
     const bool begun = together && substep > 0, goes_on = together && substep + 1 < plan.substeps;
     return {passes.subspan(begun, passes.size() - begun - goes_on), goes_on};
+}
+
+bool stores_lambda(const WorldPlan& plan, const ConstraintTable& table, const ClothModel& model) {
+    return rounds_of(plan, model) > 1 || table.is_coupled();
+}
+
+LambdaUse lambda_use(const WorldPlan& plan, const ClothModel& model, const Pass& pass, std::uint32_t substep) {
+    const LambdaUse use = lambda_use(plan, pass, substep, rounds_of(plan, model));
+    const bool coupled = pass.source == RowSource::model && model.table(pass.constraint).is_coupled();
+    return use == LambdaUse::discard && coupled ? LambdaUse::store : use;
 }
 
 LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds) {

@@ -63,6 +63,7 @@ struct WorldPlan : SolverDesc {
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
     bool weighs_taut = false;  ///< taut edges add mass, by lambda of the substep before
+    bool reads_kept = false;   ///< a frame reads ClothModel::kept_floats() of the frame before
 };
 
 /// `links`: of all islands that have any.
@@ -153,6 +154,10 @@ enum class LambdaUse {
 /// the last substep, to compute the tension and the residual.
 /// `rounds`: how often the constraints act in a substep (rounds_of).
 LambdaUse lambda_use(const WorldPlan& plan, const Pass& pass, std::uint32_t substep, std::uint32_t rounds);
+/// For the constraints of a cloth. Those that are coupled read the multipliers of others.
+LambdaUse lambda_use(const WorldPlan& plan, const ClothModel& model, const Pass& pass, std::uint32_t substep);
+/// Whether the constraints of this table of the model need room for multipliers.
+bool stores_lambda(const WorldPlan& plan, const ConstraintTable& table, const ClothModel& model);
 
 /// The fraction 0…1 of its error that a constraint removes per iteration of plain position-based dynamics, for C > 0
 /// and for C < 0.

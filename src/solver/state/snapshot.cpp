@@ -91,7 +91,7 @@ std::vector<std::byte> to_bytes(const Snapshot& snapshot) {
         out.list(cloth.start);
         out.list(cloth.velocity);
         out.list(cloth.compensation);
-        out.list(cloth.lambda);
+        out.list(cloth.kept);
         out.one(cloth.substep_seconds);
         out.list(cloth.targets.particles);
         out.one<std::uint64_t>(cloth.targets.motions.size());
@@ -139,7 +139,7 @@ Result<Snapshot> snapshot_from_bytes(std::span<const std::byte> bytes) {
         cloth.start = in.list<Vec4>();
         cloth.velocity = in.list<Vec4>();
         cloth.compensation = in.list<Vec4>();
-        cloth.lambda = in.list<float>();
+        cloth.kept = in.list<float>();
         cloth.substep_seconds = in.one<double>();
         cloth.targets.particles = in.list<KinematicTarget>();
         const auto motions = in.one<std::uint64_t>();
@@ -247,7 +247,7 @@ Result<void> check_numbers(const Snapshot& snapshot) {
                             std::ranges::is_sorted(motion.offsets, {}, &OffsetKey::time);
         if (!sound_targets)
             return Error{"state", of_cloth + "the targets of its pins must be finite, with keys in ascending time"};
-        if (const auto i = first_unsound(cloth.lambda))
+        if (const auto i = first_unsound(cloth.kept))
             return Error{"state", of_cloth + "constraint " + std::to_string(*i) + " must be finite"};
         if (!sound_time(cloth.substep_seconds))
             return Error{"state", of_cloth + "its substep must be finite and ≥ 0 s"};

@@ -32,7 +32,7 @@ struct SavedTargets {
 /// velocity's compensation (compensated summation), as in a step.
 struct ClothSnapshot {
     std::vector<Vec4> position, start, velocity, compensation;  ///< per particle and anchor
-    std::vector<float> lambda;                                  ///< of the stretch constraints, to compute the tension
+    std::vector<float> kept;                                    ///< ClothModel::kept_floats()
     double substep_seconds = 0;                                 ///< s, of the last frame
     std::vector<ClothEdit> edits = {};                          ///< since the cloth was built
     SavedTargets targets = {};                                  ///< of pinned particles and anchors

@@ -67,7 +67,7 @@ std::size_t size_of(const WorldMoment& moment) {
     for (const ClothSnapshot& cloth : moment.state.cloths) {
         for (const auto* array : {&cloth.position, &cloth.start, &cloth.velocity, &cloth.compensation})
             bytes += array->size() * sizeof(Vec4);
-        bytes += cloth.lambda.size() * sizeof(float) + cloth.targets.particles.size() * sizeof(KinematicTarget);
+        bytes += cloth.kept.size() * sizeof(float) + cloth.targets.particles.size() * sizeof(KinematicTarget);
         for (const ClothEdit& edit : cloth.edits) bytes += edit.openings.size() * sizeof(Opening);
     }
     return bytes;

@@ -52,12 +52,12 @@ Result<void> World::check_fits(const Snapshot& snapshot) const {
     for (std::size_t i = 0; i < cloths_.size(); ++i) {
         const ClothSnapshot& saved = snapshot.cloths[i];
         const std::size_t points = cloths_[i].model->point_count();
-        const std::size_t rows = cloths_[i].model->table(ConstraintKind::stretch).lambda_count();
+        const std::size_t kept = cloths_[i].model->kept_floats();
         const std::string of_cloth = "particles in cloth '" + cloths_[i].model->name + "'";
         for (const auto* array : {&saved.position, &saved.start, &saved.velocity, &saved.compensation}) {
             if (array->size() != points) return differs(of_cloth.c_str(), array->size(), points);
         }
-        if (saved.lambda.size() != rows) return differs("stretch constraints", saved.lambda.size(), rows);
+        if (saved.kept.size() != kept) return differs("numbers of constraints", saved.kept.size(), kept);
         for (const SavedMotion& motion : saved.targets.motions) {
             if (motion.collider != none && motion.collider >= colliders_.size())
                 return differs("colliders of pins", motion.collider + std::size_t{1}, colliders_.size());

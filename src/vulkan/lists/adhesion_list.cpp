@@ -84,14 +84,13 @@ Result<std::unique_ptr<AdhesionList>> AdhesionList::create(gpu::Device& device, 
                    .blocks = 0,
                    .frame = members.front().frame,
                    .limits = limits,
+                   .shifts = {},
                    .plain_positive = 1,
                    .plain_negative = 1,
                    .stride = self->args_.stride,
                    .begin = 0,
                    .count = capacity,
-                   .lambda_use = WEFT_LAMBDA_DISCARD,
-                   .hand_out = WEFT_ROWS_SINGLE,
-                   .unused = 0};
+                   .modes = WEFT_LAMBDA_DISCARD | WEFT_ROWS_SINGLE};
     return self;
 }
 
@@ -114,7 +113,7 @@ Result<void> AdhesionList::run(gpu::Commands& commands, std::string_view program
 Result<void> AdhesionList::record_rows(gpu::Commands& commands, const Pass& pass, std::uint32_t substep) const {
     Errors errors;
     RowArgs args = rows_;
-    if (plan_.method != Method::pbd) args.lambda_use = use_of_lambda(plan_, pass, substep, rounds_of_links(plan_));
+    if (plan_.method != Method::pbd) args.modes |= number_of(lambda_use(plan_, pass, substep, rounds_of_links(plan_)));
     const Command command = make_command(programs_, errors, "side_by_side_adhesion", args, args.count);
     if (!errors.empty()) return errors;
     commands.barrier();  // aim() has made the number of workgroups visible

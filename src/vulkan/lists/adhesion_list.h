@@ -55,7 +55,7 @@ class AdhesionList {
     const WorldPlan& plan_;
     std::vector<std::uint32_t> first_item_;  ///< by member, then the end
     ListArgs args_{};
-    RowArgs rows_{};  ///< record_rows() sets lambda_use
+    RowArgs rows_{};  ///< record_rows() sets modes
     Arena arena_;
     Slot head_;
     std::uint64_t scratch_ = 0;

@@ -111,7 +111,7 @@ class Measuring {
         return {.position = cloth_.address(PointArray::position),
                 .particles = cloth_.buffers().address(buffers.particles),
                 .fields = cloth_.buffers().address(buffers.fields),
-                .lambda = cloth_.address(cloth_.lambda),
+                .lambda = cloth_.address(cloth_.kept),
                 .found = found,
                 .inv_h2 = inv_h2.high,
                 .inv_h2_low = inv_h2.low,

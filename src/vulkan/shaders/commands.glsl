@@ -24,6 +24,7 @@ WEFT_COMMAND(TargetArgs)
 WEFT_COMMAND(GrabArgs)
 WEFT_COMMAND(AverageArgs)
 WEFT_COMMAND(TautArgs)
+WEFT_COMMAND(CoupleArgs)
 WEFT_COMMAND(ContactArgs)
 WEFT_COMMAND(FaceContactArgs)
 WEFT_COMMAND(KeepArgs)
@@ -51,6 +52,9 @@ WEFT_COMMAND(RowArgs)
 #endif
 #ifndef WEFT_PUSHES_taut_args
 #define taut_args TautArgsRef(command)
+#endif
+#ifndef WEFT_PUSHES_couple_args
+#define couple_args CoupleArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_contact_args
 #define contact_args ContactArgsRef(command)

@@ -97,11 +97,29 @@ void run_average(uint p)
     store_point(average_args.at.position, p, vec4(x.xyz + sum, x.w));
 }
 
+float coupled_moment(uint row) { return -(couple_args.at.lambda.at[row] * couple_args.at.frame.at.inv_h2); }
+
+// Moves the rest angle of a constraint by the moments of its triangles.
+void run_couple(uint r)
+{
+    uint stride = couple_args.at.stride;
+    float moment = coupled_moment(r), rate = couple_args.at.numbers.at[6u * stride + r];
+    for (uint side = 0u; side < 2u; ++side) {
+        float other[2], by[3];
+        for (uint k = 0u; k < 2u; ++k)
+            other[k] = coupled_moment(couple_args.at.rows.at[(2u * side + k) * stride + r]);
+        for (uint k = 0u; k < 3u; ++k) by[k] = couple_args.at.numbers.at[(3u * side + k) * stride + r];
+        float shift = couple_args.at.shifts.at[side * stride + r];
+        couple_args.at.shifts.at[side * stride + r] =
+            shift_moment(shift, moment, other[0], other[1], by[0], by[1], by[2], rate);
+    }
+}
+
 // Saves the state at the beginning of the frame, for run_roll_back().
 void run_keep(uint p)
 {
-    bool keeps_lambda = !is_none(uvec2(keep_args.at.good_lambda));
-    if (keeps_lambda && p < keep_args.at.lambdas) keep_args.at.good_lambda.at[p] = keep_args.at.lambda.at[p];
+    if (!is_none(uvec2(keep_args.at.good_kept)) && p < keep_args.at.kept_count)
+        keep_args.at.good_kept.at[p] = keep_args.at.kept.at[p];
     if (p >= keep_args.at.count) return;
     keep_args.at.good_position.at[p] = vec4(load_point(keep_args.at.position, p).xyz, keep_args.at.start.at[p].w);
     keep_args.at.good_velocity.at[p] = keep_args.at.velocity.at[p];
@@ -122,11 +140,11 @@ void run_roll_back(uint i)
     if ((report & (WEFT_REPORT_NON_FINITE | WEFT_REPORT_LIST_FULL)) == 0u) return;
     // Lambda does not match the restored positions. Residuals and saved states still read it, and the frame that runs
     // again may read that of the frame before.
-    bool again = (report & WEFT_REPORT_LIST_FULL) != 0u && !is_none(uvec2(keep_args.at.good_lambda));
-    if (i < keep_args.at.lambdas) {
-        float lambda = 0.0;
-        if (again) lambda = keep_args.at.good_lambda.at[i];
-        keep_args.at.lambda.at[i] = lambda;
+    if (i < keep_args.at.kept_count) {
+        bool shift = i >= keep_args.at.first_shift, again = (report & WEFT_REPORT_LIST_FULL) != 0u;
+        float kept = shift ? keep_args.at.kept.at[i] : 0.0;
+        if ((shift || again) && !is_none(uvec2(keep_args.at.good_kept))) kept = keep_args.at.good_kept.at[i];
+        keep_args.at.kept.at[i] = kept;
     }
     if (i >= keep_args.at.count) return;
     vec4 good = keep_args.at.good_position.at[i];

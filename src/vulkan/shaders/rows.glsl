@@ -14,11 +14,22 @@
 // Without compliance, the sign of lambda is opposite to that of C.
 float plain_part(float lambda) { return lambda < 0.0 ? row_args.at.plain_positive : row_args.at.plain_negative; }
 
+uint use_of_lambda() { return row_args.at.modes & WEFT_LAMBDA_MODES; }
+
 // Lambda from the previous iterations.
 float lambda_before(uint multiplier, uint r)
 {
-    if (row_args.at.lambda_use != WEFT_LAMBDA_ACCUMULATE) return 0.0;
+    if (use_of_lambda() != WEFT_LAMBDA_ACCUMULATE) return 0.0;
     return row_args.at.lambda.at[multiplier * row_args.at.stride + r];
+}
+
+Step shifted(Step h, uint r)
+{
+    if (!is_none(uvec2(row_args.at.shifts))) {
+        h.shift_c = row_args.at.shifts.at[r];
+        h.shift_d = row_args.at.shifts.at[row_args.at.stride + r];
+    }
+    return h;
 }
 
 // Sums of integers do not depend on the order.
@@ -48,8 +59,8 @@ void add_quanta(Uints sums, uint p, vec3 change)
         for (uint k = 0u; k < lambdas; ++k)                                                                    \
             lambda[k] = lambda_before(k, r);                                                                   \
         project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),   \
-                       load_##name(r), substep_with(row_args.at.frame, row_args.at.limits));                   \
-        if (row_args.at.lambda_use != WEFT_LAMBDA_DISCARD)                                                     \
+                       load_##name(r), shifted(substep_with(row_args.at.frame, row_args.at.limits), r));       \
+        if (use_of_lambda() != WEFT_LAMBDA_DISCARD)                                                            \
             for (uint k = 0u; k < lambdas; ++k) row_args.at.lambda.at[k * row_args.at.stride + r] = lambda[k]; \
         for (uint k = 0u; k < moved; ++k) store_point(row_args.at.position, p[k], vec4(x[k], w[k]));           \
     }
@@ -71,12 +82,12 @@ void add_quanta(Uints sums, uint p, vec3 change)
             before_it[k] = lambda[k];                                                                                 \
         }                                                                                                             \
         Step h = rigid_step(row_args.at.limits);                                                                      \
-        if (!plain) h = substep_with(row_args.at.frame, row_args.at.limits);                                          \
+        if (!plain) h = shifted(substep_with(row_args.at.frame, row_args.at.limits), r);                              \
         project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),          \
                        load_##name(r), h);                                                                            \
         float part = plain_part(lambda[0]);                                                                           \
         if (!plain) part = row_args.at.share.at[r];                                                                   \
-        if (!plain && row_args.at.lambda_use != WEFT_LAMBDA_DISCARD)                                                  \
+        if (!plain && use_of_lambda() != WEFT_LAMBDA_DISCARD)                                                         \
             for (uint k = 0u; k < lambdas; ++k)                                                                       \
                 row_args.at.lambda.at[k * row_args.at.stride + r] = before_it[k] + (lambda[k] - before_it[k]) * part; \
         for (uint k = 0u; k < arity; ++k) change[k] = (x[k] - before[k]) * part;                                      \
@@ -183,9 +194,10 @@ struct RowRange {
 
 RowRange rows_of(uint i)
 {
-    if (row_args.at.hand_out == WEFT_ROWS_SERIAL)
+    uint hand_out = row_args.at.modes & WEFT_ROWS_MODES;
+    if (hand_out == WEFT_ROWS_SERIAL)
         return RowRange(row_args.at.begin, i == 0u ? row_args.at.count : 0u, 1u);
-    if (row_args.at.hand_out == WEFT_ROWS_LINES) {
+    if (hand_out == WEFT_ROWS_LINES) {
         uint block = i / WEFT_LANE_PADDING;
         if (block >= row_args.at.count) return RowRange(0u, 0u, 1u);
         return RowRange(row_args.at.blocks.at[2u * block] + i % WEFT_LANE_PADDING,

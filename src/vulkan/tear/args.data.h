@@ -5,7 +5,7 @@
 #include "vulkan/args.data.h"
 
 #define WEFT_TEAR_GROUP 128    // the most invocations of a workgroup
-#define WEFT_TEAR_KINDS 4      // of constraints: stretch, bend, plate, distance_bend
+#define WEFT_TEAR_KINDS 5      // of constraints: stretch, bend, plate, distance_bend, moment
 #define WEFT_TEAR_ROW_BITS 28  // of the row in an element of row_items; the kind is above
 
 #ifdef __cplusplus
