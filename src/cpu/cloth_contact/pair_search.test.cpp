@@ -63,7 +63,7 @@ class MovingSheets {
             for (const Triangle& t : triangles_) {
                 all.push_back({first + t[0], first + t[1], first + t[2]});
                 for (int k = 0; k < 3; ++k) {
-                    const auto [a, b] = std::minmax(first + t[k], first + t[(k + 1) % 3]);
+                    const auto [a, b] = std::minmax({first + t[k], first + t[(k + 1) % 3]});
                     if (seen.insert({a, b}).second) edges.push_back({a, b});
                 }
             }
