@@ -2,6 +2,9 @@
 #include "physics/change_rows.h"
 #include "physics/moment/coupled_hinges.h"
 
+#include <algorithm>
+#include <array>
+
 namespace weft {
 namespace {
 

@@ -1,13 +1,9 @@
 #include "mesh/procedural.h"
-#include "physics/bend/hinge_at_rest.h"
 #include "physics/moment/coupled_hinges.h"
-#include "physics/symmetric.h"
 #include "physics/testing.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <memory>
 
 namespace weft {
