@@ -3,6 +3,7 @@
 
 #include "cli/bench/bench_reference.h"
 #include "gpu/device.h"
+#include "gpu_pipelines.h"
 #include "gpu_probes.h"
 #include "mesh/procedural.h"
 #include "solver/world/world.h"
@@ -24,7 +25,7 @@ using bench::median;
 struct Options {
     std::vector<std::uint32_t> sizes = {64, 128, 256, 512, 1024};
     std::string device;
-    bool quick = false;
+    bool quick = false, pipelines = false;
 };
 
 struct Method {
@@ -267,6 +268,10 @@ Result<int> run(const Options& options) {
     if (!instance) return instance.errors();
     auto info = gpu::choose_device((*instance)->devices(), options.device, true);
     if (!info) return info.errors();
+    if (options.pipelines) {
+        if (auto printed = bench::print_pipelines(*instance, *info); !printed) return printed.errors();
+        return 0;
+    }
     const Frames& frames = options.quick ? quick_frames : usual_frames;
     bench::Probes probes;
     {
@@ -291,10 +296,11 @@ Result<int> run(const Options& options) {
 }
 
 constexpr const char* usage =
-    "usage: weft_gpu_bench [--sizes N,N...] [--quick] [--device NAME]\n"
+    "usage: weft_gpu_bench [--sizes N,N...] [--quick] [--device NAME] [--pipelines]\n"
     "  --sizes   particles along each side, 4 to 4096; without, 64,128,256,512,1024\n"
     "  --quick   few frames of small sheets (32,64): whether it works, not how fast it is\n"
-    "  --device  part of the device's name; without, the best GPU, or else a CPU that plays one\n";
+    "  --device  part of the device's name; without, the best GPU, or else a CPU that plays one\n"
+    "  --pipelines  only how long the shaders take to compile, each alone and all side by side\n";
 
 std::optional<std::vector<std::uint32_t>> parse_sizes(std::string_view text) {
     std::vector<std::uint32_t> sizes;
@@ -319,6 +325,8 @@ std::optional<Options> parse(std::span<char* const> arguments) {
         const bool has_value = i + 1 < arguments.size();
         if (argument == "--quick") {
             options.quick = true;
+        } else if (argument == "--pipelines") {
+            options.pipelines = true;
         } else if (argument == "--sizes" && has_value) {
             sizes = parse_sizes(arguments[++i]);
             if (!sizes) return std::nullopt;

@@ -57,6 +57,10 @@ void Commands::swap(Commands& other) {
     std::swap(ran_, other.ran_);
     std::swap(layout_, other.layout_);
     std::swap(stages_, other.stages_);
+    std::swap(bound_, other.bound_);
+    std::swap(collects_, other.collects_);
+    std::swap(uncompiled_, other.uncompiled_);
+    std::swap(errors_, other.errors_);
 }
 
 Result<void> Commands::begin() {
@@ -64,6 +68,8 @@ Result<void> Commands::begin() {
     stamped_ = 0;
     ran_ = false;
     layout_ = VK_NULL_HANDLE;
+    bound_ = true, collects_ = false;
+    uncompiled_.clear(), errors_.clear();
     VkResult result = vk.vkResetCommandPool(device_->handle(), pool_, 0);
     VkCommandBufferBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
@@ -76,21 +82,33 @@ Result<void> Commands::begin() {
 }
 
 void Commands::bind(const Pipeline& pipeline) {
+    bound_ = pipeline.compiled();
+    if (!bound_ && collects_) return uncompiled_.push_back(&pipeline);
+    if (!bound_) {
+        if (auto compiled = pipeline.compile(); !compiled) {
+            errors_.insert(errors_.end(), compiled.errors().begin(), compiled.errors().end());
+            return;
+        }
+        bound_ = true;
+    }
     device_->vk().vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
     layout_ = pipeline.layout();
     stages_ = VK_SHADER_STAGE_COMPUTE_BIT;
 }
 
 void Commands::push(std::span<const std::byte> constants) {
+    if (!bound_) return;
     device_->vk().vkCmdPushConstants(commands_, layout_, stages_, 0, static_cast<std::uint32_t>(constants.size()),
                                      constants.data());
 }
 
 void Commands::dispatch(std::uint32_t groups_x, std::uint32_t groups_y) {
+    if (!bound_) return;
     device_->vk().vkCmdDispatch(commands_, groups_x, groups_y, 1);
 }
 
 void Commands::dispatch_indirect(const Buffer& groups, std::uint64_t offset) {
+    if (!bound_) return;
     device_->vk().vkCmdDispatchIndirect(commands_, groups.handle(), offset);
 }
 
@@ -151,6 +169,7 @@ void Commands::stamp() {
 Result<void> Commands::end() {
     const VkResult result = device_->vk().vkEndCommandBuffer(commands_);
     if (result != VK_SUCCESS) return device_->error("to record commands", result);
+    if (!errors_.empty()) return errors_;
     return {};
 }
 

@@ -30,7 +30,12 @@ class Commands {
 
     /// Starts a new recording and discards the previous one.
     Result<void> begin();
+    /// Compiles the pipeline if it is not compiled yet. A failure is returned by end().
     void bind(const Pipeline& pipeline);
+    /// In the rest of this recording, bind() only remembers pipelines that are not compiled yet, and their dispatches
+    /// are left out: for a recording that is made again, once compile_together() has compiled them all.
+    void collect_uncompiled() { collects_ = true; }
+    std::span<const Pipeline* const> uncompiled() const { return uncompiled_; }
     void push(std::span<const std::byte> constants);
     void dispatch(std::uint32_t groups_x, std::uint32_t groups_y = 1);
     /// Reads the three numbers of workgroups (32 bits each) from a buffer with VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT. An
@@ -97,6 +102,10 @@ class Commands {
     bool ran_ = false;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;  // of the bound pipeline
     VkShaderStageFlags stages_ = 0;             // stages that get its push constants
+    bool bound_ = true;                         // false: the pipeline bound last is missing
+    bool collects_ = false;
+    std::vector<const Pipeline*> uncompiled_;
+    Errors errors_;
 };
 
 /// Records `work`, runs it and waits for it.

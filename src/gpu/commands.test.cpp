@@ -193,6 +193,54 @@ TEST_F(CommandsTest, a_workgroup_is_set_by_the_constants_that_stand_for_it) {
     EXPECT_EQ(fixed->workgroup(), 8u) << "constant 0 is something else here";
 }
 
+TEST_F(CommandsTest, pipelines_are_compiled_when_they_are_bound_or_together) {
+    const auto prepare = [&](std::uint32_t workgroup) {
+        auto made = Pipeline::prepare(*device, test_shader("arithmetic"), std::array{workgroup});
+        EXPECT_TRUE(made.ok());
+        return std::move(*made);
+    };
+    const Pipeline bound = prepare(16), collected = prepare(32), other = prepare(64);
+    EXPECT_EQ(collected.workgroup(), 32u) << "known before it is compiled";
+    auto commands = Commands::create(*device);
+    ASSERT_TRUE(commands.ok() && commands->begin().ok());
+    commands->bind(bound);
+    EXPECT_TRUE(bound.compiled());
+    commands->collect_uncompiled();
+    for (const Pipeline* one : {&collected, &bound, &other, &collected}) commands->bind(*one);
+    EXPECT_FALSE(collected.compiled());
+    EXPECT_THAT(commands->uncompiled(), testing::ElementsAre(&collected, &other, &collected));
+    ASSERT_TRUE(commands->end().ok());
+    ASSERT_TRUE(compile_together(commands->uncompiled()).ok());
+    EXPECT_TRUE(collected.compiled() && other.compiled());
+    ASSERT_TRUE(commands->begin().ok());
+    EXPECT_THAT(commands->uncompiled(), testing::IsEmpty());
+    EXPECT_TRUE(commands->end().ok());
+}
+
+TEST_F(CommandsTest, a_pipeline_that_cannot_be_compiled_is_an_error_of_the_recording) {
+    open({.intercept = [](VolkDeviceTable& table) {
+        table.vkCreateComputePipelines = [](VkDevice, VkPipelineCache, std::uint32_t,
+                                            const VkComputePipelineCreateInfo*, const VkAllocationCallbacks*,
+                                            VkPipeline*) -> VkResult { return VK_ERROR_OUT_OF_HOST_MEMORY; };
+    }});
+    auto pipeline = Pipeline::prepare(*device, test_shader("arithmetic"), std::array{64u});
+    ASSERT_TRUE(pipeline.ok());
+    const auto end = [&] {
+        auto commands = Commands::create(*device);
+        EXPECT_TRUE(commands.ok() && commands->begin().ok());
+        commands->bind(*pipeline);
+        commands->dispatch(1);
+        return commands->end();
+    };
+    const auto ended = end();
+    ASSERT_FALSE(ended.ok());
+    EXPECT_THAT(ended.error().message(), HasSubstr("to compile 'arithmetic'"));
+    const Pipeline* const one[] = {&*pipeline};
+    EXPECT_FALSE(compile_together(one).ok());
+    EXPECT_FALSE(pipeline->compiled());
+    EXPECT_FALSE(Pipeline::create(*device, test_shader("arithmetic"), std::array{64u}).ok());
+}
+
 TEST_F(CommandsTest, what_the_device_has_not_is_an_error_before_it_is_asked) {
     const DeviceLimits& limits = device->limits();
     const auto error_of = [&](const char* name, std::span<const std::uint32_t> constants) {

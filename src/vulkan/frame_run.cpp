@@ -218,6 +218,7 @@ Result<void> FrameRun::begin_recording(bool timings, std::size_t stages) {
     if (!commands) return commands.errors();
     commands_ = std::move(*commands);
     if (auto begun = commands_->begin(); !begun) return begun;
+    commands_->collect_uncompiled();
     buffers_.record_begin(*commands_);
     if (cloth_contact_) cloth_contact_->record_begin(*commands_);
     return bodies_ ? bodies_->record_begin(device_, programs_, *commands_, colliders_) : Result<void>();
@@ -235,6 +236,17 @@ Result<void> FrameRun::end_recording() {
     if (bodies_) bodies_->record_end(*commands_);
     if (adhesion_ || cloth_contact_ || particle_contact_ || tearing_) commands_->host_barrier();
     return commands_->end();
+}
+
+template <class Record>
+Result<void> FrameRun::record_frame(bool timings, std::size_t stages, Record&& record) {
+    for (bool compiled = false; true; compiled = true) {
+        if (auto begun = begin_recording(timings, stages); !begun) return begun;
+        if (auto recorded = record(); !recorded) return recorded;
+        if (auto ended = end_recording(); !ended) return ended;
+        if (compiled || commands_->uncompiled().empty()) return {};
+        if (auto made = gpu::compile_together(commands_->uncompiled()); !made) return made;
+    }
 }
 
 Result<void> FrameRun::record_fused(bool timings) {
@@ -255,11 +267,12 @@ Result<void> FrameRun::record_fused(bool timings) {
     for (const char* const grab : {"hide_grabs", "hold_grabs", "grab", "free_grabs"}) lists_.keep(shader_number(grab));
     if (auto built = lists_.build(device_, programs_, memory_, name()); !built) return built;
     stages_ = {stage_fused};
-    if (auto begun = begin_recording(timings, 1); !begun) return begun;
-    commands_->barrier();
-    commands_->stamp();
-    lists_.record(*commands_, 0, static_cast<std::uint32_t>(members_.size()));
-    return end_recording();
+    return record_frame(timings, 1, [&]() -> Result<void> {
+        commands_->barrier();
+        commands_->stamp();
+        lists_.record(*commands_, 0, static_cast<std::uint32_t>(members_.size()));
+        return {};
+    });
 }
 
 Result<void> FrameRun::record_passes(bool timings) {
@@ -285,7 +298,10 @@ Result<void> FrameRun::record_passes(bool timings) {
         if (stages_.empty() || stages_.back() != stage) stages_.push_back(stage);
         return true;
     });
-    if (auto begun = begin_recording(timings, stages_.size()); !begun) return begun;
+    return record_frame(timings, stages_.size(), [&] { return record_passes(shared, lists); });
+}
+
+Result<void> FrameRun::record_passes(const SharedPlan& shared, std::span<const std::uint32_t> lists) {
     std::uint32_t last = stage_count;
     Errors errors;
     run_through(shared.passes.size(), shared.repeat, [&](std::size_t i, std::uint32_t substep) {
@@ -305,7 +321,7 @@ Result<void> FrameRun::record_passes(bool timings) {
         return true;
     });
     if (!errors.empty()) return errors;
-    return end_recording();
+    return {};
 }
 
 Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const ClothStep* const> steps, bool again) {

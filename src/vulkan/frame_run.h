@@ -130,7 +130,11 @@ class FrameRun {
     Result<void> prepare_contact_forces();
     Result<void> record_fused(bool timings);
     Result<void> record_passes(bool timings);
+    Result<void> record_passes(const SharedPlan& shared, std::span<const std::uint32_t> lists);
     std::size_t first_of_island(std::size_t member) const;
+    /// `record`: Result<void>(). Called twice if pipelines must be compiled, which happens between the calls.
+    template <class Record>
+    Result<void> record_frame(bool timings, std::size_t stages, Record&& record);
     Result<void> begin_recording(bool timings, std::size_t stages);
     Result<void> end_recording();
     Result<Place> download_place(const Cloth& cloth) const;

@@ -22,7 +22,7 @@ Result<const gpu::Pipeline*> Programs::get(std::string_view name, std::span<cons
     std::string key(name);
     for (const std::uint32_t constant : constants) key += ' ' + std::to_string(constant);
     if (const auto it = made_.find(key); it != made_.end()) return it->second.get();
-    auto pipeline = gpu::Pipeline::create(device_, find_shader(name), constants);
+    auto pipeline = gpu::Pipeline::prepare(device_, find_shader(name), constants);
     if (!pipeline) return pipeline.errors();
     const auto made = made_.emplace(std::move(key), std::make_unique<gpu::Pipeline>(std::move(*pipeline)));
     return made.first->second.get();

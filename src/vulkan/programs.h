@@ -1,4 +1,4 @@
-// Pipelines of the shaders, made when they are first needed.
+// Pipelines of the shaders, made when they are first needed and compiled when they are first recorded.
 #pragma once
 
 #include "gpu/device.h"
