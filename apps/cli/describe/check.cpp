@@ -4,8 +4,10 @@
 #include "files/open_scene.h"
 #include "io/meshes/mesh_file.h"
 #include "scene/materials.h"
+#include "solver/measures/bending_share.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -65,6 +67,24 @@ void warn_of_size(const std::string& cloth, double largest, Warnings& warnings) 
                  " m in size; if its file is in centimeters, give the mesh \"scale\": 0.01");
 }
 
+// With more iterations, or with other methods, it depends on the number of constraints that hold a particle.
+void warn_of_bending(const ClothFrame& cloth, const SceneDesc& scene, Warnings& warnings) {
+    const SolverDesc& solver = scene.solver;
+    if (solver.method != Method::xpbd || solver.projection == Projection::jacobi || solver.iterations > 1) return;
+    const auto share = [&](double substeps) {
+        return bending_share(*cloth.model, cloth.positions, 1 / (double{scene.frame_rate} * substeps));
+    };
+    constexpr double little = 0.9, enough = 0.95, most_substeps = 10000;
+    const double now = share(solver.substeps);
+    if (now >= little) return;
+    double substeps = solver.substeps;
+    while (substeps < most_substeps && share(substeps) < enough) substeps = std::ceil(1.1 * substeps);
+    warnings.add("cloth '" + cloth.model->name + "' bends with " + rounded(100 * now) +
+                 " % of its stiffness: edges of " + rounded(1000 * cloth.model->mean_edge) + " mm are short for " +
+                 std::to_string(solver.substeps) + " substeps; " + rounded(substeps) + " substeps give " +
+                 rounded(100 * share(substeps)) + " %");
+}
+
 // Contact between cloths takes crossings apart, which looks odd at the start of a film. Particles that push each other
 // apart resolve some crossings and not others.
 void warn_of_crossings(const Frame& frame, Warnings& warnings) {
@@ -122,6 +142,7 @@ Command add_check(Program& program) {
                 std::cout << ", " << table.rows << ' ' << constraint_info(table.kind).name << " constraints";
             }
             std::cout << '\n';
+            warn_of_bending(cloth, session->scene(), warnings);
         }
         warn_of_crossings(session->world().frame(), warnings);
         std::cout << *scene << ": ok" << warnings.count_text() << '\n';

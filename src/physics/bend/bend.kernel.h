@@ -96,7 +96,7 @@ WEFT_FN void project_bend(inout_(vec3) a, inout_(vec3) b, inout_(vec3) c, inout_
     mask able = h.able && w > real(0) && w < real(1e30);
     real alpha = row.compliance * step.inv_h2;
     real h1122 = h.h11 * h.h22;
-    real inv = real(1) / (w + alpha * h1122);
+    real inv = real(1) / weight_in_sweep(w, alpha * h1122, step);
     real lever = h.inv_len * inv;
     vec3 g1 = h.n1 * select(able, h.h22 * lever, real(0));
     vec3 g2 = h.n2 * select(able, h.h11 * lever, real(0));

@@ -8,6 +8,7 @@ struct Step {
     real allowed; //      factor on their length
     real shift_c; // rad  of the rest angle of a moment, by the triangle with c
     real shift_d; //      by that with d
+    real undone;  //      part of its weight by which a constraint of bending is softer after the sweep; 0 if unknown
 };
 
 // A particle's velocity and the compensation for what rounding drops when a small increment meets a large velocity.

@@ -103,7 +103,8 @@ WEFT_FN void project_plate(inout_(vec3) da, inout_(vec3) db, inout_(vec3) dc,
     LowerTriangle l = plate_stiffness(row);
     vec3 strain = coupled_strains(l, vec3(t.a.theta, t.b.theta, t.c.theta));
     // The scaled compliance is 1/h2; all terms are multiplied by h2.
-    vec3 dl = solve_coupled(plate_weights(t, wa, wb, wc), l, h2, -(strain * h2 + lambda));
+    CoupledWeights weights = coupled_in_sweep(couple_weights(plate_weights(t, wa, wb, wc), l, h2), step);
+    vec3 dl = solve_shifted(weights, -(strain * h2 + lambda));
     lambda_a = lambda_a + dl.x;
     lambda_b = lambda_b + dl.y;
     lambda_c = lambda_c + dl.z;
@@ -129,7 +130,8 @@ WEFT_FN void damp_plate(inout_(vec3) vda, inout_(vec3) vdb, inout_(vec3) vdc,
                      dot(t.b.gd, vdb) + dot(t.b.gq, va) + dot(t.b.go, vb) + dot(t.b.gp, vc),
                      dot(t.c.gd, vdc) + dot(t.c.gp, va) + dot(t.c.gq, vb) + dot(t.c.go, vc));
     LowerTriangle l = plate_stiffness(row);
-    vec3 s = solve_coupled(plate_weights(t, wa, wb, wc), l, viscous, -(coupled_strains(l, rate) * viscous));
+    CoupledWeights weights = couple_weights(plate_weights(t, wa, wb, wc), l, viscous);
+    vec3 s = solve_shifted(weights, -(coupled_strains(l, rate) * viscous));
     vec3 m = coupled_forces(l, s);
     vda = vda + t.a.gd * (wda * m.x);
     vdb = vdb + t.b.gd * (wdb * m.y);

@@ -119,8 +119,9 @@ TEST(Plate, solves_its_three_numbers_at_once) {
         const auto t = patch.angles(row);
         const vec3 r = random.vector(1);
         const double k = random.number(0, 10);
-        const vec3 x =
-            reference::solve_coupled(reference::plate_weights(t, patch.w[3], patch.w[4], patch.w[5]), stiffness, k, r);
+        const vec3 x = reference::solve_shifted(
+            reference::couple_weights(reference::plate_weights(t, patch.w[3], patch.w[4], patch.w[5]), stiffness, k),
+            r);
         // Transposed L W L x, summed particle by particle.
         const vec3 m = reference::coupled_forces(stiffness, x);
         const double moment[3] = {m.x, m.y, m.z};
@@ -200,7 +201,7 @@ TEST(Plate, survives_degenerate_input) {
                     float lambda[3] = {};
                     scalar::project_plate(p[0], p[1], p[2], p[3], p[4], p[5], w, w, w, w, w, w, lambda[0], lambda[1],
                                           lambda[2], {0.5f, 0, -3, l, l, l, l, l, l},
-                                          {h, 1 / h, 1 / h / h, 0, 1, 0, 0});
+                                          {h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0});
                     for (const V& q : p) EXPECT_TRUE(std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z));
                     for (const float x : lambda) EXPECT_TRUE(std::isfinite(x));
                 }

@@ -58,8 +58,10 @@ void add_quanta(Uints sums, uint p, vec3 change)
         }                                                                                                      \
         for (uint k = 0u; k < lambdas; ++k)                                                                    \
             lambda[k] = lambda_before(k, r);                                                                   \
+        Step h = shifted(substep_with(row_args.at.frame, row_args.at.limits), r);                              \
+        if (use_of_lambda() != WEFT_LAMBDA_ACCUMULATE) h.undone = WEFT_UNDONE_BY_FIRST_SWEEP;                  \
         project_##name(WEFT_PARTICLES_##arity(x), WEFT_PARTICLES_##arity(w), WEFT_LAMBDAS_##lambdas(lambda),   \
-                       load_##name(r), shifted(substep_with(row_args.at.frame, row_args.at.limits), r));       \
+                       load_##name(r), h);                                                                     \
         if (use_of_lambda() != WEFT_LAMBDA_DISCARD)                                                            \
             for (uint k = 0u; k < lambdas; ++k) row_args.at.lambda.at[k * row_args.at.stride + r] = lambda[k]; \
         for (uint k = 0u; k < moved; ++k) store_point(row_args.at.position, p[k], vec4(x[k], w[k]));           \
