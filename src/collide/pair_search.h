@@ -41,6 +41,7 @@ struct SearchedCloth {
     float thickness = 0;                      ///< m
     float slack = 0;                          ///< m: how far a particle may be from its listed trajectory at most
     bool surface = false;                     ///< of a collider: it forms pairs with cloths alone
+    bool thin = false;                        ///< beside its edges, so that rounding tilts the normals of its pairs
     CollisionFilter filter = {};              ///< for other cloths
     std::shared_ptr<const Seams> seams = {};  ///< the same ones for all cloths; null if there are none
     friend bool operator==(const SearchedCloth&, const SearchedCloth&) = default;

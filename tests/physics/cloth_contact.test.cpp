@@ -228,9 +228,18 @@ TEST(ClothContact, any_thickness_is_survived) {
         World world = falling_world(sheet, 10);
         const Outcome result = fall(world, 2);
         EXPECT_TRUE(all_finite(world)) << thickness;
-        // Known: a thickness of less than 1/200 of the edges lets a few pairs cross in some falls (cloth_contact.md,
-        // limits).
-        EXPECT_LE(result.worst, thickness < 3e-4f ? 10u : 0u) << thickness;
+        EXPECT_EQ(result.worst, 0u) << thickness;
+    }
+}
+
+// Before normals of thin cloth were made perpendicular to their edges, two of these falls crossed.
+TEST(ClothContact, thin_cloth_of_long_edges_does_not_cross) {
+    for (const int start : {0, 3, 4, 10, 11, 13}) {
+        SheetDesc sheet = falling(18);
+        sheet.fabric.contact.thickness = 1e-4f;
+        sheet.position = sheet.position + Vec3{0.001f, 0.003f, 0} * static_cast<float>(start);
+        World world = falling_world(sheet, 10);
+        EXPECT_EQ(fall(world, 2).worst, 0u) << start;
     }
 }
 

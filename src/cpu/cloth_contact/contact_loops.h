@@ -63,7 +63,7 @@ struct NearInput {
     const float* start;    ///< blocks of four: positions at the start of the substep
     const float* reached;  ///< where the constraints left the particles
     float floor;           ///< least gap that a pair keeps, as a part of its thickness
-    bool with_surfaces;    ///< one side of each candidate belongs to the surface of a collider
+    bool square;           ///< makes normals perpendicular to large features: near surfaces of colliders and thin cloth
 };
 
 /// Pairs of both kinds that a sweep pushes apart. Padded to whole packets of lanes. In any order.

@@ -40,7 +40,7 @@ inline void find_near_pairs(const Candidates& list, const NearInput& input, Near
         real w, along_start[4], along[4], low[4], high[4];
         for (int k = 0; k < 4; ++k) x[k] = gather_blocks(input.start, &list.particle[k][i], w);
         ClosestPoints points = closest<kind>(x);
-        if (input.with_surfaces) points.normal = normal_of_points<kind>(points, x);
+        if (input.square) points.normal = normal_of_points<kind>(points, x);
         const real weight[4] = {points.w0, points.w1, points.w2, points.w3};
         const real thickness = load(&list.thickness[i]);
         real reached(0.0f);

@@ -57,11 +57,12 @@ void ClothContact::add_near_pairs(Mine& mine) const {
                 chosen.before = before_[tile] + before_[block.other];
                 if (!(chosen.reach > chosen.before)) return;
             }
-            const bool with_surface = search_.cloth(tile).surface || search_.cloth(block.other).surface;
+            const SearchedCloth &one = search_.cloth(tile), &two = search_.cloth(block.other);
+            const bool square = one.surface || two.surface || one.thin || two.thin;
             for (int kind = 0; kind < 2; ++kind) {
                 const std::uint32_t count = block.count[kind];
                 if (count == 0 || block.least_spare[kind] > approach + chosen.reach) continue;
-                Candidates& candidates = mine.candidates[with_surface ? 2 + kind : kind];
+                Candidates& candidates = mine.candidates[square ? 2 + kind : kind];
                 candidates.reserve(candidates.count + count);
                 candidates.tiles.push_back({tile, block.other});
                 loops_->choose(row.lists[kind], block.begin[kind], count, chosen, candidates);
@@ -70,11 +71,11 @@ void ClothContact::add_near_pairs(Mine& mine) const {
     for (int kind = 0; kind < 2; ++kind) {
         NearPairs& near = mine.near[kind];
         const std::uint32_t begin = near.count;
-        for (const bool with_surfaces : {false, true}) {
-            Candidates& candidates = mine.candidates[with_surfaces ? 2 + kind : kind];
+        for (const bool square : {false, true}) {
+            Candidates& candidates = mine.candidates[square ? 2 + kind : kind];
             if (candidates.count == 0) continue;
             candidates.pad(cloths_.front()->base);
-            loops_->find_near[kind](candidates, {&start_->x, &reached_->x, contact_gap_floor, with_surfaces}, near);
+            loops_->find_near[kind](candidates, {&start_->x, &reached_->x, contact_gap_floor, square}, near);
         }
         drop_pairs_without_side(near, kind, begin);
         near.pad(cloths_.front()->base);

@@ -48,6 +48,14 @@ inline float pair_thickness(const ClothModel& model) {
     return model.collision.surface ? 0 : std::max(model.fabric.contact.thickness, least_contact_thickness);
 }
 
+/// Whether the normals of a cloth's pairs are made perpendicular to its features. The closest points of a pair at the
+/// least gap, pair_thickness()/10, are rounded by 6e-8 m near 1 m. Over an edge that tilts the normal by as much as the
+/// gap if thickness² is below 100 · 6e-8 m · edge.
+inline bool is_thin(const ClothModel& model) {
+    const float thickness = pair_thickness(model);
+    return !model.collision.surface && thickness * thickness < 6e-6f * model.mean_edge;
+}
+
 /// How far all rounds together may move a particle from where the first constraints left it, m.
 inline float contact_cap(const ClothModel& model) {
     return 0.14f * model.mean_edge;

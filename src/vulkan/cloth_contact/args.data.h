@@ -72,8 +72,11 @@ struct ContactTileIn {
     uint groups;  // CollisionFilter
     uint collides_with;
     float slack;  // m: how far a vertex may be from its listed trajectory
-    uint surface;  // 1: of a collider, so it has pairs with cloths alone
+    uint kind;  // WEFT_TILE_…
 };
+
+#define WEFT_TILE_OF_SURFACE 1u  // of a collider: it has pairs with cloths alone
+#define WEFT_TILE_THIN 2u        // is_thin()
 
 // The trajectory that a tile's lists were made for (TileState of collide/pair_search.h), and where it is now.
 struct TrackedTile {

@@ -38,18 +38,19 @@ struct TileArrays {
 
     void add(const Tile& tile, const ClothModel& model, std::uint32_t cloth, std::uint32_t base, float slack) {
         const ContactMaterial& material = model.fabric.contact;
-        tiles.push_back({.vertices = tile.vertex_count,
-                         .own_vertices = tile.own_vertices,
-                         .edges = tile.edge_count,
-                         .triangles = tile.triangle_count,
-                         .cloth = cloth,
-                         .thickness = pair_thickness(model),
-                         .static_friction = material.friction[0],
-                         .kinetic_friction = material.friction[1],
-                         .groups = model.collision.filter.groups,
-                         .collides_with = model.collision.filter.mask,
-                         .slack = slack,
-                         .surface = model.collision.surface ? 1u : 0u});
+        tiles.push_back(
+            {.vertices = tile.vertex_count,
+             .own_vertices = tile.own_vertices,
+             .edges = tile.edge_count,
+             .triangles = tile.triangle_count,
+             .cloth = cloth,
+             .thickness = pair_thickness(model),
+             .static_friction = material.friction[0],
+             .kinetic_friction = material.friction[1],
+             .groups = model.collision.filter.groups,
+             .collides_with = model.collision.filter.mask,
+             .slack = slack,
+             .kind = (model.collision.surface ? WEFT_TILE_OF_SURFACE : 0u) | (is_thin(model) ? WEFT_TILE_THIN : 0u)});
         for (const std::uint32_t p : tile.particle) particles.push_back(base + p);
         for (std::uint32_t e = 0; e < tile_edges; ++e) edges.push_back(tile.edge[0][e] | tile.edge[1][e] << 8);
         for (std::uint32_t t = 0; t < tile_triangles; ++t)

@@ -62,7 +62,7 @@ void run_near(uint i)
     if (edges) points = closest_edge_edge(x0, x1, x2, x3);
     else points = closest_vertex_triangle(x0, x1, x2, x3);
     vec3 n = points.normal;
-    if (contact.tiles.at[one].surface == 1u || contact.tiles.at[pair.two].surface == 1u)
+    if ((contact.tiles.at[one].kind | contact.tiles.at[pair.two].kind) != 0u)
         n = edges ? normal_edge_edge(points, x0, x1, x2, x3) : normal_vertex_triangle(points, x1, x2, x3);
     // Relative to the first particle, so that rounding does not grow with the distance from the origin.
     vec4 start = vec4(0.0, dot(x1 - x0, n), dot(x2 - x0, n), dot(x3 - x0, n));

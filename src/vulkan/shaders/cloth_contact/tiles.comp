@@ -203,7 +203,7 @@ shared uint meets[WEFT_GROUP];
 
 bool can_meet(uint a, uint b)
 {
-    if (contact.tiles.at[a].surface == 1u && contact.tiles.at[b].surface == 1u) return false;
+    if ((contact.tiles.at[a].kind & contact.tiles.at[b].kind & WEFT_TILE_OF_SURFACE) != 0u) return false;
     if (contact.tiles.at[a].cloth == contact.tiles.at[b].cloth) return true;
     return (contact.tiles.at[a].groups & contact.tiles.at[b].collides_with) != 0u &&
            (contact.tiles.at[b].groups & contact.tiles.at[a].collides_with) != 0u;
