@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "base/flush_subnormals.h"
+
 namespace weft::gpu {
 namespace {
 
@@ -115,6 +117,8 @@ Result<void> Device::open() {
         vkGetPhysicalDeviceProperties(physical_, &properties);
         anisotropy_ = properties.limits.maxSamplerAnisotropy;
     }
+    // The threads of a software device inherit the modes of this one. GPUs are not affected.
+    const FlushSubnormals flush;
     if (const VkResult result = vkCreateDevice(physical_, &info, nullptr, &device_); result != VK_SUCCESS) {
         device_ = VK_NULL_HANDLE;
         return error("to open the device", result);
