@@ -1,5 +1,6 @@
 #include "cpu/bodies.h"
 
+#include "base/flush_subnormals.h"
 #include "solver/plan/body_numbers.h"
 
 #include <algorithm>
@@ -83,6 +84,7 @@ void Bodies::run(const Pass& pass) {
 }
 
 void Bodies::run_alone(const WorldPlan& plan) {
+    const FlushSubnormals flush;
     for (std::uint32_t substep = 0; substep < plan.substeps; ++substep) {
         predict();
         for (std::uint32_t sweep = 0; sweep < body_sweeps; ++sweep) take_sums(sweeps_after_particles);
