@@ -33,7 +33,10 @@ ClothRun::ClothRun(const Passes& passes, ClothState& cloth, Bodies& bodies, cons
       step_(mine),
       planned_{cloth.model.get(), !mine.targets.empty(), !mine.grabs.empty(), !mine.motion_bodies.empty()},
       view_(cloth.now().view()),
-      numbers_(frame_numbers(*cloth.model, *step.plan, step.input.dt)) {}
+      numbers_(frame_numbers(*cloth.model, *step.plan, step.input.dt)) {
+    if (!cloth.steady_parts.empty())
+        view_.steady_parts = cloth.steady_parts.data(), view_.steadied = cloth.steadied.data();
+}
 
 Range ClothRun::particles(Worker worker) const {
     return as_range(worker.of(padded(model().point_count())));
@@ -83,6 +86,32 @@ bool ClothRun::run(const IslandPass& island_pass, std::uint32_t substep, Worker 
     return false;
 }
 
+// Makes particles near pins heavier until `release`. Most packets of particles have none.
+void ClothRun::steady(Range mine) const {
+    const float h = numbers_.h;
+    const scalar::Step step{h, 1 / h, 1 / h / h, 0, 1, 0, 0, 0};
+    const std::span<const float> weights = cloth_.weights();
+    for (std::uint32_t begin = mine.begin; begin < mine.end; begin += lane_padding) {
+        const std::span steadiness(model().steadiness.data() + begin, lane_padding);
+        std::uint8_t& steadied = cloth_.steadied[begin / lane_padding];
+        const bool any = std::ranges::any_of(steadiness, [](float s) { return s > 0; });
+        if (!any && !steadied) continue;
+        steadied = any;
+        for (std::uint32_t p = begin; p < begin + lane_padding; ++p) {
+            const float part = scalar::steady_part(model().steadiness[p], weights[model().pin_of[p]], step);
+            cloth_.steady_parts[p] = part;
+            cloth_.now().position[p].w = weights[p] * part;
+        }
+    }
+}
+
+void ClothRun::release(Range mine) const {
+    for (std::uint32_t begin = mine.begin; begin < mine.end; begin += lane_padding) {
+        if (!cloth_.steadied[begin / lane_padding]) continue;
+        for (std::uint32_t p = begin; p < begin + lane_padding; ++p) cloth_.now().position[p].w = cloth_.weights()[p];
+    }
+}
+
 bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const {
     const Range mine = particles(worker);
     // Anchors have no triangles, and coarse levels do not move them.
@@ -101,8 +130,14 @@ bool ClothRun::run_particles(const Pass& pass, std::uint32_t substep, Worker wor
         case PassKind::pull_bodies:
             run_attached(pass, mine, worker);
             break;
+        case PassKind::steady:
+            steady(mine);
+            break;
         case PassKind::take_taut:
             passes_.take_taut(view_, &cloth_.taut[0].x, mine);
+            break;
+        case PassKind::release:
+            release(mine);
             break;
         case PassKind::free_taut:
             for (std::uint32_t p = mine.begin; p < mine.end; ++p) cloth_.now().position[p].w = cloth_.weights()[p];

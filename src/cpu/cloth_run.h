@@ -31,6 +31,8 @@ class ClothRun {
   private:
     Range particles(Worker worker) const;
     Range particles_in_use(Worker worker) const;
+    void steady(Range mine) const;
+    void release(Range mine) const;
     bool run_particles(const Pass& pass, std::uint32_t substep, Worker worker) const;
     template <class Visit>
     void for_each_target(Range mine, Visit&& visit) const;

@@ -374,6 +374,11 @@ void ClothState::prepare(const WorldPlan& plan, std::size_t colliders, unsigned 
         const std::size_t count = stores_lambda(plan, table, *model) ? table.lambda_count() : 0;
         if (table.kind != ConstraintKind::stretch && of_table.size() != count) of_table.assign(count, 0.0f);
     }
+    if (const std::size_t count = plan.steadies && model->has_pin_loads() ? model->capacity() : 0;
+        count != steady_parts.size()) {
+        steady_parts.assign(count, 1.0f);
+        steadied.assign(count / lane_padding + 1, 0);
+    }
     taut.resize(plan.weighs_taut ? model->capacity() : 0);
     good_kept.resize(plan.reads_kept ? kept().size() : 0);
     std::uint32_t longest = 0;

@@ -58,8 +58,10 @@ struct ClothState {
     AlignedVector<float> face_mass;                      ///< kg, per triangle; empty until a plan has air
     std::unique_ptr<const JacobiGather> gather;          ///< null until a plan uses averaged Jacobi
     AlignedVector<Vec4> corrections;
-    std::vector<float> good_kept;  ///< at the start of the frame; empty if no frame reads those before
-    AlignedVector<Vec4> taut;      ///< TautSum, zero between passes; empty if no plan uses it
+    std::vector<float> good_kept;        ///< at the start of the frame; empty if no frame reads those before
+    AlignedVector<float> steady_parts;   ///< ParticleView, in this frame; empty if no particle is heavier near its pin
+    std::vector<std::uint8_t> steadied;  ///< likewise
+    AlignedVector<Vec4> taut;            ///< TautSum, zero between passes; empty if no plan uses it
     std::vector<AlignedVector<float>> line_scratch;  ///< per worker
     double substep_seconds = 0;                      ///< of the last frame, scales lambda; 0 before the first frame
     std::unique_ptr<Tearing> tearing;                ///< null unless the cloth tears

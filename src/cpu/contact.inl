@@ -42,11 +42,6 @@ inline std::uint32_t first_outside_pass(const float* position, std::span<const B
 #include "physics/contact/shapes.def"
 #undef WEFT_SHAPE
 
-// Which particle of a group stands in a lane after load_blocks_unordered().
-constexpr std::size_t unordered_particle(std::size_t lane) {
-    return lane_count < 4 ? lane : lane % 4 * (lane_count / 4) + lane / 4;
-}
-
 // Adds the displacements by a contact to the particles' contact log.
 //   particle   first one of the lanes, in the cloth;  i   in the log
 WEFT_FN void trace_pass(const ContactView& c, std::size_t particle, std::size_t i, vec3 before, vec3 x, real w) {

@@ -30,7 +30,9 @@ struct ParticleView {
     float* position;
     float* start;  ///< position at the start of the substep
     float* velocity;
-    float* compensation;  ///< rounding error of the position (compensated summation)
+    float* compensation;                     ///< rounding error of the position (compensated summation)
+    const float* steady_parts = nullptr;     ///< per particle, of the acceleration by gravity; null: all of it
+    const std::uint8_t* steadied = nullptr;  ///< per lane_padding particles: whether it is not 1 for all of them
 };
 
 /// How far one-sided limits give way in a frame; see Step.

@@ -18,6 +18,19 @@ WEFT_FN void store_motion(const Motion& m, const ParticleView& p, std::size_t at
     store_blocks_unordered(m.x_dropped, m.v_dropped.z, p.compensation + at);
 }
 
+// Which particle of a group stands in a lane after load_blocks_unordered().
+constexpr std::size_t unordered_particle(std::size_t lane) {
+    return lane_count < 4 ? lane : lane % 4 * (lane_count / 4) + lane / 4;
+}
+
+// Cloth near pins falls more slowly.
+WEFT_FN vec3 felt_at(const ParticleView& p, std::size_t i, vec3 acceleration) {
+    if (!p.steady_parts || !p.steadied[i / lane_padding]) return acceleration;
+    alignas(64) float parts[16];
+    for (std::size_t lane = 0; lane < lane_count; ++lane) parts[lane] = p.steady_parts[i + unordered_particle(lane)];
+    return acceleration * load(parts);
+}
+
 inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float max_speed, float h) {
     const Step step = make_step(h);
     const vec3 acceleration(real(gravity.x), real(gravity.y), real(gravity.z));
@@ -27,7 +40,7 @@ inline bool predict_pass(const ParticleView& p, Range range, Vec3 gravity, float
         vec3 start, x = load_blocks_unordered(p.position + 4 * i, w);
         Motion m = load_motion(p, 4 * i, start);
         start = x;
-        const mask now = predict(x, m, w, acceleration, real(max_speed), step);
+        const mask now = predict(x, m, w, felt_at(p, i, acceleration), real(max_speed), step);
         capped = capped || now;  // `now` is computed before, since || short-circuits on one lane
         store_blocks_unordered(x, w, p.position + 4 * i);
         store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);
@@ -61,7 +74,7 @@ inline bool advance_pass(const ParticleView& p, Range range, Vec3 gravity, float
         Motion m = load_motion(p, 4 * i, start);
         const mask ended = update_velocity(m, x, start, w, real(max_speed), step);
         start = x;
-        const mask begun = predict(x, m, w, acceleration, real(max_speed), step);
+        const mask begun = predict(x, m, w, felt_at(p, i, acceleration), real(max_speed), step);
         capped = capped || ended || begun;
         store_blocks_unordered(x, w, p.position + 4 * i);
         store_blocks_unordered(start, m.v_dropped.x, p.start + 4 * i);

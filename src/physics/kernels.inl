@@ -8,6 +8,7 @@
 #include "physics/accumulate.kernel.h"
 #include "physics/integrate/integrate.kernel.h"
 #include "physics/sweep.kernel.h"
+#include "physics/pin_load/pin_load.kernel.h"
 #include "physics/body/body.kernel.h"
 #include "physics/surface/normals.kernel.h"
 #include "physics/surface/tangents.kernel.h"

@@ -83,7 +83,7 @@ struct FrameIn {
     float surface_motion;    // m: the most that a point of a collider's surface moves in a substep
     uint meets_surfaces;     // 1: the cloth meets the triangles of colliders that have a surface, not their shapes
     uint unused;
-    Floats weights;  // 1/kg: inverse masses without those of taut edges; 0: particles have no others
+    Floats weights;  // 1/kg: inverse masses without taut edges and pins; 0: particles have no others
 };
 
 // Words of a report.
@@ -155,6 +155,19 @@ struct ParticleArgs {
     Vec4s compensation;
     FrameRef frame;
     Uints report;
+    Floats steady_parts;  // of the acceleration by gravity; 0: all of it
+    uint count;
+    uint unused;
+};
+
+// Particles near pins.
+struct SteadyArgs {
+    Vec4s position;
+    Floats weights;     // 1/kg: inverse masses without pins
+    Floats steadiness;  // 1/s2
+    Uints pins;         // per particle: the particle that is its pin
+    Floats parts;       // ParticleArgs::steady_parts
+    FrameRef frame;
     uint count;
     uint unused;
 };

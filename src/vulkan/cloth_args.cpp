@@ -11,6 +11,18 @@ ParticleArgs ClothArgs::particle_args() const {
             .compensation = state(PointArray::compensation),
             .frame = input_.frame(),
             .report = input_.report(),
+            .steady_parts = work_.steady_parts.bytes > 0 ? work(work_.steady_parts) : 0,
+            .count = model_.point_count(),
+            .unused = 0};
+}
+
+SteadyArgs ClothArgs::steady_args() const {
+    return {.position = state(PointArray::position),
+            .weights = state(cloth_.weights),
+            .steadiness = of_model(buffers_.steadiness),
+            .pins = of_model(buffers_.pins),
+            .parts = work(work_.steady_parts),
+            .frame = input_.frame(),
             .count = model_.point_count(),
             .unused = 0};
 }

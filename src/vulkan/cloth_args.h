@@ -27,6 +27,7 @@ class ClothArgs {
 
     ParticleArgs particle_args() const;
     KeepArgs keep_args() const;
+    SteadyArgs steady_args() const;
     TautArgs taut_args() const;
     CoupleArgs couple_args(ConstraintKind kind) const;
     LimitArgs limit_args() const;

@@ -61,6 +61,8 @@ Result<WorkBuffers> WorkBuffers::create(gpu::Device& device, const ClothModel& m
             work.lambda[static_cast<std::uint32_t>(table.kind)] =
                 work.arena.reserve(table.lambda_count() * sizeof(float));
     }
+    if (plan.steadies && model.has_pin_loads())
+        work.steady_parts = work.arena.reserve(model.capacity() * sizeof(float));
     if (plan.weighs_taut) work.taut = work.arena.reserve(model.capacity() * block);
     if (plan.reads_kept) work.good_kept = work.arena.reserve(model.kept_floats() * sizeof(float));
     if (shape.colliders > 0) {

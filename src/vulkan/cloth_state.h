@@ -36,6 +36,7 @@ struct WorkBuffers {
     Slot near_slots;                                 ///< colliders in the lists
     std::uint32_t slot_count = 0;                    ///< room of near_slots
     Slot taut;                                       ///< TautArgs::sums
+    Slot steady_parts;                               ///< ParticleArgs
     Slot good_kept;                                  ///< KeepArgs
     Slot contact_sums;                               ///< by slot and particle in the tile
     Slot supports;                                   ///< ContactArgs

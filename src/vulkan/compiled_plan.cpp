@@ -163,6 +163,10 @@ class Compiler : ClothArgs {
                 add(list, "couple", args, args.count, pass, substep);
                 break;
             }
+            case PassKind::steady:
+            case PassKind::release:
+                add(list, std::string(pass_info(pass.kind).name), steady_args(), points, pass, substep);
+                break;
             case PassKind::weigh_taut:
                 add_taut_weights(list, pass, substep);
                 break;

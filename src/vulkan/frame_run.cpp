@@ -333,9 +333,9 @@ Result<std::uint64_t> FrameRun::submit(const StepInput& input, std::span<const C
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const Member& member = members_[i];
         const ClothState& cloth = member.cloth->state();
-        const bool taut = work_[i].taut.bytes > 0;
+        const bool heavier = work_[i].taut.bytes > 0 || work_[i].steady_parts.bytes > 0;
         buffers_.input(i).write(cloth.model(), plan_, input, *steps[i], cloth.substep_seconds, again,
-                                taut ? cloth.address(cloth.weights) : 0);
+                                heavier ? cloth.address(cloth.weights) : 0);
         seconds_.push_back(lambda_seconds(plan_, input.dt));
     }
     auto value = commands_->submit();

@@ -96,6 +96,8 @@ Result<std::shared_ptr<ModelBuffers>> ModelBuffers::create(gpu::Device& device,
     self->around_items = arena.add_array(lists.items);
     self->span_ends = arena.add_array(lists.span_ends);
     self->span_lengths = arena.add_array(lists.span_lengths);
+    self->steadiness = arena.add_array(model.steadiness);
+    self->pins = arena.add_array(model.pin_of);
     if (auto built = arena.build(device, "model of " + model.name); !built) return built.errors();
     return self;
 }

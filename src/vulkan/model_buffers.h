@@ -35,7 +35,7 @@ class ModelBuffers {
     std::array<TableBuffers, constraint_kind_count> tables;
     std::vector<LevelBuffers> levels;
     Slot faces, faces_by_tile, face_mass, around_offsets, around_items;
-    Slot span_ends, span_lengths;
+    Slot span_ends, span_lengths, steadiness, pins;
 
     /// Created on first use.
     Result<const MeasureLists*> measure_lists(gpu::Device& device) const;

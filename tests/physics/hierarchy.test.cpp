@@ -91,7 +91,7 @@ TEST(HierarchyOf, a_sheet_between_four_corners_lets_it_come_to_rest) {
             sheet.pinned = [](Vec3 p) { return std::abs(p.x) > 0.499f && std::abs(p.z) > 0.499f; };
             sheet.fabric.stretch.inextensible = rigid;
             World world = make_world({.solver = {.substeps = substeps, .hierarchy = true}}, sheet);
-            run(world, 20);
+            run(world, 30);
             double fastest = 0;
             std::vector<Vec3> before, now;
             collect_positions(world.frame(), before);

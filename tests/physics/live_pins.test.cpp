@@ -31,6 +31,29 @@ TEST(LivePins, let_go_with_the_weight_that_the_particle_had) {
     EXPECT_NEAR(center_of_mass(world.frame().cloths[0]).y, -0.5 * 9.81 * 0.25, 0.05);
 }
 
+// Particles are heavier near a pin, so that it bears its load. Without the pin they fall as the rest does.
+TEST(LivePins, let_go_what_hung_by_a_point) {
+    SheetDesc sheet = hung_by_corners(33, {.lines = true, .hierarchy = true});
+    sheet.fabric.tether.use = Tethers::off;
+    World world = make_world({}, sheet);
+    const ClothId id = world.frame().cloths[0].id;
+    ASSERT_TRUE(world.model(id)->has_pin_loads());
+    run(world, 1);
+    ASSERT_TRUE(world.set_pins(id, {}, {}).ok());
+    const ClothFrame& cloth = world.frame().cloths[0];
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p)
+        EXPECT_EQ(cloth.positions[p].w, 1 / cloth.model->mass[p]);
+    double before = 0, mass = 0;
+    for (std::uint32_t p = 0; p < cloth.model->particle_count; ++p)
+        before += double{cloth.model->mass[p]} * double{cloth.velocities[p].y}, mass += double{cloth.model->mass[p]};
+    run(world, 0.1);
+    double after = 0;
+    const ClothFrame& fallen = world.frame().cloths[0];
+    for (std::uint32_t p = 0; p < fallen.model->particle_count; ++p)
+        after += double{fallen.model->mass[p]} * double{fallen.velocities[p].y};
+    EXPECT_NEAR((after - before) / mass, -9.81 * 0.1, 1e-3);
+}
+
 TEST(LivePins, are_carried_by_keys_from_where_they_are) {
     World world = make_world({}, hung_upright());
     const ClothId id = world.frame().cloths[0].id;

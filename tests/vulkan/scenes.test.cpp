@@ -201,5 +201,35 @@ TEST(VulkanScenes, flat_cloth_falls_as_on_the_cpu) {
     EXPECT_EQ(fall("vulkan"), fall("cpu"));
 }
 
+// Particles near pins are heavier while their pin holds.
+// Labels: slow no-asan
+TEST(VulkanScenes, cloth_near_pins_moves_as_on_the_cpu) {
+    const auto hang = [](const char* backend, const char* execution) {
+        auto world = Simulation::create({.air = AirDesc{}},
+                                        {.backend = backend, .execution = execution, .solver = {{"substeps", 4}}});
+        EXPECT_TRUE(world.ok());
+        if (!world) return std::string();
+        const std::vector<PinDesc> pins = {{.select = VertexPins{{0}}}, {.select = VertexPins{{32}}}};
+        const auto sheet =
+            world->add({.mesh = GridDesc{.resolution = {33, 33}}, .fabric = FabricDesc("silk"), .pins = pins});
+        EXPECT_TRUE(sheet.ok());
+        std::string hashes;
+        for (int frame = 0; frame < 6; ++frame) {
+            if (frame == 3) {
+                EXPECT_TRUE(world->set_pins(*sheet, {pins[0]}).ok());
+            }
+            world->step();
+            hashes += world->state_hash() + ' ';
+        }
+        return hashes;
+    };
+    if (!rounds_like_the_cpu(World(checked_vulkan_backend(), {}))) return;
+    const std::string expected = hang("cpu", "auto");
+    EXPECT_EQ(hang("vulkan", "streamed"), expected);
+    if (!std::getenv("WEFT_LONG_TESTS")) return;
+    EXPECT_EQ(hang("vulkan", "grouped"), expected);
+    EXPECT_EQ(hang("vulkan", "fused"), expected);
+}
+
 }  // namespace
 }  // namespace weft

@@ -146,6 +146,8 @@ class TrafficCounter {
             case PassKind::finish_bodies:
             case PassKind::weigh_attached:
             case PassKind::pull_bodies:
+            case PassKind::steady:
+            case PassKind::release:
             case PassKind::weigh_taut:
             case PassKind::take_taut:
             case PassKind::free_taut:

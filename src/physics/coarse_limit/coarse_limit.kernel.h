@@ -1,5 +1,5 @@
-// Coarse distance limit: C = |a - b| - (limit + compliance tension) allowed <= 0. Beyond the limit it is as elastic as
-// the cloth. One-sided, so not damped.
+// Coarse distance limit: C = |a - b| - (limit + compliance tension + give) allowed <= 0. Beyond the limit it is as elastic
+// as the cloth. One-sided, so not damped.
 
 struct CoarseLimitRow { WEFT_ROW_coarse_limit(WEFT_ROW_MEMBER) };
 
@@ -9,7 +9,8 @@ WEFT_FN void project_coarse_limit(inout_(vec3) a, inout_(vec3) b, real wa, real 
     vec3 d = a - b;
     real len2 = dot(d, d);
     real w = wa + wb;
-    real limit = (row.limit + row.compliance * step.tension) * step.allowed;
+    real give = row.give / (real(1) + row.ease * step.h * step.h);
+    real limit = (row.limit + row.compliance * step.tension + give) * step.allowed;
     real len = sqrt(max(len2, real(1e-20)));
     // A constraint represents a strip as wide as it is long.
     real alpha = row.compliance / max(row.limit, real(1e-20)) * step.inv_h2;

@@ -241,13 +241,11 @@ Result<void> lay_out(ClothModel& model, const TriangleMesh& mesh, const Topology
     rest.elasticity = model.elasticity = elasticity_of(model.fabric.stretch, density, model.extent);
     clock.spent_on(BuildPart::rest);
 
-    std::vector<CoarseLevel> hierarchy;
+    Hierarchy hierarchy;
     if (layout.hierarchy)
         hierarchy = build_hierarchy(rest, model.fabric, model.start,
                                     layout.lines ? FinestLevel::every_fourth : FinestLevel::every_second);
-    model.pin_spans = find_pin_spans(hierarchy, topology.rest_positions);
-    for (CoarseLevel& level : hierarchy) level.ways = {};
-    model.hierarchy = std::move(hierarchy);
+    model.set_hierarchy(std::move(hierarchy), topology.rest_positions);
     clock.spent_on(BuildPart::hierarchy);
 
     choose_tethers(model, rest);
@@ -365,6 +363,22 @@ Result<std::shared_ptr<const ClothModel>> change_cloth_model(const ClothModel& f
         return done.errors();
     if (model->parting) model->reset_mesh();
     return std::shared_ptr<const ClothModel>(std::move(model));
+}
+
+void ClothModel::set_hierarchy(Hierarchy found, std::span<const Vec3> at_rest) {
+    pin_spans = find_pin_spans(found.levels, at_rest);
+    for (CoarseLevel& level : found.levels) level.ways = {};
+    hierarchy = std::move(found.levels);
+    AlignedVector<float> steady;
+    AlignedVector<std::uint32_t> pins;
+    if (!found.loads.empty()) {
+        steady.resize(capacity());
+        pins.resize(capacity());
+        std::ranges::transform(found.loads.steadiness, steady.begin(), [](double s) { return static_cast<float>(s); });
+        std::ranges::copy(found.loads.pin, pins.begin());
+    }
+    steadiness = std::move(steady);
+    pin_of = std::move(pins);
 }
 
 void ClothModel::make_tiles_if_needed() {

@@ -119,6 +119,10 @@ struct ClothModel {
     std::array<ConstraintTable, constraint_kind_count> constraints;
     SharedArray<CoarseLevel> hierarchy;  ///< finest level first; empty if not requested or of no use
     std::vector<PinSpan> pin_spans;      ///< only with a hierarchy
+    /// Per particle, with a hierarchy: how much heavier it is near its pin, 1/s² (physics/pin_load/pin_load.md), and
+    /// the particle that is its pin. Padded to capacity(); empty if no pin bears much.
+    SharedArray<float> steadiness;
+    SharedArray<std::uint32_t> pin_of;
     /// Null unless the coarse levels are older than the triangles, and were pruned (pruned_limits.h).
     std::shared_ptr<const PrunedLevels> pruned;
     Elasticity elasticity;
@@ -155,6 +159,9 @@ struct ClothModel {
     /// mesh(), on any thread.
     void set_mesh_of_particles(std::vector<Vec2> uvs, std::vector<Vec4> colors);
 
+    bool has_pin_loads() const { return !steadiness.empty(); }
+    /// Sets the coarse levels and what was found with them. `at_rest`: m, by particle.
+    void set_hierarchy(Hierarchy found, std::span<const Vec3> at_rest);
     /// Sets `tiles` and `along_curve` for the current triangles and particles.
     void make_tiles_if_needed();
 

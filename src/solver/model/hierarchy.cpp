@@ -346,12 +346,24 @@ std::vector<Vec3> means_of(const Restriction& restriction, std::span<const Vec3>
     return means;
 }
 
+// How much longer the limit between a pin and another particle is.
+struct Give {
+    double length = 0, ease = 0;
+};
+
+Give give_between(const PinLoads& loads, std::uint32_t a, std::uint32_t b) {
+    if (loads.empty() || loads.group[a] != loads.group[b]) return {};
+    const std::uint32_t free = loads.give[a] > 0 ? a : b;  // pins have none
+    return {loads.give[free], loads.ease[free]};
+}
+
 }  // namespace
 
-std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
-                                         FinestLevel finest) {
-    std::vector<CoarseLevel> levels;
-    if (rest.elasticity.reserve() > useless_reserve) return levels;
+Hierarchy build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
+                          FinestLevel finest) {
+    Hierarchy result;
+    std::vector<CoarseLevel>& levels = result.levels;
+    if (rest.elasticity.reserve() > useless_reserve) return result;
 
     LinkGraph graph = graph_of_edges(rest, fabric);
     std::vector<RestFrame> frames = rest.frames;
@@ -364,12 +376,14 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         pinned[p] = !(start[p].w > 0);
         mass[p] = pinned[p] ? 0 : 1.0 / static_cast<double>(start[p].w);
     }
+    PinLoads loads = find_pin_loads(graph, mass, pinned, double{fabric.body.density}, double{extent_of(rest.topology)},
+                                    rest.elasticity);
     while (true) {
         const bool far_apart = levels.empty() && finest == FinestLevel::every_fourth;
         const double unit = mean_length(graph) * (far_apart ? far : 1);
         const Selection selection = select_nodes(graph, unit, pinned);
         const auto count = static_cast<std::uint32_t>(selection.chosen.size());
-        if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) return levels;
+        if (count < least_nodes || 4 * std::size_t{count} > 3 * graph.size()) break;
         CoarseLevel level{.count = count,
                           .particle = {},
                           .restriction = {},
@@ -414,7 +428,11 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
                 const Limit limit = limit_of(link, line, rest.elasticity, coarse.turns);
                 const double least = pinned_node[node] || pinned_node[link.to] ? 1 : closest;
                 const double allowed = link.length > 0 ? limit.length * std::max(least, apart / link.length) : apart;
-                rows.add({node, link.to}, {static_cast<float>(allowed), static_cast<float>(limit.compliance)});
+                const Give give = pinned_node[node] != pinned_node[link.to]
+                                      ? give_between(loads, nodes[node], nodes[link.to])
+                                      : Give{};
+                rows.add({node, link.to}, {static_cast<float>(allowed), static_cast<float>(limit.compliance),
+                                           static_cast<float>(give.length), static_cast<float>(give.ease)});
             }
         }
         level.limits = pack_rows(ConstraintKind::coarse_limit, rows, count, coloring_of_level(count));
@@ -424,6 +442,8 @@ std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fa
         particle = std::move(nodes), pinned = std::move(pinned_node), mass = std::move(node_mass),
         place = std::move(places), mean = std::move(means), frames = std::move(kept_frames);
     }
+    if (!levels.empty()) result.loads = std::move(loads);
+    return result;
 }
 
 }  // namespace weft

@@ -11,6 +11,7 @@
 #include "scene/fabric.h"
 #include "solver/model/constraint_table.h"
 #include "solver/model/link_graph.h"
+#include "solver/model/pin_loads.h"
 
 #include <array>
 #include <cstdint>
@@ -61,10 +62,14 @@ struct CoarseLevel {
 /// Spacing of the nodes of the finest level, in edges. Line solves alone propagate an error over several edges.
 enum class FinestLevel { every_second, every_fourth };
 
-/// Returns the levels, finest first; each has about a quarter of the nodes of the previous one. Empty for small cloths,
-/// and for cloths so soft that limits have no effect. `start`: position (m) and inverse mass (1/kg) of each particle, 0
-/// for pinned ones.
-std::vector<CoarseLevel> build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
-                                         FinestLevel finest = FinestLevel::every_second);
+struct Hierarchy {
+    std::vector<CoarseLevel> levels;  ///< finest first; each has about a quarter of the nodes of the previous one
+    PinLoads loads;                   ///< of the particles, for which the limits make room
+};
+
+/// Empty for small cloths, and for cloths so soft that limits have no effect. `start`: position (m) and inverse mass
+/// (1/kg) of each particle, 0 for pinned ones.
+Hierarchy build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span<const Vec4> start,
+                          FinestLevel finest = FinestLevel::every_second);
 
 }  // namespace weft

@@ -77,11 +77,9 @@ void rebuild_limits(ClothModel& model) {
     if (has_tethers) rebuild_tethers(model, rest);
     if (model.hierarchy.empty()) return;
     const bool lines = !model.table(ConstraintKind::stretch).blocks.empty();
-    std::vector<CoarseLevel> levels =
-        build_hierarchy(rest, model.fabric, model.start, lines ? FinestLevel::every_fourth : FinestLevel::every_second);
-    model.pin_spans = find_pin_spans(levels, mesh.topology.rest_positions);
-    for (CoarseLevel& level : levels) level.ways = {};
-    model.hierarchy = std::move(levels);
+    model.set_hierarchy(
+        build_hierarchy(rest, model.fabric, model.start, lines ? FinestLevel::every_fourth : FinestLevel::every_second),
+        mesh.topology.rest_positions);
     model.pruned = nullptr;
 }
 

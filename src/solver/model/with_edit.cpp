@@ -73,8 +73,7 @@ class Editor {
             if (auto done = reshape(); !done) return done.errors();
             if (has_openings && model_->tiles) model_->contact_rest = rest_for_contact(*model_);
             if (other) {
-                model_->hierarchy = {};
-                model_->pin_spans = {};
+                model_->set_hierarchy({}, {});
                 model_->pruned = nullptr;
             } else if (edit.pruned_frames > 0 && can_prune_limits(*model_)) {
                 prune_limits(*model_, edit.openings, first_copy);

@@ -62,6 +62,7 @@ enum class Data : std::uint8_t {
     list_rows,      ///< of a dynamic list: the constraints
     face_contacts,  ///< of faces with colliders
     face_sums,      ///< of their pushes, per particle
+    steady_parts,   ///< of its inverse mass that each particle has in the frame
     taut,           ///< masses of taut edges, summed by particle
     multipliers,    ///< of constraints
     shifts,         ///< of the rest values of coupled constraints

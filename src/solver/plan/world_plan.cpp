@@ -19,6 +19,8 @@ class Planner {
         WorldPlan plan{settings_.solver, 0, {}, {}, {}};
         plan.projection = resolve(plan.projection, plan.method);
         plan.weighs_taut = weighs_taut();
+        plan.steadies = steadies();
+        if (plan.steadies) plan.frame_begin.push_back({.kind = PassKind::steady});
         plan.reads_kept = plan.weighs_taut || !coupled().empty();
         for (const ConstraintKind kind : found()) {
             for (const PassKind pass : {PassKind::find, PassKind::place, PassKind::list})
@@ -65,6 +67,7 @@ class Planner {
         plan.substep.push_back({.kind = PassKind::velocities});
         if (exact) plan.substep.push_back({.kind = PassKind::separate});
 
+        if (plan.steadies) plan.frame_end.push_back({.kind = PassKind::release});
         add_damping(plan.frame_end);
         if (settings_.surface) {
             plan.frame_end.push_back({.kind = PassKind::faces});
@@ -113,6 +116,13 @@ class Planner {
     bool weighs_taut() const {
         return settings_.bodies && settings_.solver.method == Method::xpbd &&
                settings_.solver.projection != Projection::jacobi;
+    }
+
+    // Coarse limits leave the load near pins to the constraints there. With bodies, taut edges add mass instead.
+    bool steadies() const {
+        return !settings_.bodies && settings_.solver.hierarchy && settings_.solver.method == Method::xpbd &&
+               settings_.solver.projection != Projection::jacobi &&
+               std::ranges::any_of(cloths_, [](const PlannedCloth& cloth) { return cloth.model->has_pin_loads(); });
     }
 
     void add_taut_weights(Passes& passes) const {
@@ -426,6 +436,9 @@ bool takes_part(const PlannedCloth& cloth, const Pass& pass) {
                    pass.batch < model.hierarchy[pass.level].limits.batches.size();
         case PassKind::prolongation:
             return !model.hierarchy.empty();
+        case PassKind::steady:
+        case PassKind::release:
+            return model.has_pin_loads();
         case PassKind::watch_tears:
         case PassKind::tear:
             return model.tear_law != nullptr;

@@ -63,6 +63,7 @@ struct WorldPlan : SolverDesc {
     std::vector<Pass> substep;
     std::vector<Pass> frame_end;
     bool weighs_taut = false;  ///< taut edges add mass, by lambda of the substep before
+    bool steadies = false;     ///< particles near pins are heavier
     bool reads_kept = false;   ///< a frame reads ClothModel::kept_floats() of the frame before
 };
 

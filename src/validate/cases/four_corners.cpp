@@ -10,7 +10,7 @@ namespace {
 
 // A square meter of cotton that is pinned at its four corners, after 10 s.
 std::vector<Vec4> shape(const Validation& validation, std::uint32_t side, std::uint32_t substeps, bool levels) {
-    WorldSettings settings{.solver = {.substeps = substeps}};
+    WorldSettings settings{.solver = {.substeps = substeps}, .air = AirDesc{}};  // without air it still swings
     settings.solver.hierarchy = levels;
     World world = validation.make_world(settings);
     add_sheet(world, {.mesh = make_grid({1, 1}, {side, side}, GridDiagonal::alternating),
@@ -23,7 +23,7 @@ std::vector<Vec4> shape(const Validation& validation, std::uint32_t side, std::u
 }  // namespace
 
 void validate_four_corners(Validation& validation) {
-    compare_with_converged(validation, shape, [](std::uint32_t) { return 0.03; });
+    compare_with_converged(validation, shape, [](std::uint32_t) { return 0.007; });
 }
 
 }  // namespace weft

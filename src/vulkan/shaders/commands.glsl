@@ -23,6 +23,7 @@ WEFT_COMMAND(ParticleArgs)
 WEFT_COMMAND(TargetArgs)
 WEFT_COMMAND(GrabArgs)
 WEFT_COMMAND(AverageArgs)
+WEFT_COMMAND(SteadyArgs)
 WEFT_COMMAND(TautArgs)
 WEFT_COMMAND(CoupleArgs)
 WEFT_COMMAND(ContactArgs)
@@ -49,6 +50,9 @@ WEFT_COMMAND(RowArgs)
 #endif
 #ifndef WEFT_PUSHES_average_args
 #define average_args AverageArgsRef(command)
+#endif
+#ifndef WEFT_PUSHES_steady_args
+#define steady_args SteadyArgsRef(command)
 #endif
 #ifndef WEFT_PUSHES_taut_args
 #define taut_args TautArgsRef(command)

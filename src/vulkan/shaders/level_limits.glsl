@@ -28,7 +28,9 @@ LevelRow level_row(uint r)
 {
     uint stride = level_limit_args.at.stride;
     return LevelRow(r, level_limit_args.at.particles.at[r], level_limit_args.at.particles.at[stride + r],
-                    CoarseLimitRow(level_limit_args.at.fields.at[r], level_limit_args.at.fields.at[stride + r]));
+                    CoarseLimitRow(level_limit_args.at.fields.at[r], level_limit_args.at.fields.at[stride + r],
+                                   level_limit_args.at.fields.at[2u * stride + r],
+                                   level_limit_args.at.fields.at[3u * stride + r]));
 }
 
 // The row of invocation `me` in a batch, its first one if there are more rows than invocations.
@@ -36,7 +38,7 @@ LevelRow level_row_of(uint batch, uint me)
 {
     uint begin = level_limit_args.at.batches.at[2u * batch], rows = level_limit_args.at.batches.at[2u * batch + 1u];
     bool mine = rows < WEFT_SERIAL_BATCH ? me < rows : me == 0u;
-    if (!mine) return LevelRow(WEFT_NO_ROW, 0u, 0u, CoarseLimitRow(0.0, 0.0));
+    if (!mine) return LevelRow(WEFT_NO_ROW, 0u, 0u, CoarseLimitRow(0.0, 0.0, 0.0, 0.0));
     return level_row(begin + me);
 }
 

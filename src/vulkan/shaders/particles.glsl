@@ -19,6 +19,12 @@ void store_motion(uint p, Motion m)
     particle_args.at.compensation.at[p] = vec4(m.x_dropped, m.v_dropped.z);
 }
 
+// Cloth near pins falls more slowly.
+vec3 felt_at(uint p, vec3 acceleration)
+{
+    return is_none(uvec2(particle_args.at.steady_parts)) ? acceleration : acceleration * particle_args.at.steady_parts.at[p];
+}
+
 vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravity_y, frame.at.gravity_z); }
 
 void report_capped(bool capped)
@@ -32,7 +38,7 @@ void run_predict(uint p)
     vec3 start;
     Motion m = load_motion(p, start);
     start = x.xyz;
-    bool capped = predict(x.xyz, m, x.w, gravity_of(particle_args.at.frame), particle_args.at.frame.at.max_speed,
+    bool capped = predict(x.xyz, m, x.w, felt_at(p, gravity_of(particle_args.at.frame)), particle_args.at.frame.at.max_speed,
                           substep_of(particle_args.at.frame));
     store_point(particle_args.at.position, p, x);
     particle_args.at.start.at[p] = vec4(start, m.v_dropped.x);
@@ -60,11 +66,27 @@ void run_advance(uint p)
     Step h = substep_of(particle_args.at.frame);
     bool ended = update_velocity(m, x.xyz, start, x.w, particle_args.at.frame.at.max_speed, h);
     start = x.xyz;
-    bool begun = predict(x.xyz, m, x.w, gravity_of(particle_args.at.frame), particle_args.at.frame.at.max_speed, h);
+    bool begun = predict(x.xyz, m, x.w, felt_at(p, gravity_of(particle_args.at.frame)), particle_args.at.frame.at.max_speed, h);
     store_point(particle_args.at.position, p, x);
     particle_args.at.start.at[p] = vec4(start, m.v_dropped.x);
     store_motion(p, m);
     report_capped(ended || begun);
+}
+
+// Makes particles near pins heavier until run_release().
+void run_steady(uint p)
+{
+    float part = steady_part(steady_args.at.steadiness.at[p], steady_args.at.weights.at[steady_args.at.pins.at[p]],
+                             substep_of(steady_args.at.frame));
+    steady_args.at.parts.at[p] = part;
+    store_point(steady_args.at.position, p,
+                vec4(load_point(steady_args.at.position, p).xyz, steady_args.at.weights.at[p] * part));
+}
+
+void run_release(uint p)
+{
+    store_point(steady_args.at.position, p,
+                vec4(load_point(steady_args.at.position, p).xyz, steady_args.at.weights.at[p]));
 }
 
 // Adds the masses of its taut edges to a particle, and leaves the sums at zero.
