@@ -2,6 +2,7 @@
 
 #include "mesh/grouping.h"
 #include "physics/rest_frames.h"
+#include "physics/tether/pinned_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -376,8 +377,8 @@ Hierarchy build_hierarchy(const RestShape& rest, const Fabric& fabric, std::span
         pinned[p] = !(start[p].w > 0);
         mass[p] = pinned[p] ? 0 : 1.0 / static_cast<double>(start[p].w);
     }
-    PinLoads loads = find_pin_loads(graph, mass, pinned, double{fabric.body.density}, double{extent_of(rest.topology)},
-                                    rest.elasticity);
+    PinLoads loads = find_pin_loads(graph, pinned_places(rest), mass, double{fabric.body.density},
+                                    double{extent_of(rest.topology)}, rest.elasticity);
     while (true) {
         const bool far_apart = levels.empty() && finest == FinestLevel::every_fourth;
         const double unit = mean_length(graph) * (far_apart ? far : 1);

@@ -25,17 +25,17 @@ constexpr double most_shear = 0.42;
 // The nearest pins of all particles, along edges.
 class NearestPins {
   public:
-    NearestPins(const LinkGraph& edges, std::span<const std::uint8_t> pinned)
+    NearestPins(const LinkGraph& edges, const PinGroups& groups)
         : distance(edges.size(), LocalWays::unreached),
           pin(edges.size()),
           group(edges.size(), none),
-          before(edges.size(), none) {
+          before(edges.size(), none),
+          members(groups.size()) {
         for (std::uint32_t p = 0; p < edges.size(); ++p) pin[p] = p;
-        group_pins(edges, pinned);
         using Entry = std::pair<double, std::uint32_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting;
-        for (std::uint32_t p = 0; p < edges.size(); ++p)
-            if (pinned[p]) distance[p] = 0, waiting.emplace(0, p);
+        for (std::uint32_t g = 0; g < groups.size(); ++g)
+            for (const std::uint32_t p : groups[g]) distance[p] = 0, group[p] = g, waiting.emplace(0, p);
         while (!waiting.empty()) {
             const auto [d, p] = waiting.top();
             waiting.pop();
@@ -53,25 +53,7 @@ class NearestPins {
     std::vector<double> distance;                     // m
     std::vector<std::uint32_t> pin, group;            // as in PinLoads
     std::vector<std::uint32_t> before;                // the particle before this one on the way from its pin
-    std::vector<std::uint32_t> pins;                  // per group: number of its pins
     std::vector<std::vector<std::uint32_t>> members;  // per group: its particles, nearest first
-
-  private:
-    void group_pins(const LinkGraph& edges, std::span<const std::uint8_t> pinned) {
-        std::vector<std::uint32_t> open;
-        for (std::uint32_t p = 0; p < edges.size(); ++p) {
-            if (!pinned[p] || group[p] != none) continue;
-            const auto number = static_cast<std::uint32_t>(pins.size());
-            open.assign(1, p), group[p] = number, pins.push_back(0);
-            while (!open.empty()) {
-                const std::uint32_t at = open.back();
-                open.pop_back(), ++pins.back();
-                for (const Link& link : edges[at])
-                    if (pinned[link.to] && group[link.to] == none) group[link.to] = number, open.push_back(link.to);
-            }
-        }
-        members.resize(pins.size());
-    }
 };
 
 // Tension at each member of a group, N/m: the weight of the cloth behind it over the width of the cloth at its
@@ -98,11 +80,11 @@ std::vector<double> tensions_of(const std::vector<std::uint32_t>& members, const
 
 }  // namespace
 
-PinLoads find_pin_loads(const LinkGraph& edges, std::span<const double> mass, std::span<const std::uint8_t> pinned,
-                        double density, double extent, const Elasticity& elasticity) {
+PinLoads find_pin_loads(const LinkGraph& edges, const PinGroups& groups, std::span<const double> mass, double density,
+                        double extent, const Elasticity& elasticity) {
     const double softest = limit_any_way(elasticity, 1).compliance;
-    if (!(softest > 0) || std::ranges::find(pinned, 1) == pinned.end()) return {};
-    NearestPins nearest(edges, pinned);
+    if (!(softest > 0) || groups.empty()) return {};
+    NearestPins nearest(edges, groups);
     const double unit = mean_length(edges), hanging = density * gravity * extent;
     const double threads = std::max(elasticity.warp, elasticity.weft);
     std::vector<double> tension(edges.size());  // beyond that of a hanging sheet
@@ -119,13 +101,14 @@ PinLoads find_pin_loads(const LinkGraph& edges, std::span<const double> mass, st
         any = true;
         double sum = 0;
         for (const std::uint32_t p : members) sum += mass[p];
-        const double free = static_cast<double>(members.size() - nearest.pins[g]);
-        const double at_pin = gravity * sum / nearest.pins[g], of_edge = edge_loads * sum / free * unit;
+        const double free = static_cast<double>(members.size() - groups[g].size());
+        const double at_pin = gravity * sum / static_cast<double>(groups[g].size()),
+                     of_edge = edge_loads * sum / free * unit;
         for (std::size_t i = 0; i < members.size(); ++i) {
             const std::uint32_t p = members[i], from = nearest.before[p];
-            if (pinned[p]) continue;
+            if (!(nearest.distance[p] > 0)) continue;
             tension[p] = std::max(all[i] - ordinary * hanging, 0.0);
-            const double mean = pinned[from] ? tension[p] : 0.5 * (tension[p] + tension[from]);
+            const double mean = !(nearest.distance[from] > 0) ? tension[p] : 0.5 * (tension[p] + tension[from]);
             const double strain = std::min(softest * mean, most_shear + threads * mean);
             loads.give[p] = loads.give[from] + give_factor * strain * (nearest.distance[p] - nearest.distance[from]);
             loads.ease[p] = at_pin / of_edge;

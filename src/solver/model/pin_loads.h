@@ -23,10 +23,13 @@ struct PinLoads {
     bool empty() const { return steadiness.empty(); }
 };
 
+/// Pinned particles that are connected by edges (physics/tether/pinned_places.h).
+using PinGroups = std::vector<std::vector<std::uint32_t>>;
+
 /// Static estimate: each particle hangs by the group of pins that is nearest to it. Empty if no group bears much more
 /// than a sheet that hangs by a whole side, and for inextensible cloth. `mass`: kg per particle, 0 for pinned ones.
 /// `density`: kg/m². `extent`: m, of the cloth at rest.
-PinLoads find_pin_loads(const LinkGraph& edges, std::span<const double> mass, std::span<const std::uint8_t> pinned,
-                        double density, double extent, const Elasticity& elasticity);
+PinLoads find_pin_loads(const LinkGraph& edges, const PinGroups& groups, std::span<const double> mass, double density,
+                        double extent, const Elasticity& elasticity);
 
 }  // namespace weft
