@@ -1,11 +1,11 @@
 #include "gpu/device.h"
 
+#include "base/flush_subnormals.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <optional>
-
-#include "base/flush_subnormals.h"
 
 namespace weft::gpu {
 namespace {
