@@ -279,6 +279,7 @@ void ClothRun::run_level(const IslandPass& island_pass, std::uint32_t substep, W
 void ClothRun::run_faces(const Pass& pass, Worker worker) const {
     const Range mine = as_range(worker.of(model().face_stride));
     if (pass.kind == PassKind::faces) return passes_.faces(cloth_.surface(), mine);
+    if (pass.kind == PassKind::smooth_faces) return passes_.smooth_faces(cloth_.surface(), mine);
     if (pass.kind == PassKind::watch_tears) return cloth_.tearing->watch(passes_, model(), view_.position, mine);
     const AirView air = cloth_.air(input_.air_density);
     if (pass.kind == PassKind::air) return passes_.air(air, mine, numbers_.h);

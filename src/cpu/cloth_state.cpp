@@ -167,6 +167,8 @@ void ClothState::update_normals() {
     const SurfaceView view = surface();
     scalar_passes().faces(view, {0, model->face_stride});
     normals_pass(view, {0, model->particle_count});
+    scalar_passes().smooth_faces(view, {0, model->face_stride});
+    normals_pass(view, {0, model->particle_count});
 }
 
 void ClothState::remember() {

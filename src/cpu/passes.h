@@ -291,6 +291,8 @@ struct Passes {
     /// Marks triangles whose tension or strain is above this part of its limit.
     void (*watch_tears)(const TearView&, float part, Range);
     void (*faces)(const SurfaceView&, Range);
+    /// Replaces the normals of triangles by the smoothed ones.
+    void (*smooth_faces)(const SurfaceView&, Range);
     void (*normals)(const SurfaceView&, Range);
     /// Whether every float in [begin, end) is finite; both multiples of lane_padding.
     bool (*all_finite)(const float*, std::size_t begin, std::size_t end);

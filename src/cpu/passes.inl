@@ -417,6 +417,17 @@ inline void faces_pass(const SurfaceView& s, Range range) {
     }
 }
 
+inline void smooth_faces_pass(const SurfaceView& s, Range range) {
+    for (std::size_t t = range.begin; t < range.end; t += lane_count) {
+        real unused;
+        const vec3 face = load_blocks(s.face_normals + 4 * t, unused);
+        const vec3 a = gather_blocks(s.normals, s.faces + t, unused);
+        const vec3 b = gather_blocks(s.normals, s.faces + std::size_t{s.stride} + t, unused);
+        const vec3 c = gather_blocks(s.normals, s.faces + std::size_t{2} * s.stride + t, unused);
+        store_blocks(smooth_face(face, a, b, c), real(0.0f), s.face_normals + 4 * t);
+    }
+}
+
 #include "cpu/around.inl"
 
 inline bool all_finite_pass(const float* data, std::size_t begin, std::size_t end) {
@@ -490,6 +501,7 @@ inline constexpr Passes make_passes(std::string_view isa) {
         .push = push_around_pass,
         .watch_tears = watch_tears_pass,
         .faces = faces_pass,
+        .smooth_faces = smooth_faces_pass,
         .normals = normals_around_pass,
         .all_finite = all_finite_pass,
     };

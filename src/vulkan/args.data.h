@@ -391,7 +391,8 @@ struct FaceArgs {
     Uints faces;    // [corner · stride + triangle]
     Floats mass;    // kg per triangle
     Vec4s wind;     // m/s per triangle; 0 without wind
-    Vec4s by_face;  // results of air and faces, per triangle
+    Vec4s by_face;  // results of air, faces and smooth_faces, per triangle
+    Vec4s normals;  // smooth_faces only
     FrameRef frame;
     WindRef winds;
     CollidersRef colliders;  // wind only; 0 without colliders

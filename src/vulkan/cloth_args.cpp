@@ -104,6 +104,7 @@ FaceArgs ClothArgs::face_args() const {
             .mass = of_model(buffers_.face_mass),
             .wind = work(work_.wind),
             .by_face = state(cloth_.by_face),
+            .normals = state(PointArray::normals),
             .frame = input_.frame(),
             .winds = input_.winds(),
             .colliders = island_.colliders,

@@ -35,6 +35,8 @@ class Compiler : ClothArgs {
         std::vector<Command> out;
         add_pass(out, {.kind = PassKind::faces}, 0);
         add_pass(out, {.kind = PassKind::normals}, 0);
+        add_pass(out, {.kind = PassKind::smooth_faces}, 0);
+        add_pass(out, {.kind = PassKind::normals}, 0);
         if (!errors_.empty()) return errors_;
         return out;
     }
@@ -98,9 +100,7 @@ class Compiler : ClothArgs {
 
     // Normals come after the check for finite numbers, because it may roll the state back.
     void add_frame_end(CompiledPlan& out) {
-        const auto is_surface = [](const Pass& pass) {
-            return pass.kind == PassKind::faces || pass.kind == PassKind::normals;
-        };
+        const auto is_surface = [](const Pass& pass) { return pass_info(pass.kind).stage == stage_surface; };
         for (const IslandPass& one : passes_.frame_end()) {
             if (!is_surface(one.pass)) add_passes(out.commands, std::span(&one, 1), plan_.substeps - 1);
         }
@@ -226,6 +226,9 @@ class Compiler : ClothArgs {
                 break;
             case PassKind::faces:
                 add(list, "faces", face_args(), model_.face_stride, pass, substep);
+                break;
+            case PassKind::smooth_faces:
+                add(list, "smooth_faces", face_args(), model_.face_stride, pass, substep);
                 break;
             case PassKind::push:
                 add(list, "push", around_args(), model_.particle_count, pass, substep);

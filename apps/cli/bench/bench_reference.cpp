@@ -124,6 +124,8 @@ class TrafficCounter {
                         .shared = block * (2 * particles + (plan_.frame_begin.empty() ? 1 : 2) * triangles)};
             case PassKind::push:  // all four arrays of a particle read, three written
                 return {.own = corners, .shared = block * (7 * particles + triangles)};
+            case PassKind::smooth_faces:  // normals read, a block per triangle read and written
+                return {.own = corners, .shared = block * (particles + 2 * triangles)};
             default:  // wind, faces: positions read, a block per triangle written; normals: the reverse
                 return {.own = corners, .shared = block * (particles + triangles)};
         }
@@ -217,6 +219,7 @@ class TrafficCounter {
             case PassKind::air:
             case PassKind::push:
             case PassKind::faces:
+            case PassKind::smooth_faces:
             case PassKind::normals:
                 return count_faces(pass);
         }

@@ -53,5 +53,47 @@ TEST(Normals, of_a_wave_converge_to_the_surface_s) {
     }
 }
 
+// Normals (t, 1, 0), normalized, with t = tilt(column), on a grid of cells with alternating diagonals: the smoothed
+// slope t of the normal at a particle of column 0 with eight triangles, or with four.
+double smoothed_slope(bool eight, double (*tilt)(int column)) {
+    const auto normal = [&](int column) {
+        const vec3 n(tilt(column), 1, 0);
+        return n * (1 / norm(n));
+    };
+    vec3 sum(0.0);
+    for (const int x : {-1, 1}) {
+        for (int row = 0; row < 2; ++row) {  // the cells on both sides of the row
+            const vec3 face(0, 1, 0);
+            if (eight) {  // the diagonal of the cell begins here
+                sum = sum + reference::smooth_face(face, normal(0), normal(x), normal(x));
+                sum = sum + reference::smooth_face(face, normal(0), normal(x), normal(0));
+            } else {
+                sum = sum + reference::smooth_face(face, normal(0), normal(x), normal(0));
+            }
+        }
+    }
+    const vec3 n = reference::unit_normal(sum);
+    return n.x / n.y;
+}
+
+TEST(SmoothNormals, keep_long_waves_and_lose_the_zigzag_of_single_cells) {
+    constexpr double slope = 1e-3;
+    const auto constant = [](int) { return slope; };
+    const auto zigzag = [](int column) { return column % 2 == 0 ? slope : -slope; };
+    const auto four_cells = [](int column) { return column % 2 == 0 ? slope : 0.0; };
+    for (const bool eight : {false, true}) EXPECT_NEAR(smoothed_slope(eight, constant), slope, 1e-9);
+    EXPECT_NEAR(smoothed_slope(true, zigzag), 0, 1e-9);
+    EXPECT_NEAR(smoothed_slope(false, zigzag), slope / 3, 1e-9);
+    EXPECT_NEAR(smoothed_slope(true, four_cells), slope / 2, 1e-9);
+    EXPECT_NEAR(smoothed_slope(false, four_cells), slope * 2 / 3, 1e-9);
+}
+
+TEST(SmoothNormals, weigh_triangles_by_their_area_and_ignore_those_without) {
+    const vec3 up(0, 1, 0), side(1, 0, 0);
+    const vec3 sum =
+        reference::smooth_face(vec3(0, 0, 3), up, up, up) + reference::smooth_face(vec3(0, 0, 0), side, side, side);
+    EXPECT_LT(norm(sum - vec3(0, 9, 0)), 1e-12);
+}
+
 }  // namespace
 }  // namespace weft

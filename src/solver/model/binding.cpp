@@ -29,14 +29,30 @@ FollowFrame frame_at(const BoundVertex& vertex, std::span<const Vec4> positions,
                                 vertex.weights[1]);
 }
 
-// Normals as defined in surface/normals.md.
+constexpr float least_square = 1e-30f;
+
 std::vector<Vec3> area_weighted_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
     std::vector<Vec3> sums(positions.size());
     for (const auto& [a, b, c] : triangles) {
         const Vec3 n = cross(positions[b] - positions[a], positions[c] - positions[a]);
         for (const std::uint32_t corner : {a, b, c}) sums[corner] += n;
     }
-    for (Vec3& n : sums) n = dot(n, n) > 1e-30f ? normalized(n) : Vec3{};
+    for (Vec3& n : sums) n = dot(n, n) > least_square ? normalized(n) : Vec3{};
+    return sums;
+}
+
+// Normals of particles as defined in surface/normals.md.
+std::vector<Vec3> smooth_normals(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+    std::vector<Vec3> normals = area_weighted_normals(positions, triangles), sums(positions.size());
+    for (Vec3& n : normals)
+        if (n == Vec3{}) n = {0, 1, 0};
+    for (const auto& [a, b, c] : triangles) {
+        const Vec3 face = cross(positions[b] - positions[a], positions[c] - positions[a]);
+        const Vec3 n =
+            gathered(scalar::smooth_face(spread(face), spread(normals[a]), spread(normals[b]), spread(normals[c])));
+        for (const std::uint32_t corner : {a, b, c}) sums[corner] += n;
+    }
+    for (Vec3& n : sums) n = dot(n, n) > least_square ? normalized(n) : Vec3{0, 1, 0};
     return sums;
 }
 
@@ -55,8 +71,8 @@ std::vector<Vec3> normals_to_draw(const TriangleMesh& mesh) {
 
 Binder::Binder(const Topology& topology) : topology_(topology), search_(topology.rest_positions, topology.triangles) {
     for (const Vec3 p : topology.rest_positions) positions_.push_back({p.x, p.y, p.z, 0});
-    for (const Vec3 n : area_weighted_normals(topology.rest_positions, topology.triangles))
-        normals_.push_back(n == Vec3{} ? Vec4{0, 1, 0, 0} : Vec4{n.x, n.y, n.z, 0});
+    for (const Vec3 n : smooth_normals(topology.rest_positions, topology.triangles))
+        normals_.push_back({n.x, n.y, n.z, 0});
 }
 
 BoundVertex Binder::bind(Vec3 position, Vec3 normal, std::uint32_t triangle,

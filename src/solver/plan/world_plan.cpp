@@ -72,6 +72,8 @@ class Planner {
         if (settings_.surface) {
             plan.frame_end.push_back({.kind = PassKind::faces});
             plan.frame_end.push_back({.kind = PassKind::normals});
+            plan.frame_end.push_back({.kind = PassKind::smooth_faces});
+            plan.frame_end.push_back({.kind = PassKind::normals});
         }
         return plan;
     }

@@ -87,6 +87,14 @@ void run_faces(uint t)
     face_args.at.by_face.at[t] = vec4(face_normal(x[0], x[1], x[2]), 0.0);
 }
 
+void run_smooth_faces(uint t)
+{
+    vec3 n[3];
+    for (uint k = 0u; k < 3u; ++k)
+        n[k] = face_args.at.normals.at[face_args.at.faces.at[k * face_args.at.stride + t]].xyz;
+    face_args.at.by_face.at[t] = vec4(smooth_face(face_args.at.by_face.at[t].xyz, n[0], n[1], n[2]), 0.0);
+}
+
 vec3 sum_around(uint p)
 {
     vec3 sum = vec3(0.0);

@@ -123,6 +123,7 @@ void run_command(uint me, uint all)
     WEFT_EACH(wind)
     WEFT_EACH(air)
     WEFT_EACH(faces)
+    WEFT_EACH(smooth_faces)
     WEFT_EACH(push)
     WEFT_EACH(normals)
     case WEFT_ID_lines:
