@@ -131,6 +131,8 @@ ContactView ClothRun::contact_view(const NearCollider& near, std::uint32_t subst
             .kinetic_friction = kinetic_friction,
             .half_thickness = numbers_.half_thickness,
             .depenetration = numbers_.depenetration,
+            .fall = input_.gravity * numbers_.h,
+            .h = numbers_.h,
             .free = bodies_.empty() && cloth_.steady_parts.empty() ? nullptr : cloth_.weights().data(),
             .number = static_cast<float>(near.collider)};
 }

@@ -82,10 +82,10 @@ WEFT_FN void store_taken(const Support& support, const SupportView& view, std::s
 }
 
 // Adds to the push of a collider what it has taken from bodies. Returns it, as a displacement.
-WEFT_FN vec3 add_taken(const SupportView& view, real number, ContactSum& sum, std::size_t i) {
+WEFT_FN vec3 add_taken(const SupportView& view, real number, ContactSum& sum, ContactBody& body, std::size_t i) {
     if (!view.plane) return vec3(real(0.0f));
     Support support = load_support(view, i);
-    return take_support(sum, support, number);
+    return take_support(sum, body, support, number);
 }
 
 template <class Shape>
@@ -100,8 +100,11 @@ inline void find_support_pass(const ParticleView& p, const ContactView& c, Range
         const real gap = Shape::distance(local, solid.numbers, normal) - body.half_thickness;
         if (!any(gap < body.half_thickness)) continue;
         Support support = load_support(c.support, i);
-        support_by(support, x, gap, rotate(body.rx, body.ry, body.rz, normal), body.half_thickness,
-                   body.static_friction, real(c.number), carried_by(body, local));
+        const vec3 world_normal = rotate(body.rx, body.ry, body.rz, normal), carried = carried_by(body, local);
+        const vec3 velocity = load_blocks_unordered(p.velocity + 4 * i, unused) - spread(c.fall) - carried * real(1.0f / c.h);
+        support_by(support, x, gap, world_normal, body.half_thickness,
+                   friction_on_support(velocity, world_normal, body.static_friction, body.kinetic_friction),
+                   real(c.number), carried);
         store_blocks_unordered(support.normal, support.offset, c.support.plane + 4 * i);
         store_blocks_unordered(support.carried, support.collider, c.support.carried + 4 * i);
         store_blocks_unordered(vec3(support.friction), real(0.0f), c.support.friction + 4 * i);
@@ -110,7 +113,7 @@ inline void find_support_pass(const ParticleView& p, const ContactView& c, Range
 
 template <class Shape, bool traced>
 inline void contact_pass(const ParticleView& p, const ContactView& c, Range range) {
-    const ContactBody body = make_body(c);
+    const ContactBody all = make_body(c);
     const Solid solid = solid_of(c);
     for (std::size_t i = range.begin; i < range.end; i += lane_count) {
         real w, unused;
@@ -119,7 +122,8 @@ inline void contact_pass(const ParticleView& p, const ContactView& c, Range rang
         ContactSum sum = {vec3(real(0.0f)), real(0.0f)};
         const std::size_t at = i - range.begin;
         if (c.sums && !c.first_iteration) sum.friction = load_blocks_unordered(c.sums + 4 * at, sum.push);
-        const vec3 taken = add_taken(c.support, real(c.number), sum, i);
+        ContactBody body = all;
+        const vec3 taken = add_taken(c.support, real(c.number), sum, body, i);
 
         const vec3 local = to_body(body, x);
         vec3 normal;

@@ -74,6 +74,8 @@ struct ContactView {
     Pose now, before;                            ///< at the end and at the start of the substep
     float static_friction, kinetic_friction;
     float half_thickness, depenetration;  ///< m
+    Vec3 fall = {};                       ///< m/s: what gravity adds to the velocity in a substep
+    float h = 0;                          ///< s
     float* sums = nullptr;                ///< a ContactSum per particle of the range; nullptr with a single iteration
     bool first_iteration = true;          ///< of the substep: sums begin anew
     float* moved = nullptr;       ///< ContactTrace, blocks of four per particle of the range; contact_traced only

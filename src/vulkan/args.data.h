@@ -329,6 +329,7 @@ struct LevelLimitArgs {
 struct ContactArgs {
     Vec4s position;
     Vec4s start;
+    Vec4s velocity;  // with bodies only
     Vec4s sums;  // [slot · tile + particle in the tile]: ContactSum; 0 with one iteration
     Vec4s contact_log;  // likewise: ContactTrace::moved, then turned; 0 without contact forces
     FrameRef frame;

@@ -377,6 +377,7 @@ class Compiler : ClothArgs {
     void add_contacts(List& list, const Pass& pass, std::uint32_t substep) {
         const ContactArgs args{.position = state(PointArray::position),
                                .start = state(PointArray::start),
+                               .velocity = state(PointArray::velocity),
                                .sums = work(work_.contact_sums),
                                .contact_log = work(work_.contact_log),
                                .frame = input_.frame(),

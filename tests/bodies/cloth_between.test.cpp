@@ -109,16 +109,21 @@ TEST(ClothBetween, does_not_throw_a_body_that_begins_in_it) {
     EXPECT_NEAR(world.body(id).state.place.y, resting_height(0.1f), 0.02f * thickness());
 }
 
-// How far a box goes that stands on cloth, which is pulled away by one edge.
-float goes_along(float speed, std::uint32_t substeps) {
-    World world = make_world({.solver = {.substeps = substeps}});
+// Adds cloth whose edge is pulled over the table at this speed, from 0.25 s on.
+void add_pulled_cloth(World& world, float speed, float way) {
     const auto is_edge = [](Vec3 p) { return p.x > 0.499f; };
     const auto model = table_cloth(41, is_edge);
     KinematicTargets targets;
-    targets.motions.push_back({.offsets = {{0.25f, {}}, {0.25f + 1.2f / speed, {1.2f, 0, 0}}}});
+    targets.motions.push_back({.offsets = {{0.25f, {}}, {0.25f + way / speed, {way, 0, 0}}}});
     for (std::uint32_t p = 0; p < model->particle_count; ++p)
         if (is_edge(model->start[p].xyz())) targets.particles.push_back({p, 0, model->start[p].xyz()});
     world.add(model, targets);
+}
+
+// How far a box goes that stands on cloth, which is pulled away by one edge.
+float goes_along(float speed, std::uint32_t substeps) {
+    World world = make_world({.solver = {.substeps = substeps}});
+    add_pulled_cloth(world, speed, 1.2f);
     world.add(make_table({0, -0.05f, 0}));
     const ColliderId id = world.add(rubbed(make_box({0.05f, 0.05f, 0.05f}, 0.3f, {-0.2f, resting_height(0.05f), 0})));
     run(world, 0.25 + double{1.2f / speed});
@@ -127,6 +132,23 @@ float goes_along(float speed, std::uint32_t substeps) {
 
 TEST(ClothBetween, leaves_a_box_behind_when_it_is_pulled_away_fast) {
     for (const std::uint32_t substeps : {20u, 40u}) EXPECT_LT(std::abs(goes_along(4, substeps)), 0.08f) << substeps;
+}
+
+// With static friction above kinetic friction, cloth that had to be pulled loose in each substep would hold the boxes.
+TEST(ClothBetween, takes_boxes_along_when_it_is_pulled_slowly) {
+    constexpr float speed = 0.1f, way = 2 * speed;
+    for (const float mass : {0.03f, 0.3f, 3.0f}) {
+        World world = make_world({.solver = {.substeps = 20}});
+        add_pulled_cloth(world, speed, way);
+        Collider table = make_table({0, -0.05f, 0});
+        table.friction = {0.5f, 0.35f};
+        world.add(std::move(table));
+        Collider box = make_box({0.05f, 0.05f, 0.05f}, mass, {-0.2f, resting_height(0.05f), 0});
+        box.friction = {0.5f, 0.35f};
+        const ColliderId id = world.add(std::move(box));
+        run(world, 2.25);
+        EXPECT_NEAR(world.body(id).state.place.x + 0.2f, way, 0.15f * way) << mass << " kg";
+    }
 }
 
 // How far a box slides in a second on cloth that lies on a sloping table, pinned at its upper edge.

@@ -4,6 +4,9 @@
 // overlap: the body moves, not the cloth, and keeps the velocity.
 #define WEFT_SLOW_LIFT 0.1
 
+// m/s: a faster particle slides on its support.
+#define WEFT_SLIDING 0.002
+
 // A particle between a body and a collider (law: body.md). What the body presses on it, the collider takes.
 
 struct Support {
@@ -39,6 +42,15 @@ WEFT_FN real room_before(Support support, vec3 x, vec3 normal, real depenetratio
     return select(faces, max(room, -depenetration), real(1e30));
 }
 
+// The coefficient of friction on the support in a substep. A particle that slid on it keeps sliding until friction stops
+// it. Otherwise it would have to be pulled loose in each substep, and cloth that is dragged slowly would jerk.
+//   velocity   m/s, of the particle relative to the support at the start of the substep
+WEFT_FN real friction_on_support(vec3 velocity, vec3 normal, real static_friction, real kinetic_friction)
+{
+    vec3 slip = velocity - normal * dot(velocity, normal);
+    return select(dot(slip, slip) > real(WEFT_SLIDING) * real(WEFT_SLIDING), kinetic_friction, static_friction);
+}
+
 // Of all colliders that a particle is near, the deepest supports it.
 //   gap, normal   to the collider; world
 WEFT_FN void support_by(inout_(Support) support, vec3 x, real gap, vec3 normal, real half_thickness, real friction,
@@ -65,9 +77,10 @@ WEFT_FN void rub_on_support(inout_(vec3) x, inout_(ContactSum) back, Support sup
 }
 
 // What the collider has taken counts as its own push, so its friction can be as large. Returns it, as a displacement.
-WEFT_FN vec3 take_support(inout_(ContactSum) sum, Support support, real collider)
+WEFT_FN vec3 take_support(inout_(ContactSum) sum, inout_(ContactBody) body, Support support, real collider)
 {
-    mask mine = abs(support.collider - collider) < real(0.5);
+    mask mine = dot(support.normal, support.normal) > real(0) && abs(support.collider - collider) < real(0.5);
+    body.static_friction = select(mine, support.friction, body.static_friction);
     real pushed = select(mine, support.pushed, real(0));
     vec3 rubbed = select(mine, support.rubbed, vec3(real(0), real(0), real(0)));
     sum.push = sum.push + pushed;

@@ -31,6 +31,9 @@ NearBody near_body(uint slot, vec3 x, vec3 start)
 Support find_support(uint p, vec3 x, uvec2 slots)
 {
     Support support = no_support();
+    FrameRef frame = contact_args.at.frame;
+    // At the start of the substep: prediction has added what gravity gives.
+    vec3 velocity = contact_args.at.velocity.at[p].xyz - gravity_of(frame) * frame.at.h;
     for (uint slot = slots.x; slot < slots.y; ++slot) {
         if (holds_body(slot)) continue;
         uint number = contact_args.at.slots.at[slot];
@@ -38,8 +41,11 @@ Support find_support(uint p, vec3 x, uvec2 slots)
         ContactBody body = body_of(contact_args.at.colliders, collider, contact_args.at.frame, contact_substep());
         vec3 local = to_body(body, x), normal;
         float gap = solid_distance(solid_of(collider), local, normal) - body.half_thickness;
-        support_by(support, x, gap, rotate(body.rx, body.ry, body.rz, normal), body.half_thickness,
-                   body.static_friction, float(number), carried_by(body, local));
+        vec3 world_normal = rotate(body.rx, body.ry, body.rz, normal), carried = carried_by(body, local);
+        vec3 slides = velocity - carried * contact_args.at.frame.at.inv_h;
+        support_by(support, x, gap, world_normal, body.half_thickness,
+                   friction_on_support(slides, world_normal, body.static_friction, body.kinetic_friction),
+                   float(number), carried);
     }
     store_support(p, support);
     return support;

@@ -72,6 +72,8 @@ uint take_sum(Uints sums, uint p, uint axis)
 }
 #endif
 
+vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravity_y, frame.at.gravity_z); }
+
 Step substep_of(FrameRef frame)
 {
     return Step(frame.at.h, frame.at.inv_h, frame.at.inv_h2, 0.0, 1.0, 0.0, 0.0, 0.0);

@@ -93,7 +93,7 @@ bool meet_collider(uint slot, uint p, inout vec4 x, vec3 start, Support support)
         vec4 kept = contact_args.at.sums.at[at];
         sum = ContactSum(kept.xyz, kept.w);
     }
-    vec3 taken = take_support(sum, support, float(contact_args.at.slots.at[slot]));
+    vec3 taken = take_support(sum, body, support, float(contact_args.at.slots.at[slot]));
     Solid solid = solid_of(collider);
     vec3 local = to_body(body, x.xyz), local_at_start = to_body_at_start(body, start), step = local - local_at_start;
     float way = sqrt(dot(step, step));

@@ -25,8 +25,6 @@ vec3 felt_at(uint p, vec3 acceleration)
     return is_none(uvec2(particle_args.at.steady_parts)) ? acceleration : acceleration * particle_args.at.steady_parts.at[p];
 }
 
-vec3 gravity_of(FrameRef frame) { return vec3(frame.at.gravity_x, frame.at.gravity_y, frame.at.gravity_z); }
-
 void report_capped(bool capped)
 {
     if (capped) atomicOr(particle_args.at.report.at[0], WEFT_REPORT_SPEED_CAPPED);
