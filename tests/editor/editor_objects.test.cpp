@@ -100,7 +100,9 @@ TEST_F(EditorWindow, sets_of_groups_are_boxes_and_pairs_of_numbers_have_names) {
     pause();
     e.click("objects/cloths/0/select");
     const std::string mask = "properties/cloths/0/collision_mask";
-    e.scroll_to(mask + "/3", "properties/cloths/0/name");
+    e.scroll_to("properties/cloths/0/more", "properties/cloths/0/name");
+    e.click("properties/cloths/0/more");
+    e.scroll_to(mask + "/3", "properties/cloths/0/more");
     EXPECT_EQ(e.value(mask), "all");
     e.click(mask + "/3");
     EXPECT_EQ(e.value(mask + "/3"), "off");
@@ -113,7 +115,7 @@ TEST_F(EditorWindow, sets_of_groups_are_boxes_and_pairs_of_numbers_have_names) {
     e.key("Delete");
     EXPECT_EQ(e.value(mask), "all");
     const std::string friction = "properties/cloths/0/fabric/friction/";
-    e.scroll_to(friction + "kinetic", "properties/cloths/0/name");
+    e.scroll_to(friction + "kinetic", mask + "/3");
     EXPECT_GT(e.number(friction + "static"), e.number(friction + "kinetic"));
     e.click("objects/./select");
     EXPECT_NEAR(e.number("properties/./gravity/y"), -9.81, 0.01) << "the scene's own values";

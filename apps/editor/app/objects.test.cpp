@@ -60,7 +60,9 @@ TEST(Properties, know_every_value_of_a_scene) {
     for (const std::string& place : places) {
         const PropertyGroup group = properties_of(*document, place);
         EXPECT_FALSE(group.values.empty()) << place;
-        for (const Property& property : group.values) {
+        std::vector<Property> all = group.values;
+        all.insert(all.end(), group.seldom.begin(), group.seldom.end());
+        for (const Property& property : all) {
             if (property.parameter->required) continue;
             const auto value = value_of(*document, place, property);
             ASSERT_TRUE(value) << place << '/' << property.key();
@@ -83,6 +85,19 @@ TEST(Properties, take_defaults_from_the_preset) {
         return 0.0;
     };
     EXPECT_NE(density("/cloths/0/fabric"), density("/cloths/1/fabric")) << "silk and cotton";
+}
+
+TEST(Properties, of_a_cloth_begin_with_what_is_changed_often) {
+    const PropertyGroup group = properties_of(*small_document(), "/cloths/0");
+    std::vector<std::string> values, seldom, children;
+    for (const Property& property : group.values) values.emplace_back(property.key());
+    for (const Property& property : group.seldom) seldom.emplace_back(property.key());
+    for (const ChildProperty& child : group.children) children.emplace_back(child.key());
+    EXPECT_THAT(values, ElementsAre("name", "self_collision", "tearing"));
+    EXPECT_THAT(seldom, Contains("collision_mask"));
+    ASSERT_GE(children.size(), 5u);
+    children.resize(5);
+    EXPECT_THAT(children, ElementsAre("fabric", "transform", "mesh", "material", "pins"));
 }
 
 TEST(Properties, show_the_alternative_that_an_object_has) {

@@ -281,6 +281,8 @@ void Properties::object(Ui& ui, Session& session, const std::string& place, int 
             object(ui, session, below, depth + 1);
         }
     }
+    if (group.seldom.empty() || !open(ui, at(place, "more"), "More", false)) return;
+    for (const Property& property : group.seldom) PropertyRow(ui, session, place, property).show();
 }
 
 void Properties::list(Ui& ui, Session& session, const std::string& place, const std::string& label, int depth) {

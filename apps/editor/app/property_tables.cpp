@@ -44,6 +44,12 @@ constexpr Companion companions[] = {
     {"/cloths/*/resistance/*", "factors", "vertices"},
 };
 
+/// Keys of a cloth in the order in which they are shown before all others.
+constexpr std::string_view first_of_cloth[] = {"fabric", "transform", "mesh", "material", "pins"};
+/// Values of a cloth that few scenes change.
+constexpr std::string_view seldom_of_cloth[] = {"velocity",        "tethers",        "tether_slack", "tear_room",
+                                                "collision_group", "collision_mask", "layer"};
+
 /// Numbers that are not along x, y and z. `pattern`: empty: in every object.
 struct Parts {
     std::string_view pattern, key;
@@ -177,9 +183,15 @@ PropertyGroup properties_of(const Document& document, const std::string& place) 
             if (companion != std::end(companions) && !has(companion->needs)) continue;
             if (p.kind == ParameterKind::object || p.kind == ParameterKind::list)
                 group.children.push_back({&p, p.kind == ParameterKind::list});
+            else if (own == "/cloths/*" && std::ranges::find(seldom_of_cloth, p.key) != std::end(seldom_of_cloth))
+                group.seldom.push_back({&p, defaults});
             else
                 group.values.push_back({&p, defaults});
         }
+    }
+    if (own == "/cloths/*") {
+        const auto place_of = [](const ChildProperty& child) { return std::ranges::find(first_of_cloth, child.key()); };
+        std::ranges::stable_sort(group.children, {}, place_of);
     }
     return group;
 }

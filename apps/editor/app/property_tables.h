@@ -30,7 +30,8 @@ struct ChildProperty {
 /// Keys of one object of a scene.
 struct PropertyGroup {
     std::vector<Property> values;
-    std::vector<ChildProperty> children;
+    std::vector<Property> seldom;         ///< values that few scenes change, for a section of their own
+    std::vector<ChildProperty> children;  ///< the most used ones first
     /// Keys of which the object has exactly one, such as the shapes of a collider.
     std::vector<std::string_view> one_of;
 };
