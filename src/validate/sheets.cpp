@@ -4,6 +4,7 @@
 #include "collide/body_mass.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -64,6 +65,13 @@ void run(World& world, double seconds, double frame_seconds) {
     if (world.frame().reports & report_non_finite) throw std::runtime_error("the state became non-finite");
 }
 
+double timed_run(World& world, double seconds) {
+    const auto begin = std::chrono::steady_clock::now();
+    run(world, seconds);
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+    return taken.count() / std::round(60 * seconds);
+}
+
 void settle(World& world, double seconds, double frame_seconds, double slow) {
     const long frames = std::lround(seconds / frame_seconds);
     double before = 0;
@@ -84,13 +92,17 @@ void settle(World& world, double seconds, double frame_seconds, double slow) {
             continue;
         }
         before = 0;
-        Snapshot snapshot = world.save();
-        for (ClothSnapshot& cloth : snapshot.cloths) {
-            std::ranges::fill(cloth.velocity, Vec4{});
-            std::ranges::fill(cloth.compensation, Vec4{});
-        }
-        if (auto restored = world.restore(snapshot); !restored) throw std::runtime_error(restored.error().message());
+        stop(world);
     }
+}
+
+void stop(World& world) {
+    Snapshot snapshot = world.save();
+    for (ClothSnapshot& cloth : snapshot.cloths) {
+        std::ranges::fill(cloth.velocity, Vec4{});
+        std::ranges::fill(cloth.compensation, Vec4{});
+    }
+    if (auto restored = world.restore(snapshot); !restored) throw std::runtime_error(restored.error().message());
 }
 
 std::vector<Vec4> places(const World& world) {
@@ -109,16 +121,19 @@ double rms_distance(const std::vector<Vec4>& a, const std::vector<Vec4>& b) {
 
 void compare_with_converged(Validation& validation, RestingShape shape, double (*known)(std::uint32_t substeps)) {
     const std::uint32_t side = validation.quick() ? 17 : 33;
-    const auto converged = shape(validation, side, 300, false);
+    const auto converged = shape(validation, side, 300, false).places;
     for (const std::uint32_t substeps : {5u, 10u, 20u, 60u}) {
         if (validation.quick() && substeps != 20) continue;
+        const Rest rest = shape(validation, side, substeps, true);
         validation.add({.what = "distance from the converged sheet (RMS), " + std::to_string(side) + "², " +
                                 std::to_string(substeps) + " substeps, default solver",
                         .unit = "m",
-                        .measured = rms_distance(shape(validation, side, substeps, true), converged),
+                        .measured = rms_distance(rest.places, converged),
                         .expected = 0.003,
                         .bound = Bound::at_most,
-                        .known = known(substeps)});
+                        .known = known(substeps),
+                        .settings = {{"side", side}, {"substeps", substeps}},
+                        .ms_per_frame = rest.ms_per_frame});
     }
 }
 

@@ -43,12 +43,21 @@ void run(World& world, double seconds, double frame_seconds = 1.0 / 60);
 /// The end is the equilibrium of the constraints. Ends before `seconds` once no particle is faster than `slow` m/s.
 void settle(World& world, double seconds, double frame_seconds = 1.0 / 60, double slow = 1e-5);
 
+/// Sets all velocities to 0.
+void stop(World& world);
+
 /// Where the particles of the first cloth are, m.
 std::vector<Vec4> places(const World& world);
 /// m: root of the mean square of the distances between particles of the same number.
 double rms_distance(const std::vector<Vec4>& a, const std::vector<Vec4>& b);
-/// The places of a sheet of side² particles at rest.
-using RestingShape = std::vector<Vec4> (*)(const Validation&, std::uint32_t side, std::uint32_t substeps, bool levels);
+/// As run(). Returns the wall time per frame, ms.
+double timed_run(World& world, double seconds);
+struct Rest {
+    std::vector<Vec4> places;  ///< m
+    double ms_per_frame = 0;
+};
+/// A sheet of side² particles at rest.
+using RestingShape = Rest (*)(const Validation&, std::uint32_t side, std::uint32_t substeps, bool levels);
 /// Checks how far the default solver is from 300 substeps without coarse levels, for several numbers of substeps.
 /// `known`: ValidationCheck::known by number of substeps.
 void compare_with_converged(Validation& validation, RestingShape shape, double (*known)(std::uint32_t substeps));

@@ -60,13 +60,14 @@ void Validation::add(ValidationCheck check) {
 }
 
 void Validation::add_near(std::string what, double measured, double expected, double relative, std::string unit,
-                          double known_relative) {
+                          double known_relative, std::vector<ValidationSetting> settings) {
     add({.what = std::move(what),
          .unit = std::move(unit),
          .measured = measured,
          .expected = expected,
          .tolerance = relative * std::abs(expected),
-         .known = known_relative * std::abs(expected)});
+         .known = known_relative * std::abs(expected),
+         .settings = std::move(settings)});
 }
 
 std::span<const ValidationCase> validation_cases() {

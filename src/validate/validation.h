@@ -7,10 +7,14 @@
 #include <weft/result.h>
 #include <weft/simulation.h>
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace weft {
@@ -19,6 +23,17 @@ enum class Bound {
     near,      ///< |measured − expected| ≤ tolerance
     at_most,   ///< measured ≤ expected
     at_least,  ///< measured ≥ expected
+};
+
+/// A setting of a check, so that results can be sorted and plotted.
+struct ValidationSetting {
+    std::string_view name;  ///< the same in all cases: "cells", "gamma", "substeps", ...
+    std::variant<double, std::string> value;
+
+    template <class T>
+    requires std::is_arithmetic_v<T> ValidationSetting(std::string_view of, T number)
+        : name(of), value(static_cast<double>(number)) {}
+    ValidationSetting(std::string_view of, std::string text) : name(of), value(std::move(text)) {}
 };
 
 /// One number against its reference.
@@ -31,6 +46,9 @@ struct ValidationCheck {
     /// If not 0: weft is known to miss the reference. The deviation that was measured when the check was written, in
     /// `unit`; tests fail if it grows beyond that by a tenth and the tolerance.
     double known = 0;
+    std::vector<ValidationSetting> settings = {};
+    double ms_per_frame = 0;                          ///< wall time of a frame; 0: not measured
+    std::vector<std::array<double, 2>> outline = {};  ///< m: closed outline of the cloth from above, if measured
 
     /// How far the number is from what it may be, in `unit`: measured − expected for Bound::near, else the part beyond
     /// the bound.
@@ -60,7 +78,7 @@ class Validation {
     void add(ValidationCheck check);
     /// A check with a tolerance in parts of the expected value.
     void add_near(std::string what, double measured, double expected, double relative, std::string unit,
-                  double known_relative = 0);
+                  double known_relative = 0, std::vector<ValidationSetting> settings = {});
 
     /// Called after each check.
     std::function<void(const ValidationCheck&)> on_check = {};

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <variant>
 
 namespace weft::cli {
 namespace {
@@ -81,6 +82,10 @@ Json json_of(const ValidationResult& result) {
         to["bound"] = bounds[static_cast<int>(check.bound)];
         if (check.bound == Bound::near) to["tolerance"] = json_of(check.tolerance);
         to["pass"] = check.passes();
+        for (const auto& [name, value] : check.settings)
+            std::visit([&, key = std::string(name)](const auto& v) { to["settings"][key] = v; }, value);
+        if (check.ms_per_frame > 0) to["ms_per_frame"] = check.ms_per_frame;
+        if (!check.outline.empty()) to["outline"] = check.outline;
     }
     return out;
 }

@@ -2,6 +2,7 @@
 #include "validate/sheets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -44,6 +45,8 @@ TriangleMesh round_mesh(std::uint32_t rings) {
 struct Draped {
     double coefficient = 0;  ///< %
     int folds = 0;
+    std::vector<std::array<double, 2>> rim = {};  ///< m, from above
+    double ms_per_frame = 0;
 };
 
 Draped drape(const Validation& validation, const Fabric& fabric, std::uint32_t rings, std::uint32_t substeps) {
@@ -59,7 +62,7 @@ Draped drape(const Validation& validation, const Fabric& fabric, std::uint32_t r
                               return Vec3{p.x, 1e-5f * (std::sin(5 * angle) + std::sin(7 * angle + 1)), p.z};
                           },
                       .pinned = [](Vec3 p) { return dot(p, p) < static_cast<float>(disc * disc) * 1.0001f; }});
-    run(world, 4);
+    const double ms = timed_run(world, 4);
     // The shadow from above, from the triangles, on a raster of half a millimeter.
     constexpr int pixels = 640;
     constexpr double pixel = 5e-4;
@@ -94,7 +97,7 @@ Draped drape(const Validation& validation, const Fabric& fabric, std::uint32_t r
     }
     const double covered = static_cast<double>(std::ranges::count(shadow, 1)) * pixel * pixel;
     const double inner = std::numbers::pi * disc * disc, outer = std::numbers::pi * specimen * specimen;
-    Draped draped{.coefficient = 100 * (covered - inner) / (outer - inner)};
+    Draped draped{.coefficient = 100 * (covered - inner) / (outer - inner), .ms_per_frame = ms};
     // Folds: how often the rim changes from nearer to farther than its mean distance from the axis.
     const std::uint32_t count = 6 * rings, first = 1 + 3 * rings * (rings - 1);
     std::vector<double> distance(count);
@@ -103,6 +106,7 @@ Draped drape(const Validation& validation, const Fabric& fabric, std::uint32_t r
         const Vec4 p = cloth.positions[first + i];
         distance[i] = std::hypot(double{p.x}, double{p.z});
         mean += distance[i] / count;
+        draped.rim.push_back({double{p.x}, double{p.z}});
     }
     for (std::uint32_t i = 0; i < count; ++i)
         if (distance[i] < mean && distance[(i + 1) % count] >= mean) ++draped.folds;
@@ -138,7 +142,10 @@ void validate_drape(Validation& validation) {
                             .measured = draped.coefficient,
                             .expected = 0.5 * (range.low + range.high),
                             .tolerance = 0.5 * (range.high - range.low),
-                            .known = range.known[substeps == many ? 1 : 0]});
+                            .known = range.known[substeps == many ? 1 : 0],
+                            .settings = {{"fabric", range.fabric}, {"substeps", substeps}},
+                            .ms_per_frame = draped.ms_per_frame,
+                            .outline = draped.rim});
         }
     }
 }

@@ -1,8 +1,7 @@
 #include "validate/sheets.h"
+#include "validate/weaves.h"
 
 #include <cmath>
-#include <numbers>
-#include <random>
 #include <string>
 #include <utility>
 
@@ -11,7 +10,6 @@ namespace weft {
 using namespace cases;
 namespace {
 
-enum class PullMesh { alternating, uniform, cross, irregular };
 enum class Pull { warp, weft, bias, shear };
 
 struct Woven {
@@ -24,53 +22,6 @@ constexpr Woven wovens[] = {{"cotton", 4000, 4000, 40}, {"rubber", 300, 300, 100
 
 constexpr double most_strain = 4e-3;  // at the upper edge
 
-const char* name_of(PullMesh mesh) {
-    switch (mesh) {
-        case PullMesh::alternating:
-            return "alternating";
-        case PullMesh::uniform:
-            return "uniform";
-        case PullMesh::cross:
-            return "cross";
-        case PullMesh::irregular:
-            return "irregular";
-    }
-    return "";
-}
-
-// Cells of 1/8 m.
-TriangleMesh pulled_mesh(PullMesh kind, std::uint32_t columns, std::uint32_t rows) {
-    const std::array<float, 2> size{static_cast<float>(columns) / 8, static_cast<float>(rows) / 8};
-    const GridDiagonal diagonal = kind == PullMesh::uniform ? GridDiagonal::uniform
-                                  : kind == PullMesh::cross ? GridDiagonal::cross
-                                                            : GridDiagonal::alternating;
-    TriangleMesh mesh = make_grid(size, {columns + 1, rows + 1}, diagonal);
-    if (kind != PullMesh::irregular) return mesh;
-    std::mt19937 random(7);
-    const auto offset = [&] { return 0.04f * (static_cast<float>(random() % 2001) / 1000 - 1); };
-    for (Vec3& p : mesh.positions) {
-        const float x = offset(), z = offset();
-        if (std::abs(p.x) < size[0] / 2 - 0.01f && std::abs(p.z) < size[1] / 2 - 0.01f) p.x += x, p.z += z;
-    }
-    return mesh;
-}
-
-// The warp at this angle to x.
-void turn_warp(TriangleMesh& mesh, double degrees) {
-    const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
-    mesh.uvs.clear();
-    for (const Vec3& p : mesh.positions)
-        mesh.uvs.push_back({static_cast<float>(c * p.x + s * p.z), static_cast<float>(c * p.z - s * p.x)});
-}
-
-// In the middle of a wide sheet, which cannot contract but can shear: C_yy − C_ys²/C_ss of the stiffnesses turned by
-// 45°.
-double along_bias(const Woven& woven) {
-    const double mean = (static_cast<double>(woven.warp) + static_cast<double>(woven.weft)) / 4,
-                 half_difference = (static_cast<double>(woven.warp) - static_cast<double>(woven.weft)) / 4;
-    return mean + static_cast<double>(woven.shear) - half_difference * half_difference / mean;
-}
-
 // A sheet in a vertical plane that bears its own weight, and how far it gives way over what its stiffness allows: 1.
 double give_of(const Validation& validation, const Woven& woven, StretchModel model, PullMesh kind, Pull pull) {
     const bool sheared = pull == Pull::shear;
@@ -80,7 +31,7 @@ double give_of(const Validation& validation, const Woven& woven, StretchModel mo
     turn_warp(mesh, pull == Pull::warp ? 90 : pull == Pull::bias ? 45 : 0);
     const double stiffness = pull == Pull::warp   ? woven.warp
                              : pull == Pull::weft ? woven.weft
-                             : pull == Pull::bias ? along_bias(woven)
+                             : pull == Pull::bias ? along_bias(woven.warp, woven.weft, woven.shear)
                                                   : woven.shear;
     const double density = most_strain * stiffness / standard_gravity;
     Fabric fabric = elastic_fabric(1, density);

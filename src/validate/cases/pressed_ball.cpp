@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace weft {
 
@@ -10,8 +9,7 @@ using namespace cases;
 namespace {
 
 // A square meter of cotton, pinned along its border, with a ball of 0.2 m that stands 5 cm high in its middle.
-std::vector<Vec4> shape_over_ball(const Validation& validation, std::uint32_t side, std::uint32_t substeps,
-                                  bool levels) {
+Rest shape_over_ball(const Validation& validation, std::uint32_t side, std::uint32_t substeps, bool levels) {
     WorldSettings settings{.solver = {.substeps = substeps}, .air = AirDesc{}};
     settings.solver.hierarchy = levels;
     World world = validation.make_world(settings);
@@ -21,8 +19,8 @@ std::vector<Vec4> shape_over_ball(const Validation& validation, std::uint32_t si
     Collider ball = make_collider({.name = "ball", .shape = SphereDesc{0.2f}});
     ball.motion = {{.time = 0, .position = {0, -0.21f, 0}}, {.time = 1, .position = {0, -0.15f, 0}}};
     world.add(std::move(ball));
-    run(world, 6);
-    return places(world);
+    const double ms = timed_run(world, 6);
+    return {places(world), ms};
 }
 
 }  // namespace
