@@ -22,6 +22,7 @@ ClothId add_sheet(World& world, SheetOf sheet) {
     if (topology->particle_count != rest.size()) throw std::runtime_error("the mesh has unused vertices");
     for (std::uint32_t p = 0; p < rest.size(); ++p)
         if (sheet.pinned && sheet.pinned(rest[p])) desc.pins.particles.push_back(p);
+    desc.pins.attachments = std::move(sheet.springs);
     auto model = build_cloth_model(std::move(desc), std::move(*topology));
     if (!model) throw std::runtime_error(model.error().message());
     auto id = world.try_add(std::move(*model), std::move(sheet.targets));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/procedural.h"
+#include "physics/rest_shape.h"
 #include "validate/validation.h"
 
 #include <array>
@@ -19,7 +20,8 @@ struct SheetOf {
     /// Where a vertex of the mesh starts; empty: where the mesh has it.
     std::function<Vec3(Vec3 at_rest)> place = {};
     std::function<bool(Vec3 at_rest)> pinned = {};
-    KinematicTargets targets = {};  ///< particles are numbered like vertices
+    std::vector<Attachment> springs = {};  ///< pull single particles to fixed places
+    KinematicTargets targets = {};         ///< particles are numbered like vertices
 };
 
 /// Adds a cloth whose particles are numbered like the vertices of the mesh. Throws std::runtime_error if it cannot.
