@@ -190,7 +190,7 @@ void ClothRun::run_blocks(const Pass& pass, std::uint32_t substep, std::span<con
     if (pass.kind == PassKind::damp) {
         passes_.damp[kind](view_, rows, range, numbers_.viscous);
     } else if (pass.kind == PassKind::weigh_taut) {
-        passes_.weigh_taut(view_, rows, range, input_.gravity, numbers_.h, &cloth_.taut[0].x);
+        passes_.weigh_taut(view_, rows, range, numbers_.h, &cloth_.taut[0].x);
     } else if (plan_.method == Method::pbd) {
         passes_.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else if (plan_.projection == Projection::lines) {
@@ -235,7 +235,7 @@ void ClothRun::run_range(const Pass& pass, std::uint32_t substep, Range range, b
     if (pass.kind == PassKind::damp) {
         passes.damp[kind](view_, rows, range, numbers_.viscous);
     } else if (pass.kind == PassKind::weigh_taut) {
-        passes.weigh_taut(view_, rows, range, input_.gravity, numbers_.h, &cloth_.taut[0].x);
+        passes.weigh_taut(view_, rows, range, numbers_.h, &cloth_.taut[0].x);
     } else if (plan_.method == Method::pbd) {
         passes.project_plain[kind](view_, rows, range, (*step_.stiffness)[kind]);
     } else {

@@ -255,7 +255,7 @@ struct Passes {
     std::array<void (*)(const ParticleView&, const RowView&, Range, float viscous), constraint_kind_count> damp;
     /// Adds the masses of taut edges to the sums of their ends: blocks of TautSum, by particle.
     void (*couple)(const RowView&, const CouplingView&, Range, float h);
-    void (*weigh_taut)(const ParticleView&, const RowView&, Range, Vec3 gravity, float h, float* taut);
+    void (*weigh_taut)(const ParticleView&, const RowView&, Range, float h, float* taut);
     /// Adds these sums to the masses, and clears them.
     void (*take_taut)(const ParticleView&, float* taut, Range);
     /// Boxes of tiles of lane_padding particles, the first of which begins the range: the first tile from `first` on

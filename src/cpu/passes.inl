@@ -344,19 +344,12 @@ inline void couple_pass(const RowView& rows, const CouplingView& coupling, Range
     }
 }
 
-inline void weigh_taut_pass(const ParticleView& p, const RowView& rows, Range range, Vec3 gravity, float h,
-                            float* taut) {
-    const Step step = make_step(h);
-    const vec3 acceleration(real(gravity.x), real(gravity.y), real(gravity.z));
+inline void weigh_taut_pass(const ParticleView& p, const RowView& rows, Range range, float h, float* taut) {
     for (std::size_t r = range.begin; r < range.end; r += lane_count) {
         const std::uint32_t* index[2] = {rows.particles + r, rows.particles + rows.stride + r};
         vec3 moved[2];
-        for (int k = 0; k < 2; ++k) {
-            real w, unused;
-            const vec3 x = gather_blocks(p.position, index[k], w);
-            const vec3 start = gather_blocks(p.start, index[k], unused);
-            moved[k] = moved_by_velocity(x, start, w, acceleration, step);
-        }
+        real unused;
+        for (int k = 0; k < 2; ++k) moved[k] = gather_blocks(p.velocity, index[k], unused) * real(h);
         const real mass = taut_mass(StretchTraits::load_row(rows.fields + r, rows.stride), load(rows.lambda + r));
         for (int k = 0; k < 2; ++k) {
             TautSum sum;

@@ -225,7 +225,7 @@ struct GrabArgs {
 // Constraints of one kind: a batch, or all of them.
 struct RowArgs {
     Vec4s position;
-    Vec4s velocity;     // damp only; weigh_taut: places at the start of the substep
+    Vec4s velocity;     // damp, weigh_taut
     Uints particles;    // [slot · stride + row]
     Floats fields;      // [field · stride + row]
     Floats lambda;      // [multiplier · stride + row]; 0 if it is not stored

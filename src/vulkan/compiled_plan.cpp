@@ -256,7 +256,7 @@ class Compiler : ClothArgs {
     void add_taut_weights(List& list, const Pass& pass, std::uint32_t substep) {
         const TableBuffers& buffers = buffers_.tables[static_cast<std::uint32_t>(pass.constraint)];
         RowArgs args = row_args(pass.constraint);
-        args.velocity = state(PointArray::start);
+        args.velocity = state(PointArray::velocity);
         args.corrections = work(work_.taut);
         const Batch& batch = model_.table(pass.constraint).batches[pass.batch];
         const std::uint32_t invocations = hand_out(args, batch, of_model(buffers.blocks));

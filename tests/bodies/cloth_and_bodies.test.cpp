@@ -165,6 +165,25 @@ TEST(ClothAndBody, a_body_far_away_hardly_slows_a_sheet_that_swings) {
     EXPECT_NEAR(beside, alone, 0.04);
 }
 
+// m: how deep a sheet of rubber that is pinned along its border bulges in the wind.
+double bulge(bool with_body) {
+    World world =
+        make_world({.gravity = {}, .solver = {.substeps = 10}, .air = AirDesc{.wind = {{.velocity = {0, 10, 0}}}}});
+    SheetDesc sheet = pinned_sheet(33);
+    sheet.fabric = find_fabric("rubber")->fabric;
+    world.add(make_sheet(sheet));
+    if (with_body) world.add(make_ball(0.1f, 1, {70, 0, 0}));
+    run(world, 3);
+    return double{world.frame().cloths[0].positions[16 * 33 + 16].y};
+}
+
+// The air pushes cloth itself, and not also the mass of taut edges.
+TEST(ClothAndBody, a_body_far_away_does_not_change_how_the_wind_fills_a_sheet) {
+    const double alone = bulge(false);
+    EXPECT_GT(alone, 0.05);
+    EXPECT_NEAR(bulge(true) / alone, 1, 0.02);
+}
+
 // Labels: slow no-asan
 TEST(ClothAndBody, a_fine_sheet_bears_as_much) {
     EXPECT_NEAR(rest_on_sheet(65, 10, 20, 4).height, -0.0936, 0.004);

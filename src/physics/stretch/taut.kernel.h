@@ -16,13 +16,8 @@ WEFT_FN real taut_mass(StretchRow row, real lambda)
     return select(taut, -lambda / max(row.rest, real(1e-30)), real(0));
 }
 
-// How far a particle moves by its velocity before this substep. Pinned ones do not fall.
-WEFT_FN vec3 moved_by_velocity(vec3 x, vec3 start, real w, vec3 gravity, Step step)
-{
-    return x - start - gravity * select(w > real(0), step.h * step.h, real(0));
-}
-
-// Adds its edges' mass to a particle. It moves with the other ends of the edges, and does not fall.
+// Adds its edges' mass to a particle. It moves with the other ends of the edges, by their velocities before the substep:
+// neither gravity nor air moves it.
 WEFT_FN void take_taut_mass(inout_(vec3) x, inout_(real) w, vec3 start, TautSum sum)
 {
     real ratio = min(w * sum.mass, real(WEFT_TAUT_MOST));

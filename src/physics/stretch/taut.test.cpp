@@ -94,13 +94,5 @@ TEST(TautMass, of_pinned_particles_stays_infinite) {
     EXPECT_EQ(reference::mass_ratio(0, 0), 1);
 }
 
-// Gravity of a substep is taken out, but pinned particles have none.
-TEST(TautMass, moves_by_the_velocity_before) {
-    const vec3 gravity(0, -9.81, 0), start(1, 2, 3), way(0.1, 0.2, -0.1);
-    const vec3 fall = gravity * (0.01 * 0.01);
-    EXPECT_LT(norm(reference::moved_by_velocity(start + way + fall, start, 2, gravity, make_step(0.01)) - way), 1e-12);
-    EXPECT_LT(norm(reference::moved_by_velocity(start + way, start, 0, gravity, make_step(0.01)) - way), 1e-12);
-}
-
 }  // namespace
 }  // namespace weft

@@ -33,13 +33,14 @@ class Planner {
             std::ranges::any_of(cloths_, [](const PlannedCloth& cloth) { return cloth.model->tear_law != nullptr; });
         if (tears) plan.frame_begin.push_back({.kind = PassKind::watch_tears});
 
+        add_taut_weights(plan.substep);
         if (settings_.air) plan.substep.push_back({.kind = PassKind::air});
         if (settings_.air) plan.substep.push_back({.kind = PassKind::push});
         plan.substep.push_back({.kind = PassKind::predict});
         if (settings_.bodies) plan.substep.push_back({.kind = PassKind::predict_bodies});
         if (std::ranges::any_of(cloths_, &PlannedCloth::kinematic)) plan.substep.push_back({.kind = PassKind::targets});
         for (const ConstraintKind kind : found()) plan.substep.push_back(dynamic(PassKind::aim, kind));
-        add_taut_weights(plan.substep);
+        if (weighs_taut()) plan.substep.push_back({.kind = PassKind::take_taut, .constraint = ConstraintKind::stretch});
         const auto collides = [](const PlannedCloth& cloth) { return cloth.model->tiles != nullptr; };
         const bool exact = std::ranges::any_of(cloths_, collides);
         for (std::uint32_t i = 0; i < settings_.solver.iterations; ++i) {
@@ -133,7 +134,6 @@ class Planner {
         const std::uint32_t batches = most([&](const ClothModel& model) { return batches_of(model, kind); });
         for (std::uint32_t batch = 0; batch < batches; ++batch)
             passes.push_back({.kind = PassKind::weigh_taut, .constraint = kind, .batch = batch});
-        passes.push_back({.kind = PassKind::take_taut, .constraint = kind});
     }
 
     // Plain constraints have no compliance.

@@ -6,6 +6,7 @@
 #include "solver/model/cloth_model.h"
 #include "solver/plan/pass.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -99,7 +100,7 @@ inline constexpr std::uint32_t move_before_faces = 0, move_after_particles = 1, 
 
 /// Whether air acts on cloth.
 inline bool has_air(const WorldPlan& plan) {
-    return !plan.substep.empty() && plan.substep.front().kind == PassKind::air;
+    return std::ranges::any_of(plan.substep, [](const Pass& pass) { return pass.kind == PassKind::air; });
 }
 
 /// Whether a pass is one of grabs.

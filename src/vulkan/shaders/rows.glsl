@@ -167,18 +167,15 @@ void add_quanta(Uints sums, uint p, vec3 change)
 #include "physics/constraints.def"
 #undef WEFT_CONSTRAINT
 
-// Adds the masses of a taut edge to the sums of its ends. The sums stand in the place of the corrections, and the places at
-// the start of the substep in that of the velocities.
+// Adds the masses of a taut edge to the sums of its ends. The sums stand in the place of the corrections.
 void weigh_taut_row(uint r)
 {
     uint p[2];
     vec3 moved[2];
-    Step h = substep_of(row_args.at.frame);
-    vec3 gravity = vec3(row_args.at.frame.at.gravity_x, row_args.at.frame.at.gravity_y, row_args.at.frame.at.gravity_z);
+    Step step = substep_of(row_args.at.frame);
     for (uint k = 0u; k < 2u; ++k) {
         p[k] = row_args.at.particles.at[k * row_args.at.stride + r];
-        vec4 point = load_point(row_args.at.position, p[k]);
-        moved[k] = moved_by_velocity(point.xyz, row_args.at.velocity.at[p[k]].xyz, point.w, gravity, h);
+        moved[k] = row_args.at.velocity.at[p[k]].xyz * step.h;
     }
     float mass = taut_mass(load_stretch(r), row_args.at.lambda.at[r]);
     for (uint k = 0u; k < 2u; ++k) {
