@@ -28,6 +28,22 @@ TEST_F(Cli, validate_fails_where_weft_misses_a_reference) {
     const auto outcome = weft("validate --quick --backend cpu --case cantilever");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_THAT(outcome.out, HasSubstr("FAIL  drop over reach, dihedral"));
+    EXPECT_THAT(outcome.out, HasSubstr("  why: "));
+}
+
+// The whole case takes half a minute or more.
+TEST_F(Cli, validate_ended_early_keeps_what_it_has_measured) {
+    const auto outcome = weft("validate --backend cpu --case cantilever --json results.json",
+                              "timeout -k 60 --preserve-status -s TERM 2");
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("cantilever: interrupted"));
+    const Json results = Json::parse(read_file(folder_ / "results.json"));
+    EXPECT_EQ(results["complete"], false);
+    EXPECT_EQ(results["pass"], false);
+    ASSERT_EQ(results["cases"].size(), 1u);
+    EXPECT_EQ(results["cases"][0]["problem"], "interrupted");
+    EXPECT_GE(results["cases"][0]["checks"].size(), 1u);
+    EXPECT_LT(results["cases"][0]["checks"].size(), 176u);
 }
 
 TEST_F(Cli, validate_refuses_what_there_is_not) {

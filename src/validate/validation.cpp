@@ -10,14 +10,14 @@
 
 namespace weft {
 
-#define WEFT_CASE(name, title, source) void validate_##name(Validation&);
+#define WEFT_CASE(name, title, source, shortfall) void validate_##name(Validation&);
 #include "validate/cases.def"
 #undef WEFT_CASE
 
 namespace {
 
 constexpr ValidationCase all_cases[] = {
-#define WEFT_CASE(name, title, source) {#name, title, source, validate_##name},
+#define WEFT_CASE(name, title, source, shortfall) {#name, title, source, shortfall, validate_##name},
 #include "validate/cases.def"
 #undef WEFT_CASE
 };
@@ -55,8 +55,8 @@ World Validation::make_world(const WorldSettings& settings) const {
 }
 
 void Validation::add(ValidationCheck check) {
-    if (on_check) on_check(check);
     checks_.push_back(std::move(check));
+    if (on_check) on_check(checks_.back());
 }
 
 void Validation::add_near(std::string what, double measured, double expected, double relative, std::string unit,

@@ -93,7 +93,8 @@ class Validation {
 struct ValidationCase {
     std::string_view name;
     std::string_view title;
-    std::string_view source;  ///< of the reference values
+    std::string_view source;     ///< of the reference values
+    std::string_view shortfall;  ///< why weft misses them, as far as it does; may be empty
     void (*run)(Validation&);
 };
 

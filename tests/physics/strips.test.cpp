@@ -1,6 +1,7 @@
-// Strips that bend and hang: the cantilever, the catenary, and the energy of a rolled sheet.
+// Strips that bend and hang. How far clamped strips sag is a case of `weft validate`.
 
-#include "strips.h"
+#include "specimen.h"
+#include "validate/strip_mesh.h"
 
 #include <cstdio>
 #include <numbers>
@@ -62,113 +63,18 @@ const char* name_of(BendModel model) {
     return model == BendModel::plate ? "plate" : model == BendModel::moment ? "moment" : "hinges";
 }
 
-const char* name_of(Cut cut) {
-    constexpr const char* names[] = {"warp", "weft", "bias, diagonals along", "bias, diagonals across", "irregular"};
-    return names[static_cast<int>(cut)];
-}
-
-struct Strip {
-    Cut cut;
-    GridDiagonal diagonal;
-};
-
-double cantilever_error(const Strip& strip, BendModel bend, const CurvePoint& point, const Resolution& resolution) {
-    const StripMesh mesh = make_strip(strip.cut, strip.diagonal, resolution.cells, 2);
-    const double error = cantilever(mesh, bend, point.gamma, resolution) / point.drop_over_reach - 1;
-    std::printf("  cantilever  %-6s  %-24s %-12s gamma %3.0f  %2u cells  drop/reach %+6.2f %%\n", name_of(bend),
-                name_of(strip.cut), name_of(strip.diagonal), point.gamma, resolution.cells, 100 * error);
-    return error;
-}
-
-constexpr double medium = 1.0 / 2000, coarse = 1.0 / 1000;
-
-struct Case {
-    CurvePoint point;
-    Resolution resolution;
-};
-// A stiff strip with fine cells needs substeps so short that particles move by less than the spacing of floats. So
-// Γ = 1 has coarse cells only.
-constexpr Case cases[] = {
-    {cantilever_curve[0], {7, medium, 4}},   {cantilever_curve[0], {10, medium, 4}},
-    {cantilever_curve[1], {10, coarse, 10}}, {cantilever_curve[1], {14, coarse, 15}},
-    {cantilever_curve[1], {20, coarse, 20}}, {cantilever_curve[2], {10, coarse, 10}},
-    {cantilever_curve[2], {14, coarse, 15}}, {cantilever_curve[2], {20, coarse, 20}},
-};
-
-class Cantilever : public testing::TestWithParam<Strip> {};
-
-// The error falls with the square of the size of the cells: docs/validation.md.
-// Labels: slow no-asan
-TEST_P(Cantilever, follows_the_curve) {
-    for (const Case& one : cases) {
-        const std::uint32_t cells = one.resolution.cells;
-        const double error = cantilever_error(GetParam(), BendModel::moment, one.point, one.resolution);
-        EXPECT_NEAR(error, 0, cells < 10 ? 0.05 : one.point.gamma > 20 && cells < 14 ? 0.06 : 0.03);
-    }
-}
-
-// Hinges give B exactly if a sheet is rolled. A free sheet finds a shape with 4/5 of the energy of a cylinder: it
-// dimples (with alternating diagonals every second vertex lifts) or twists (with uniform ones). So the strip sags too
-// far, most of all if it is stiff. The bounds are measured values.
-// Labels: slow no-asan
-TEST_P(Cantilever, sags_no_further_than_hinges_let_it) {
-    for (const Case& one : cases) {
-        const double error = cantilever_error(GetParam(), BendModel::dihedral, one.point, one.resolution);
-        EXPECT_GT(error, -0.02);
-        EXPECT_LT(error, one.point.gamma < 5 ? 0.22 : one.point.gamma < 20 ? 0.17 : 0.12);
-    }
-}
-
-// With Γ = 50 the strip bends by nearly 90° close to the clamp. Ten cells are too few for this curve: the drop is 3 %
-// too small. Labels: slow no-asan
-// Labels: no-asan
-TEST_P(Cantilever, of_plate_follows_the_curve_within_two_percent) {
-    for (const Case& one : cases) {
-        const bool too_coarse = one.point.gamma > 20 && one.resolution.cells < 14;
-        const double error = cantilever_error(GetParam(), BendModel::plate, one.point, one.resolution);
-        EXPECT_NEAR(error, 0, too_coarse ? 0.035 : 0.02);
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Strips, Cantilever,
-                         testing::Values(Strip{Cut::warp, GridDiagonal::uniform},
-                                         Strip{Cut::warp, GridDiagonal::alternating},
-                                         Strip{Cut::weft, GridDiagonal::uniform},
-                                         Strip{Cut::weft, GridDiagonal::alternating}));
-
-// The models have no specified accuracy on these meshes. docs/validation.md lists the measured errors with 14 cells at
-// Γ = 10 and Γ = 50; the test allows one percent more or less.
-struct Elsewhere {
-    Strip strip;
-    double hinges[2], plate[2], moment[2];
-};
-constexpr Elsewhere elsewhere[] = {
-    {{Cut::warp, GridDiagonal::cross}, {-0.102, -0.164}, {-0.263, -0.271}, {0.004, -0.001}},
-    {{Cut::bias_along, GridDiagonal::uniform}, {-0.527, -0.517}, {-0.069, -0.113}, {0.081, 0.107}},
-    {{Cut::bias_across, GridDiagonal::uniform}, {0.166, 0.006}, {-0.071, -0.109}, {0.008, 0.012}},
-    {{Cut::irregular, GridDiagonal::alternating}, {0.011, -0.028}, {-0.058, -0.049}, {0.009, 0.028}},
-};
-
-// Labels: slow no-asan
-TEST(CantileverElsewhere, is_off_by_what_was_measured) {
-    for (const auto& [strip, hinges, plate, moment] : elsewhere) {
-        for (const int i : {0, 1}) {
-            const Resolution resolution{14, coarse, 15};
-            const CurvePoint& point = cantilever_curve[1 + i];
-            EXPECT_NEAR(cantilever_error(strip, BendModel::dihedral, point, resolution), hinges[i], 0.01);
-            EXPECT_NEAR(cantilever_error(strip, BendModel::plate, point, resolution), plate[i], 0.01);
-            EXPECT_NEAR(cantilever_error(strip, BendModel::moment, point, resolution), moment[i], 0.01);
-        }
-    }
+// Drop over reach with gamma 1, over that of the elastica (`weft validate --case cantilever`), minus 1.
+double cantilever_error(GridDiagonal diagonal, BendModel bend, const Resolution& resolution) {
+    return cantilever(make_strip(Cut::warp, diagonal, resolution.cells, 2), bend, 1, resolution) / 0.12456 - 1;
 }
 
 // One sweep leaves bending softer by half the weight of its constraints unless the projection leaves that half out
 // (src/physics/sweep.md). Without, the errors are +22 % (moment) and more.
 TEST(CantileverInOneSweep, sags_as_far_as_with_many) {
     for (const BendModel model : {BendModel::moment, BendModel::dihedral, BendModel::plate}) {
-        const Strip strip{Cut::warp, GridDiagonal::alternating};
-        const double one = cantilever_error(strip, model, cantilever_curve[0], {10, medium, 1}),
-                     many = cantilever_error(strip, model, cantilever_curve[0], {10, medium, 8});
+        constexpr double h = 1.0 / 2000;
+        const double one = cantilever_error(GridDiagonal::alternating, model, {10, h, 1}),
+                     many = cantilever_error(GridDiagonal::alternating, model, {10, h, 8});
         EXPECT_NEAR(one, many, 0.03) << name_of(model);
     }
 }
@@ -176,9 +82,7 @@ TEST(CantileverInOneSweep, sags_as_far_as_with_many) {
 // Substeps in which the weight of the moments on this grid is near their compliance.
 TEST(CantileverInOneSweep, comes_to_rest_on_a_cross_grid) {
     for (const double h : {1.0 / 4000, 1.0 / 8000, 1.0 / 16000}) {
-        const double error =
-            cantilever_error({Cut::warp, GridDiagonal::cross}, BendModel::moment, cantilever_curve[0], {10, h, 1});
-        EXPECT_NEAR(error, 0, 0.1) << h;
+        EXPECT_NEAR(cantilever_error(GridDiagonal::cross, BendModel::moment, {10, h, 1}), 0, 0.1) << h;
     }
 }
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <variant>
 
 namespace weft::cli {
@@ -68,6 +69,7 @@ Json json_of(const ValidationResult& result) {
     out["name"] = result.name;
     out["title"] = one.title;
     out["source"] = one.source;
+    if (!one.shortfall.empty()) out["shortfall"] = one.shortfall;
     out["pass"] = result.passes();
     out["seconds"] = result.seconds;
     if (!result.problem.empty()) out["problem"] = result.problem;
@@ -142,7 +144,11 @@ int validate(const ValidateOptions& options) {
     }
     const EndOnSignal end;
     Validation validation(options.simulation, options.quick);
-    validation.on_check = [](const ValidationCheck& check) { print(check); };
+    // A case can take minutes, so it ends at the check after the signal.
+    validation.on_check = [&end](const ValidationCheck& check) {
+        print(check);
+        if (end.asked()) throw std::runtime_error("interrupted");
+    };
     std::size_t failed = 0;
     for (const ValidationCase* one : *cases) {
         if (end.asked()) break;
@@ -151,8 +157,11 @@ int validate(const ValidateOptions& options) {
         const ValidationResult& result = results.back();
         if (!result.problem.empty()) print_errors({{std::string(one->name), result.problem}});
         failed += !result.passes();
+        if (!result.passes() && result.problem.empty() && !one->shortfall.empty())
+            std::printf("  why: %s\n", std::string(one->shortfall).c_str());
         std::printf("  %.1f s\n", result.seconds);
-        if (auto written = write_json(options, results, results.size() == cases->size()); !written) {
+        const bool complete = results.size() == cases->size() && !end.asked();
+        if (auto written = write_json(options, results, complete); !written) {
             print_errors(written.errors());
             return exit_code(written.errors());
         }
@@ -165,7 +174,7 @@ int validate(const ValidateOptions& options) {
     }
     std::printf("%zu of %zu checks pass, in %zu of %zu cases\n", checks - missed, checks, results.size(),
                 cases->size());
-    return failed == 0 && results.size() == cases->size() ? exit_done : exit_failed;
+    return failed == 0 && results.size() == cases->size() && !end.asked() ? exit_done : exit_failed;
 }
 
 }  // namespace

@@ -133,7 +133,8 @@ void check_narrow(Validation& validation, std::span<const StripOf> strips, doubl
             for (const Settings& settings : narrow) {
                 const bool middle = (&settings - narrow) % 3 == 0;
                 if (bending != &moment && !middle && settings.gamma != 10) continue;
-                const bool first = &strip == strips.data() && settings.gamma == 10 && settings.cells == 10;
+                const bool first =
+                    (&strip == strips.data() || bending == &moment) && settings.gamma == 10 && settings.cells == 10;
                 if (validation.quick() && !first) continue;
                 check(validation, strip, 2, *bending, settings, tolerance(strip), known(*bending));
             }
