@@ -19,7 +19,7 @@ SECTIONS = [
     ("Reference", [("docs/scene.md", "Scene file"), ("docs/exports.md", "Exports"), ("docs/rendering.md", "Images and videos"),
                    ("docs/overlays.md", "Overlays"), ("docs/contact-forces.md", "Contact forces")]),
     ("Programs", [("docs/embedding.md", "Embedding"), ("docs/vulkan.md", "Vulkan backend"), ("reference.md", "Headers")]),
-    ("Quality", [("docs/validation.md", "Validation"), ("docs/validation-cases.md", "Validation cases"), ("docs/performance.md", "Performance")]),
+    ("Quality", [("docs/validation.md", "Validation"), ("docs/validation-cases.md", "Validation cases"), ("docs/physical-tests.md", "Physical tests"), ("docs/performance.md", "Performance")]),
     ("Inside", [("docs/architecture.md", "Architecture"), ("CHANGELOG.md", "Changelog")]),
 ]
 

@@ -44,7 +44,7 @@ TEST(LinesOf, a_hung_sheet_leave_a_fraction_of_the_error) {
     }
 }
 
-// With lines and without, the sheet sags by the stretch of its fabric: ρ g L²/2K (docs/validation.md).
+// With lines and without, the sheet sags by the stretch of its fabric: ρ g L²/2K.
 // Labels: slow no-asan
 TEST(LinesOf, an_elastic_sheet_carry_its_weight) {
     SheetDesc sheet = hanging_strip({9, 33}, 300, 40);

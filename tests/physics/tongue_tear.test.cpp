@@ -132,7 +132,7 @@ void print(const TongueDesc& desc, const TongueTear& tear) {
     std::fflush(stdout);
 }
 
-// The figures of docs/validation.md.
+// The figures of docs/physical-tests.md.
 TEST(TongueTear, DISABLED_measures_all) {
     for (const char* fabric : {"rubber", "denim", "cotton"}) {
         for (const TongueDesc& desc : {TongueDesc{.cells = 8, .substeps = 80, .fabric = fabric},

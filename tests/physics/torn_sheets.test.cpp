@@ -247,7 +247,7 @@ void print(const TornDesc& desc, const TornResult& r) {
     std::fflush(stdout);
 }
 
-// The figures of docs/validation.md; takes minutes.
+// The figures of docs/physical-tests.md; takes minutes.
 TEST(TornSheet, DISABLED_measures_all) {
     for (const std::uint32_t side : {33u, 65u, 129u}) {
         for (const std::uint32_t substeps : {20u, 40u}) {
