@@ -54,7 +54,13 @@ TEST_F(EditorWindow, values_are_typed_dragged_reset_and_reached_by_keys_alone) {
     DrivenEditor& e = open(hanging);
     pause();
     e.click("objects/cloths/0/select");
-    const std::string density = "properties/cloths/0/fabric/density";
+    const std::string density = "properties/cloths/0/fabric/density", preset = "properties/cloths/0/fabric/preset";
+    e.scroll_to(preset, "properties/cloths/0/name");
+    e.click(preset);
+    ASSERT_TRUE(e.shows(preset + "/leather"));
+    e.key("Escape");
+    EXPECT_FALSE(e.shows(preset + "/leather"));
+    ASSERT_TRUE(e.shows(preset)) << "Escape closes the list and leaves the selection";
     e.scroll_to(density, "properties/cloths/0/name");
     const double usual = e.number(density);
     e.click(density);

@@ -38,6 +38,8 @@ void Editor::make_commands() {
         {"new", "New", "An empty scene with a floor", Icon::file, Key::n, control,
          [this] { unless_changed([this] { open_later({}, new_document()); }); }},
         {"open", "Open …", "A scene or a mesh", Icon::folder, Key::o, control, [this] { ask_open(); }},
+        {"import", "Add mesh …", "A cloth from a mesh file", Icon::mesh, Key::none, plain,
+         [this] { add_object("mesh"); }},
         {"gallery", "Gallery …", "Scenes that come with weft", Icon::grid, Key::g, control,
          [this] { panel_ = Panel::gallery; }},
         {"save", "Save", "Write the scene to its file", Icon::save, Key::s, control, [this] { save(false); }},
@@ -145,6 +147,7 @@ void Editor::run_command(const Command& one) {
 void Editor::keys(Ui& ui) {
     const bool dialog = panel_ != Panel::none || file_dialog_.is_open();
     if (ui.shortcut(Key::escape)) {
+        if (ui.had_popup()) return;  // it closes
         if (panel_ != Panel::none && panel_ != Panel::unsaved)
             panel_ = Panel::none;
         else if (!file_dialog_.is_open() && !view_.cancel(*session_))

@@ -110,7 +110,7 @@ void Editor::export_dialog(Ui& ui) {
     const Field field{.name = "frames", .label = "Frames", .what = "How many frames are simulated"};
     if (integer(ui, field, frames, {.min = 1, .max = 1e6, .integer = true}) != Change::none)
         export_options_.frames = static_cast<std::uint64_t>(frames);
-    muted_text(ui, "The run of weft run: without what the hand has pulled and cut.");
+    muted_text(ui, "Simulates again from the first frame. What you pulled and cut by hand is not in it.");
     if (button(ui, "choose", {.icon = Icon::export_file, .text = "Choose a file …", .primary = true})) {
         panel_ = Panel::none;
         file_dialog_.ask({.title = "Export: .glb, .mp4, .png, .pc2, .obj or .ply",

@@ -87,7 +87,15 @@ void Editor::menu(Ui& ui, const char* name, const char* label, std::initializer_
 void Editor::menu_entries(Ui& ui, const char* name, std::initializer_list<const char*> names) {
     const Theme& theme = ui.theme();
     const Ui::Scope scope(ui, name);
-    const float width = theme.px(300);
+    // Labels and keys stand apart.
+    float width = theme.px(300);
+    const auto wide_as = [](std::string_view text) {
+        return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
+    };
+    for (const char* one : names)
+        if (*one)
+            width =
+                std::max(width, wide_as(command(one)->label) + wide_as(shortcut_text(*command(one))) + theme.px(70));
     for (const char* one : names) {
         if (!*one) {
             ImGui::Separator();
@@ -114,9 +122,11 @@ void Editor::menu_entries(Ui& ui, const char* name, std::initializer_list<const 
     if (std::string_view(name) != "overlays") return;
     for (const Overlay& overlay : weft::overlays()) {
         const bool on = std::ranges::find(overlays_, &overlay) != overlays_.end();
+        std::string label(overlay.name);
+        std::ranges::replace(label, '_', ' ');
         if (button(ui, overlay.name,
                    {.icon = on ? Icon::check : Icon::overlay,
-                    .text = overlay.name,
+                    .text = label,
                     .what = overlay.what,
                     .chosen = on,
                     .flat = true,
@@ -138,7 +148,8 @@ void Editor::toolbar(Ui& ui) {
         const Ui::Scope scope(ui, "toolbar");
         if (narrow(ui)) pages(ui);
         menu(ui, "file", "File",
-             {"new", "open", "gallery", "recover", "", "save", "save_as", "", "export", "screenshot", "", "quit"});
+             {"new", "open", "import", "gallery", "recover", "", "save", "save_as", "", "export", "screenshot", "",
+              "quit"});
         menu(ui, "edit", "Edit",
              {"undo", "redo", "history", "", "duplicate", "rename", "delete", "", "pin", "unpin", "key", "",
               "preferences"});
@@ -153,7 +164,7 @@ void Editor::toolbar(Ui& ui) {
         if (button(ui, "play",
                    {.icon = playing ? Icon::pause : Icon::play,
                     .text = playing ? "Pause" : "Play",
-                    .what = "Run the simulation",
+                    .what = playing ? "Hold the simulation" : "Run the simulation",
                     .shortcut = "Space",
                     .primary = true,
                     .width = theme.px(92)}))
@@ -231,7 +242,23 @@ void Editor::view_overlay(Ui& ui) {
     ImGui::BeginGroup();
     ImGui::PushItemWidth(width);
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-    messages(ui);
+    if (!session_->messages().empty() || opening_.valid() || export_) {
+        // A plate behind them, as they lie on the image.
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        ImDrawListSplitter layers;
+        layers.Split(&draw, 2);
+        layers.SetCurrentChannel(&draw, 1);
+        ImGui::BeginGroup();
+        messages(ui);
+        ImGui::EndGroup();
+        layers.SetCurrentChannel(&draw, 0);
+        const ImVec2 pad(theme.px(6), theme.px(4));
+        ImVec4 plate = theme.colors.panel;
+        plate.w = 0.92f;
+        draw.AddRectFilled(ImGui::GetItemRectMin() - pad, ImGui::GetItemRectMax() + pad, theme.color(plate),
+                           theme.px(6));
+        layers.Merge(&draw);
+    }
     hints(ui);
     ImGui::PopTextWrapPos();
     ImGui::PopItemWidth();
@@ -290,6 +317,7 @@ void Editor::hints(Ui& ui) {
     const float room = view_.size().x - ui.theme().px(30);
     std::string line;
     for (const auto& [hint, text] : all) {
+        if (std::string_view(hint) == "pull" && view_.settings.tool != Tool::hand) continue;
         const std::string longer = line + (line.empty() ? "" : "  ·  ") + text;
         if (!settings_.hints_done.contains(hint) && ImGui::CalcTextSize(longer.c_str()).x < room) line = longer;
     }

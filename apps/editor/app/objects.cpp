@@ -20,7 +20,7 @@ constexpr AddableObject addable[] = {
     {"mesh", "Mesh", "a cloth from a mesh file", Icon::mesh, true},
     {"capsule", "Capsule", "a solid capsule", Icon::capsule, false},
     {"plane", "Plane", "the solid half space below a plane", Icon::plane, false},
-    {"solid", "Solid mesh", "a mesh file as a solid", Icon::mesh, false},
+    {"solid", "Solid", "a mesh file as a solid", Icon::mesh, false},
     {"wind", "Wind", "a wind source", Icon::wind, false},
     {"stitch", "Stitch", "ties two points of cloth together", Icon::stitch, false},
 };

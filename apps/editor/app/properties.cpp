@@ -52,7 +52,11 @@ class PropertyRow {
         value_ = *value;
         label_ = label_of_key(p_.key);
         const NumberRange range = range_of(p_);
-        field_ = {.name = p_.key, .label = label_, .what = p_.what, .range = describe(range)};
+        what_ = p_.what;
+        std::erase(what_, '`');  // of the documentation
+        field_ = {.name = p_.key, .label = label_, .what = what_};
+        const bool has_range = p_.kind != ParameterKind::text && p_.kind != ParameterKind::choice;
+        if (has_range) field_.range = describe(range);
         if (usual_ && !value_text(*usual_, p_.unit).empty()) field_.usual = value_text(*usual_, p_.unit);
         // A name has no default to go back to.
         field_.differs = usual_ && value_ != *usual_ && p_.key != "name";
@@ -138,7 +142,7 @@ class PropertyRow {
     void angle_or_mesh(const NumberRange& range) {
         bool of_mesh = value_.is_string();
         const std::string name = std::string(p_.key) + "_of_mesh", label = label_ + " as built";
-        const Field own{.name = name, .label = label, .what = p_.what};
+        const Field own{.name = name, .label = label, .what = what_};
         if (const Change change = flag(ui_, own, of_mesh); change != Change::none)
             return store(change, of_mesh ? Json("mesh") : Json(180));
         if (of_mesh) return;
@@ -195,7 +199,7 @@ class PropertyRow {
     const Parameter& p_;
     std::optional<Json> usual_;
     Json value_;
-    std::string label_;
+    std::string label_, what_;
     Field field_;
 };
 

@@ -183,7 +183,8 @@ PropertyGroup properties_of(const Document& document, const std::string& place) 
             if (companion != std::end(companions) && !has(companion->needs)) continue;
             if (p.kind == ParameterKind::object || p.kind == ParameterKind::list)
                 group.children.push_back({&p, p.kind == ParameterKind::list});
-            else if (own == "/cloths/*" && std::ranges::find(seldom_of_cloth, p.key) != std::end(seldom_of_cloth))
+            else if ((own == "/cloths/*" && std::ranges::find(seldom_of_cloth, p.key) != std::end(seldom_of_cloth)) ||
+                     (own == "/cloths/*/fabric" && p.key == "stiffness"))  // of plain constraints only
                 group.seldom.push_back({&p, defaults});
             else
                 group.values.push_back({&p, defaults});

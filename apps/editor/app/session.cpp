@@ -131,7 +131,7 @@ void Session::say(Message message) {
 
 void Session::say(const std::string& title, const Errors& errors) {
     Message message{.is_error = true, .title = title, .lines = {}};
-    for (const Error& error : errors) message.lines.push_back(error.message());
+    for (const Error& error : errors) message.lines.push_back(error.where == title ? error.what : error.message());
     say(std::move(message));
 }
 

@@ -396,7 +396,7 @@ void ViewPanel::draw_marks(Ui& ui, const Session& session, const Input& input) {
         std::string label = force.size() > 2 ? force.substr(0, force.size() - 2) + "." + force.substr(force.size() - 2)
                                              : "0." + std::string(2 - force.size(), '0') + force;
         label += " N";
-        if (length(pull.force) > 0.98f * pull.max_force) label += " (largest)";
+        if (length(pull.force) > 0.98f * pull.max_force) label += " (largest; see Preferences)";
         draw.AddText(ImVec2(to->x + theme.px(10), to->y - theme.px(16)), IM_COL32(20, 20, 20, 255), label.c_str());
         draw.AddText(ImVec2(to->x + theme.px(9), to->y - theme.px(17)), IM_COL32(255, 240, 180, 255), label.c_str());
         ui.note("pull", ImRect(*from, ImVec2(from->x + 1, from->y + 1)), label);

@@ -216,6 +216,25 @@ std::string format_number(double value, int digits) {
     return out.substr(0, exponent) + "e" + std::to_string(power);
 }
 
+std::string format_short(double value, int digits) {
+    std::string plain = format_number(value, digits);
+    if (value == 0 || !std::isfinite(value)) return plain;
+    char text[40];
+    std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
+    std::string out = text;
+    const std::size_t exponent = out.find('e');
+    int power = 0;
+    const std::size_t first = out[exponent + 1] == '+' ? exponent + 2 : exponent + 1;
+    std::from_chars(out.data() + first, out.data() + out.size(), power);
+    std::string mantissa = out.substr(0, exponent);
+    if (mantissa.find('.') != std::string::npos) {
+        mantissa.erase(mantissa.find_last_not_of('0') + 1);
+        if (mantissa.back() == '.') mantissa.pop_back();
+    }
+    out = mantissa + "e" + std::to_string(power);
+    return out.size() < plain.size() ? out : plain;
+}
+
 std::string format_number(double value, std::string_view unit, int digits) {
     std::string text = format_number(value, digits);
     if (unit.empty()) return text;

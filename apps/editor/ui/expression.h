@@ -17,5 +17,7 @@ Result<double> evaluate(std::string_view text, std::string_view unit, double now
 std::string format_number(double value, int digits = 4);
 /// The same with its unit: "0.25 N/m", "30°".
 std::string format_number(double value, std::string_view unit, int digits = 4);
+/// With at most so many digits and an exponent where that is shorter: 1.5e-4 in place of 0.00015.
+std::string format_short(double value, int digits);
 
 }  // namespace weft::editor

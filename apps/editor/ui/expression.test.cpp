@@ -94,6 +94,11 @@ TEST(Numbers, are_short) {
     EXPECT_EQ(format_number(1.0 / 3), "0.3333");
     EXPECT_EQ(format_number(0.2, "kg/m²"), "0.2 kg/m²");
     EXPECT_EQ(format_number(30, "°"), "30°");
+    EXPECT_EQ(format_short(0.00015, 2), "1.5e-4");
+    EXPECT_EQ(format_short(-0.0002, 3), "-2e-4");
+    EXPECT_EQ(format_short(0.05, 2), "0.05");
+    EXPECT_EQ(format_short(1200, 3), "1200");
+    EXPECT_EQ(format_short(0, 2), "0");
 }
 
 TEST(Units, that_measure_the_same_are_converted) {

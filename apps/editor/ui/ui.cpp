@@ -132,6 +132,7 @@ void Ui::begin(float width, float height, double now) {
     probe_.pointer_x = input_.pointer ? input_.pointer->x : -1;
     probe_.pointer_y = input_.pointer ? input_.pointer->y : -1;
     last_stops_ = std::exchange(stops_, {});
+    had_popup_ = !context_->OpenPopupStack.empty();
     ImGui::NewFrame();
     update_focus();
 }
@@ -201,6 +202,8 @@ bool Ui::shortcut(Key label, Modifiers modifiers) const {
         const bool function = label >= Key::f1 && label <= Key::f12;
         if ((plain && !function) || std::ranges::find(editing, label) != std::end(editing)) return false;
     }
+    // Who chooses all in a number field means its text.
+    if ((kept_digits_ || keeps_digits_) && label == Key::a && modifiers.control) return false;
     if (plain && focus_is_visible()) {
         constexpr Key steering[] = {Key::space, Key::enter, Key::pad_enter, Key::left,    Key::right,    Key::up,
                                     Key::down,  Key::home,  Key::end,       Key::page_up, Key::page_down};

@@ -75,6 +75,8 @@ class Ui {
     bool wants_pointer() const;
     /// Whether keys go to a text field.
     bool wants_text() const;
+    /// Whether a list or menu was open when the frame began. Escape closes it.
+    bool had_popup() const { return had_popup_; }
 
     // --- When to draw again
 
@@ -167,6 +169,7 @@ class Ui {
     int settling_ = 2;                                 // frames until what follows from the last input is shown
     double due_ = 0;                                   // s: time of a requested frame; infinity: none
     bool keeps_digits_ = false, kept_digits_ = false;  // in this frame, in the last one
+    bool had_popup_ = false;
     bool keeps_delete_ = false, kept_delete_ = false;
     bool releases_space_ = false, released_space_ = false;
 

@@ -287,6 +287,30 @@ TEST(ChoiceWidget, opens_a_list_and_follows_the_arrow_keys) {
     EXPECT_EQ(reports.finished, 3);
 }
 
+TEST(ChoiceWidget, has_a_list_that_stays_in_the_window) {
+    constexpr std::string_view names[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
+    for (const float above : {0.0f, 540.0f}) {
+        std::size_t value = 0;
+        Stage stage([&](Ui& ui) {
+            ImGui::Dummy(ImVec2(1, above));
+            choice(ui, {.name = "c", .label = "C"}, value, names, 0);
+        });
+        const ProbedWidget field = stage.widget("c");
+        stage.to("c").click();
+        stage.settle();
+        for (const std::string_view name : names) {
+            const ProbedWidget one = stage.widget("c/" + std::string(name));
+            EXPECT_TRUE(one.visible) << above << name;
+            EXPECT_GE(one.y, 0) << above << name;
+            EXPECT_LE(one.y + one.height, stage.height) << above << name;
+            EXPECT_TRUE(one.y >= field.y + field.height || one.y + one.height <= field.y) << above << name;
+        }
+        stage.to("c/l").click();
+        stage.settle();
+        EXPECT_EQ(value, 11u) << above;
+    }
+}
+
 TEST(TextWidget, ends_by_enter_tab_and_click_and_takes_back_by_escape) {
     std::string value = "sheet";
     bool other = false;

@@ -158,8 +158,13 @@ std::optional<std::size_t> choice_list(Ui& ui, std::string_view name, const ImRe
                                        std::span<const std::string_view> names) {
     const Theme& theme = ui.theme();
     std::optional<std::size_t> chosen;
-    ImGui::SetNextWindowPos(ImVec2(field.Min.x, field.Max.y + theme.px(3)));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(field.GetWidth(), 0), ImVec2(FLT_MAX, theme.px(420)));
+    // Below the field, or above it where there is more room. A long list scrolls.
+    const float gap = theme.px(3), below = ui.size().y - field.Max.y - 2 * gap, above = field.Min.y - 2 * gap;
+    const float whole = static_cast<float>(names.size()) * ImGui::GetFrameHeight() + theme.px(8);
+    const bool upward = whole > below && above > below;
+    const float height = std::min({whole, std::max(theme.px(60), upward ? above : below), theme.px(420)});
+    ImGui::SetNextWindowPos(ImVec2(field.Min.x, upward ? field.Min.y - gap - height : field.Max.y + gap));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(field.GetWidth(), 0), ImVec2(FLT_MAX, height));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(4), theme.px(4)));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
     if (ImGui::BeginPopup(Ui::label_of(std::string(name) + ".list").c_str(), ImGuiWindowFlags_NoMove)) {

@@ -51,9 +51,10 @@ void draw_field(const Ui& ui, const Item& item, bool active) {
                                               ImGui::GetStyle().FrameRounding);
 }
 
-void field_tooltip(Ui& ui, const Item& item, const Field& field) {
-    if (field.what.empty() && field.range.empty() && field.usual.empty()) return;
+void field_tooltip(Ui& ui, const Item& item, const Field& field, bool with_label) {
+    if (!with_label && field.what.empty() && field.range.empty() && field.usual.empty()) return;
     ui.tooltip(item, [&] {
+        if (with_label) ImGui::TextUnformatted(field.label.data(), field.label.data() + field.label.size());
         if (!field.what.empty()) ImGui::TextUnformatted(field.what.data(), field.what.data() + field.what.size());
         if (!field.range.empty()) muted_text(ui, field.range);
         if (!field.usual.empty())
@@ -79,7 +80,9 @@ Row begin_row(Ui& ui, const Field& field) {
         clipped_text(box, field.label, theme.color(with_alpha(color, enabled ? 1 : 0.8f)));
         Item item = ui.place_at(std::string(field.name) + ".label", box, field.label, false);
         item.focused = false;
-        field_tooltip(ui, item, field);
+        const bool cut =
+            ImGui::CalcTextSize(field.label.data(), field.label.data() + field.label.size()).x > box.GetWidth();
+        field_tooltip(ui, item, field, cut);
         if (item.hovered && ImGui::GetIO().MouseClickedCount[0] == 2) row.reset = field.differs;
     }
     if (field.differs) {

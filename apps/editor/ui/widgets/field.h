@@ -28,8 +28,8 @@ struct Row {
 /// Draws the label and the mark at ImGui's cursor, and moves the cursor below the row.
 Row begin_row(Ui& ui, const Field& field);
 
-/// The tooltip of a row's control.
-void field_tooltip(Ui& ui, const Item& item, const Field& field);
+/// The tooltip of a row's control. `with_label`: where the label is cut off.
+void field_tooltip(Ui& ui, const Item& item, const Field& field, bool with_label = false);
 
 /// Text that ends in … where it does not fit.
 void clipped_text(const ImRect& box, std::string_view text, ImU32 color, float align = 0);

@@ -224,11 +224,11 @@ class NumberField {
             inner.Min.x += named;
         }
         for (int digits = 3; digits > 1 && ImGui::CalcTextSize(number.c_str()).x > inner.GetWidth(); --digits)
-            number = format_number(value_, digits);
+            number = format_short(value_, digits);
         if (ImGui::CalcTextSize(number.c_str()).x > inner.GetWidth()) {  // before a digit is hidden, the padding goes
             inner.Min.x = box_.Min.x + theme.px(1);
             inner.Max.x = box_.Max.x - theme.px(1);
-            if (ImGui::CalcTextSize(number.c_str()).x > inner.GetWidth()) number = format_number(value_, 1);
+            if (ImGui::CalcTextSize(number.c_str()).x > inner.GetWidth()) number = format_short(value_, 1);
         }
         const float wide = ImGui::CalcTextSize(number.c_str()).x, whole = wide + ImGui::CalcTextSize(unit.c_str()).x;
         if (whole > inner.GetWidth() || !prefix_.empty()) {  // the label of a vector has its unit
