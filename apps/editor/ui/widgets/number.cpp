@@ -336,6 +336,7 @@ Change vector(Ui& ui, const Field& field, std::span<double> values, const Number
     if (whole.range.empty()) whole.range = describe(range);
     if (usual.size() == values.size()) {
         whole.differs = !std::ranges::equal(values, usual);
+        whole.usual.clear();
         for (const double one : usual) whole.usual += (whole.usual.empty() ? "" : ", ") + format_number(one);
         if (!range.unit.empty()) whole.usual += " " + std::string(range.unit);
     }
