@@ -87,6 +87,7 @@ Result<void> Stage::apply(const Action& action) {
 
 Result<void> Stage::step() {
     if (auto followed = follow_document(); !followed) return followed;
+    if (std::exchange(let_go_, false)) begin_branch();
     world_->advance();
     if (world_->world().summary().reports & report_device_failed) return recover();
     record();

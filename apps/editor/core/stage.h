@@ -87,7 +87,8 @@ class Stage {
     Result<void> follow(DocumentPtr next);
     /// Carries out `change` as an undo step: keeps the moment before it, which is dropped if the change fails.
     Result<void> as_step(const std::string& label, std::uint64_t gesture, const std::function<Result<void>()>& change);
-    /// A pull does not go on after a jump to another moment.
+    /// A pull does not go on after a jump to another moment. The next step then begins a branch, because the recorded
+    /// frames that follow were pulled.
     void let_go();
     Result<ClothId> cloth_called(const std::string& name) const;
     void begin_branch();
@@ -104,6 +105,7 @@ class Stage {
     std::uint64_t next_branch_ = 1;
     std::optional<SavedFile> saved_;
     std::optional<GrabId> grab_;
+    bool let_go_ = false;          ///< a jump has ended a pull
     std::size_t notes_taken_ = 0;  ///< of the world
     std::vector<std::string> notes_;
 };

@@ -181,6 +181,21 @@ TEST(Stage, seeks_to_recorded_frames_and_continues_with_the_same_bits) {
     EXPECT_THAT(stage.timeline().stale(stage.lineage()), IsEmpty());
 }
 
+// The recorded frames after it were pulled, and those of the new run are not.
+TEST(Stage, begins_a_branch_when_a_run_goes_on_without_the_pull) {
+    Stage stage = open_small();
+    run(stage, 2);
+    must(stage.apply(Grab{"sheet", {40, {0.25f, 0.25f, 0.5f}}, {0.3f, 1, 0.2f}, 5}));
+    run(stage, 6);
+    must(stage.apply(Release{}));
+    run(stage, 2);
+    must(stage.apply(Seek{5}));
+    EXPECT_THAT(stage.timeline().valid(stage.lineage()), ElementsAre(FrameRange{0, 10}));
+    run(stage, 1);
+    EXPECT_THAT(stage.timeline().valid(stage.lineage()), ElementsAre(FrameRange{0, 6}));
+    EXPECT_THAT(stage.timeline().stale(stage.lineage()), ElementsAre(FrameRange{7, 10}));
+}
+
 TEST(Stage, keeps_the_frames_before_an_edit_and_marks_the_rest_as_stale) {
     Stage stage = open_small();
     run(stage, 20);

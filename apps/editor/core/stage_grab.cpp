@@ -60,6 +60,7 @@ Result<void> Stage::act(const Release&) {
 
 void Stage::let_go() {
     World& world = world_->world();
+    let_go_ = !world.grabs().empty();
     while (!world.grabs().empty()) world.release(world.grabs().begin()->id);
     grab_.reset();
 }
