@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/shell/command.h"
+#include "io/images/film_frames.h"
 #include "look/camera.h"
 
 #include <cstdint>
@@ -39,18 +40,6 @@ struct RenderPlan {
 };
 Result<RenderPlan> check_options(const RenderOptions& options);
 
-/// Selects the frames of a run that become images of a video: for each image the frame nearest in time.
-class FilmFrames {
-  public:
-    /// frame_rate ≥ film_rate > 0
-    FilmFrames(std::uint64_t frames, double frame_rate, double film_rate);
-    std::uint64_t count() const { return count_; }
-    std::uint64_t frame(std::uint64_t picture) const;
-
-  private:
-    double step_;
-    std::uint64_t count_;
-};
 /// Images per second of the video; fails if that is more than the frame rate of the scene.
 Result<double> film_rate(const RenderOptions& options, double frame_rate);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 namespace weft::cli {
 namespace {
@@ -29,6 +30,7 @@ Progress::Progress(std::string what, std::uint64_t total, bool quiet, Unit unit)
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO)),
       unit_(unit),
+      often_(std::getenv("WEFT_PROGRESS") != nullptr),
       begin_(std::chrono::steady_clock::now()),
       last_draw_(begin_ - 1h) {}
 
@@ -60,7 +62,8 @@ void Progress::update(std::uint64_t done) {
         std::fflush(stderr);
         drawn_ = true;
         last_draw_ = now;
-    } else if (done >= next_line_) {
+    } else if (often_ ? now - last_draw_ >= 50ms || done == total_ : done >= next_line_) {
+        last_draw_ = now;
         std::fprintf(stderr, "%s %s  %s left\n", what_.c_str(), how_far, left.c_str());
         const std::uint64_t lines = unit_ == frames ? 4 : 20;
         next_line_ = std::min(total_, done + std::max<std::uint64_t>(1, total_ / lines));

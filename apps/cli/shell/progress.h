@@ -23,6 +23,7 @@ class Progress {
     std::uint64_t total_;
     bool quiet_, terminal_, drawn_ = false;
     Unit unit_;
+    bool often_;  ///< a program reads the lines: a new one after each frame, at most 20 per second
     std::uint64_t next_line_ = 0;
     std::chrono::steady_clock::time_point begin_, last_draw_;
 };

@@ -57,6 +57,7 @@ Editor::~Editor() {
     // Both threads call the window.
     view_thread_.reset();
     session_.reset();
+    if (simulator_) simulator_->play(false);  // an export may keep it for a while
     simulator_.reset();
     if (!log_file_.empty() && options_.record.empty()) {
         std::error_code ignored;
@@ -115,6 +116,7 @@ Result<void> Editor::start() {
 // Replaces what runs.
 void Editor::set_stage(Stage stage, const std::optional<Log>& recovered) {
     session_.reset();
+    if (simulator_) simulator_->play(false);  // an export may keep it for a while
     simulator_.reset();
     if (!log_file_.empty() && options_.record.empty()) {
         std::error_code ignored;
@@ -140,7 +142,7 @@ void Editor::set_stage(Stage stage, const std::optional<Log>& recovered) {
     photographer_ = std::make_shared<Photographer>();
     const DocumentPtr document = stage.document();
     const std::optional<Stage::SavedFile> saved = stage.saved();
-    simulator_ = std::make_unique<Simulator>(
+    simulator_ = std::make_shared<Simulator>(
         std::move(stage),
         Simulator::Hooks{.observe = [camera = photographer_](Stage& one) -> std::shared_ptr<const void> {
                              return camera->take(one);

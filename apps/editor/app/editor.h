@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editor/app/cards.h"
-#include "editor/app/export_job.h"
+#include "editor/app/export_dialog.h"
 #include "editor/app/file_dialog.h"
 #include "editor/app/gallery.h"
 #include "editor/app/picture.h"
@@ -99,6 +99,7 @@ class Editor {
     void recovery_dialog(Ui& ui);
     void changed_file_dialog(Ui& ui);
     void export_dialog(Ui& ui);
+    Result<void> start_export(const std::filesystem::path& file);
     void help(Ui& ui);
     void preferences(Ui& ui);
     void request_view();
@@ -135,7 +136,7 @@ class Editor {
     Settings settings_;
     std::unique_ptr<UiWindow> window_;
     std::shared_ptr<Photographer> photographer_;
-    std::unique_ptr<Simulator> simulator_;
+    std::shared_ptr<Simulator> simulator_;
     std::unique_ptr<Session> session_;
     std::unique_ptr<ViewThread> view_thread_;
     std::shared_ptr<const ViewImage> view_image_;
@@ -149,8 +150,8 @@ class Editor {
     std::vector<const Overlay*> overlays_;
     FileDialog file_dialog_;
     Gallery gallery_;
-    std::optional<ExportJob> export_;
-    ExportOptions export_options_;
+    std::unique_ptr<ExportJob> export_;
+    ExportChoices export_choices_;
     enum class Panel : std::uint8_t { none, gallery, export_file, help, preferences, unsaved, recovery, changed_file };
     Panel panel_ = Panel::none;
     enum class Page : std::uint8_t { view, objects, properties };

@@ -313,8 +313,7 @@ void Editor::close() {
 
 void Editor::ask_export() {
     if (export_ && export_->running()) return session_->say("An export runs already.");
-    const auto frames = std::max<std::uint64_t>(session_->now().last_recorded, 60);
-    export_options_ = {.file = {}, .frames = frames, .program = {}};
+    begin_export(export_choices_, session_->now());
     panel_ = Panel::export_file;
 }
 

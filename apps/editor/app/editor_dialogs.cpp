@@ -103,31 +103,6 @@ void Editor::gallery_dialog(Ui& ui) {
     if (chosen) unless_changed([this, file = *chosen] { open_later(file, {}); });
 }
 
-void Editor::export_dialog(Ui& ui) {
-    const Theme& theme = ui.theme();
-    Dialog dialog(ui, "export", "Export the run from its first frame", ImVec2(theme.px(520), 0));
-    auto frames = static_cast<long long>(export_options_.frames);
-    const Field field{.name = "frames", .label = "Frames", .what = "How many frames are simulated"};
-    if (integer(ui, field, frames, {.min = 1, .max = 1e6, .integer = true}) != Change::none)
-        export_options_.frames = static_cast<std::uint64_t>(frames);
-    muted_text(ui, "Simulates again from the first frame. What you pulled and cut by hand is not in it.");
-    if (button(ui, "choose", {.icon = Icon::export_file, .text = "Choose a file …", .primary = true})) {
-        panel_ = Panel::none;
-        file_dialog_.ask({.title = "Export: .glb, .mp4, .png, .pc2, .obj or .ply",
-                          .action = "Export",
-                          .endings = export_endings(),
-                          .for_writing = true,
-                          .start = session_->document()->folder / "cloth.glb",
-                          .chosen = [this](const std::filesystem::path& file) {
-                              export_options_.file = file;
-                              auto job = ExportJob::start(*session_->document(), export_options_);
-                              if (!job) return session_->say("Export", job.errors());
-                              export_ = std::move(*job);
-                          }});
-    }
-    if (next_button(ui, "cancel", {.text = "Cancel"})) panel_ = Panel::none;
-}
-
 void Editor::preferences(Ui& ui) {
     const Theme& theme = ui.theme();
     Dialog dialog(ui, "preferences", "Preferences", ImVec2(theme.px(520), 0));

@@ -300,7 +300,9 @@ void Editor::messages(Ui& ui) {
     } else {
         const std::string problem = export_->problem(), file = export_->file().string();
         export_.reset();
-        if (problem.empty())
+        if (problem == "canceled")
+            session_->say("The export of " + name + " was canceled");
+        else if (problem.empty())
             session_->say("Exported " + file);
         else
             session_->say("Export of " + name, {Error{"", problem}});

@@ -5,19 +5,17 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 #include <system_error>
 #include <utility>
 
 namespace weft::editor {
 namespace {
-
-bool is_image(const std::filesystem::path& file) {
-    const std::string ending = file.extension().string();
-    return ending == ".png" || ending == ".mp4";
-}
 
 /// The last line of the process's messages that names a problem.
 std::string last_problem(const std::string& text) {
@@ -34,67 +32,88 @@ std::string assets_with(const std::filesystem::path& folder) {
     return others && *others ? first + ":" + others : first;
 }
 
+std::string text_of(const Camera& camera) {
+    std::string text;
+    const Vec3 p = camera.position, t = camera.target;
+    for (const float number : {p.x, p.y, p.z, t.x, t.y, t.z, camera.fov}) {
+        char digits[32];
+        const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+        text += (text.empty() ? "" : ",") + std::string(digits, end);
+    }
+    return text;
+}
+
+void add_image_arguments(const ImageOptions& images, std::vector<std::string>& arguments) {
+    arguments.insert(arguments.end(), {"--size", std::to_string(images.width) + "x" + std::to_string(images.height)});
+    if (images.frames_per_second > 0)
+        arguments.insert(arguments.end(), {"--fps", std::to_string(images.frames_per_second)});
+    if (images.camera) arguments.insert(arguments.end(), {"--camera=" + text_of(*images.camera)});
+}
+
 /// For a program that has to remove files that are not complete.
 constexpr std::chrono::seconds time_to_clean_up{10};
 
 }  // namespace
 
-const std::vector<std::string>& export_endings() {
-    static const std::vector<std::string> endings{".glb", ".mp4", ".png", ".pc2", ".obj", ".ply"};
-    return endings;
+const std::vector<ExportFormatLine>& export_format_lines() {
+    static const std::vector<ExportFormatLine> lines{{".glb", "moving meshes, for Blender and game engines"},
+                                                     {".mp4", "video, written by the program ffmpeg", true},
+                                                     {".png", "image of the last frame", true, true},
+                                                     {".pc2", "point cache, for Blender, Maya and 3ds Max"},
+                                                     {".obj", "mesh of the last frame", false, true},
+                                                     {".ply", "mesh of the last frame, binary", false, true}};
+    return lines;
 }
 
-Result<ExportJob> ExportJob::start(const Document& document, const ExportOptions& options) {
+bool is_image(const std::filesystem::path& file) {
+    const std::string ending = file.extension().string();
+    return std::ranges::any_of(export_format_lines(),
+                               [&](const ExportFormatLine& line) { return line.is_image && line.ending == ending; });
+}
+
+Result<std::unique_ptr<SimulatedExport>> SimulatedExport::start(const Document& document,
+                                                                const SimulatedExportOptions& options) {
     const auto text = write_scene(document.scene);
     if (!text) return text.errors();
     std::error_code failed;
-    ExportJob job;
-    job.options_ = options;
-    job.scene_ = std::filesystem::temp_directory_path(failed) /
-                 ("weft-export-" + std::to_string(::getpid()) + "-" + std::to_string(::random()) + ".json");
-    auto written = write_atomically(job.scene_, [&](AtomicFile& out) { return out.write(*text); });
+    std::unique_ptr<SimulatedExport> job(new SimulatedExport);
+    job->options_ = options;
+    job->scene_ = std::filesystem::temp_directory_path(failed) /
+                  ("weft-export-" + std::to_string(::getpid()) + "-" + std::to_string(::random()) + ".json");
+    auto written = write_atomically(job->scene_, [&](AtomicFile& out) { return out.write(*text); });
     if (!written) return written.errors();
     std::vector<std::string> arguments{options.program.empty() ? "/proc/self/exe" : options.program.string(),
                                        is_image(options.file) ? "render" : "run",
-                                       job.scene_.string(),
+                                       job->scene_.string(),
                                        "--frames",
                                        std::to_string(options.frames),
                                        "--out",
                                        std::filesystem::absolute(options.file).string()};
+    if (is_image(options.file)) add_image_arguments(options.images, arguments);
     auto child = ChildProcess::start(
-        arguments, {.where = "export", .environment = {{"WEFT_ASSETS", assets_with(document.folder)}}, .prints = true});
+        arguments, {.where = "export",
+                    .environment = {{"WEFT_ASSETS", assets_with(document.folder)}, {"WEFT_PROGRESS", "frames"}},
+                    .prints = true});
     if (!child) {
-        std::filesystem::remove(job.scene_, failed);
+        std::filesystem::remove(job->scene_, failed);
         return child.errors();
     }
-    job.child_.emplace(std::move(*child));
+    job->child_.emplace(std::move(*child));
     return job;
 }
 
-ExportJob::ExportJob(ExportJob&& other) noexcept {
-    *this = std::move(other);
-}
-ExportJob& ExportJob::operator=(ExportJob&& other) noexcept {
-    std::swap(options_, other.options_);
-    std::swap(scene_, other.scene_);
-    std::swap(child_, other.child_);
-    std::swap(problem_, other.problem_);
-    std::swap(done_, other.done_);
-    return *this;
-}
-
-ExportJob::~ExportJob() {
+SimulatedExport::~SimulatedExport() {
     cancel();
 }
 
-void ExportJob::cancel() {
+void SimulatedExport::cancel() {
     if (!child_) return;
     child_->end(time_to_clean_up);
     end();
     problem_ = "canceled";
 }
 
-void ExportJob::end() {
+void SimulatedExport::end() {
     std::error_code ignored;
     std::filesystem::remove(scene_, ignored);
     if (child_->succeeded()) {
@@ -107,7 +126,7 @@ void ExportJob::end() {
 }
 
 // The process writes lines such as "frames 30/120  25.1 frames/s".
-void ExportJob::update() {
+void SimulatedExport::update() {
     if (!child_) return;
     const bool runs = child_->running();
     const std::string& text = child_->messages();

@@ -65,6 +65,12 @@ void Simulator::run(std::function<void(Stage&)> task) {
     changed_.notify_all();
 }
 
+void Simulator::look(std::function<void(const Stage&)> task) {
+    const std::lock_guard lock(mutex_);
+    commands_.push_back({next_number_++, {}, std::move(task), false});
+    changed_.notify_all();
+}
+
 void Simulator::play(bool on) {
     const std::lock_guard lock(mutex_);
     playing_ = on;
@@ -136,7 +142,7 @@ void Simulator::loop() {
 
 bool Simulator::carry_out(std::deque<Command> commands) {
     for (const Command& command : commands) carry_out(command);
-    return !commands.empty();
+    return std::ranges::any_of(commands, &Command::changes);
 }
 
 void Simulator::carry_out(const Command& command) {

@@ -88,6 +88,8 @@ class Simulator {
     void set_speed(double speed);
     /// Runs `task` between two frames. The stage is valid only during the call.
     void run(std::function<void(Stage&)> task);
+    /// The same for a task that changes nothing: nothing is published after it.
+    void look(std::function<void(const Stage&)> task);
 
     PublishedPtr newest() const;
     std::vector<Failure> take_failures();
@@ -101,6 +103,7 @@ class Simulator {
         std::uint64_t number = 0;
         std::optional<Action> action = {};
         std::function<void(Stage&)> task = {};
+        bool changes = true;
     };
     void loop();
     bool carry_out(std::deque<Command> commands);

@@ -36,6 +36,17 @@ TEST(Simulator, carries_out_what_is_posted_in_order) {
     EXPECT_EQ(hash_of(simulator), stage.hash());
 }
 
+TEST(Simulator, publishes_nothing_after_a_look) {
+    Simulator simulator(open_small(), {});
+    simulator.finish();
+    const auto before = simulator.newest();
+    std::uint64_t frame = 1;
+    simulator.look([&](const Stage& stage) { frame = stage.frame(); });
+    simulator.finish();
+    EXPECT_EQ(frame, 0u);
+    EXPECT_EQ(simulator.newest(), before);
+}
+
 TEST(Simulator, plays_and_pauses) {
     Simulator simulator(open_small(), {});
     simulator.set_speed(0);

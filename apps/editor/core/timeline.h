@@ -39,6 +39,11 @@ class Timeline {
     /// Fails if the frame is not recorded, or cannot be read back.
     Result<MomentPtr> moment_at(std::uint64_t frame) const;
     bool contains(std::uint64_t frame) const { return frames_.contains(frame); }
+    /// The branch that the recorded frame belongs to. If it changes, the frame was recorded anew; 0: not recorded.
+    std::uint64_t branch_at(std::uint64_t frame) const {
+        const auto found = frames_.find(frame);
+        return found == frames_.end() ? 0 : found->second.branch;
+    }
     void clear();
 
     /// Recorded frames that a run with this lineage reached.

@@ -153,27 +153,36 @@ Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual) 
 
 namespace {
 
+float widest_of(std::span<const std::string_view> texts) {
+    float widest = 0;
+    for (const std::string_view one : texts)
+        widest = std::max(widest, ImGui::CalcTextSize(one.data(), one.data() + one.size()).x);
+    return widest;
+}
+
 /// The list of names. Returns the one that was chosen.
 std::optional<std::size_t> choice_list(Ui& ui, std::string_view name, const ImRect& field, std::size_t value,
-                                       std::span<const std::string_view> names) {
+                                       std::span<const std::string_view> names,
+                                       std::span<const std::string_view> whats) {
     const Theme& theme = ui.theme();
     std::optional<std::size_t> chosen;
+    const float indent = theme.icon_side + theme.px(12), names_end = indent + widest_of(names) + theme.px(16);
+    float widest = std::max(field.GetWidth() - theme.px(8), names_end - theme.px(4));
+    if (!whats.empty()) widest = std::max(widest, names_end + widest_of(whats) + theme.px(8));
+    widest = std::min(widest, ui.size().x - theme.px(24));
     // Below the field, or above it where there is more room. A long list scrolls.
     const float gap = theme.px(3), below = ui.size().y - field.Max.y - 2 * gap, above = field.Min.y - 2 * gap;
     const float whole = static_cast<float>(names.size()) * ImGui::GetFrameHeight() + theme.px(8);
     const bool upward = whole > below && above > below;
     const float height = std::min({whole, std::max(theme.px(60), upward ? above : below), theme.px(420)});
-    ImGui::SetNextWindowPos(ImVec2(field.Min.x, upward ? field.Min.y - gap - height : field.Max.y + gap));
+    const float left = std::clamp(field.Min.x, 0.0f, std::max(0.0f, ui.size().x - widest - theme.px(16)));
+    ImGui::SetNextWindowPos(ImVec2(left, upward ? field.Min.y - gap - height : field.Max.y + gap));
     ImGui::SetNextWindowSizeConstraints(ImVec2(field.GetWidth(), 0), ImVec2(FLT_MAX, height));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(4), theme.px(4)));
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
     if (ImGui::BeginPopup(Ui::label_of(std::string(name) + ".list").c_str(), ImGuiWindowFlags_NoMove)) {
         {
             const Ui::Scope scope(ui, name);
-            float widest = field.GetWidth() - theme.px(8);
-            for (const std::string_view one : names)
-                widest = std::max(widest, ImGui::CalcTextSize(one.data(), one.data() + one.size()).x + theme.icon_side +
-                                              theme.px(24));
             for (std::size_t i = 0; i < names.size(); ++i) {
                 const Item item =
                     ui.place(names[i], ImVec2(widest, ImGui::GetFrameHeight()), i == value ? "chosen" : "");
@@ -186,8 +195,11 @@ std::optional<std::size_t> choice_list(Ui& ui, std::string_view name, const ImRe
                                       ImVec2(item.box.Min.x + theme.icon_side + theme.px(8), item.box.Max.y));
                     draw_icon(theme, Icon::check, mark, theme.color(theme.colors.accent_text));
                 }
-                const ImRect text(item.box.Min + ImVec2(theme.icon_side + theme.px(12), 0), item.box.Max);
+                const ImRect text(item.box.Min + ImVec2(indent, 0), item.box.Max);
                 clipped_text(text, names[i], ImGui::GetColorU32(ImGuiCol_Text));
+                if (i < whats.size())
+                    clipped_text(ImRect(item.box.Min + ImVec2(names_end, 0), item.box.Max), whats[i],
+                                 ImGui::GetColorU32(ImGuiCol_TextDisabled));
                 ui.draw_focus(item);
             }
         }
@@ -201,8 +213,13 @@ std::optional<std::size_t> choice_list(Ui& ui, std::string_view name, const ImRe
 }  // namespace
 
 Change choice(Ui& ui, const Field& field, std::size_t& value, std::span<const std::string_view> names,
-              std::optional<std::size_t> usual) {
+              std::optional<std::size_t> usual, std::span<const std::string_view> whats) {
     Field whole = field;
+    std::string what(field.what);
+    if (value < whats.size()) {
+        what += (what.empty() ? "" : "\n") + std::string(names[value]) + ": " + std::string(whats[value]);
+        whole.what = what;
+    }
     whole.differs = usual && *usual != value;
     if (usual && *usual < names.size()) whole.usual = names[*usual];
     const Row row = begin_row(ui, whole);
@@ -237,7 +254,7 @@ Change choice(Ui& ui, const Field& field, std::size_t& value, std::span<const st
     }
     ui.draw_focus(item);
     if (!open) field_tooltip(ui, item, whole);
-    if (const auto chosen = choice_list(ui, field.name, row.control, value, names)) {
+    if (const auto chosen = choice_list(ui, field.name, row.control, value, names, whats)) {
         now = *chosen;
         ui.redraw();
     }

@@ -37,9 +37,10 @@ Change flag(Ui& ui, const Field& field, bool& value, std::optional<bool> usual =
 /// between boxes, Space and Enter change one.
 Change bits(Ui& ui, const Field& field, std::uint32_t& value, std::optional<std::uint32_t> usual = {});
 
-/// One of several names. Opens a list; the arrow keys left and right change it at once.
+/// One of several names. Opens a list; the arrow keys left and right change it at once. `whats`: one line about each
+/// name, beside it in the list and in the tooltip; empty or as many.
 Change choice(Ui& ui, const Field& field, std::size_t& value, std::span<const std::string_view> names,
-              std::optional<std::size_t> usual = {});
+              std::optional<std::size_t> usual = {}, std::span<const std::string_view> whats = {});
 
 /// A line of text. `finished` at Enter, Tab or a click elsewhere; Esc takes the typing back. `hint`: shown while it is
 /// empty.
