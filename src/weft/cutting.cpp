@@ -7,12 +7,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <type_traits>
 #include <variant>
 
 namespace weft {
 namespace {
+
+std::string short_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", value);
+    return text;
+}
 
 // Opens edges in a copy of the cloth's arrays.
 class Rehearsal {
@@ -54,8 +61,8 @@ Result<std::vector<Opening>> find_cut(const CutDesc& cut, const ClothModel& mode
     if (openings.empty()) return Error{place, "meets no closed edge of the cloth"};
     const double off = farthest_from(stroke, model, positions, openings), most = 0.75 * double{model.longest_edge};
     if (off > most)
-        return Error{place, "leaves the cloth: the edges nearest to it are up to " + number_text(float(off)) +
-                                " m away, the longest edge is " + number_text(model.longest_edge) +
+        return Error{place, "leaves the cloth: the edges nearest to it are up to " + short_text(off) +
+                                " m away, the longest edge is " + short_text(double{model.longest_edge}) +
                                 " m; its points must follow the cloth"};
     return openings;
 }

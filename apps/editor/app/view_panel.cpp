@@ -325,14 +325,19 @@ void ViewPanel::cut(Session& session, const ViewMarks& marks, const Input& input
         std::vector<PickSurface> others(scene.cloths.begin(), scene.cloths.end());
         others[i] = {};
         const std::string name = PickTrees::name_of_cloth(picture, i);
-        for (const PathCut& path :
-             cuts_of_stroke(input.view, stroke_, {mesh, tree, &distance}, {others, scene.colliders, {}})) {
-            ++parts;
-            const std::string place = place_of_named(*session.document(), "/cloths", name);
-            if (session.document()->scene.cloths[std::stoul(place.substr(8))].tearing == Tearing::off)
-                session.change("Let " + name + " be cut", {{place + "/tearing", "cuts"}});
-            session.post(Cut{name, path.points});
+        const std::string place = place_of_named(*session.document(), "/cloths", name);
+        if (place.empty()) continue;
+        // On the cloth as it starts. A line from fold to fold leaves the cloth as it is now, and a cloth that cannot be
+        // cut yet starts again.
+        const CutCloth cloth{mesh, tree, &distance, picture.world->model(i)->start};
+        const auto cuts = cuts_of_stroke(input.view, stroke_, cloth, {others, scene.colliders, {}});
+        if (cuts.empty()) continue;
+        if (session.document()->scene.cloths[std::stoul(place.substr(8))].tearing == Tearing::off) {
+            session.change("Let " + name + " be cut", {{place + "/tearing", "cuts"}});
+            session.say(name + " starts again: its tearing was off.");
         }
+        for (const PathCut& path : cuts) session.post(Cut{name, path.points, true});
+        parts += static_cast<int>(cuts.size());
     }
     if (parts == 0) session.say("The stroke meets no cloth: draw it across a cloth.");
     stroke_.clear();

@@ -40,6 +40,9 @@ class LineReader {
     void read(const char* key, float& value) {
         if (const Json* found = need(key, &Json::is_number, "a number")) value = found->get<float>();
     }
+    void read(const char* key, bool& value) {
+        if (const Json* found = need(key, &Json::is_boolean, "true or false")) value = found->get<bool>();
+    }
     void read(const char* key, Vec3& value) {
         const Json* found = need(key, &Json::is_array, "three numbers");
         if (found) value = vector(*found, key);
@@ -106,6 +109,7 @@ struct Writer {
         json["cloth"] = a.cloth;
         json["points"] = Json::array();
         for (const Vec3 point : a.points) json["points"].push_back(to_json(point));
+        if (a.at_start) json["at_start"] = true;
     }
     void operator()(const Grab& a) const {
         json["cloth"] = a.cloth;
@@ -132,7 +136,11 @@ struct Reader {
         if (line.has("gesture")) line.read("gesture", a.gesture);
     }
     void operator()(Rename& a) const { line.read("place", a.place), line.read("name", a.name); }
-    void operator()(Cut& a) const { line.read("cloth", a.cloth), line.read("points", a.points); }
+    void operator()(Cut& a) const {
+        line.read("cloth", a.cloth);
+        line.read("points", a.points);
+        if (line.has("at_start")) line.read("at_start", a.at_start);
+    }
     void operator()(Grab& a) const {
         line.read("cloth", a.cloth);
         line.read("triangle", a.point.triangle);

@@ -31,10 +31,11 @@ struct Rename {
     std::string name = {};
     friend bool operator==(const Rename&, const Rename&) = default;
 };
-/// Cuts a cloth along a path on it, as it is now. Part of the state, not of the document.
+/// Cuts a cloth along a path on it. Part of the state, not of the document.
 struct Cut {
     std::string cloth = {};
     std::vector<Vec3> points = {};  ///< m
+    bool at_start = false;          ///< the path lies on the cloth as it starts; false: as it is now
     friend bool operator==(const Cut&, const Cut&) = default;
 };
 /// Begins to pull a point of a cloth.

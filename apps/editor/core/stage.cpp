@@ -181,7 +181,8 @@ Result<void> Stage::act(const Cut& action) {
     return as_step("Cut of " + action.cloth, 0, [&]() -> Result<void> {
         // Ids of cloths may have changed with the document.
         const auto id = cloth_called(action.cloth);
-        if (auto opened = world_->cut(*id, cut, CutPositions::current); !opened) return opened;
+        const CutPositions on = action.at_start ? CutPositions::start : CutPositions::current;
+        if (auto opened = world_->cut(*id, cut, on); !opened) return opened;
         begin_branch();
         return {};
     });

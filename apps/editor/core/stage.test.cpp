@@ -181,6 +181,22 @@ TEST(Stage, seeks_to_recorded_frames_and_continues_with_the_same_bits) {
     EXPECT_THAT(stage.timeline().stale(stage.lineage()), IsEmpty());
 }
 
+// The stroke crosses the cloth where it has fallen to. The cloth starts again before it is cut.
+TEST(Stage, cuts_a_cloth_that_starts_again_where_the_stroke_was) {
+    Stage stage = open_small();
+    must(stage.apply(change_of("/cloths/0/tearing", "off")));
+    run(stage, 20);
+    must(stage.apply(change_of("/cloths/0/tearing", "cuts")));
+    const Cut cut{"sheet", {{-0.6f, 0.5f, 0.01f}, {0.1f, 0.5f, 0.01f}}, true};
+    const auto line = Json::parse(to_line({0, cut}));
+    const auto read = action_from(line);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->second, Action(cut));
+    must(stage.apply(read->second));
+    run(stage, 10);
+    must(stage.apply(Cut{"sheet", {{-0.6f, 0.5f, 0.2f}, {0.1f, 0.5f, 0.2f}}, true}));
+}
+
 // The recorded frames after it were pulled, and those of the new run are not.
 TEST(Stage, begins_a_branch_when_a_run_goes_on_without_the_pull) {
     Stage stage = open_small();

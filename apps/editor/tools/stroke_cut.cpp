@@ -9,9 +9,9 @@
 namespace weft::editor {
 namespace {
 
-constexpr double cut_spacing = 2;                         // pixels between two points of the stroke
-constexpr int halvings = 7;                               // of that, where a part begins and ends
-constexpr double corner_size = 0.25, shortest_cut = 0.5;  // in edges
+constexpr double cut_spacing = 2;                                       // pixels between two points of the stroke
+constexpr int halvings = 7;                                             // of that, where a part begins and ends
+constexpr double corner_size = 0.25, shortest_cut = 0.5, long_cut = 2;  // in edges
 
 struct StrokeHit {
     Vec2 pixel;
@@ -34,7 +34,11 @@ class StrokeTracer {
     }
     std::vector<PathCut> take() {
         end();
-        return std::move(cuts_);
+        const bool has_long = std::ranges::any_of(edges_, [](double edges) { return edges >= long_cut; });
+        std::vector<PathCut> cuts;
+        for (std::size_t i = 0; i < cuts_.size(); ++i)
+            if (!has_long || edges_[i] >= long_cut) cuts.push_back(std::move(cuts_[i]));
+        return cuts;
     }
 
   private:
@@ -50,6 +54,16 @@ class StrokeTracer {
         const auto [a, b, c] = cloth_.mesh.triangle(triangle);
         const Vec3 p = cloth_.mesh.position(a), q = cloth_.mesh.position(b), r = cloth_.mesh.position(c);
         return std::max({length(q - p), length(r - q), length(p - r)});
+    }
+
+    // Where the cut passes.
+    Vec3 place(const StrokeHit& hit) const {
+        const Triangle corners = cloth_.mesh.triangle(hit.hit.triangle);
+        if (std::ranges::any_of(corners, [&](std::uint32_t corner) { return corner >= cloth_.start.size(); }))
+            return hit.hit.point;
+        const Vec3 w = hit.hit.weights;
+        return cloth_.start[corners[0]].xyz() * w.x + cloth_.start[corners[1]].xyz() * w.y +
+               cloth_.start[corners[2]].xyz() * w.z;
     }
 
     // Whether the geodesic distance between the two points is short.
@@ -103,10 +117,10 @@ class StrokeTracer {
             open.pop_back();
             float farthest = size;
             std::size_t corner = from;
-            const Vec3 a = part_[from].hit.point, along = part_[to].hit.point - a;
+            const Vec3 a = place(part_[from]), along = place(part_[to]) - a;
             const float squared = dot(along, along);
             for (std::size_t i = from + 1; i < to; ++i) {
-                const Vec3 p = part_[i].hit.point - a;
+                const Vec3 p = place(part_[i]) - a;
                 const float t = squared > 0 ? std::clamp(dot(p, along) / squared, 0.0f, 1.0f) : 0;
                 if (const float off = length(p - along * t); off > farthest) farthest = off, corner = i;
             }
@@ -131,8 +145,11 @@ class StrokeTracer {
             keep_corners(0, part_.size() - 1, static_cast<float>(corner_size * edge), kept);
             PathCut cut;
             for (std::size_t i = 0; i < part_.size(); ++i)
-                if (kept[i]) cut.points.push_back(part_[i].hit.point);
-            if (static_cast<double>(way) >= shortest_cut * edge) cuts_.push_back(std::move(cut));
+                if (kept[i]) cut.points.push_back(place(part_[i]));
+            if (static_cast<double>(way) >= shortest_cut * edge) {
+                cuts_.push_back(std::move(cut));
+                edges_.push_back(static_cast<double>(way) / edge);
+            }
         }
         part_.clear();
     }
@@ -143,6 +160,7 @@ class StrokeTracer {
     std::optional<Vec2> last_pixel_;
     std::vector<StrokeHit> part_;  // points of the part that is not yet ended
     std::vector<PathCut> cuts_;
+    std::vector<double> edges_;  // per cut, its length
 };
 
 }  // namespace

@@ -99,6 +99,61 @@ TEST(StrokeCut, a_stroke_that_leaves_the_cloth_becomes_several_cuts) {
     expect_close(cuts[1].points.back(), {0.5f, 0, 0.1f}, 1e-4f);
 }
 
+// From fold to fold, where a line between two visible points leaves the cloth as it is now.
+TEST(StrokeCut, stays_on_the_cloth_across_folds) {
+    const TriangleMesh flat = make_grid({1, 1}, {41, 41}, GridDiagonal::alternating);
+    ClothModelDesc desc{.name = "sheet", .layout = {}, .reserve = {.particles = 200, .openings = true, .tears = true}};
+    auto topology = build_topology(flat, {.reorder = false});
+    ASSERT_TRUE(topology);
+    desc.mesh = flat;
+    const auto model = build_cloth_model(std::move(desc), std::move(*topology));
+    ASSERT_TRUE(model);
+    const std::span<const Vec4> start((*model)->start.data(), (*model)->particle_count);
+    TriangleMesh now = flat;
+    for (Vec3& p : now.positions) p = {0.6f * p.x, 0.06f * std::sin(40 * p.x), p.z};
+    for (const float slope : {-0.3f, 0.0f, 0.2f}) {
+        Cutting sheet(now, {.position = {0.5f, 1.5f, 0.5f}, .target = {}, .fov = 40});
+        const std::vector<Vec2> stroke{{100, 360 - 500 * slope}, {1200, 360 + 500 * slope}};
+        const CutCloth cloth{MeshView(sheet.mesh), &sheet.tree, &sheet.distance, start};
+        const auto cuts = cuts_of_stroke(sheet.view, stroke, cloth, {});
+        ASSERT_FALSE(cuts.empty());
+        for (const PathCut& cut : cuts) {
+            const auto openings = openings_along_stroke_at_rest(**model, cut.points);
+            EXPECT_LT(farthest_from(cut.points, **model, start, openings), 0.75 * double{(*model)->longest_edge});
+        }
+    }
+}
+
+TEST(StrokeCut, short_parts_are_left_out_beside_a_long_one) {
+    TriangleMesh mesh = make_grid({1, 1}, {21, 21}, GridDiagonal::alternating);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        const Vec3 center = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) * (1.0f / 3);
+        return std::abs(center.x) < 0.15f;
+    });
+    Cutting sheet(mesh);
+    const auto cuts = sheet.cut({sheet.pixel({-0.2f, 0, 0.1f}), sheet.pixel({0.7f, 0, 0.1f})});
+    ASSERT_EQ(cuts.size(), 1u);
+    expect_close(cuts[0].points.front(), {0.15f, 0, 0.1f}, 1e-4f);
+    EXPECT_EQ(sheet.cut({sheet.pixel({-0.2f, 0, 0.1f}), sheet.pixel({-0.1f, 0, 0.1f})}).size(), 1u) << "alone";
+}
+
+// A straight stroke over a bulge is straight on the sheet as it starts too.
+TEST(StrokeCut, can_lie_on_the_cloth_as_it_starts) {
+    const TriangleMesh flat = make_grid({1, 1}, {21, 21}, GridDiagonal::alternating);
+    TriangleMesh now = flat;
+    for (Vec3& p : now.positions) p = {p.x + 0.2f, 0.3f - p.x * p.x, p.z};
+    std::vector<Vec4> start;
+    for (const Vec3& p : flat.positions) start.push_back({p.x, p.y, p.z, 1});
+    Cutting sheet(now);
+    const std::vector<Vec2> stroke{{100, 360}, {1200, 360}};
+    const auto cuts =
+        cuts_of_stroke(sheet.view, stroke, {MeshView(sheet.mesh), &sheet.tree, &sheet.distance, start}, {});
+    ASSERT_EQ(cuts.size(), 1u);
+    expect_close(cuts[0].points.front(), {-0.5f, 0, 0}, 1e-3f);
+    expect_close(cuts[0].points.back(), {0.5f, 0, 0}, 1e-3f);
+    for (const Vec3 p : cuts[0].points) EXPECT_NEAR(p.z, 0, 0.02f);
+}
+
 TEST(StrokeCut, what_something_hides_is_not_cut) {
     Cutting sheet(make_grid({1, 1}, {21, 21}, GridDiagonal::alternating));
     TriangleMesh box = make_box({0.2f, 0.2f, 0.2f}, {2, 2, 2});
