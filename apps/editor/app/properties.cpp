@@ -1,5 +1,6 @@
 #include "editor/app/properties.h"
 
+#include "editor/app/choice_words.h"
 #include "editor/app/property_tables.h"
 #include "editor/ui/expression.h"
 #include "editor/ui/widgets/color.h"
@@ -165,7 +166,7 @@ class PropertyRow {
         std::size_t chosen = std::min(number_of(value_), names.size() - 1);
         std::optional<std::size_t> usual;
         if (usual_) usual = number_of(*usual_);
-        const Change change = choice(ui_, field_, chosen, names, usual);
+        const Change change = choice(ui_, field_, chosen, names, usual, choice_words(p_));
         store(change, std::string(names[chosen]));
     }
     void text_row() {
@@ -184,7 +185,9 @@ class PropertyRow {
             if (name.empty()) name = "none";
         std::size_t chosen = static_cast<std::size_t>(std::ranges::find(known, value) - known.begin());
         chosen = std::min(chosen, names.size() - 1);
-        const Change change = choice(ui_, field_, chosen, names);
+        const std::vector<std::string> words = preset_words(place_, known);
+        const std::vector<std::string_view> whats(words.begin(), words.end());
+        const Change change = choice(ui_, field_, chosen, names, {}, whats);
         if (change == Change::none) return;
         // A preset replaces values that were made for another one.
         if (p_.key == "preset")
@@ -238,7 +241,10 @@ void choose_motion(Ui& ui, Session& session, const std::string& place) {
     const Field field{.name = "kind",
                       .label = "Kind",
                       .what = "it stays, moves by keys, or is a body that gravity and what it touches move"};
-    const Change change = choice(ui, field, chosen, motions_of(document, collider), 0);
+    const auto motions = motions_of(document, collider);
+    std::vector<std::string_view> whats = motion_words();
+    whats.resize(motions.size());
+    const Change change = choice(ui, field, chosen, motions, 0, whats);
     if (change == Change::none || chosen == before) return;
     session.change(title_of(session, place, "motion"), change_motion(document, collider, chosen));
 }

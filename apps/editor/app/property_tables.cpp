@@ -266,8 +266,10 @@ std::vector<std::string> names_for(const Document& document, const std::string& 
     const std::string pattern = pattern_of(place);
     if (key == "preset" && pattern == "/cloths/*/fabric") {
         for (const FabricPreset& preset : fabric_presets()) names.emplace_back(preset.name);
+        std::ranges::sort(names);
     } else if (key == "preset") {
         for (const MaterialPreset& preset : material_presets()) names.emplace_back(preset.name);
+        std::ranges::sort(names);
     } else if (key == "attach") {
         names.emplace_back();
         for (const SceneCollider& collider : document.scene.colliders) names.push_back(collider.name);
