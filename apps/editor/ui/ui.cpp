@@ -358,6 +358,18 @@ void Ui::keep_arrows(const Item& item) const {
         ImGui::NavMoveRequestCancel();
 }
 
+// Beside the panel, so that it covers no other row; else below or above the item. Always within the window.
+ImVec2 Ui::place_of_tooltip(const ImRect& item, const ImRect& panel, ImVec2 tip) const {
+    const float gap = theme_.px(6);
+    const ImVec2 most(std::max(gap, size().x - tip.x - gap), std::max(gap, size().y - tip.y - gap));
+    const bool is_panel = panel.GetWidth() < size().x / 2;
+    const float left = panel.Min.x - gap - tip.x, right = panel.Max.x + gap;
+    if (is_panel && left >= gap) return {left, std::clamp(item.Min.y, gap, most.y)};
+    if (is_panel && right <= most.x) return {right, std::clamp(item.Min.y, gap, most.y)};
+    const float below = item.Max.y + gap, above = item.Min.y - gap - tip.y;
+    return {std::clamp(item.Min.x, gap, most.x), below <= most.y || above < gap ? std::min(below, most.y) : above};
+}
+
 void Ui::tooltip(const Item& item, const std::function<void()>& content) {
     const bool rests = (item.hovered && !focus_is_visible()) || item.focused;
     const bool busy = context_->ActiveId == item.id || context_->IO.MouseDown[0];
@@ -368,19 +380,24 @@ void Ui::tooltip(const Item& item, const std::function<void()>& content) {
     if (tip_ != item.id) {
         tip_ = item.id;
         tip_since_ = now();
+        tip_size_ = {};
     }
     const double left = tip_since_ + tooltip_delay - now();
     if (left > 0) {
         redraw_in(left);
         return;
     }
-    if (item.focused) ImGui::SetNextWindowPos(ImVec2(item.box.Min.x, item.box.Max.y + theme_.px(6)));
+    ImGui::SetNextWindowPos(place_of_tooltip(item.box, ImGui::GetCurrentWindow()->Rect(), tip_size_));
     // The panel around the widget may have no padding.
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme_.px(8), theme_.px(6)));
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(theme_.px(340));
+    ImGui::PushTextWrapPos(std::min(theme_.px(340), size().x - theme_.px(28)));
     content();
     ImGui::PopTextWrapPos();
+    const ImVec2 shown = ImGui::GetWindowSize();
+    if (shown.x != tip_size_.x || shown.y != tip_size_.y) redraw();  // it is placed when its size is known
+    tip_size_ = shown;
+    note("tooltip", ImRect(ImGui::GetWindowPos(), ImGui::GetWindowPos() + shown), "");
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
 }

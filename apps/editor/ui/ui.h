@@ -133,7 +133,7 @@ class Ui {
     void keep_delete() { keeps_delete_ = true; }
     /// The focused widget does not need the space bar.
     void release_space() { releases_space_ = true; }
-    /// Shows text beside the pointer, or under the widget that has the keyboard, once it has rested there for a while.
+    /// Shows text about the widget beside its panel, once the pointer or the keyboard has rested there for a while.
     void tooltip(const Item& item, const std::function<void()>& content);
     /// The state of the widget that is in a gesture.
     struct Gesture {
@@ -153,6 +153,7 @@ class Ui {
     void feed();
     void update_focus();
     void apply_theme();
+    ImVec2 place_of_tooltip(const ImRect& item, const ImRect& panel, ImVec2 tip) const;
 
     UiOptions options_;
     ImGuiContext* context_ = nullptr;
@@ -183,6 +184,7 @@ class Ui {
     bool focus_typing_ = false;
     ImGuiID tip_ = 0;
     double tip_since_ = 0;
+    ImVec2 tip_size_{};  ///< in the last frame; 0: not known yet
     std::string clipboard_;
 
     friend class Scope;
