@@ -164,6 +164,7 @@ class Editor {
         std::string file;
         Bounds bounds;  ///< of the mesh, m
         Errors errors;
+        bool has_colors = false;
     };
     std::vector<std::future<Added>> adding_;
     std::filesystem::path log_file_;

@@ -183,11 +183,12 @@ void Editor::add_object(std::string_view name) {
 // The mesh is read in the background, for its size: the cloth begins above what is there, so that it falls on it.
 void Editor::add_cloth_from(const std::string& file) {
     adding_.push_back(std::async(std::launch::async, [file, folder = session_->document()->folder, this] {
-        Added added{.file = file, .bounds = {}, .errors = {}};
+        Added added{.file = file, .bounds = {}, .errors = {}, .has_colors = false};
         const auto mesh = read_mesh_file(file, folder);
         if (!mesh) added.errors = mesh.errors();
         if (mesh)
             for (const Vec3 p : mesh->positions) added.bounds.include(p);
+        added.has_colors = mesh && !mesh->colors.empty();
         window_->redraw();
         return added;
     }));
@@ -204,7 +205,8 @@ void Editor::take_added() {
         }
         const auto* picture = static_cast<const Picture*>(session_->now().picture.get());
         const Room room = picture ? room_of(*picture->world) : Room{};
-        const auto added = addition(*session_->document(), "mesh", one.file, place_above(one.bounds, room));
+        const auto added =
+            addition(*session_->document(), "mesh", one.file, place_above(one.bounds, room), one.has_colors);
         if (!added) {
             session_->say(label, added.errors());
             continue;

@@ -7,8 +7,11 @@
 #include "solver/world/collider_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <span>
+#include <utility>
 
 namespace weft::editor {
 namespace {
@@ -53,6 +56,51 @@ Addition append(const Document& document, const std::string& list, Json value) {
     return {{{list + "/-", std::move(value)}}, place_after_append(document, list)};
 }
 
+// Linear RGB. Cloths get colors that differ at a glance, colliders neutral ones.
+constexpr std::array<Vec3, 8> cloth_colors{{
+    {0.0231f, 0.208f, 0.227f},   // teal
+    {0.453f, 0.0869f, 0.0446f},  // brick
+    {0.592f, 0.316f, 0.0415f},   // ochre
+    {0.0582f, 0.0915f, 0.311f},  // indigo
+    {0.251f, 0.0619f, 0.164f},   // plum
+    {0.164f, 0.212f, 0.0511f},   // olive
+    {0.56f, 0.139f, 0.177f},     // rose
+    {0.0697f, 0.267f, 0.41f},    // sky
+}};
+constexpr std::array<Vec3, 4> collider_colors{{
+    {0.349f, 0.32f, 0.28f},    // warm gray
+    {0.164f, 0.19f, 0.227f},   // slate
+    {0.56f, 0.476f, 0.349f},   // sand
+    {0.106f, 0.106f, 0.117f},  // charcoal
+}};
+
+/// The first color that no object of the list has; if all are used, the next one in turn.
+Json free_color(const Document& document, const std::string& list, std::span<const Vec3> colors) {
+    const Json* objects = find(document.json, list);
+    const auto as_json = [](Vec3 c) { return Json{number(c.x), number(c.y), number(c.z)}; };
+    for (const Vec3 color : colors) {
+        const Json wanted = as_json(color);
+        bool used = false;
+        for (std::size_t i = 0; objects && i < objects->size(); ++i) {
+            const Json* of = find(document.json, list + "/" + std::to_string(i) + "/material/color");
+            used = used || (of && *of == wanted);
+        }
+        if (!used) return wanted;
+    }
+    return as_json(colors[(objects ? objects->size() : 0) % colors.size()]);
+}
+
+Json colored(const Document& document, const std::string& list, std::span<const Vec3> colors, Json object) {
+    object["material"]["color"] = free_color(document, list, colors);
+    return object;
+}
+Json colored_cloth(const Document& document, Json cloth) {
+    return colored(document, "/cloths", cloth_colors, std::move(cloth));
+}
+Json colored_collider(const Document& document, Json collider) {
+    return colored(document, "/colliders", collider_colors, std::move(collider));
+}
+
 }  // namespace
 
 std::span<const AddableObject> addable_objects() {
@@ -90,12 +138,12 @@ Vec3 place_above(const Bounds& mesh, const Room& room) {
 }
 
 Result<Addition> addition(const Document& document, std::string_view name, const std::string& file,
-                          std::optional<Vec3> position) {
+                          std::optional<Vec3> position, bool has_colors) {
     if (name == "cloth") {
-        return append(document, "/cloths",
-                      Json{{"name", free_name(document, "sheet")},
-                           {"mesh", {{"grid", {{"size", {1, 1}}, {"resolution", {64, 64}}}}}},
-                           {"transform", at_height(1 + 0.25f * static_cast<float>(document.scene.cloths.size()))}});
+        Json sheet{{"name", free_name(document, "sheet")},
+                   {"mesh", {{"grid", {{"size", {1, 1}}, {"resolution", {64, 64}}}}}},
+                   {"transform", at_height(1 + 0.25f * static_cast<float>(document.scene.cloths.size()))}};
+        return append(document, "/cloths", colored_cloth(document, std::move(sheet)));
     }
     if (name == "mesh" || name == "solid") {
         if (file.empty()) return Error{"mesh", "needs the name of a mesh file"};
@@ -103,17 +151,22 @@ Result<Addition> addition(const Document& document, std::string_view name, const
         Json cloth{{"name", called}, {"mesh", {{"file", file}}}};
         if (position && *position != Vec3{})
             cloth["transform"] = {{"position", {number(position->x), number(position->y), number(position->z)}}};
-        if (name == "mesh") return append(document, "/cloths", std::move(cloth));
-        return append(document, "/colliders", Json{{"name", called}, {"mesh", {{"file", file}}}});
+        if (name == "mesh")
+            return append(document, "/cloths", has_colors ? std::move(cloth) : colored_cloth(document, cloth));
+        return append(document, "/colliders",
+                      colored_collider(document, Json{{"name", called}, {"mesh", {{"file", file}}}}));
     }
     if (name == "box")
         return append(document, "/colliders",
-                      collider(document, "box", "box", Json{{"half_extents", {0.2, 0.2, 0.2}}}, 0.2f));
+                      colored_collider(
+                          document, collider(document, "box", "box", Json{{"half_extents", {0.2, 0.2, 0.2}}}, 0.2f)));
     if (name == "sphere")
-        return append(document, "/colliders", collider(document, "sphere", "ball", Json{{"radius", 0.25}}, 0.25f));
+        return append(document, "/colliders",
+                      colored_collider(document, collider(document, "sphere", "ball", Json{{"radius", 0.25}}, 0.25f)));
     if (name == "capsule")
         return append(document, "/colliders",
-                      collider(document, "capsule", "capsule", Json{{"radius", 0.1}, {"half_height", 0.2}}, 0.3f));
+                      colored_collider(document, collider(document, "capsule", "capsule",
+                                                          Json{{"radius", 0.1}, {"half_height", 0.2}}, 0.3f)));
     if (name == "plane")
         return append(document, "/colliders", Json{{"name", free_name(document, "floor")}, {"plane", Json::object()}});
     if (name == "wind") return append(document, "/air/wind", Json{{"velocity", {3, 0, 0}}});

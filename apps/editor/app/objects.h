@@ -27,13 +27,14 @@ struct AddableObject {
 std::span<const AddableObject> addable_objects();
 
 /// The edits that add an object of this name, and its place afterwards. Fails if the scene lacks what it needs, such as
-/// a cloth for a stitch.
+/// a cloth for a stitch. Cloths and colliders get a color that the others do not have, except a cloth from a mesh that
+/// has colors of its own.
 struct Addition {
     std::vector<Edit> edits;
     std::string place;
 };
 Result<Addition> addition(const Document& document, std::string_view name, const std::string& file = {},
-                          std::optional<Vec3> position = {});
+                          std::optional<Vec3> position = {}, bool has_colors = false);
 
 /// What a world holds.
 struct Room {

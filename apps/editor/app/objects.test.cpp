@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <set>
 
 namespace weft::editor {
 namespace {
@@ -192,6 +193,24 @@ TEST(Objects, amounts_are_typed_as_one_number_or_as_many_as_the_handle_has) {
     EXPECT_THAT(typed_numbers("", "m", 1), IsEmpty());
     EXPECT_THAT(typed_numbers("3 kg", "m", 1), IsEmpty());
     EXPECT_THAT(typed_numbers("1/0", "m", 1), IsEmpty());
+}
+
+TEST(Objects, that_are_added_have_colors_of_their_own) {
+    DocumentPtr document = small_document();
+    std::set<std::string> colors;
+    for (const char* const kind : {"cloth", "cloth", "cloth", "sphere", "box", "capsule"}) {
+        const auto added = addition(*document, kind);
+        ASSERT_TRUE(added);
+        auto next = edited(*document, added->edits);
+        ASSERT_TRUE(next) << next.error().message();
+        document = *next;
+        const Json* color = find(document->json, added->place + "/material/color");
+        ASSERT_TRUE(color) << kind;
+        EXPECT_TRUE(colors.insert(color->dump()).second) << kind << " has the color of another one";
+    }
+    const auto plain = addition(*document, "mesh", "a.obj"), painted = addition(*document, "mesh", "a.obj", {}, true);
+    EXPECT_TRUE(plain->edits[0].value->contains("material"));
+    EXPECT_FALSE(painted->edits[0].value->contains("material"));
 }
 
 }  // namespace
