@@ -125,7 +125,10 @@ class PropertyRow {
         } else {
             NumberRange whole = range;
             whole.integer = p_.kind == ParameterKind::integer;
-            change = vector(ui_, field_, values, whole, usual, parts_of(place_, p_));
+            const auto parts = parts_of(place_, p_);
+            const bool linked = !parts.empty() && parts.front() == "warp";
+            change = linked ? linked_vector(ui_, field_, values, whole, usual, parts)
+                            : vector(ui_, field_, values, whole, usual, parts);
         }
         Json list = Json::array();
         for (const double one : values) list.push_back(as_json(one));

@@ -499,5 +499,54 @@ TEST(Shortcuts, need_exactly_their_modifiers_and_no_text_field) {
     EXPECT_EQ(letter, 1);
 }
 
+class LinkedVectorTest : public testing::Test {
+  protected:
+    std::array<double, 2> values{100, 100};
+    static constexpr std::array<double, 2> usual{100, 100};
+    static constexpr std::array<std::string_view, 2> parts{"warp", "weft"};
+    Reports reports;
+    Stage stage{[this](Ui& ui) {
+        reports.add(linked_vector(ui, {.name = "v", .label = "Stretch"}, values, {.min = 0, .max = 1000, .unit = "N/m"},
+                                  usual, parts));
+    }};
+    bool shows(const char* name) { return stage.ui.probe().find(name) != nullptr; }
+};
+
+TEST_F(LinkedVectorTest, equal_numbers_change_as_one) {
+    EXPECT_TRUE(shows("v/all"));
+    EXPECT_FALSE(shows("v/warp"));
+    stage.to("v/all").click();
+    stage.settle();
+    stage.script.type("250").press(Key::enter);
+    stage.settle();
+    EXPECT_EQ(values, (std::array<double, 2>{250, 250}));
+    EXPECT_EQ(reports.finished, 1);
+}
+
+TEST_F(LinkedVectorTest, can_be_taken_apart_and_linked_again) {
+    stage.to("v/link").click();
+    stage.settle();
+    ASSERT_TRUE(shows("v/warp") && shows("v/weft"));
+    EXPECT_EQ(reports.finished, 0) << "that changes nothing";
+    stage.to("v/weft").click();
+    stage.settle();
+    stage.script.type("250").press(Key::enter);
+    stage.settle();
+    EXPECT_EQ(values, (std::array<double, 2>{100, 250}));
+    stage.to("v/link").click();
+    stage.settle();
+    EXPECT_EQ(values, (std::array<double, 2>{100, 100}));
+    EXPECT_TRUE(shows("v/all"));
+}
+
+TEST_F(LinkedVectorTest, different_numbers_have_rows_with_names) {
+    values = {3, 4};
+    stage.ui.redraw();
+    stage.settle();
+    ASSERT_TRUE(shows("v/warp") && shows("v/weft"));
+    EXPECT_GT(stage.widget("v/weft").y, stage.widget("v/warp").y);
+    EXPECT_GE(stage.widget("v/weft").width, 100);
+}
+
 }  // namespace
 }  // namespace weft::editor

@@ -56,6 +56,10 @@ Change angle(Ui& ui, const Field& field, double& degrees, NumberRange range = {}
 /// of the numbers, such as `static` and `kinetic`, if they are not along x, y, z and w.
 Change vector(Ui& ui, const Field& field, std::span<double> values, const NumberRange& range,
               std::span<const double> usual = {}, std::span<const std::string_view> parts = {});
+/// Numbers that are often equal, such as the stiffness along warp and weft. Equal ones are one number, NAME/all, which
+/// sets all of them; others have a row each, NAME/PART. The button NAME/link changes between both.
+Change linked_vector(Ui& ui, const Field& field, std::span<double> values, const NumberRange& range,
+                     std::span<const double> usual, std::span<const std::string_view> parts);
 /// A number without a row of its own. `prefix`: shown at the left, "x".
 Change number_in(Ui& ui, std::string_view name, const ImRect& box, double& value, const NumberRange& range,
                  const Field& tip, std::string_view prefix = {});
